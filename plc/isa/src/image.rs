@@ -1,0 +1,289 @@
+//! The program image: header and tables, as bytes. Whether an image may run is decided in [`verify`](crate::verify).
+//!
+//! Layout (docs/image.md): header, name, V ranges, timers, counters, labels, retained ranges, code, CRC.
+//! Numbers are little-endian. Offsets count from the first byte of the image.
+
+use crate::settings::{Retained, Settings};
+
+/// First bytes of every image.
+pub const MAGIC: [u8; 4] = *b"U200";
+/// Version of the image format and of the instruction set it is written in.
+pub const FORMAT_VERSION: u8 = 1;
+/// Bytes of the header.
+pub const HEADER_LEN: u16 = 32;
+/// Bytes of the checksum at the end.
+pub const CRC_LEN: u16 = 4;
+/// Longest program name in bytes.
+pub const NAME_LEN_MAX: u8 = 24;
+
+/// Where an image is read from: a slice on the host, flash on the board.
+pub trait ProgramMemory {
+    /// Bytes that can be read.
+    fn len(&self) -> u16;
+    /// The byte at an offset; 0xFF, an undefined token, past the end.
+    fn byte(&self, offset: u16) -> u8;
+    /// The little-endian word at an offset.
+    #[inline(always)]
+    fn word(&self, offset: u16) -> u16 {
+        u16::from_le_bytes([self.byte(offset), self.byte(offset.wrapping_add(1))])
+    }
+    /// Whether there is nothing to read.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+impl ProgramMemory for &[u8] {
+    #[inline(always)]
+    fn len(&self) -> u16 {
+        u16::try_from(<[u8]>::len(self)).unwrap_or(u16::MAX)
+    }
+    #[inline(always)]
+    fn byte(&self, offset: u16) -> u8 {
+        self.get(usize::from(offset)).copied().unwrap_or(0xFF)
+    }
+}
+
+/// What is wrong with an image.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ImageFault {
+    /// Shorter than header and checksum, or than it says.
+    Length,
+    /// Does not begin with the magic bytes: no program.
+    Magic,
+    /// Written for another version.
+    Version,
+    /// Flags or a reserved field that this version does not know.
+    Flags,
+    /// The checksum does not match.
+    Crc,
+    /// The name is too long or not printable ASCII.
+    Name,
+    /// A system setting is out of range.
+    Settings,
+    /// The V ranges are not ascending or out of range.
+    VRanges,
+    /// The timer table is not ascending, or a timer's kind does not fit its number.
+    Timers,
+    /// The counter table is not ascending.
+    Counters,
+    /// A retained range is out of range.
+    Retained,
+    /// The memory plan does not fit the board or contradicts the tables.
+    Plan,
+    /// A token that is not in the instruction table.
+    UndefinedToken,
+    /// The code ends within an instruction, or without the end of the program.
+    Truncated,
+    /// An operand is not stored as it must be.
+    Malformed,
+    /// An operand's address or number is not in the plan.
+    Operand,
+    /// An instruction would write to an input or to read-only memory.
+    ReadOnly,
+    /// An instruction needs more values than the logic stack holds.
+    StackUnderflow,
+    /// The label table does not match the labels in the code, or a jump's label does not exist.
+    Label,
+    /// FOR and NEXT do not pair, or are nested too deep.
+    Loop,
+}
+
+/// What is wrong with an image, and where.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ImageError {
+    /// What.
+    pub fault: ImageFault,
+    /// Offset in the image.
+    pub at: u16,
+}
+
+impl ImageFault {
+    /// The fault in words.
+    pub const fn message(self) -> &'static str {
+        match self {
+            ImageFault::Length => "the image is incomplete",
+            ImageFault::Magic => "this is no program image",
+            ImageFault::Version => "the image was made for another version",
+            ImageFault::Flags => "the image asks for something this version does not know",
+            ImageFault::Crc => "the checksum does not match",
+            ImageFault::Name => "the program name is not valid",
+            ImageFault::Settings => "a system setting is out of range",
+            ImageFault::VRanges => "the table of V memory is not valid",
+            ImageFault::Timers => "the table of timers is not valid",
+            ImageFault::Counters => "the table of counters is not valid",
+            ImageFault::Retained => "the table of retained memory is not valid",
+            ImageFault::Plan => "the memory plan does not fit",
+            ImageFault::UndefinedToken => "the code holds an unknown instruction",
+            ImageFault::Truncated => "the code ends too early",
+            ImageFault::Malformed => "an operand is not stored as it must be",
+            ImageFault::Operand => "an operand is not in the memory plan",
+            ImageFault::ReadOnly => "an instruction writes to read-only memory",
+            ImageFault::StackUnderflow => "an instruction needs more values than the logic stack holds",
+            ImageFault::Label => "a jump and its label do not match",
+            ImageFault::Loop => "FOR and NEXT do not match",
+        }
+    }
+}
+
+/// The header: lengths and settings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Header {
+    /// Bytes of the whole image, checksum included.
+    pub total_len: u16,
+    /// Bytes of code.
+    pub code_len: u16,
+    /// Arena bytes the program needs.
+    pub arena_len: u16,
+    /// Edge memories.
+    pub edges: u16,
+    /// Labels in the label table.
+    pub labels: u16,
+    /// Ranges of V memory.
+    pub v_ranges: u16,
+    /// Timers in the plan.
+    pub timers: u16,
+    /// Counters in the plan.
+    pub counters: u16,
+    /// Retained ranges.
+    pub retained: u8,
+    /// Bytes of the name.
+    pub name_len: u8,
+    /// System settings.
+    pub settings: Settings,
+}
+
+/// Bytes of a V range in the image: first byte, length.
+pub const V_RANGE_LEN: u16 = 4;
+/// Bytes of a timer in the image: number, kind.
+pub const TIMER_LEN: u16 = 2;
+/// Bytes of a counter in the image: number.
+pub const COUNTER_LEN: u16 = 1;
+/// Bytes of a label in the image: offset of its LBL.
+pub const LABEL_LEN: u16 = 2;
+
+impl Header {
+    /// The header as bytes.
+    pub fn to_bytes(&self) -> [u8; HEADER_LEN as usize] {
+        let mut bytes = [0; HEADER_LEN as usize];
+        bytes[..4].copy_from_slice(&MAGIC);
+        bytes[4] = FORMAT_VERSION;
+        let words = [
+            self.total_len,
+            self.code_len,
+            self.arena_len,
+            self.edges,
+            self.labels,
+            self.v_ranges,
+            self.timers,
+            self.counters,
+            self.settings.watchdog_ms,
+            self.settings.scan_ms,
+        ];
+        for (place, word) in bytes[6..26].chunks_exact_mut(2).zip(words) {
+            place.copy_from_slice(&word.to_le_bytes());
+        }
+        let settings = &self.settings;
+        let tail = [settings.pullup, settings.invert_inputs, settings.invert_outputs, self.retained, self.name_len, 0];
+        bytes[26..].copy_from_slice(&tail);
+        bytes
+    }
+
+    /// Reads a header. Checks what must be known to read on: magic, version, length, checksum.
+    pub fn read<P: ProgramMemory>(memory: &P) -> Result<Header, ImageError> {
+        let error = |fault, at| Err(ImageError { fault, at });
+        if memory.len() < HEADER_LEN + CRC_LEN {
+            return error(ImageFault::Length, 0);
+        }
+        if (0..4).any(|i| memory.byte(i) != MAGIC[usize::from(i)]) {
+            return error(ImageFault::Magic, 0);
+        }
+        if memory.byte(4) != FORMAT_VERSION {
+            return error(ImageFault::Version, 4);
+        }
+        let total_len = memory.word(6);
+        if total_len > memory.len() || !(HEADER_LEN + CRC_LEN..=crate::layout::SLOT_LEN).contains(&total_len) {
+            return error(ImageFault::Length, 6);
+        }
+        if !crc_matches(memory, total_len) {
+            return error(ImageFault::Crc, total_len - CRC_LEN);
+        }
+        if memory.byte(5) != 0 || memory.byte(31) != 0 {
+            return error(ImageFault::Flags, 5);
+        }
+        Ok(Header {
+            total_len,
+            code_len: memory.word(8),
+            arena_len: memory.word(10),
+            edges: memory.word(12),
+            labels: memory.word(14),
+            v_ranges: memory.word(16),
+            timers: memory.word(18),
+            counters: memory.word(20),
+            settings: Settings {
+                watchdog_ms: memory.word(22),
+                scan_ms: memory.word(24),
+                pullup: memory.byte(26),
+                invert_inputs: memory.byte(27),
+                invert_outputs: memory.byte(28),
+            },
+            retained: memory.byte(29),
+            name_len: memory.byte(30),
+        })
+    }
+
+    /// Offset of the V ranges.
+    pub fn v_ranges_at(&self) -> u16 {
+        HEADER_LEN + u16::from(self.name_len)
+    }
+
+    /// Offset of the timers.
+    pub fn timers_at(&self) -> u16 {
+        self.v_ranges_at() + V_RANGE_LEN * self.v_ranges
+    }
+
+    /// Offset of the counters.
+    pub fn counters_at(&self) -> u16 {
+        self.timers_at() + TIMER_LEN * self.timers
+    }
+
+    /// Offset of the labels.
+    pub fn labels_at(&self) -> u16 {
+        self.counters_at() + COUNTER_LEN * self.counters
+    }
+
+    /// Offset of the retained ranges.
+    pub fn retained_at(&self) -> u16 {
+        self.labels_at() + LABEL_LEN * self.labels
+    }
+
+    /// Offset of the first instruction.
+    pub fn code_at(&self) -> u16 {
+        self.retained_at() + Retained::STORED_LEN * u16::from(self.retained)
+    }
+
+    /// Offset of the first byte behind the code, which is the checksum.
+    pub fn code_end(&self) -> u16 {
+        self.code_at() + self.code_len
+    }
+
+    /// The sum of all parts equals the length, and no count is absurd: offsets cannot overflow after this.
+    pub(crate) fn lengths_agree(&self) -> bool {
+        let counts = [self.v_ranges, self.timers, self.counters, self.labels, self.edges];
+        counts.iter().all(|&count| count <= 1024)
+            && self.code_len <= self.total_len
+            && self.name_len <= NAME_LEN_MAX
+            && self.retained <= Retained::RANGES_MAX
+            && self.code_end() == self.total_len - CRC_LEN
+    }
+}
+
+fn crc_matches<P: ProgramMemory>(memory: &P, total_len: u16) -> bool {
+    let end = total_len - CRC_LEN;
+    let mut crc = crate::crc::Crc32::new();
+    for offset in 0..end {
+        crc.byte(memory.byte(offset));
+    }
+    let stored = u32::from(memory.word(end)) | u32::from(memory.word(end + 2)) << 16;
+    crc.value() == stored
+}

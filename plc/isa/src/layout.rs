@@ -1,0 +1,66 @@
+//! Where data lives: the address map of the controller's data memory, shared by host and board.
+//!
+//! Addresses are AVR data addresses, so that the operand of an instruction is an address the board
+//! can use as it stands. What the fixed areas do not hold (V bytes, timer and counter words, edge
+//! memories) is placed per program in the [arena](ARENA_START) by the memory plan.
+
+/// First data address: the start of the ATmega328P's SRAM.
+pub const DATA_START: u16 = 0x0100;
+/// One past the last data address a program can reach.
+pub const DATA_END: u16 = 0x0600;
+/// Bytes of data memory.
+pub const DATA_LEN: usize = (DATA_END - DATA_START) as usize;
+
+/// The bit page: 256 bytes from here hold all areas with short bit addresses.
+pub const PAGE_START: u16 = DATA_START;
+/// Bytes in the bit page.
+pub const PAGE_LEN: u16 = 256;
+
+/// Process image of the inputs, IB0-IB15.
+pub const I_START: u16 = 0x0100;
+/// Process image of the outputs, QB0-QB15.
+pub const Q_START: u16 = 0x0110;
+/// Marks, MB0-MB31.
+pub const M_START: u16 = 0x0120;
+/// Special memory, SMB0-SMB31.
+pub const SM_START: u16 = 0x0140;
+/// Sequence control bits, SB0-SB31.
+pub const S_START: u16 = 0x0160;
+/// Timer bits, T0-T255.
+pub const T_BITS_START: u16 = 0x0180;
+/// Counter bits, C0-C255.
+pub const C_BITS_START: u16 = 0x01A0;
+/// Local memory: reserved, no instruction reaches it yet.
+pub const L_START: u16 = 0x01C0;
+
+/// Analog inputs scaled to 0..=32000: AIW0, AIW2, ... AIW10, one word each.
+pub const AIW_START: u16 = 0x0200;
+/// The same analog inputs as raw 10-bit counts: Ain0 ... Ain5, one word each.
+pub const AIN_START: u16 = 0x020C;
+/// Analog inputs of the board.
+pub const ANALOG_INPUTS: u16 = 6;
+
+/// The arena: memory planned per program. The bytes between the analog inputs and the arena are
+/// reserved for accumulators and analog outputs.
+pub const ARENA_START: u16 = 0x0240;
+/// Bytes in the arena.
+pub const ARENA_LEN: u16 = DATA_END - ARENA_START;
+
+/// Arena bytes per timer: current value (2), preset (2), state (1).
+pub const TIMER_SLOT_LEN: u16 = 5;
+/// Arena bytes per counter: current value (2), state (1).
+pub const COUNTER_SLOT_LEN: u16 = 3;
+/// Most edge instructions (EU and ED together) in a program.
+pub const EDGES_MAX: u16 = 256;
+
+/// Program slot in flash: first address. The firmware lies below, the bootloader above.
+pub const SLOT_START: u16 = 0x6000;
+/// Program slot in flash: one past the last address, where Optiboot begins.
+pub const SLOT_END: u16 = 0x7E00;
+/// Bytes in the program slot: the longest image.
+pub const SLOT_LEN: u16 = SLOT_END - SLOT_START;
+
+/// Digital inputs with a pin on the Uno: I0.0-I0.5 at D2-D7.
+pub const DIGITAL_INPUTS: u8 = 6;
+/// Digital outputs with a pin on the Uno: Q0.0-Q0.5 at D8-D13.
+pub const DIGITAL_OUTPUTS: u8 = 6;

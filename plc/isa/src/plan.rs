@@ -1,0 +1,299 @@
+//! The memory plan of a program: which V bytes, timers, counters and edges it uses and where they live.
+//!
+//! Order in the arena: V ranges, timer slots, counter slots, edge memories. The tables of the image
+//! are the plan; nothing is stored twice.
+
+use crate::area::{AnalogInput, Area, TimerFamily, timer_family};
+use crate::image::{COUNTER_LEN, Header, LABEL_LEN, ProgramMemory, TIMER_LEN, V_RANGE_LEN};
+use crate::layout::*;
+use crate::operand::Bit;
+use crate::settings::Retained;
+
+/// How a program starts a timer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum TimerKind {
+    /// By TON.
+    OnDelay,
+    /// By TOF.
+    OffDelay,
+    /// By TONR.
+    RetentiveOnDelay,
+    /// Not at all: it is only read or reset.
+    NotStarted,
+}
+
+impl TimerKind {
+    /// The code in the image.
+    pub const fn code(self) -> u8 {
+        match self {
+            TimerKind::OnDelay => 0,
+            TimerKind::OffDelay => 1,
+            TimerKind::RetentiveOnDelay => 2,
+            TimerKind::NotStarted => 3,
+        }
+    }
+
+    pub(crate) const fn of_code(code: u8) -> Option<TimerKind> {
+        match code {
+            0 => Some(TimerKind::OnDelay),
+            1 => Some(TimerKind::OffDelay),
+            2 => Some(TimerKind::RetentiveOnDelay),
+            3 => Some(TimerKind::NotStarted),
+            _ => None,
+        }
+    }
+
+    /// Whether a timer of this number can be of this kind.
+    pub fn fits(self, number: u8) -> bool {
+        match self {
+            TimerKind::OnDelay | TimerKind::OffDelay => timer_family(number) == TimerFamily::TonTof,
+            TimerKind::RetentiveOnDelay => timer_family(number) == TimerFamily::Tonr,
+            TimerKind::NotStarted => true,
+        }
+    }
+}
+
+/// A timer of the plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TimerSlot {
+    /// T0 to T255.
+    pub number: u8,
+    /// How it is started.
+    pub kind: TimerKind,
+    /// Data address of the slot: current value (2 bytes), preset (2), state (1).
+    pub address: u16,
+}
+
+/// A counter of the plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CounterSlot {
+    /// C0 to C255.
+    pub number: u8,
+    /// Data address of the slot: current value (2 bytes), state (1).
+    pub address: u16,
+}
+
+/// What a program sees at a data address.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Region {
+    /// A byte of an area; `room` bytes from here on belong to the same area (V: to the same range).
+    Byte {
+        /// The area; T and C stand for their bits.
+        area: Area,
+        /// Byte number in the area.
+        byte: u16,
+        /// Bytes from this one to the end.
+        room: u16,
+    },
+    /// The word of an analog input.
+    Analog(AnalogInput),
+    /// The current value of a timer.
+    TimerValue(u8),
+    /// The current value of a counter.
+    CounterValue(u8),
+}
+
+/// The bit of a timer.
+pub const fn timer_bit(number: u8) -> Bit {
+    Bit { address: T_BITS_START + (number / 8) as u16, bit: number % 8 }
+}
+
+/// The bit of a counter.
+pub const fn counter_bit(number: u8) -> Bit {
+    Bit { address: C_BITS_START + (number / 8) as u16, bit: number % 8 }
+}
+
+/// The plan as the image holds it.
+#[derive(Debug, Clone, Copy)]
+pub struct Plan<P> {
+    pub(crate) memory: P,
+    /// The header.
+    pub header: Header,
+    v_len: u16,
+}
+
+impl<P: ProgramMemory> Plan<P> {
+    /// The plan in the tables behind this header, taken on trust: for the assembler, which wrote them.
+    pub fn trusted(memory: P, header: Header) -> Self {
+        let mut plan = Plan { memory, header, v_len: 0 };
+        plan.v_len = plan.v_ranges().fold(0, |sum, (_, len)| len.saturating_add(sum));
+        plan
+    }
+
+    /// Range `index` of V memory: first byte and length.
+    fn v_range(&self, index: u16) -> (u16, u16) {
+        let at = self.header.v_ranges_at() + V_RANGE_LEN * index;
+        (self.memory.word(at), self.memory.word(at + 2))
+    }
+
+    /// The ranges of V memory in the plan, ascending: first byte and length.
+    pub fn v_ranges(&self) -> impl Iterator<Item = (u16, u16)> + '_ {
+        (0..self.header.v_ranges).map(|index| self.v_range(index))
+    }
+
+    /// Bytes of V memory in the plan.
+    pub fn v_len(&self) -> u16 {
+        self.v_len
+    }
+
+    fn timers_start(&self) -> u16 {
+        ARENA_START.saturating_add(self.v_len)
+    }
+
+    fn counters_start(&self) -> u16 {
+        self.timers_start().saturating_add(TIMER_SLOT_LEN.saturating_mul(self.header.timers))
+    }
+
+    fn edges_start(&self) -> u16 {
+        self.counters_start().saturating_add(COUNTER_SLOT_LEN.saturating_mul(self.header.counters))
+    }
+
+    /// One past the last arena address of the plan.
+    pub fn end(&self) -> u16 {
+        self.edges_start().saturating_add(self.header.edges.div_ceil(8))
+    }
+
+    /// The timer in a slot. The kind is `None` when the table is corrupt.
+    pub(crate) fn timer_entry(&self, slot: u16) -> (u8, Option<TimerKind>) {
+        let at = self.header.timers_at() + TIMER_LEN * slot;
+        (self.memory.byte(at), TimerKind::of_code(self.memory.byte(at + 1)))
+    }
+
+    /// The timer in a slot.
+    pub fn timer(&self, slot: u8) -> TimerSlot {
+        let (number, kind) = self.timer_entry(u16::from(slot));
+        let address = self.timers_start() + TIMER_SLOT_LEN * u16::from(slot);
+        TimerSlot { number, kind: kind.unwrap_or(TimerKind::NotStarted), address }
+    }
+
+    /// The timers of the plan, by ascending number.
+    pub fn timers(&self) -> impl Iterator<Item = TimerSlot> + '_ {
+        (0..self.header.timers).map(|slot| self.timer(slot as u8))
+    }
+
+    /// The counter in a slot.
+    pub fn counter(&self, slot: u8) -> CounterSlot {
+        let at = self.header.counters_at() + COUNTER_LEN * u16::from(slot);
+        let address = self.counters_start() + COUNTER_SLOT_LEN * u16::from(slot);
+        CounterSlot { number: self.memory.byte(at), address }
+    }
+
+    /// The counters of the plan, by ascending number.
+    pub fn counters(&self) -> impl Iterator<Item = CounterSlot> + '_ {
+        (0..self.header.counters).map(|slot| self.counter(slot as u8))
+    }
+
+    /// Where an edge memory lives.
+    pub fn edge(&self, number: u8) -> Bit {
+        Bit { address: self.edges_start() + u16::from(number / 8), bit: number % 8 }
+    }
+
+    /// Code offset of a label.
+    pub fn label(&self, index: u8) -> u16 {
+        self.memory.word(self.header.labels_at() + LABEL_LEN * u16::from(index))
+    }
+
+    /// The retained ranges. Entries with an unknown area are left out; a valid image has none.
+    pub fn retained(&self) -> impl Iterator<Item = Retained> + '_ {
+        (0..u16::from(self.header.retained)).filter_map(|index| self.retained_entry(index))
+    }
+
+    pub(crate) fn retained_entry(&self, index: u16) -> Option<Retained> {
+        let at = self.header.retained_at() + Retained::STORED_LEN * index;
+        let area = Retained::area_of_code(self.memory.byte(at))?;
+        Some(Retained { area, first: self.memory.word(at + 1), count: self.memory.word(at + 3) })
+    }
+
+    /// The program's name, byte by byte.
+    pub fn name(&self) -> impl Iterator<Item = u8> + '_ {
+        (0..u16::from(self.header.name_len)).map(|index| self.memory.byte(crate::image::HEADER_LEN + index))
+    }
+
+    /// Data address of a byte of V memory.
+    pub fn v_address(&self, byte: u16) -> Option<u16> {
+        let mut start = ARENA_START;
+        for (first, len) in self.v_ranges() {
+            if byte >= first && byte - first < len {
+                return Some(start + (byte - first));
+            }
+            start += len;
+        }
+        None
+    }
+
+    /// Data address of a byte of an area that has bytes.
+    pub fn byte_address(&self, area: Area, byte: u16) -> Option<u16> {
+        match area {
+            Area::V => self.v_address(byte),
+            Area::T | Area::C => None,
+            _ => (byte < area.size()).then(|| area.page_start().unwrap_or(0) + byte),
+        }
+    }
+
+    /// The slot of a timer number.
+    pub fn timer_slot(&self, number: u8) -> Option<TimerSlot> {
+        self.timers().find(|slot| slot.number == number)
+    }
+
+    /// The slot of a counter number.
+    pub fn counter_slot(&self, number: u8) -> Option<CounterSlot> {
+        self.counters().find(|slot| slot.number == number)
+    }
+
+    /// What stands at a data address; `None` where a program has no business.
+    pub fn region(&self, address: u16) -> Option<Region> {
+        if (PAGE_START..PAGE_START + PAGE_LEN).contains(&address) {
+            let (area, byte) = Area::of_page_address(address)?;
+            return Some(Region::Byte { area, byte, room: area.page_len() - byte });
+        }
+        if address < ARENA_START {
+            return AnalogInput::at_address(address).map(Region::Analog);
+        }
+        if address < self.timers_start() {
+            return self.v_region(address - ARENA_START);
+        }
+        if address < self.counters_start() {
+            let (slot, rest) =
+                ((address - self.timers_start()) / TIMER_SLOT_LEN, (address - self.timers_start()) % TIMER_SLOT_LEN);
+            return (rest == 0).then(|| Region::TimerValue(self.timer(slot as u8).number));
+        }
+        if address < self.edges_start() {
+            let (slot, rest) = (
+                (address - self.counters_start()) / COUNTER_SLOT_LEN,
+                (address - self.counters_start()) % COUNTER_SLOT_LEN,
+            );
+            return (rest == 0).then(|| Region::CounterValue(self.counter(slot as u8).number));
+        }
+        None
+    }
+
+    fn v_region(&self, mut offset: u16) -> Option<Region> {
+        for (first, len) in self.v_ranges() {
+            if offset < len {
+                return Some(Region::Byte { area: Area::V, byte: first + offset, room: len - offset });
+            }
+            offset -= len;
+        }
+        None
+    }
+}
+
+impl Region {
+    /// Whether an instruction may write `len` bytes here.
+    pub fn is_writable(self) -> bool {
+        match self {
+            Region::Byte { area, byte, .. } => byte >= area.first_writable(),
+            Region::Analog(_) => false,
+            Region::TimerValue(_) | Region::CounterValue(_) => true,
+        }
+    }
+
+    /// Whether a value of `len` bytes can be addressed here.
+    pub fn holds_value(self, len: u16) -> bool {
+        match self {
+            Region::Byte { area: Area::T | Area::C, .. } => false,
+            Region::Byte { room, .. } => room >= len,
+            Region::Analog(_) | Region::TimerValue(_) | Region::CounterValue(_) => len == 2,
+        }
+    }
+}

@@ -1,0 +1,269 @@
+//! The loader's check: everything about an image is examined before its first scan, on host and board alike.
+//!
+//! What passes can run without further checks of addresses, jumps and stack depth: an interpreter
+//! cannot be led outside the plan. One pass over the code, constant memory.
+
+use crate::area::{Area, TimerFamily, timer_family};
+use crate::decode::{DecodeError, Decoded, decode};
+use crate::image::{Header, ImageError, ImageFault, ProgramMemory};
+use crate::layout::*;
+use crate::operand::{Bit, Kind, Operand};
+use crate::plan::{Plan, Region, TimerKind};
+use crate::stack::STACK_LEVELS;
+use crate::table::Op;
+
+/// Deepest nesting of FOR (reference 1.8).
+pub const LOOPS_MAX: usize = 8;
+
+/// An image that has passed every check.
+#[derive(Debug, Clone, Copy)]
+pub struct Program<P> {
+    plan: Plan<P>,
+    code_at: u16,
+}
+
+impl<P: ProgramMemory> Program<P> {
+    /// The memory plan, with header and settings.
+    #[inline(always)]
+    pub fn plan(&self) -> &Plan<P> {
+        &self.plan
+    }
+
+    /// The image's bytes.
+    #[inline(always)]
+    pub fn memory(&self) -> &P {
+        &self.plan.memory
+    }
+
+    /// Offset of the first instruction.
+    #[inline(always)]
+    pub fn code_at(&self) -> u16 {
+        self.code_at
+    }
+}
+
+/// Checks an image completely.
+pub fn verify<P: ProgramMemory>(memory: P) -> Result<Program<P>, ImageError> {
+    let header = Header::read(&memory)?;
+    if !header.lengths_agree() {
+        return Err(ImageError { fault: ImageFault::Length, at: 6 });
+    }
+    let plan = Plan::trusted(memory, header);
+    let code_at = header.code_at();
+    check_tables(&plan)?;
+    CodeCheck { plan: &plan, loops: [Loop::default(); LOOPS_MAX], open_loops: 0, next_label: 0, depth: 0 }.run()?;
+    Ok(Program { plan, code_at })
+}
+
+fn ensure(holds: bool, fault: ImageFault, at: u16) -> Result<(), ImageError> {
+    if holds { Ok(()) } else { Err(ImageError { fault, at }) }
+}
+
+fn check_tables<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageError> {
+    let header = &plan.header;
+    ensure(plan.name().all(|byte| matches!(byte, 0x20..=0x7E)), ImageFault::Name, crate::image::HEADER_LEN)?;
+    ensure(header.settings.is_valid(), ImageFault::Settings, 22)?;
+    check_v_ranges(plan)?;
+    check_timers(plan)?;
+    let numbers = (0..header.counters).map(|slot| plan.memory.byte(header.counters_at() + slot));
+    ensure(header.counters <= 256 && is_ascending(numbers), ImageFault::Counters, header.counters_at())?;
+    ensure(header.edges <= EDGES_MAX && header.labels <= 256, ImageFault::Plan, 12)?;
+    ensure(plan.end() <= DATA_END && plan.end() - ARENA_START == header.arena_len, ImageFault::Plan, 10)?;
+    for index in 0..u16::from(header.retained) {
+        ensure(retained_is_valid(plan, index), ImageFault::Retained, header.retained_at())?;
+    }
+    Ok(())
+}
+
+fn is_ascending(mut numbers: impl Iterator<Item = u8>) -> bool {
+    let mut least = 0;
+    numbers.all(|number| {
+        let ascends = u16::from(number) >= least;
+        least = u16::from(number) + 1;
+        ascends
+    })
+}
+
+fn check_v_ranges<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageError> {
+    let mut least = 0;
+    for (first, len) in plan.v_ranges() {
+        let end = first.saturating_add(len);
+        ensure(first >= least && len > 0 && end <= Area::V.size(), ImageFault::VRanges, plan.header.v_ranges_at())?;
+        // Adjacent ranges would be one range.
+        least = end + 1;
+    }
+    Ok(())
+}
+
+fn check_timers<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageError> {
+    let header = &plan.header;
+    let numbers = (0..header.timers).map(|slot| plan.timer_entry(slot).0);
+    let kinds_fit = (0..header.timers).all(|slot| {
+        let (number, kind) = plan.timer_entry(slot);
+        kind.is_some_and(|kind| kind.fits(number))
+    });
+    let valid = header.timers <= 256 && is_ascending(numbers) && kinds_fit;
+    ensure(valid, ImageFault::Timers, header.timers_at())
+}
+
+fn retained_is_valid<P: ProgramMemory>(plan: &Plan<P>, index: u16) -> bool {
+    let Some(range) = plan.retained_entry(index) else { return false };
+    let end = range.first.saturating_add(range.count);
+    if range.count == 0 || end > range.area.size() {
+        return false;
+    }
+    match range.area {
+        Area::V => plan.v_ranges().any(|(first, len)| range.first >= first && end <= first + len),
+        Area::T => (range.first..end).all(|number| timer_family(number as u8) == TimerFamily::Tonr),
+        _ => true,
+    }
+}
+
+#[derive(Clone, Copy, Default)]
+struct Loop {
+    start: u16,
+    end: u16,
+}
+
+struct CodeCheck<'a, P> {
+    plan: &'a Plan<P>,
+    loops: [Loop; LOOPS_MAX],
+    open_loops: usize,
+    next_label: u16,
+    depth: u8,
+}
+
+impl<P: ProgramMemory> CodeCheck<'_, P> {
+    fn run(mut self) -> Result<(), ImageError> {
+        let header = self.plan.header;
+        let mut at = header.code_at();
+        loop {
+            let decoded = decode(&self.plan.memory, at).map_err(|error| ImageError { fault: fault_of(error), at })?;
+            let next = at + decoded.len;
+            ensure(next <= header.code_end(), ImageFault::Truncated, at)?;
+            self.stack(&decoded, at)?;
+            self.operands(&decoded, at)?;
+            self.control(&decoded, at)?;
+            at = next;
+            if decoded.op == Op::MainEnd {
+                break;
+            }
+        }
+        ensure(at == header.code_end(), ImageFault::Truncated, at)?;
+        ensure(self.next_label == header.labels, ImageFault::Label, at)?;
+        ensure(self.open_loops == 0, ImageFault::Loop, at)
+    }
+
+    fn stack(&mut self, decoded: &Decoded, at: u16) -> Result<(), ImageError> {
+        ensure(self.depth >= decoded.stack.needs, ImageFault::StackUnderflow, at)?;
+        self.depth = match decoded.op {
+            // Where control comes from two sides only the top of the stack is certain.
+            Op::Lbl | Op::For | Op::Next => 1,
+            _ => self.depth.saturating_add_signed(decoded.stack.adds).min(STACK_LEVELS),
+        };
+        Ok(())
+    }
+
+    fn operands(&self, decoded: &Decoded, at: u16) -> Result<(), ImageError> {
+        let count = decoded.operands().find_map(|(kind, operand)| match (kind, operand) {
+            (Kind::One | Kind::Count, Operand::Constant(count)) => Some(count),
+            _ => None,
+        });
+        for (kind, operand) in decoded.operands() {
+            let valid = self.operand(decoded.op, kind, operand, count.unwrap_or(1));
+            ensure(valid, ImageFault::Operand, at)?;
+            ensure(!kind.is_output() || self.is_writable(operand), ImageFault::ReadOnly, at)?;
+        }
+        Ok(())
+    }
+
+    fn operand(&self, op: Op, kind: Kind, operand: Operand, count: u16) -> bool {
+        let plan = self.plan;
+        match (kind, operand) {
+            (_, Operand::Bit(bit)) => {
+                let counted = kind.is_output();
+                let resets = matches!(kind, Kind::PageBitReset | Kind::FarBitReset);
+                self.bits(bit, if counted { count } else { 1 }, !resets)
+            }
+            (Kind::Byte | Kind::ByteOut | Kind::AnyByte, Operand::Memory(address)) => {
+                plan.region(address).is_some_and(|region| region.holds_value(1))
+            }
+            (Kind::Word | Kind::WordOut | Kind::AnyInt, Operand::Memory(address)) => {
+                plan.region(address).is_some_and(|region| region.holds_value(2))
+            }
+            (Kind::Count, Operand::Constant(count)) => count >= 1,
+            (Kind::Level, Operand::Number(level)) => level < STACK_LEVELS,
+            (Kind::TimerSlot, Operand::Number(slot)) => {
+                u16::from(slot) < plan.header.timers && kind_started_by(op) == Some(plan.timer(slot).kind)
+            }
+            (Kind::CounterSlot, Operand::Number(slot)) => u16::from(slot) < plan.header.counters,
+            (Kind::TimerNumber | Kind::CounterNumber, Operand::Number(number)) => u16::from(number) + count <= 256,
+            (Kind::Edge, Operand::Number(edge)) => u16::from(edge) < plan.header.edges,
+            (Kind::LabelIndex, Operand::Number(label)) => u16::from(label) < plan.header.labels,
+            _ => true,
+        }
+    }
+
+    fn bits(&self, bit: Bit, count: u16, timers_and_counters: bool) -> bool {
+        match self.plan.region(bit.address) {
+            Some(Region::Byte { area: Area::T | Area::C, .. }) if !timers_and_counters => false,
+            Some(Region::Byte { room, .. }) => u16::from(bit.bit) + count <= room.saturating_mul(8),
+            _ => false,
+        }
+    }
+
+    fn is_writable(&self, operand: Operand) -> bool {
+        let address = match operand {
+            Operand::Bit(bit) => bit.address,
+            Operand::Memory(address) => address,
+            _ => return true,
+        };
+        self.plan.region(address).is_some_and(Region::is_writable)
+    }
+
+    fn control(&mut self, decoded: &Decoded, at: u16) -> Result<(), ImageError> {
+        let offset = decoded.operands().find_map(|(kind, operand)| match (kind, operand) {
+            (Kind::LoopEnd | Kind::LoopStart, Operand::Offset(offset)) => Some(offset),
+            _ => None,
+        });
+        match decoded.op {
+            Op::Lbl => {
+                let listed = self.next_label < self.plan.header.labels && self.plan.label(self.next_label as u8) == at;
+                self.next_label += 1;
+                ensure(listed, ImageFault::Label, at)
+            }
+            Op::For => {
+                let Some(place) = self.loops.get_mut(self.open_loops) else {
+                    return Err(ImageError { fault: ImageFault::Loop, at });
+                };
+                *place = Loop { start: at, end: offset.unwrap_or(0) };
+                self.open_loops += 1;
+                Ok(())
+            }
+            Op::Next => {
+                self.open_loops = self.open_loops.wrapping_sub(1);
+                let open = self.loops.get(self.open_loops);
+                let pairs = open.is_some_and(|open| open.end == at && offset == Some(open.start));
+                ensure(pairs, ImageFault::Loop, at)
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn kind_started_by(op: Op) -> Option<TimerKind> {
+    match op {
+        Op::Ton => Some(TimerKind::OnDelay),
+        Op::Tof => Some(TimerKind::OffDelay),
+        Op::Tonr => Some(TimerKind::RetentiveOnDelay),
+        _ => None,
+    }
+}
+
+fn fault_of(error: DecodeError) -> ImageFault {
+    match error {
+        DecodeError::UndefinedToken => ImageFault::UndefinedToken,
+        DecodeError::Truncated => ImageFault::Truncated,
+        DecodeError::Malformed => ImageFault::Malformed,
+    }
+}
