@@ -24,7 +24,7 @@ pub use image::{
     CRC_LEN, FORMAT_VERSION, HEADER_LEN, Header, ImageError, ImageFault, MAGIC, NAME_LEN_MAX, ProgramMemory,
 };
 pub use layout::*;
-pub use operand::{Bit, ByteSource, Kind, Operand, OperandKind, OperandReader, Relation, WordSource};
+pub use operand::{Bit, ByteSource, Kind, Operand, OperandKind, OperandReader, Relation, WordSource, kinds};
 pub use plan::{CounterSlot, Plan, Region, TimerKind, TimerSlot, counter_bit, timer_bit};
 pub use settings::{DEFAULT_WATCHDOG_MS, Retained, Settings};
 pub use stack::{LogicStack, STACK_LEVELS};

@@ -288,7 +288,7 @@ operand_kinds! {
     LabelIndex, 1, u8, |r| r.byte(), |v| Operand::Number(v);
     /// A label where it stands: its number, 0 to 255.
     LabelNumber, 1, u8, |r| r.byte(), |v| Operand::Number(v);
-    /// Offset of the NEXT that closes a FOR; not written in AWL.
+    /// Offset behind the NEXT that closes a FOR; not written in AWL.
     LoopEnd, 2, u16, |r| r.word(), |v| Operand::Offset(v);
     /// Offset of the FOR that a NEXT closes; not written in AWL.
     LoopStart, 2, u16, |r| r.word(), |v| Operand::Offset(v);

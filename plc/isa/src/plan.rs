@@ -110,12 +110,13 @@ pub struct Plan<P> {
     /// The header.
     pub header: Header,
     v_len: u16,
+    labels_at: u16,
 }
 
 impl<P: ProgramMemory> Plan<P> {
     /// The plan in the tables behind this header, taken on trust: for the assembler, which wrote them.
     pub fn trusted(memory: P, header: Header) -> Self {
-        let mut plan = Plan { memory, header, v_len: 0 };
+        let mut plan = Plan { memory, header, v_len: 0, labels_at: header.labels_at() };
         plan.v_len = plan.v_ranges().fold(0, |sum, (_, len)| len.saturating_add(sum));
         plan
     }
@@ -190,7 +191,7 @@ impl<P: ProgramMemory> Plan<P> {
 
     /// Code offset of a label.
     pub fn label(&self, index: u8) -> u16 {
-        self.memory.word(self.header.labels_at() + LABEL_LEN * u16::from(index))
+        self.memory.word(self.labels_at + LABEL_LEN * u16::from(index))
     }
 
     /// The retained ranges. Entries with an unknown area are left out; a valid image has none.

@@ -243,7 +243,7 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
             Op::Next => {
                 self.open_loops = self.open_loops.wrapping_sub(1);
                 let open = self.loops.get(self.open_loops);
-                let pairs = open.is_some_and(|open| open.end == at && offset == Some(open.start));
+                let pairs = open.is_some_and(|open| open.end == at + decoded.len && offset == Some(open.start));
                 ensure(pairs, ImageFault::Loop, at)
             }
             _ => Ok(()),

@@ -1,1 +1,22 @@
-//! x
+//! The controller without its hardware: data memory, scan, timers, counters and the reference interpreter.
+//!
+//! This is the meaning of AWL; every faster engine is compared with it. No I/O, no clock, no
+//! allocation: the caller passes inputs and time in and takes outputs out. No text.
+#![no_std]
+
+mod clock;
+mod counter;
+mod edge;
+mod environment;
+mod interpreter;
+mod math;
+mod memory;
+mod plc;
+mod range;
+mod special;
+mod timer;
+
+pub use environment::Environment;
+pub use interpreter::Exit;
+pub use memory::Memory;
+pub use plc::{Fault, Inputs, Mode, Plc};

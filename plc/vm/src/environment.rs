@@ -1,0 +1,22 @@
+//! What the interpreter needs from outside while a program runs: time and supervision.
+
+use plc_isa::LogicStack;
+
+/// The outside of a running program.
+pub trait Environment {
+    /// The millisecond clock. Wraps after 49.7 days; only differences count.
+    fn now_ms(&mut self) -> u32;
+
+    /// The program went back over `bytes` bytes of its code: a loop. Returns whether the scan's
+    /// watchdog time is over. This is the only place a program can spend unlimited time.
+    fn is_overdue(&mut self, bytes: u16) -> bool;
+
+    /// WDR: the watchdog time of this scan starts again.
+    fn retrigger_watchdog(&mut self);
+
+    /// Called after every instruction with its offset and the stack it left. For monitors and tests.
+    #[inline(always)]
+    fn executed(&mut self, at: u16, stack: LogicStack) {
+        let _ = (at, stack);
+    }
+}

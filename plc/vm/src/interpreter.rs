@@ -1,0 +1,468 @@
+//! The reference interpreter: one method for each instruction of the table.
+
+use plc_isa::{
+    Bit, ByteSource, Execute, Flow, LogicStack, OperandKind, OperandReader, Plan, Program, ProgramMemory, Relation,
+    TimerResolution, WordSource, execute, kinds, timer_resolution,
+};
+
+use crate::clock::Clock;
+use crate::counter::{self, Counter};
+use crate::edge;
+use crate::environment::Environment;
+use crate::math;
+use crate::memory::Memory;
+use crate::range;
+use crate::timer::{self, Timer};
+
+/// Why the program was left.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Exit {
+    /// Its end was reached, or END executed.
+    End,
+    /// STOP was executed.
+    Stop,
+    /// The watchdog time was over, at this offset.
+    Watchdog(u16),
+    /// There was no instruction at this offset. Cannot happen in a verified image.
+    Undefined(u16),
+}
+
+/// The state of one program execution.
+pub(crate) struct Interpreter<'a, P, E> {
+    pub program: &'a Program<P>,
+    pub memory: &'a mut Memory,
+    pub environment: &'a mut E,
+    pub clock: &'a mut Clock,
+    pub first_scan: bool,
+    pub stack: LogicStack,
+}
+
+impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
+    /// Executes the program once.
+    pub fn run(mut self) -> Exit {
+        let program = self.program;
+        let mut pc = program.code_at();
+        loop {
+            match execute(&mut self, program.memory(), pc) {
+                Flow::Jump(next) => {
+                    self.environment.executed(pc, self.stack);
+                    pc = next;
+                }
+                Flow::Exit(exit) => {
+                    self.environment.executed(pc, self.stack);
+                    return exit;
+                }
+                Flow::Next => return Exit::Undefined(pc),
+            }
+        }
+    }
+
+    fn plan(&self) -> &Plan<P> {
+        self.program.plan()
+    }
+
+    #[inline(always)]
+    fn words(&self, relation: Relation, in1: WordSource, in2: WordSource) -> bool {
+        relation.holds(self.memory.int_of(in1), self.memory.int_of(in2))
+    }
+
+    #[inline(always)]
+    fn bytes(&self, relation: Relation, in1: ByteSource, in2: ByteSource) -> bool {
+        relation.holds(self.memory.byte_of(in1), self.memory.byte_of(in2))
+    }
+
+    /// An integer box: `compute(OUT, IN1)` gives the result, `None` when it does not fit.
+    #[inline]
+    fn int_box(
+        &mut self,
+        in1: WordSource,
+        out: u16,
+        compute: fn(i16, i16) -> Option<i16>,
+        write: fn(&mut Memory, u16, Option<i16>),
+    ) -> Flow<Exit> {
+        if self.stack.top() {
+            let result = compute(self.memory.int(out), self.memory.int_of(in1));
+            write(self.memory, out, result);
+        }
+        Flow::Next
+    }
+
+    fn bit_range(&mut self, bit: Bit, n: ByteSource, value: bool) -> Flow<Exit> {
+        if self.stack.top() {
+            let count = self.memory.byte_of(n);
+            range::write(self.memory, self.program.plan(), bit, count, value);
+        }
+        Flow::Next
+    }
+
+    /// The count of a reset of timers or counters, 0 when the range would pass number 255.
+    fn numbers(&self, first: u8, n: ByteSource) -> u8 {
+        let count = self.memory.byte_of(n);
+        if u16::from(first) + u16::from(count) <= 256 { count } else { 0 }
+    }
+
+    fn timer(&mut self, slot: u8, pt: WordSource) -> Flow<Exit> {
+        let slot = self.plan().timer(slot);
+        let ticks = match timer_resolution(slot.number) {
+            TimerResolution::Ms1 => {
+                self.refresh();
+                0
+            }
+            TimerResolution::Ms10 => 0,
+            TimerResolution::Ms100 => self.clock.ticks_100,
+        };
+        let preset = self.memory.int_of(pt);
+        Timer { memory: self.memory, slot }.execute(self.stack.top(), preset, ticks);
+        Flow::Next
+    }
+
+    fn refresh(&mut self) {
+        let passed = self.clock.take_fast_ms(self.environment.now_ms());
+        timer::advance(self.memory, self.program.plan(), TimerResolution::Ms1, passed);
+    }
+
+    fn counter(&mut self, slot: u8) -> Counter<'_> {
+        let slot = self.plan().counter(slot);
+        Counter { memory: self.memory, slot, first_scan: self.first_scan }
+    }
+
+    /// Goes to an offset; back over code only as long as the watchdog allows.
+    fn go_to(&mut self, target: u16, here: u16) -> Flow<Exit> {
+        if target <= here && self.environment.is_overdue(here - target) {
+            return Flow::Exit(Exit::Watchdog(here));
+        }
+        Flow::Jump(target)
+    }
+}
+
+impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
+    type Exit = Exit;
+
+    #[inline(always)]
+    fn load(&mut self, bit: Bit) -> Flow<Exit> {
+        self.stack.push(self.memory.bit(bit));
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn load_not(&mut self, bit: Bit) -> Flow<Exit> {
+        self.stack.push(!self.memory.bit(bit));
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn and(&mut self, bit: Bit) -> Flow<Exit> {
+        self.stack.and(self.memory.bit(bit));
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn and_not(&mut self, bit: Bit) -> Flow<Exit> {
+        self.stack.and(!self.memory.bit(bit));
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn or(&mut self, bit: Bit) -> Flow<Exit> {
+        self.stack.or(self.memory.bit(bit));
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn or_not(&mut self, bit: Bit) -> Flow<Exit> {
+        self.stack.or(!self.memory.bit(bit));
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn not(&mut self) -> Flow<Exit> {
+        self.stack.set_top(!self.stack.top());
+        Flow::Next
+    }
+
+    fn edge_up(&mut self, edge: u8) -> Flow<Exit> {
+        let place = self.plan().edge(edge);
+        let rose = edge::rose(self.memory, place, self.stack.top(), self.first_scan);
+        self.stack.set_top(rose);
+        Flow::Next
+    }
+
+    fn edge_down(&mut self, edge: u8) -> Flow<Exit> {
+        let place = self.plan().edge(edge);
+        let fell = edge::fell(self.memory, place, self.stack.top(), self.first_scan);
+        self.stack.set_top(fell);
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn assign(&mut self, bit: Bit) -> Flow<Exit> {
+        self.memory.set_bit(bit, self.stack.top());
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn set(&mut self, bit: Bit, n: ByteSource) -> Flow<Exit> {
+        self.bit_range(bit, n, true)
+    }
+
+    #[inline(always)]
+    fn reset(&mut self, bit: Bit, n: ByteSource) -> Flow<Exit> {
+        self.bit_range(bit, n, false)
+    }
+
+    fn reset_timers(&mut self, first: u8, n: ByteSource) -> Flow<Exit> {
+        if self.stack.top() {
+            let count = self.numbers(first, n);
+            for number in (first..=u8::MAX).take(usize::from(count)) {
+                self.memory.set_bit(plc_isa::timer_bit(number), false);
+            }
+            for slot in self.program.plan().timers().filter(|slot| is_in(slot.number, first, count)) {
+                Timer { memory: self.memory, slot }.reset();
+            }
+        }
+        Flow::Next
+    }
+
+    fn reset_counters(&mut self, first: u8, n: ByteSource) -> Flow<Exit> {
+        if self.stack.top() {
+            let count = self.numbers(first, n);
+            for number in (first..=u8::MAX).take(usize::from(count)) {
+                self.memory.set_bit(plc_isa::counter_bit(number), false);
+            }
+            for slot in self.program.plan().counters().filter(|slot| is_in(slot.number, first, count)) {
+                counter::reset(self.memory, slot);
+            }
+        }
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn no_operation(&mut self, _n: u8) -> Flow<Exit> {
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn and_load(&mut self) -> Flow<Exit> {
+        let top = self.stack.pop();
+        self.stack.and(top);
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn or_load(&mut self) -> Flow<Exit> {
+        let top = self.stack.pop();
+        self.stack.or(top);
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn logic_push(&mut self) -> Flow<Exit> {
+        self.stack.push(self.stack.top());
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn logic_read(&mut self) -> Flow<Exit> {
+        self.stack.set_top(self.stack.level(1));
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn logic_pop(&mut self) -> Flow<Exit> {
+        self.stack.pop();
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn load_stack(&mut self, n: u8) -> Flow<Exit> {
+        self.stack.push(self.stack.level(n));
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn load_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow<Exit> {
+        self.stack.push(self.words(relation, in1, in2));
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn and_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow<Exit> {
+        self.stack.and(self.words(relation, in1, in2));
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn or_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow<Exit> {
+        self.stack.or(self.words(relation, in1, in2));
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn load_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow<Exit> {
+        self.stack.push(self.bytes(relation, in1, in2));
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn and_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow<Exit> {
+        self.stack.and(self.bytes(relation, in1, in2));
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn or_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow<Exit> {
+        self.stack.or(self.bytes(relation, in1, in2));
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn move_byte(&mut self, input: ByteSource, out: u16) -> Flow<Exit> {
+        if self.stack.top() {
+            let value = self.memory.byte_of(input);
+            self.memory.set_byte(out, value);
+        }
+        Flow::Next
+    }
+
+    #[inline(always)]
+    fn move_word(&mut self, input: WordSource, out: u16) -> Flow<Exit> {
+        if self.stack.top() {
+            let value = self.memory.int_of(input);
+            self.memory.set_int(out, value);
+        }
+        Flow::Next
+    }
+
+    fn add_int(&mut self, in1: WordSource, out: u16) -> Flow<Exit> {
+        self.int_box(in1, out, i16::checked_add, math::write_result)
+    }
+
+    fn sub_int(&mut self, in1: WordSource, out: u16) -> Flow<Exit> {
+        self.int_box(in1, out, i16::checked_sub, math::write_result)
+    }
+
+    fn mul_int(&mut self, in1: WordSource, out: u16) -> Flow<Exit> {
+        self.int_box(in1, out, i16::checked_mul, math::write_product)
+    }
+
+    fn div_int(&mut self, in1: WordSource, out: u16) -> Flow<Exit> {
+        if self.stack.top() {
+            let divisor = self.memory.int_of(in1);
+            math::divide(self.memory, out, divisor);
+        }
+        Flow::Next
+    }
+
+    fn increment_word(&mut self, out: u16) -> Flow<Exit> {
+        if self.stack.top() {
+            let result = self.memory.int(out).overflowing_add(1);
+            math::write_wrapped(self.memory, out, result);
+        }
+        Flow::Next
+    }
+
+    fn decrement_word(&mut self, out: u16) -> Flow<Exit> {
+        if self.stack.top() {
+            let result = self.memory.int(out).overflowing_sub(1);
+            math::write_wrapped(self.memory, out, result);
+        }
+        Flow::Next
+    }
+
+    fn on_delay(&mut self, timer: u8, pt: WordSource) -> Flow<Exit> {
+        self.timer(timer, pt)
+    }
+
+    fn off_delay(&mut self, timer: u8, pt: WordSource) -> Flow<Exit> {
+        self.timer(timer, pt)
+    }
+
+    fn retentive_on_delay(&mut self, timer: u8, pt: WordSource) -> Flow<Exit> {
+        self.timer(timer, pt)
+    }
+
+    fn count_up(&mut self, counter: u8, pv: WordSource) -> Flow<Exit> {
+        let (stack, preset) = (self.stack, self.memory.int_of(pv));
+        self.counter(counter).up(stack, preset);
+        Flow::Next
+    }
+
+    fn count_down(&mut self, counter: u8, pv: WordSource) -> Flow<Exit> {
+        let (stack, preset) = (self.stack, self.memory.int_of(pv));
+        self.counter(counter).down(stack, preset);
+        Flow::Next
+    }
+
+    fn count_up_down(&mut self, counter: u8, pv: WordSource) -> Flow<Exit> {
+        let (stack, preset) = (self.stack, self.memory.int_of(pv));
+        self.counter(counter).up_down(stack, preset);
+        Flow::Next
+    }
+
+    fn for_loop(&mut self, indx: u16, init: WordSource, last: WordSource, end: u16) -> Flow<Exit> {
+        if !self.stack.top() {
+            return Flow::Jump(end);
+        }
+        let init = self.memory.int_of(init);
+        self.memory.set_int(indx, init);
+        if init > self.memory.int_of(last) { Flow::Jump(end) } else { Flow::Next }
+    }
+
+    /// FINAL is read again after every pass: a program may change it inside the loop.
+    fn next_pass(&mut self, start: u16, here: u16) -> Flow<Exit> {
+        let mut reader = OperandReader::new(self.program.memory(), start, start.wrapping_add(1), 0);
+        let indx = kinds::WordOut::read(&mut reader);
+        let _init = kinds::AnyInt::read(&mut reader);
+        let last = kinds::AnyInt::read(&mut reader);
+        let _end = kinds::LoopEnd::read(&mut reader);
+        let passed = self.memory.int(indx);
+        let again = passed < self.memory.int_of(last);
+        self.memory.set_int(indx, passed.wrapping_add(1));
+        self.stack.set_top(true);
+        if again { self.go_to(reader.position(), here) } else { Flow::Next }
+    }
+
+    fn jump(&mut self, label: u8, here: u16) -> Flow<Exit> {
+        if !self.stack.top() {
+            return Flow::Next;
+        }
+        self.go_to(self.plan().label(label), here)
+    }
+
+    #[inline(always)]
+    fn label(&mut self, _n: u8) -> Flow<Exit> {
+        Flow::Next
+    }
+
+    fn end(&mut self) -> Flow<Exit> {
+        if self.stack.top() { Flow::Exit(Exit::End) } else { Flow::Next }
+    }
+
+    fn stop(&mut self) -> Flow<Exit> {
+        if self.stack.top() { Flow::Exit(Exit::Stop) } else { Flow::Next }
+    }
+
+    fn watchdog_reset(&mut self) -> Flow<Exit> {
+        if self.stack.top() {
+            self.environment.retrigger_watchdog();
+        }
+        Flow::Next
+    }
+
+    fn refresh_timers(&mut self) -> Flow<Exit> {
+        self.refresh();
+        Flow::Next
+    }
+
+    fn main_end(&mut self) -> Flow<Exit> {
+        Flow::Exit(Exit::End)
+    }
+
+    fn undefined(&mut self, here: u16) -> Flow<Exit> {
+        Flow::Exit(Exit::Undefined(here))
+    }
+}
+
+fn is_in(number: u8, first: u8, count: u8) -> bool {
+    number >= first && number - first < count
+}

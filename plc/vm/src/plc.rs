@@ -1,0 +1,225 @@
+//! The controller: mode, scan, faults. Reads inputs from the caller, leaves outputs for the caller.
+
+use plc_isa::{
+    ANALOG_INPUTS, AnalogInput, I_START, ImageError, LogicStack, Program, ProgramMemory, Q_START, TimerResolution,
+    verify,
+};
+
+use crate::clock::Clock;
+use crate::environment::Environment;
+use crate::interpreter::{Exit, Interpreter};
+use crate::memory::Memory;
+use crate::special::{self, SystemBits};
+use crate::timer;
+
+/// Bytes of the input and output process images.
+pub const IMAGE_BYTES: usize = 16;
+
+/// What the inputs are at the start of a scan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Inputs {
+    /// IB0 to IB15, as logical values. Points that do not exist are 0.
+    pub digital: [u8; IMAGE_BYTES],
+    /// AIW0, AIW2, ...: 0..=32000.
+    pub scaled: [u16; ANALOG_INPUTS as usize],
+    /// Ain0, Ain1, ...: 0..=1023.
+    pub raw: [u16; ANALOG_INPUTS as usize],
+}
+
+/// Whether the program is executed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mode {
+    /// The program is not executed, outputs are off.
+    Stop,
+    /// The program is executed once a scan.
+    Run,
+}
+
+/// Why the controller went to STOP by itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fault {
+    /// The image is not valid. The offset in the error counts from the image's first byte.
+    BadImage(ImageError),
+    /// The scan took longer than the watchdog time; the program was at this offset of the image.
+    Watchdog {
+        /// Offset of the instruction.
+        at: u16,
+    },
+    /// There was no instruction where one was expected, at this offset of the image.
+    UndefinedInstruction {
+        /// Offset of the instruction.
+        at: u16,
+    },
+}
+
+/// The controller. The program's bytes are read through `P`; data memory belongs to the caller.
+#[derive(Debug)]
+pub struct Plc<P> {
+    program: Option<Program<P>>,
+    mode: Mode,
+    fault: Option<Fault>,
+    clock: Clock,
+    scans: Scans,
+    powered_up: bool,
+    retentive_lost: bool,
+}
+
+/// How far the scans since RUN have come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Scans {
+    None,
+    First,
+    Second,
+    More,
+}
+
+impl<P: ProgramMemory> Default for Plc<P> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<P: ProgramMemory> Plc<P> {
+    /// A controller in STOP without a program, just switched on.
+    pub fn new() -> Self {
+        Plc {
+            program: None,
+            mode: Mode::Stop,
+            fault: None,
+            clock: Clock::default(),
+            scans: Scans::None,
+            powered_up: true,
+            retentive_lost: false,
+        }
+    }
+
+    /// Loads a program in STOP and clears data memory. A bad image is refused; the program in force
+    /// and its memory stay as they are.
+    pub fn load(&mut self, memory: &mut Memory, image: P) -> Result<(), ImageError> {
+        let program = verify(image).inspect_err(|&error| {
+            if self.program.is_none() {
+                self.fault = Some(Fault::BadImage(error));
+            }
+        })?;
+        self.stop();
+        self.program = Some(program);
+        self.fault = None;
+        memory.clear();
+        Ok(())
+    }
+
+    /// The program, if a valid one is loaded.
+    pub fn program(&self) -> Option<&Program<P>> {
+        self.program.as_ref()
+    }
+
+    /// Says before RUN that values that should have been kept were lost: SM0.2 in the first scan.
+    pub fn retentive_data_lost(&mut self) {
+        self.retentive_lost = true;
+    }
+
+    /// The mode.
+    pub fn mode(&self) -> Mode {
+        self.mode
+    }
+
+    /// The fault that led to STOP. RUN clears it.
+    pub fn fault(&self) -> Option<Fault> {
+        self.fault
+    }
+
+    /// STOP to RUN. The next scan is a first scan; memory is kept. Nothing happens in RUN; returns
+    /// whether the controller is in RUN, which it cannot be without a program.
+    pub fn run(&mut self) -> bool {
+        if self.mode == Mode::Stop && self.program.is_some() {
+            self.mode = Mode::Run;
+            self.fault = None;
+            self.scans = Scans::None;
+        }
+        self.mode == Mode::Run
+    }
+
+    /// RUN to STOP.
+    pub fn stop(&mut self) {
+        self.mode = Mode::Stop;
+    }
+
+    /// The first half of a scan: takes the inputs into the process image and, in RUN, executes the
+    /// program. Communication and self-test follow, then the caller writes [`outputs`](Self::outputs).
+    pub fn scan<E: Environment>(&mut self, memory: &mut Memory, inputs: &Inputs, environment: &mut E) {
+        write_inputs(memory, inputs);
+        let Some(program) = self.program.as_ref().filter(|_| self.mode == Mode::Run) else { return };
+        let now_ms = environment.now_ms();
+        start_scan(&mut self.clock, &mut self.scans, memory, now_ms);
+        let first_scan = self.scans == Scans::First;
+        SystemBits {
+            first_scan,
+            retentive_lost: first_scan && self.retentive_lost,
+            power_up: first_scan && self.powered_up,
+            half_minute: self.clock.half_minute,
+            half_second: self.clock.half_second,
+            scan_clock: !memory.bit(SCAN_CLOCK) || first_scan,
+        }
+        .write(memory);
+        let fast_ms = self.clock.take_fast_ms(now_ms);
+        timer::advance(memory, program.plan(), TimerResolution::Ms1, fast_ms);
+        timer::advance(memory, program.plan(), TimerResolution::Ms10, self.clock.ticks_10);
+        let clock = &mut self.clock;
+        let exit = Interpreter { program, memory, environment, clock, first_scan, stack: LogicStack::EMPTY }.run();
+        self.finish(exit);
+    }
+
+    fn finish(&mut self, exit: Exit) {
+        self.powered_up = false;
+        self.retentive_lost = false;
+        self.fault = match exit {
+            Exit::End => return,
+            Exit::Stop => None,
+            Exit::Watchdog(at) => Some(Fault::Watchdog { at }),
+            Exit::Undefined(at) => Some(Fault::UndefinedInstruction { at }),
+        };
+        self.mode = Mode::Stop;
+    }
+
+    /// Output byte `byte` as logical values: the process image in RUN, all off otherwise.
+    pub fn outputs(&self, memory: &Memory, byte: u8) -> u8 {
+        match self.mode {
+            Mode::Run if usize::from(byte) < IMAGE_BYTES => memory.byte(Q_START + u16::from(byte)),
+            _ => 0,
+        }
+    }
+
+    /// Puts the controller into STOP with a fault that the caller found.
+    pub fn halt(&mut self, fault: Fault) {
+        self.mode = Mode::Stop;
+        self.fault = Some(fault);
+    }
+}
+
+const SCAN_CLOCK: plc_isa::Bit = plc_isa::Bit { address: plc_isa::SM_START, bit: 6 };
+
+fn start_scan(clock: &mut Clock, scans: &mut Scans, memory: &mut Memory, now_ms: u32) {
+    *scans = match *scans {
+        Scans::None => Scans::First,
+        Scans::First => Scans::Second,
+        Scans::Second | Scans::More => Scans::More,
+    };
+    if *scans == Scans::First {
+        *clock = Clock::starting(now_ms);
+        special::clear_scan_times(memory);
+    } else {
+        let passed_ms = clock.advance(now_ms);
+        special::write_scan_time(memory, passed_ms, *scans == Scans::Second);
+    }
+}
+
+fn write_inputs(memory: &mut Memory, inputs: &Inputs) {
+    for (address, &byte) in (I_START..).zip(&inputs.digital) {
+        memory.set_byte(address, byte);
+    }
+    for channel in 0..ANALOG_INPUTS as u8 {
+        let at = usize::from(channel);
+        memory.set_word(AnalogInput::Scaled(channel).address(), inputs.scaled[at]);
+        memory.set_word(AnalogInput::Raw(channel).address(), inputs.raw[at]);
+    }
+}
