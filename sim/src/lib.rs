@@ -1,1 +1,14 @@
-//! x
+//! Runs AWL programs scan by scan: machines, scenarios, plants and traces. Assembling is the business of `awl-asm`.
+//!
+//! A [`machine::Machine`] is driven by [`run::run`] through a [`scenario::Scenario`], beside it a [`plant::Plant`];
+//! what happened comes out as a [`run::Outcome`] with a [`trace::Trace`].
+
+pub mod machine;
+pub mod operand;
+pub mod plant;
+pub mod problem;
+pub mod run;
+pub mod scenario;
+pub mod symbols;
+pub mod time;
+pub mod trace;

@@ -152,6 +152,9 @@ impl<P: ProgramMemory> Plc<P> {
         let now_ms = environment.now_ms();
         start_scan(&mut self.clock, &mut self.scans, memory, now_ms);
         let first_scan = self.scans == Scans::First;
+        if first_scan {
+            timer::start_of_run(memory, program.plan());
+        }
         SystemBits {
             first_scan,
             retentive_lost: first_scan && self.retentive_lost,

@@ -3,7 +3,10 @@
 //! 100 ms timers advance when their instruction executes, 10 ms timers at scan start, 1 ms timers at
 //! scan start and whenever they are executed or read. The execution that starts a timer adds nothing.
 
-use plc_isa::{Plan, ProgramMemory, TimerKind, TimerResolution, TimerSlot, timer_bit, timer_resolution};
+use plc_isa::{
+    C_BITS_START, Plan, ProgramMemory, T_BITS_START, TimerFamily, TimerKind, TimerResolution, TimerSlot, timer_bit,
+    timer_family, timer_resolution,
+};
 
 use crate::memory::Memory;
 
@@ -55,9 +58,12 @@ impl Timer<'_> {
     }
 
     fn on_delay(&mut self, ticks: u16) {
-        let ticks = if self.state() & RUNNING != 0 { ticks } else { 0 };
+        let is_running = self.state() & RUNNING != 0;
+        if !is_running && self.slot.kind == TimerKind::OnDelay {
+            self.set_current(0);
+        }
         self.set_state(RUNNING);
-        self.count(ticks);
+        self.count(if is_running { ticks } else { 0 });
     }
 
     fn off_delay(&mut self, input: bool, ticks: u16) {
@@ -68,6 +74,7 @@ impl Timer<'_> {
             self.set_bit(true);
         } else if state & WAS_ON != 0 {
             self.set_state(RUNNING);
+            self.set_current(0);
             self.count(0);
         } else if state & RUNNING != 0 {
             self.count(ticks);
@@ -108,6 +115,20 @@ pub(crate) fn advance<P: ProgramMemory>(memory: &mut Memory, plan: &Plan<P>, res
         let mut timer = Timer { memory, slot };
         if timer.state() & RUNNING != 0 {
             timer.count(ticks);
+        }
+    }
+}
+
+/// The change to RUN (reference 2.2): no timer runs, all bits are 0; only TONR keeps its current value.
+pub(crate) fn start_of_run<P: ProgramMemory>(memory: &mut Memory, plan: &Plan<P>) {
+    for address in T_BITS_START..C_BITS_START {
+        memory.set_byte(address, 0);
+    }
+    for slot in plan.timers() {
+        let mut timer = Timer { memory, slot };
+        timer.set_state(0);
+        if timer_family(slot.number) == TimerFamily::TonTof {
+            timer.set_current(0);
         }
     }
 }

@@ -1,0 +1,69 @@
+//! The assembler from text to image: runs the passes in order and keeps what listing and map need.
+
+use plc_isa::Op;
+
+use crate::ast::{Program, Symbol};
+use crate::check::{Depths, Usage, control, stack, usage};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::encode::{Encoding, Line, encode};
+use crate::parser::parse;
+use crate::plan::{Demand, demand};
+use crate::select::{Selected, select};
+use crate::source::Source;
+
+/// Everything known about an assembled program.
+#[derive(Debug)]
+pub struct Assembly {
+    /// The image; `None` when there are errors.
+    pub image: Option<Vec<u8>>,
+    /// Errors and warnings, by their place in the source.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The parsed program.
+    pub program: Program,
+    /// Its instructions.
+    pub code: Vec<Selected>,
+    /// Their bytes, parallel to `code`; empty when there are errors.
+    pub lines: Vec<Line>,
+    /// The depth of the logic stack after each, parallel to `code`.
+    pub depths: Depths,
+    /// The cross-reference.
+    pub usage: Usage,
+    /// The memory plan.
+    pub demand: Demand,
+}
+
+impl Assembly {
+    /// Whether there are errors.
+    pub fn has_errors(&self) -> bool {
+        self.diagnostics.iter().any(|diagnostic| diagnostic.severity() == Severity::Error)
+    }
+
+    /// Index of the instruction whose bytes hold this offset of the image.
+    pub fn instruction_at(&self, offset: u16) -> Option<usize> {
+        let offset = u32::from(offset);
+        self.lines.iter().position(|line| (line.at..line.at + u32::from(line.len)).contains(&offset))
+    }
+
+    /// Whether a program uses this instruction.
+    pub fn uses(&self, op: Op) -> bool {
+        self.code.iter().any(|selected| selected.op == op)
+    }
+}
+
+/// Assembles a program. `symbols` come from symbol files; the source may declare more.
+pub fn assemble(source: &Source, symbols: Vec<Symbol>) -> Assembly {
+    let (program, mut diagnostics) = parse(source, symbols);
+    let code = select(&program, &mut diagnostics);
+    let control = control(&program, &code, &mut diagnostics);
+    let depths = stack(&program, &code, &mut diagnostics);
+    let usage = usage(&program, &code, &mut diagnostics);
+    let demand = demand(&program, &code, &mut diagnostics);
+    let has_errors = diagnostics.iter().any(|diagnostic| diagnostic.severity() == Severity::Error);
+    let encoding = match has_errors {
+        true => Encoding::default(),
+        false => encode(&program, source.stem(), &code, &control, &demand, &mut diagnostics),
+    };
+    diagnostics.sort_by_key(|diagnostic| diagnostic.span);
+    let image = (!encoding.image.is_empty()).then_some(encoding.image);
+    Assembly { image, diagnostics, program, code, lines: encoding.lines, depths, usage, demand }
+}

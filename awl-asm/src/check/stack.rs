@@ -1,0 +1,133 @@
+//! Depth of the logic stack before and after every instruction: underflow, overflow, networks that start without a load.
+
+use plc_isa::{Group, Instruction, Op, STACK_LEVELS};
+
+use crate::ast::{Program, Span, Statement};
+use crate::check::span_of;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::select::{Argument, Selected};
+
+/// The depth after each selected instruction, 0..=9, counted from the start of its network.
+pub type Depths = Vec<u8>;
+
+/// Follows the depth through the program and reports what cannot be right.
+pub fn stack(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnostic>) -> Depths {
+    let mut follow = Follow { program, diagnostics, total: 0, fresh: 0, after_output: false, at_start: None, warned: false };
+    let mut depths = Vec::with_capacity(code.len());
+    let mut statement = 0;
+    follow.network(Span::default(), 1);
+    for selected in code {
+        for passed in &program.statements[statement..selected.statement as usize] {
+            if let Statement::Network(network) = passed {
+                follow.network(network.span, network.number);
+            }
+        }
+        statement = selected.statement as usize;
+        depths.push(follow.instruction(selected));
+    }
+    depths
+}
+
+struct Follow<'a> {
+    program: &'a Program,
+    diagnostics: &'a mut Vec<Diagnostic>,
+    /// Values since the start of the network, as far as the nine levels hold them.
+    total: u8,
+    /// Values since the start of the rung: a load behind an output starts a new one.
+    fresh: u16,
+    after_output: bool,
+    /// The network whose first instruction is still to come.
+    at_start: Option<(Span, u32)>,
+    /// Whether this rung's overflow has been reported.
+    warned: bool,
+}
+
+impl Follow<'_> {
+    fn network(&mut self, span: Span, number: u32) {
+        (self.total, self.fresh, self.after_output, self.warned) = (0, 0, false, false);
+        self.at_start = Some((span, number));
+    }
+
+    fn instruction(&mut self, selected: &Selected) -> u8 {
+        let instruction = selected.op.instruction();
+        let level = match (selected.op, selected.arguments[0]) {
+            (Op::Lds, Argument::Number(level)) => level,
+            _ => 0,
+        };
+        let needs = instruction.stack.needs + level;
+        let loads = instruction.stack.needs == 0 && instruction.stack.adds > 0;
+        if loads && self.after_output {
+            (self.fresh, self.warned) = (0, false);
+        }
+        self.check_needs(selected, instruction, needs);
+        self.at_start = None;
+        self.after_output = !matches!(instruction.group, Group::Contact | Group::Compare | Group::Stack);
+        self.apply(selected, instruction);
+        self.total
+    }
+
+    fn check_needs(&mut self, selected: &Selected, instruction: &Instruction, needs: u8) {
+        let span = || span_of(self.program, selected);
+        let name = instruction.mnemonic();
+        if let (Some((network, number)), 1..) = (self.at_start, needs) {
+            let mut diagnostic = Diagnostic::new(
+                Code::NetworkStart,
+                span(),
+                format!("a network starts with a load, but this one starts with {name}"),
+            );
+            if self.program.has_networks && network.end > 0 {
+                diagnostic = diagnostic.related(network, format!("network {number} starts here"));
+            }
+            self.diagnostics.push(diagnostic.help(start_help(name)));
+            self.total = needs;
+        } else if needs > self.total {
+            let message = format!("{name} needs {}, the logic stack holds {}", values(needs), self.total);
+            self.diagnostics.push(
+                Diagnostic::new(Code::StackUnderflow, span(), message)
+                    .help("each LD pushes one value; ALD, OLD and LPP take one away"),
+            );
+            self.total = needs.min(STACK_LEVELS);
+        } else if u16::from(needs) > self.fresh && !self.program.has_networks {
+            self.diagnostics.push(
+                Diagnostic::new(
+                    Code::StaleStackValue,
+                    span(),
+                    format!("{name} takes a value that an earlier rung left on the logic stack"),
+                )
+                .help("start the program parts with NETWORK lines if this is meant"),
+            );
+        }
+        self.fresh = self.fresh.max(u16::from(needs));
+    }
+
+    fn apply(&mut self, selected: &Selected, instruction: &Instruction) {
+        if matches!(selected.op, Op::Lbl | Op::For | Op::Next) {
+            (self.total, self.fresh) = (1, 1);
+            return;
+        }
+        let adds = instruction.stack.adds;
+        self.total = self.total.saturating_add_signed(adds).min(STACK_LEVELS);
+        self.fresh = self.fresh.saturating_add_signed(i16::from(adds));
+        if self.fresh > u16::from(STACK_LEVELS) && !self.warned {
+            self.warned = true;
+            let message = format!("{} pushes a tenth value: the oldest one is lost", instruction.mnemonic());
+            let span = span_of(self.program, selected);
+            self.diagnostics.push(
+                Diagnostic::new(Code::StackOverflow, span, message)
+                    .help(format!("the logic stack has {STACK_LEVELS} levels")),
+            );
+        }
+    }
+}
+
+fn values(count: u8) -> String {
+    if count == 1 { "a value".into() } else { format!("{count} values") }
+}
+
+fn start_help(name: &str) -> String {
+    match name {
+        "A" | "O" => "use `LD`".into(),
+        "AN" | "ON" => "use `LDN`".into(),
+        _ => "begin with a contact; `LD SM0.0` is always on".into(),
+    }
+}

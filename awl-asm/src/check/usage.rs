@@ -1,0 +1,182 @@
+//! Who reads and writes what: the cross-reference, and the warnings that follow from it.
+
+use std::collections::BTreeMap;
+
+use plc_isa::{Area, DIGITAL_INPUTS, DIGITAL_OUTPUTS, Op};
+
+use crate::address::Address;
+use crate::ast::{Program, Span};
+use crate::check::{operand_span, span_of};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::select::{Argument, Selected, started_kind};
+
+/// One use of an address by an instruction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Access {
+    /// Index of the selected instruction.
+    pub instruction: usize,
+    /// Position of the operand.
+    pub operand: usize,
+    /// Whether it is written, which may include reading.
+    pub writes: bool,
+    /// Whether it is read.
+    pub reads: bool,
+}
+
+/// The cross-reference: every address with its uses in program order.
+#[derive(Debug, Default)]
+pub struct Usage {
+    /// By address; timers and counters once for bit and value.
+    pub accesses: BTreeMap<Address, Vec<Access>>,
+}
+
+/// Collects the uses and reports timers and counters of two kinds, and what deserves a warning.
+pub fn usage(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnostic>) -> Usage {
+    let mut usage = Usage::default();
+    for (index, selected) in code.iter().enumerate() {
+        for (operand, (argument, written)) in selected.arguments().enumerate() {
+            if let Some((address, reads, writes)) = access_of(selected.op, argument, written) {
+                let access = Access { instruction: index, operand, writes, reads };
+                usage.accesses.entry(address).or_default().push(access);
+            }
+        }
+    }
+    let check = Check { program, code };
+    for (&address, accesses) in &usage.accesses {
+        check.address(address, accesses, diagnostics);
+    }
+    usage
+}
+
+/// The address an argument names, and whether the instruction reads and writes it.
+fn access_of(op: Op, argument: Argument, written: bool) -> Option<(Address, bool, bool)> {
+    match argument {
+        Argument::Bit(address) | Argument::Memory(address) => Some((address, !written || updates(op), written)),
+        Argument::Timer(number) => Some((Address::Timer(number), false, true)),
+        Argument::Counter(number) => Some((Address::Counter(number), false, true)),
+        Argument::Constant(_) | Argument::Number(_) | Argument::None => None,
+    }
+}
+
+/// Instructions whose output is also an input: OUT := OUT op IN1.
+fn updates(op: Op) -> bool {
+    op.instruction().group == plc_isa::Group::Math
+}
+
+struct Check<'a> {
+    program: &'a Program,
+    code: &'a [Selected],
+}
+
+impl Check<'_> {
+    fn span(&self, access: &Access) -> Span {
+        operand_span(self.program, &self.code[access.instruction], access.operand)
+    }
+
+    fn op(&self, access: &Access) -> Op {
+        self.code[access.instruction].op
+    }
+
+    fn address(&self, address: Address, accesses: &[Access], diagnostics: &mut Vec<Diagnostic>) {
+        match address {
+            Address::Timer(number) => self.timer(number, accesses, diagnostics),
+            Address::Counter(number) => self.counter(number, accesses, diagnostics),
+            Address::Bit { area: Area::Q, .. } => {
+                self.assigned_twice(address, accesses, diagnostics);
+                self.pin(address, accesses, diagnostics);
+            }
+            Address::Bit { area: Area::I, .. } => self.pin(address, accesses, diagnostics),
+            _ => {}
+        }
+    }
+
+    fn timer(&self, number: u8, accesses: &[Access], diagnostics: &mut Vec<Diagnostic>) {
+        let name = format!("T{number}");
+        let starts = |access: &&Access| started_kind(self.op(access)).is_some() && access.operand == 0;
+        self.one_kind(&name, "a timer", accesses, starts, Code::TimerTwoKinds, diagnostics);
+        let help = format!("start it with TON, TOF or TONR, for example `TON {name}, 10`");
+        self.never_started(&name, "started", help, accesses, starts, Code::TimerNeverStarted, diagnostics);
+    }
+
+    fn counter(&self, number: u8, accesses: &[Access], diagnostics: &mut Vec<Diagnostic>) {
+        let name = format!("C{number}");
+        let counts = |access: &&Access| matches!(self.op(access), Op::Ctu | Op::Ctd | Op::Ctud) && access.operand == 0;
+        self.one_kind(&name, "a counter", accesses, counts, Code::CounterTwoKinds, diagnostics);
+        let help = format!("count it with CTU, CTD or CTUD, for example `CTU {name}, 10`");
+        self.never_started(&name, "counted", help, accesses, counts, Code::CounterNeverCounts, diagnostics);
+    }
+
+    /// Two kinds are an error; the same kind twice is a warning.
+    fn one_kind(
+        &self,
+        name: &str,
+        what: &str,
+        accesses: &[Access],
+        starts: impl Fn(&&Access) -> bool,
+        two_kinds: Code,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        let mut starting = accesses.iter().filter(starts);
+        let Some(first) = starting.next() else { return };
+        let first_name = self.op(first).instruction().mnemonic();
+        for other in starting {
+            let other_name = self.op(other).instruction().mnemonic();
+            let (code, message) = if other_name == first_name {
+                (Code::StartedTwice, format!("{name} is executed by {first_name} in two places"))
+            } else {
+                (two_kinds, format!("{name} is used by {first_name} and by {other_name}: {what} can be only one of them"))
+            };
+            diagnostics.push(
+                Diagnostic::new(code, self.span(other), message).related(self.span(first), format!("{first_name} here")),
+            );
+        }
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "one rule for timers and counters, which differ in words only")]
+    fn never_started(
+        &self,
+        name: &str,
+        verb: &str,
+        help: String,
+        accesses: &[Access],
+        starts: impl Fn(&&Access) -> bool,
+        code: Code,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        let first_read = accesses.iter().find(|access| access.reads);
+        let is_started = accesses.iter().any(|access| starts(&access));
+        if let (Some(read), false) = (first_read, is_started) {
+            let message = format!("{name} is read here, but never {verb}");
+            diagnostics.push(Diagnostic::new(code, self.span(read), message).help(help));
+        }
+    }
+
+    fn assigned_twice(&self, address: Address, accesses: &[Access], diagnostics: &mut Vec<Diagnostic>) {
+        let mut coils = accesses.iter().filter(|access| self.op(access) == Op::Assign);
+        let Some(first) = coils.next() else { return };
+        for other in coils {
+            let message = format!("{address} is written by `=` a second time: only the last one counts");
+            diagnostics.push(
+                Diagnostic::new(Code::OutputTwice, self.span(other), message)
+                    .related(span_of(self.program, &self.code[first.instruction]), "first here")
+                    .help("combine the conditions with O, or use S and R"),
+            );
+        }
+    }
+
+    fn pin(&self, address: Address, accesses: &[Access], diagnostics: &mut Vec<Diagnostic>) {
+        let Address::Bit { area, byte, bit } = address else { return };
+        let (count, direction, effect) = match area {
+            Area::I => (DIGITAL_INPUTS, "inputs", "it always reads 0"),
+            _ => (DIGITAL_OUTPUTS, "outputs", "nothing is switched by it"),
+        };
+        if let (Some(first), true) = (accesses.first(), byte > 0 || bit >= count) {
+            let name = area.name();
+            let message = format!("{address} has no pin on the Uno: {effect}");
+            diagnostics.push(
+                Diagnostic::new(Code::NoSuchPin, self.span(first), message)
+                    .help(format!("the Uno's {direction} are {name}0.0 to {name}0.{}", count - 1)),
+            );
+        }
+    }
+}

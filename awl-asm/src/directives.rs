@@ -1,0 +1,351 @@
+//! The lines that begin with `//#`: system settings and symbols. Micro/WIN sees comments in them.
+
+use plc_isa::{Area, DIGITAL_INPUTS, DIGITAL_OUTPUTS, NAME_LEN_MAX, Retained, Settings, TimerFamily, timer_family};
+
+use crate::address::{Address, AddressError};
+use crate::ast::{Program, RetainedRange, Span, Symbol, Value};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::suggest::{Suggester, nearby_address};
+use crate::symbols::{SymbolTable, check_name, read_value};
+
+const WORDS: [&str; 7] = ["pullup", "invert", "retain", "watchdog", "scan", "name", "symbol"];
+
+type Outcome<T> = Result<T, Box<Diagnostic>>;
+
+/// Where the settings stand that a program can make only once.
+#[derive(Debug, Default)]
+pub(crate) struct Directives {
+    watchdog: Option<Span>,
+    scan: Option<Span>,
+    name: Option<Span>,
+}
+
+/// What the lines fill.
+pub(crate) struct Targets<'p> {
+    pub(crate) program: &'p mut Program,
+    pub(crate) symbols: &'p mut SymbolTable,
+    pub(crate) suggester: &'p Suggester,
+    pub(crate) diagnostics: &'p mut Vec<Diagnostic>,
+}
+
+/// A part of the text that knows where it stands.
+#[derive(Debug, Clone, Copy)]
+struct Piece<'t> {
+    text: &'t str,
+    start: usize,
+}
+
+impl<'t> Piece<'t> {
+    fn span(self) -> Span {
+        Span::new(self.start, self.start + self.text.len())
+    }
+
+    /// Both sides of a byte position.
+    fn split(self, at: usize) -> (Piece<'t>, Piece<'t>) {
+        let (text, rest) = self.text.split_at_checked(at).unwrap_or((self.text, ""));
+        (Piece { text, start: self.start }, Piece { text: rest, start: self.start + text.len() })
+    }
+
+    fn trim(self) -> Piece<'t> {
+        let blanks = self.text.len() - self.text.trim_start().len();
+        Piece { text: self.text.trim(), start: self.start + blanks }
+    }
+
+    /// The first word and what stands behind it. A name in quotes is a word.
+    fn first_word(self) -> (Piece<'t>, Piece<'t>) {
+        let piece = self.trim();
+        let len = match piece.text.strip_prefix('"').and_then(|inside| inside.find('"')) {
+            Some(inside) => inside + 2,
+            None => piece.text.find(char::is_whitespace).unwrap_or(piece.text.len()),
+        };
+        let (word, rest) = piece.split(len);
+        (word, rest.trim())
+    }
+
+    /// Without a `//` comment, quotes respected.
+    fn without_comment(self) -> Piece<'t> {
+        let mut quoted = false;
+        for (at, byte) in self.text.bytes().enumerate() {
+            match byte {
+                b'"' => quoted = !quoted,
+                b'/' if !quoted && self.text.as_bytes().get(at + 1) == Some(&b'/') => return self.split(at).0.trim(),
+                _ => {}
+            }
+        }
+        self.trim()
+    }
+
+    fn error(self, why: impl AsRef<str>) -> Box<Diagnostic> {
+        let message = format!("{}: {}", self.text, why.as_ref());
+        Box::new(Diagnostic::new(Code::Setting, self.span(), message))
+    }
+}
+
+impl Directives {
+    /// Reads a comment line; false if it is just a comment.
+    pub(crate) fn read(&mut self, source: &str, comment: Span, targets: &mut Targets<'_>) -> bool {
+        let Some(text) = comment.text(source).strip_prefix("//#") else { return false };
+        let (word, rest) = Piece { text, start: comment.start as usize + 3 }.first_word();
+        // `//####` and `//#1` are decoration.
+        if !word.text.starts_with(char::is_alphabetic) {
+            return false;
+        }
+        if let Err(diagnostic) = self.setting(word, rest, targets) {
+            targets.diagnostics.push(*diagnostic);
+        }
+        true
+    }
+
+    fn setting(&mut self, word: Piece<'_>, rest: Piece<'_>, targets: &mut Targets<'_>) -> Outcome<()> {
+        let values = rest.without_comment();
+        let line = Span::new(word.start, values.start + values.text.len());
+        let is = |name: &str| word.text.eq_ignore_ascii_case(name);
+        let program = &mut *targets.program;
+        match () {
+            () if is("symbol") => return symbol(word, rest, targets),
+            () if is("pullup") => points(word, values, targets, pullup),
+            () if is("invert") => points(word, values, targets, invert),
+            () if is("retain") => retain(word, values, targets),
+            () if is("watchdog") => {
+                let ms = time(word, values, 1)?;
+                once(&mut self.watchdog, line, word)?;
+                program.settings.watchdog_ms = ms;
+            }
+            () if is("scan") => {
+                let ms = time(word, values, 0)?;
+                once(&mut self.scan, line, word)?;
+                program.settings.scan_ms = ms;
+            }
+            () if is("name") => {
+                let name = name(word, values)?;
+                once(&mut self.name, line, word)?;
+                program.name = Some(name);
+            }
+            () => return Err(unknown(word, targets.suggester)),
+        }
+        Ok(())
+    }
+}
+
+fn unknown(word: Piece<'_>, suggester: &Suggester) -> Box<Diagnostic> {
+    let mut diagnostic = word.error("no such setting");
+    diagnostic.suggestion = suggester.nearest(word.text, WORDS.into_iter()).map(str::to_owned);
+    diagnostic.help.push(format!("there are {}", WORDS.join(", ")));
+    diagnostic
+}
+
+/// Refuses the second of two settings that exclude each other.
+fn once(first: &mut Option<Span>, line: Span, word: Piece<'_>) -> Outcome<()> {
+    match *first {
+        None => {
+            *first = Some(line);
+            Ok(())
+        }
+        Some(place) => {
+            let mut diagnostic = word.error("is already set");
+            diagnostic.related.push((place, "first set here".to_owned()));
+            Err(diagnostic)
+        }
+    }
+}
+
+fn symbol(word: Piece<'_>, rest: Piece<'_>, targets: &mut Targets<'_>) -> Outcome<()> {
+    let (name, rest) = rest.first_word();
+    let (value, comment) = rest.first_word();
+    if value.text.is_empty() {
+        let piece = if name.text.is_empty() { word } else { name };
+        return Err(Box::new(Diagnostic::new(
+            Code::SymbolDefinition,
+            piece.span(),
+            format!("{}: //# symbol is followed by a name and an address", piece.text),
+        )));
+    }
+    let bare = name.text.strip_prefix('"').and_then(|inside| inside.strip_suffix('"')).unwrap_or(name.text);
+    check_name(bare, name.span())?;
+    let comment = comment.text.strip_prefix("//").unwrap_or(comment.text).trim().to_owned();
+    // A symbol whose value is wrong is kept, so that its uses are not called unknown.
+    let (value, error) = match read_value(value.text, value.span()) {
+        Ok(value) => (value, None),
+        Err(error) => (Value::Invalid, Some(error)),
+    };
+    let duplicate = targets.symbols.define(Symbol { name: bare.to_owned(), value, comment }, Some(name.span()));
+    targets.diagnostics.extend(error.map(|error| *error).into_iter().chain(duplicate));
+    Ok(())
+}
+
+/// The items of a list with commas; each is a range, or an address alone.
+fn ranges<'t>(list: Piece<'t>) -> impl Iterator<Item = Outcome<(Piece<'t>, Address, Address)>> {
+    let mut rest = Some(list);
+    std::iter::from_fn(move || {
+        let piece = rest?;
+        let comma = piece.text.find(',');
+        let (item, behind) = piece.split(comma.unwrap_or(piece.text.len()));
+        rest = comma.map(|_| behind.split(1).1);
+        Some(range(item.trim()))
+    })
+}
+
+fn range(item: Piece<'_>) -> Outcome<(Piece<'_>, Address, Address)> {
+    let Some(dash) = item.text.find('-') else {
+        let only = address(item)?;
+        return Ok((item, only, only));
+    };
+    let (first, behind) = item.split(dash);
+    Ok((item, address(first.trim())?, address(behind.split(1).1.trim())?))
+}
+
+fn address(piece: Piece<'_>) -> Outcome<Address> {
+    Address::parse(piece.text).map_err(|error| match error {
+        AddressError::NotAnAddress if piece.text.is_empty() => {
+            Box::new(Diagnostic::new(Code::Setting, piece.span(), "an address is missing here"))
+        }
+        AddressError::NotAnAddress => {
+            let mut diagnostic = piece.error("is no address");
+            diagnostic.suggestion = nearby_address(piece.text);
+            diagnostic
+        }
+        AddressError::NotSupported(message) => Box::new(Diagnostic::new(Code::NotSupported, piece.span(), message)),
+        AddressError::OutOfRange(message, suggestion) => {
+            let mut diagnostic = Diagnostic::new(Code::AddressRange, piece.span(), message);
+            diagnostic.suggestion = suggestion.or_else(|| nearby_address(piece.text));
+            Box::new(diagnostic)
+        }
+    })
+}
+
+/// Reads a list of points and sets their bits; every bad item is reported.
+fn points(word: Piece<'_>, list: Piece<'_>, targets: &mut Targets<'_>, field: fn(&mut Settings, Area) -> Option<&mut u8>) {
+    if list.text.is_empty() {
+        targets.diagnostics.push(*word.error("points are missing, such as I0.0-I0.5"));
+        return;
+    }
+    for item in ranges(list) {
+        let outcome = item.and_then(|(item, first, last)| {
+            let (area, bits) = point_bits(item, first, last)?;
+            let name = area.name();
+            let field = field(&mut targets.program.settings, area)
+                .ok_or_else(|| item.error(format!("{} is for inputs, not for {name}", word.text)))?;
+            let pins = if area == Area::I { DIGITAL_INPUTS } else { DIGITAL_OUTPUTS };
+            if u32::from(bits) >> pins != 0 {
+                let mut diagnostic = item.error("the Uno has no pin for it");
+                diagnostic.help.push(format!("{name}0.0 to {name}0.{} have a pin", pins - 1));
+                return Err(diagnostic);
+            }
+            *field |= bits as u8;
+            Ok(())
+        });
+        targets.diagnostics.extend(outcome.err().map(|diagnostic| *diagnostic));
+    }
+}
+
+fn pullup(settings: &mut Settings, area: Area) -> Option<&mut u8> {
+    (area == Area::I).then_some(&mut settings.pullup)
+}
+
+fn invert(settings: &mut Settings, area: Area) -> Option<&mut u8> {
+    Some(if area == Area::I { &mut settings.invert_inputs } else { &mut settings.invert_outputs })
+}
+
+/// The points of a range of inputs or outputs as bits, I0.0 the lowest. Those of I1.0 and up count as one.
+fn point_bits(item: Piece<'_>, first: Address, last: Address) -> Outcome<(Area, u16)> {
+    let (
+        Address::Bit { area: area @ (Area::I | Area::Q), byte, bit },
+        Address::Bit { area: last_area, byte: last_byte, bit: last_bit },
+    ) = (first, last)
+    else {
+        return Err(item.error("only single inputs and outputs such as I0.0 and Q0.0 have pins"));
+    };
+    let (from, to) = (8 * u32::from(byte) + u32::from(bit), 8 * u32::from(last_byte) + u32::from(last_bit));
+    check_order(item, area == last_area, from, to)?;
+    Ok((area, (from..=to).fold(0, |bits, point| bits | 1 << point.min(15))))
+}
+
+fn check_order(item: Piece<'_>, is_same_kind: bool, first: u32, last: u32) -> Outcome<()> {
+    if !is_same_kind {
+        return Err(item.error("a range goes from one address to another of the same kind"));
+    }
+    if first > last {
+        return Err(item.error("a range begins with its lower address"));
+    }
+    Ok(())
+}
+
+fn retain(word: Piece<'_>, list: Piece<'_>, targets: &mut Targets<'_>) {
+    if list.text.is_empty() {
+        targets.diagnostics.push(*word.error("ranges are missing, such as VB0-VB31, C0-C9"));
+        return;
+    }
+    for item in ranges(list) {
+        match item.and_then(|(item, first, last)| retained(item, first, last)) {
+            Ok(range) => targets.program.retained.push(range),
+            Err(diagnostic) => targets.diagnostics.push(*diagnostic),
+        }
+    }
+}
+
+fn retained(item: Piece<'_>, first: Address, last: Address) -> Outcome<RetainedRange> {
+    // Area, first byte or number, and how many a single one has.
+    let unit = |address| match address {
+        Address::Byte { area: area @ (Area::V | Area::M), byte } => Some((area, byte, 1)),
+        Address::Word { area: area @ (Area::V | Area::M), byte } => Some((area, byte, 2)),
+        Address::Timer(number) => Some((Area::T, u16::from(number), 1)),
+        Address::Counter(number) => Some((Area::C, u16::from(number), 1)),
+        _ => None,
+    };
+    let (Some((area, from, from_len)), Some((last_area, to, len))) = (unit(first), unit(last)) else {
+        let help = "what can be retained: bytes and words of V and M, timers of TONR, counters";
+        return Err(Box::new(item.error("cannot be retained").help(help)));
+    };
+    check_order(item, area == last_area && from_len == len, u32::from(from), u32::from(to))?;
+    let loses = |number: u16| u8::try_from(number).is_ok_and(|number| timer_family(number) != TimerFamily::Tonr);
+    if let Some(number) = (from..=to).find(|&number| area == Area::T && loses(number)) {
+        let help = "these are T0 to T31 and T64 to T95";
+        return Err(Box::new(item.error(format!("T{number} is no timer of TONR, and only those are retained")).help(help)));
+    }
+    Ok(RetainedRange { span: item.span(), range: Retained { area, first: from, count: to - from + len } })
+}
+
+/// Reads a time such as `500ms` or `2s`, in milliseconds.
+fn time(word: Piece<'_>, value: Piece<'_>, min: u32) -> Outcome<u16> {
+    if value.text.is_empty() {
+        return Err(word.error("a time is missing, such as 500ms"));
+    }
+    let digits_len = value.text.find(|c: char| !c.is_ascii_digit()).unwrap_or(value.text.len());
+    let (digits, unit) = value.split(digits_len);
+    let factor = match unit.trim().text {
+        unit if unit.eq_ignore_ascii_case("ms") => 1,
+        unit if unit.eq_ignore_ascii_case("s") => 1000,
+        "" => {
+            let mut diagnostic = value.error("a time has a unit, ms or s");
+            diagnostic.suggestion = Some(format!("{}ms", digits.text));
+            return Err(diagnostic);
+        }
+        _ => return Err(value.error("is no time; write a whole number with ms or s")),
+    };
+    if digits.text.is_empty() {
+        return Err(value.error("is no time; write a whole number with ms or s"));
+    }
+    let ms = digits.text.parse::<u32>().unwrap_or(u32::MAX).saturating_mul(factor);
+    let max = Settings::TIME_MAX_MS;
+    match u16::try_from(ms) {
+        Ok(time) if ms >= min && time <= max => Ok(time),
+        _ => Err(value.error(format!("the time for {} is {min} to {max} ms", word.text.to_ascii_lowercase()))),
+    }
+}
+
+fn name(word: Piece<'_>, value: Piece<'_>) -> Outcome<String> {
+    let bare = match value.text.strip_prefix('"') {
+        Some(inside) => inside.strip_suffix('"').ok_or_else(|| value.error("the quote is not closed"))?,
+        None => value.text,
+    };
+    if bare.is_empty() {
+        return Err(word.error("a name is missing"));
+    }
+    if let Some(odd) = bare.chars().find(|c| !(' '..='~').contains(c)) {
+        return Err(value.error(format!("{} cannot stand in a name, only printable ASCII", odd.escape_default())));
+    }
+    if bare.len() > usize::from(NAME_LEN_MAX) {
+        return Err(value.error(format!("a name has at most {NAME_LEN_MAX} characters")));
+    }
+    Ok(bare.to_owned())
+}

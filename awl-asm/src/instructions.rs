@@ -1,0 +1,227 @@
+//! The instructions of the text: mnemonic, comparison, operands. What an operand means is read elsewhere.
+
+use plc_isa::{Instruction, Relation};
+
+use crate::ast::{self, Operand, Span, Statement, Value};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::lexer::{Ahead, Cut};
+use crate::mnemonics::{Meaning, comparisons, confused, first_words, meaning};
+use crate::parser::Parser;
+use crate::resolve::{Pending, read_plain};
+
+impl Parser<'_> {
+    /// An instruction of the table.
+    pub(crate) fn instruction(&mut self, entry: &'static Instruction, operand_count: usize, word: Span) {
+        let mut mnemonic_span = word;
+        let is_at_relation = self.lexer.ahead() == Ahead::Text && self.lexer.is_at_relation();
+        let relation = match (entry.has_relation(), is_at_relation) {
+            (true, true) => {
+                let sign = self.lexer.relation();
+                mnemonic_span.end = sign.end;
+                Some(self.relation(sign))
+            }
+            (true, false) => {
+                self.relation_missing(word);
+                Some(Relation::Equal)
+            }
+            (false, true) => return self.wrong_relation(word),
+            (false, false) => None,
+        };
+        let operands = self.operands(operand_count);
+        let end = operands.last().map_or(mnemonic_span.end, |operand| operand.span.end);
+        let span = Span { start: word.start, end };
+        let mnemonic = entry.mnemonic();
+        let instruction = ast::Instruction { mnemonic, relation, mnemonic_span, operands, span };
+        self.program.statements.push(Statement::Instruction(instruction));
+    }
+
+    /// An instruction of the S7-200 that this version lacks.
+    pub(crate) fn missing(&mut self, like: Option<&'static Instruction>, word: Span) {
+        let mut span = word;
+        if self.lexer.is_at_relation() {
+            span.end = self.lexer.relation().end;
+        }
+        let message = format!("{} is an S7-200 instruction that uno200 does not have yet", span.text(self.text));
+        self.error(Code::NotSupported, span, message);
+        self.lexer.skip_instruction();
+        if let Some(like) = like {
+            self.stand_in(like.mnemonic(), span);
+        }
+    }
+
+    /// A first word that is none.
+    pub(crate) fn unknown(&mut self, word: Span) {
+        let text = word.text(self.text);
+        let has_relation = self.lexer.is_at_relation() && text.starts_with(is_word_start);
+        if has_relation && text.eq_ignore_ascii_case("OR") {
+            return self.missing(compare_like("OW"), word);
+        }
+        let mut diagnostic = self.unknown_word(word);
+        let mut stand_in = None;
+        if has_relation {
+            let sign = self.lexer.relation();
+            diagnostic.span.end = sign.end;
+            diagnostic.message = format!("{}: no such instruction", diagnostic.span.text(self.text));
+            let near = self.suggester.nearest(text, comparisons());
+            diagnostic.suggestion = near.map(|near| format!("{near}{}", sign.text(self.text)));
+            stand_in = near;
+        } else if let Some(suggestion) = &diagnostic.suggestion {
+            stand_in = suggestion.split(' ').next();
+        }
+        let span = diagnostic.span;
+        let canonical = stand_in.and_then(|word| match meaning(word) {
+            Some(Meaning::Instruction(entry, _)) => Some(entry.mnemonic()),
+            _ => None,
+        });
+        self.diagnostics.push(diagnostic);
+        self.lexer.skip_instruction();
+        if let Some(mnemonic) = canonical {
+            self.stand_in(mnemonic, span);
+        }
+    }
+
+    fn unknown_word(&self, word: Span) -> Diagnostic {
+        let text = word.text(self.text);
+        if matches!(text, "*)" | "*/") {
+            return Diagnostic::new(Code::Syntax, word, format!("{text}: no comment is open here"));
+        }
+        if !text.starts_with(is_word_start) {
+            return Diagnostic::new(Code::Syntax, word, format!("{text}: an instruction begins with its mnemonic"));
+        }
+        let mut diagnostic = Diagnostic::new(Code::UnknownMnemonic, word, format!("{text}: no such instruction"));
+        if text.ends_with(':') {
+            diagnostic.help.push("a label is an instruction of its own, such as LBL 1".to_owned());
+        }
+        diagnostic.suggestion = confused(text)
+            .map(str::to_owned)
+            .or_else(|| without_blank(text))
+            .or_else(|| self.suggester.nearest(text, first_words()).map(str::to_owned));
+        diagnostic
+    }
+
+    /// A comparison behind an instruction that takes none, such as `LD>=`.
+    fn wrong_relation(&mut self, word: Span) {
+        let text = word.text(self.text);
+        // LDS is a stack operation, but LDS= compares strings.
+        if text.eq_ignore_ascii_case("LDS") {
+            return self.missing(compare_like("LDW"), word);
+        }
+        let sign = self.lexer.relation();
+        let span = Span { start: word.start, end: sign.end };
+        let message = format!("{}: no such instruction", span.text(self.text));
+        let mut diagnostic = Diagnostic::new(Code::UnknownMnemonic, span, message);
+        let compare = compare_like(&format!("{}W", text.to_ascii_uppercase()));
+        if let Some(compare) = compare {
+            diagnostic.suggestion = Some(format!("{}{}", compare.mnemonic(), sign.text(self.text)));
+        }
+        self.diagnostics.push(diagnostic);
+        self.lexer.skip_instruction();
+        if let Some(compare) = compare {
+            self.stand_in(compare.mnemonic(), span);
+        }
+    }
+
+    fn relation(&mut self, sign: Span) -> Relation {
+        let text = sign.text(self.text);
+        if let Some(relation) = Relation::ALL.into_iter().find(|relation| relation.symbol() == text) {
+            return relation;
+        }
+        let message = format!("{text}: no such comparison; there are = <> < > <= >=");
+        let mut diagnostic = Diagnostic::new(Code::Syntax, sign, message);
+        let meant = [("==", "="), ("=>", ">="), ("=<", "<="), ("!=", "<>"), ("><", "<>")];
+        diagnostic.suggestion = meant.iter().find(|(wrong, _)| *wrong == text).map(|(_, right)| (*right).to_owned());
+        self.diagnostics.push(diagnostic);
+        Relation::Equal
+    }
+
+    fn relation_missing(&mut self, word: Span) {
+        let text = word.text(self.text);
+        let all = Relation::ALL.map(|relation| format!("{text}{}", relation.symbol())).join(" ");
+        let diagnostic = Diagnostic::new(Code::Syntax, word, format!("{text}: the comparison is missing"));
+        self.diagnostics.push(diagnostic.help(format!("there are {all}")));
+    }
+
+    /// Puts an instruction in place of one that was reported, so that the logic stack and the pairs of the
+    /// following lines are not reported because of it.
+    fn stand_in(&mut self, mnemonic: &str, span: Span) {
+        if let Some(Meaning::Instruction(entry, count)) = meaning(mnemonic) {
+            let relation = entry.has_relation().then_some(Relation::Equal);
+            let operands = vec![Operand { span, value: Value::Invalid }; count];
+            let mnemonic = entry.mnemonic();
+            let instruction = ast::Instruction { mnemonic, relation, mnemonic_span: span, operands, span };
+            self.program.statements.push(Statement::Instruction(instruction));
+        }
+    }
+
+    /// The operands up to the end of the instruction. `count` is how many are expected.
+    fn operands(&mut self, count: usize) -> Vec<Operand> {
+        let mut operands = Vec::with_capacity(count);
+        let mut comma = None;
+        loop {
+            match self.lexer.ahead() {
+                Ahead::Text => {
+                    let cut = self.lexer.operand();
+                    let operand = self.operand(cut, operands.len());
+                    operands.push(operand);
+                    comma = None;
+                }
+                Ahead::Comma => {
+                    let at = self.lexer.position();
+                    let span = Span::new(at, at + 1);
+                    if operands.is_empty() || comma.is_some() {
+                        self.error(Code::Syntax, span, ",: an operand is missing before the comma");
+                    }
+                    comma = Some(span);
+                    self.lexer.step();
+                }
+                _ => break,
+            }
+        }
+        if let Some(span) = comma.filter(|_| !operands.is_empty()) {
+            self.error(Code::Syntax, span, ",: an operand is missing behind the comma");
+            operands.push(Operand { span, value: Value::Invalid });
+        }
+        operands
+    }
+
+    fn operand(&mut self, cut: Cut, index: usize) -> Operand {
+        let span = match cut {
+            Cut::Whole(span) => span,
+            Cut::Unclosed(span) => {
+                let message = format!("{}: the quote is not closed", span.text(self.text).trim_end());
+                self.error(Code::Syntax, span, message);
+                return Operand { span, value: Value::Invalid };
+            }
+        };
+        let value = read_plain(span.text(self.text)).unwrap_or_else(|| {
+            self.pending.push(Pending { statement: self.program.statements.len(), operand: index });
+            Value::Invalid
+        });
+        Operand { span, value }
+    }
+}
+
+fn is_word_start(character: char) -> bool {
+    character.is_alphanumeric() || !character.is_ascii() || matches!(character, '_' | '+' | '-' | '*' | '/' | '=')
+}
+
+/// The entry of a comparison.
+fn compare_like(mnemonic: &str) -> Option<&'static Instruction> {
+    match meaning(mnemonic) {
+        Some(Meaning::Instruction(entry, _)) if entry.has_relation() => Some(entry),
+        _ => None,
+    }
+}
+
+/// `LDI0.0` as `LD I0.0`: mnemonic and operand without the blank between them.
+fn without_blank(text: &str) -> Option<String> {
+    (1..text.len().min(6)).rev().find_map(|len| {
+        let (mnemonic, operand) = text.split_at_checked(len)?;
+        match (meaning(mnemonic)?, read_plain(operand)?) {
+            (Meaning::Instruction(entry, count), _) if count > 0 && !entry.has_relation() => {
+                Some(format!("{} {operand}", mnemonic.to_ascii_uppercase()))
+            }
+            _ => None,
+        }
+    })
+}

@@ -1,0 +1,237 @@
+//! The command `awl-asm`: files in, files out, diagnostics on stderr. The work is done by the library.
+
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{Context, Result, bail};
+use awl_asm::assemble::{Assembly, assemble};
+use awl_asm::ast::Symbol;
+use awl_asm::diagnostic::{Code, Diagnostic, Severity};
+use awl_asm::disassemble::disassemble;
+use awl_asm::files::write_whole;
+use awl_asm::hex::intel_hex;
+use awl_asm::listing::listing;
+use awl_asm::map::map;
+use awl_asm::source::Source;
+use awl_asm::{render, symbols};
+use clap::{Parser, ValueEnum};
+use plc_isa::{ARENA_LEN, SLOT_LEN};
+
+/// Assembles S7-200 AWL (STL) into a program image.
+///
+/// Exit status: 0 good, 1 errors in the program, 2 usage or file errors.
+#[derive(Parser)]
+#[command(name = "awl-asm", version)]
+struct Arguments {
+    /// The program.
+    #[arg(required_unless_present_any = ["disassemble", "explain"])]
+    program: Option<PathBuf>,
+
+    /// The image: .hex for Intel HEX at the program slot, anything else binary. Default: the program's name with .bin.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+
+    /// Writes a listing: offset, bytes and stack depth beside each source line.
+    #[arg(long, value_name = "FILE")]
+    listing: Option<PathBuf>,
+
+    /// Writes a map: memory plan and cross-reference.
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
+
+    /// Reads a symbol table: name, address, comment; separated by tabs or commas. Can be repeated.
+    #[arg(long, value_name = "FILE")]
+    symbols: Vec<PathBuf>,
+
+    /// How diagnostics are written.
+    #[arg(long, value_enum, default_value_t = MessageFormat::Human)]
+    message_format: MessageFormat,
+
+    /// Checks the program and writes nothing.
+    #[arg(long)]
+    check: bool,
+
+    /// Turns an image back into AWL.
+    #[arg(long, value_name = "IMAGE", conflicts_with_all = ["program", "explain", "check", "listing", "map"])]
+    disassemble: Option<PathBuf>,
+
+    /// Explains an error or warning, such as E0012.
+    #[arg(long, value_name = "CODE", conflicts_with = "program")]
+    explain: Option<String>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum MessageFormat {
+    /// With source lines and carets.
+    Human,
+    /// One JSON object a line.
+    Json,
+}
+
+/// Errors in the program: reported already.
+const PROGRAM_ERRORS: u8 = 1;
+/// Usage and file errors.
+const USAGE_ERRORS: u8 = 2;
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(PROGRAM_ERRORS),
+        Err(error) => {
+            anstream::eprintln!("error: {error:#}");
+            ExitCode::from(USAGE_ERRORS)
+        }
+    }
+}
+
+/// Returns whether the program is good.
+fn run(arguments: &Arguments) -> Result<bool> {
+    if let Some(code) = &arguments.explain {
+        return explain(code);
+    }
+    if let Some(image) = &arguments.disassemble {
+        return disassemble_file(image, arguments.output.as_deref());
+    }
+    let Some(program) = &arguments.program else { bail!("no program given") };
+    assemble_file(program, arguments)
+}
+
+fn explain(code: &str) -> Result<bool> {
+    match Code::find(code) {
+        Some(code) => print(code.page()),
+        None => {
+            let known: Vec<&str> = Code::ALL.iter().map(|code| code.text()).collect();
+            bail!("{code} is no code of a diagnostic; known are {}", known.join(" "))
+        }
+    }
+}
+
+/// Writes to stdout; a reader that has seen enough is no error.
+fn print(text: &str) -> Result<bool> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error).context("cannot write to stdout"),
+        _ => Ok(true),
+    }
+}
+
+fn disassemble_file(path: &Path, output: Option<&Path>) -> Result<bool> {
+    let image = read(path)?;
+    match (disassemble(&image), output) {
+        (Ok(text), Some(output)) => write_whole(output, text.as_bytes()).map(|()| true),
+        (Ok(text), None) => print(&text),
+        (Err(error), _) => {
+            eprintln!("error: {}: {} (offset {:#06x})", path.display(), error.fault.message(), error.at);
+            Ok(false)
+        }
+    }
+}
+
+fn read(path: &Path) -> Result<Vec<u8>> {
+    std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))
+}
+
+fn read_source(path: &Path) -> Result<Source> {
+    Ok(Source::from_bytes(path.display().to_string(), &read(path)?)?)
+}
+
+fn assemble_file(path: &Path, arguments: &Arguments) -> Result<bool> {
+    let output = arguments.output.clone().unwrap_or_else(|| path.with_extension("bin"));
+    for written in [Some(&output), arguments.listing.as_ref(), arguments.map.as_ref()].into_iter().flatten() {
+        if written.as_path() == path {
+            bail!("{} would be overwritten by the output", path.display());
+        }
+    }
+    let source = read_source(path)?;
+    let mut report = Report { format: arguments.message_format, errors: 0, warnings: 0 };
+    let symbols = load_symbols(&arguments.symbols, &mut report)?;
+    let assembly = assemble(&source, symbols);
+    report.show(&source, &assembly.diagnostics);
+    report.finish(path);
+    let Some(image) = assembly.image.as_deref().filter(|_| report.errors == 0) else { return Ok(false) };
+    if arguments.check {
+        return Ok(true);
+    }
+    write_image(&output, image)?;
+    if let Some(path) = &arguments.listing {
+        write_whole(path, listing(&source, &assembly).as_bytes())?;
+    }
+    if let Some(path) = &arguments.map {
+        write_whole(path, map(&source, &assembly).as_bytes())?;
+    }
+    if arguments.message_format == MessageFormat::Human {
+        eprintln!("{}", summary(&output, image, &assembly));
+    }
+    Ok(true)
+}
+
+fn load_symbols(paths: &[PathBuf], report: &mut Report) -> Result<Vec<Symbol>> {
+    let mut all = Vec::new();
+    for path in paths {
+        let source = read_source(path)?;
+        let (symbols, diagnostics) = symbols::load(&source);
+        report.show(&source, &diagnostics);
+        all.extend(symbols);
+    }
+    Ok(all)
+}
+
+fn write_image(path: &Path, image: &[u8]) -> Result<()> {
+    let is_hex = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("hex"));
+    if is_hex { write_whole(path, intel_hex(image)?.as_bytes()) } else { write_whole(path, image) }
+}
+
+fn summary(output: &Path, image: &[u8], assembly: &Assembly) -> String {
+    format!(
+        "{}: {} instructions, {} of {SLOT_LEN} bytes; data {} of {ARENA_LEN} bytes",
+        output.display(),
+        assembly.code.len(),
+        image.len(),
+        assembly.demand.arena_len(),
+    )
+}
+
+/// Shows diagnostics and counts them.
+struct Report {
+    format: MessageFormat,
+    errors: usize,
+    warnings: usize,
+}
+
+impl Report {
+    fn show(&mut self, source: &Source, diagnostics: &[Diagnostic]) {
+        let styled = std::io::stderr().is_terminal();
+        let mut text = String::new();
+        for diagnostic in diagnostics {
+            match diagnostic.severity() {
+                Severity::Error => self.errors += 1,
+                Severity::Warning => self.warnings += 1,
+            }
+            match self.format {
+                MessageFormat::Human => text.push_str(&render::human(source, diagnostic, styled)),
+                MessageFormat::Json => text.push_str(&render::json(source, diagnostic)),
+            }
+            text.push('\n');
+        }
+        // Nobody is left to tell when stderr is closed.
+        let _ = anstream::stderr().write_all(text.as_bytes());
+    }
+
+    /// The last line, as of a compiler.
+    fn finish(&self, path: &Path) {
+        if self.format == MessageFormat::Json || self.errors + self.warnings == 0 {
+            return;
+        }
+        let count = |count: usize, what: &str| match count {
+            0 => None,
+            1 => Some(format!("1 {what}")),
+            count => Some(format!("{count} {what}s")),
+        };
+        let counts: Vec<String> =
+            [count(self.errors, "error"), count(self.warnings, "warning")].into_iter().flatten().collect();
+        eprintln!("{}: {}", path.display(), counts.join(", "));
+        if self.errors > 0 {
+            eprintln!("`awl-asm --explain CODE` tells more about a code");
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! The map: where the program's data lives, and the cross-reference of every operand.
+
+use std::collections::HashMap;
+use std::fmt::Write as _;
+
+use plc_isa::{Header, Plan};
+
+use crate::address::Address;
+use crate::assemble::Assembly;
+use crate::ast::{Symbol, Value};
+use crate::check::{Access, operand_span};
+use crate::plan::v_range;
+use crate::source::Source;
+
+/// Writes the map of an assembled program.
+pub fn map(source: &Source, assembly: &Assembly) -> String {
+    let mut text = format!("{}: memory plan\n\n", source.name);
+    for line in assembly.demand.describe() {
+        let _ = writeln!(text, "  {line}");
+    }
+    if let Some(image) = assembly.image.as_deref() {
+        places(image, &mut text);
+    }
+    text.push_str("\nCross-reference (r read, w written, rw both; source lines)\n\n");
+    cross_reference(source, assembly, &mut text);
+    text
+}
+
+fn places(image: &[u8], text: &mut String) {
+    let Ok(header) = Header::read(&image) else { return };
+    let plan = Plan::trusted(image, header);
+    text.push_str("\nData addresses\n\n");
+    let mut address = plc_isa::ARENA_START;
+    for (first, len) in plan.v_ranges() {
+        let _ = writeln!(text, "  {address:04X}  {}", v_range(first, len));
+        address += len;
+    }
+    for slot in plan.timers() {
+        let _ = writeln!(text, "  {:04X}  T{} ({} ms)", slot.address, slot.number, plc_isa::timer_resolution(slot.number).ms());
+    }
+    for slot in plan.counters() {
+        let _ = writeln!(text, "  {:04X}  C{}", slot.address, slot.number);
+    }
+    if header.edges > 0 {
+        let _ = writeln!(text, "  {:04X}  {} edges", plan.edge(0).address, header.edges);
+    }
+}
+
+fn cross_reference(source: &Source, assembly: &Assembly, text: &mut String) {
+    let symbols = symbols_by_address(&assembly.program.symbols);
+    for (address, accesses) in &assembly.usage.accesses {
+        let places: Vec<String> = accesses.iter().map(|access| place(source, assembly, access)).collect();
+        let symbol = symbols.get(address).map(|symbol| symbol.name.as_str()).unwrap_or("");
+        let _ = writeln!(text, "  {:<8}  {symbol:<20}  {}", address.to_string(), places.join(", "));
+    }
+}
+
+fn symbols_by_address(symbols: &[Symbol]) -> HashMap<Address, &Symbol> {
+    let addresses = symbols.iter().filter_map(|symbol| match symbol.value {
+        Value::Address(address) => Some((address, symbol)),
+        _ => None,
+    });
+    addresses.collect()
+}
+
+fn place(source: &Source, assembly: &Assembly, access: &Access) -> String {
+    let selected = &assembly.code[access.instruction];
+    let span = operand_span(&assembly.program, selected, access.operand);
+    let (line, _) = source.position(span.start as usize);
+    let how = match (access.reads, access.writes) {
+        (true, true) => "rw",
+        (false, true) => "w",
+        _ => "r",
+    };
+    format!("{line}{how}")
+}

@@ -1,0 +1,63 @@
+//! The trait of a PLC that can be run scan by scan. Everything above it - scenarios, plants, traces - works on any.
+
+use std::fmt;
+
+use crate::operand::Operand;
+
+#[cfg(test)]
+pub(crate) mod fake;
+
+/// Whether the program is executed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mode {
+    /// Scans execute the program.
+    Run,
+    /// Scans only read inputs; outputs are off.
+    Stop,
+}
+
+/// Why an operand cannot be read or written: the program has no memory for it, or the machine cannot reach it.
+/// Holds a sentence without full stop.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MachineError(pub String);
+
+impl fmt::Display for MachineError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for MachineError {}
+
+/// A PLC that can be run scan by scan. Times are in milliseconds since the start of the first scan.
+///
+/// Whether an operand can be accessed depends on the program alone, never on time: an operand that could be read once
+/// can be read and written after every scan. The driver relies on it and tries all operands before the first scan.
+pub trait Machine {
+    /// Sets an operand.
+    ///
+    /// Inputs and analog inputs are signals of the plant: they stay until changed, and the program sees them from the
+    /// next scan on. A digital input is given as a logical value; where the program inverts it, the pin gets the other
+    /// level. Everything else is memory, written once, before the next scan. Words take -32768..=65535.
+    fn write(&mut self, operand: Operand, value: i32) -> Result<(), MachineError>;
+
+    /// The value of an operand as the last scan left it; words signed.
+    ///
+    /// I and Q are the physical points as logical values, in STOP Q is 0.
+    fn read(&mut self, operand: Operand) -> Result<i32, MachineError>;
+
+    /// Runs one scan that starts at `now_ms`. Times never decrease.
+    fn scan(&mut self, now_ms: u64);
+
+    /// RUN or STOP after the last scan. Cheap: it is asked after every scan.
+    fn mode(&self) -> Mode;
+
+    /// The fault that stopped the PLC, in words and with its place in the program.
+    fn fault(&self) -> Option<String>;
+
+    /// The electrical levels of the output pins D8 to D13: bit n is the pin of Q0.n, inversion applied. 1 is high.
+    fn pin_levels(&mut self) -> u8;
+
+    /// Drives the pin of input I0.`input` (0..=5) electrically: `true` is high. It stays until changed.
+    fn drive_pin(&mut self, input: u8, high: bool);
+}

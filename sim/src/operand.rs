@@ -1,0 +1,175 @@
+//! What can be set, expected and traced: an address, or the current value of a timer or counter. No access to it.
+
+use std::fmt;
+use std::ops::RangeInclusive;
+
+use awl_asm::Address;
+use awl_asm::address::AddressError;
+use plc_isa::AnalogInput;
+
+use crate::symbols::Symbols;
+
+/// An operand of a scenario or a trace.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Operand {
+    /// The value at an address. Of a timer or counter: its bit.
+    At(Address),
+    /// The current value of a timer, written `T37.cv`.
+    TimerCurrent(u8),
+    /// The current value of a counter, written `C5.cv`.
+    CounterCurrent(u8),
+}
+
+/// How wide the value of an operand is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Width {
+    /// 0 or 1.
+    Bit,
+    /// 0..=255.
+    Byte,
+    /// 16 bits, signed.
+    Word,
+}
+
+/// Why a text is no operand.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OperandError {
+    /// What is wrong.
+    pub message: String,
+    /// What may have been meant.
+    pub suggestion: Option<String>,
+}
+
+impl Operand {
+    /// Reads an operand: an address, a symbol (quoted or not), or either with `.cv` behind it. Any letter case.
+    pub fn parse(text: &str, symbols: &Symbols) -> Result<Operand, OperandError> {
+        if let Some(stem) = strip_current(text) {
+            return match address(stem, symbols)? {
+                Address::Timer(number) => Ok(Operand::TimerCurrent(number)),
+                Address::Counter(number) => Ok(Operand::CounterCurrent(number)),
+                _ => Err(OperandError {
+                    message: format!("{text}: only timers and counters have a current value (.cv)"),
+                    suggestion: Some(stem.to_string()),
+                }),
+            };
+        }
+        address(text, symbols).map(Operand::At)
+    }
+
+    /// The address, for a current value that of its timer or counter.
+    pub fn address(self) -> Address {
+        match self {
+            Operand::At(address) => address,
+            Operand::TimerCurrent(number) => Address::Timer(number),
+            Operand::CounterCurrent(number) => Address::Counter(number),
+        }
+    }
+
+    /// How wide its value is.
+    pub fn width(self) -> Width {
+        match self {
+            Operand::At(Address::Bit { .. } | Address::Timer(_) | Address::Counter(_)) => Width::Bit,
+            Operand::At(Address::Byte { .. }) => Width::Byte,
+            Operand::At(Address::Word { .. } | Address::Analog(_)) => Width::Word,
+            Operand::TimerCurrent(_) | Operand::CounterCurrent(_) => Width::Word,
+        }
+    }
+
+    /// The values it can have, words signed.
+    pub fn range(self) -> RangeInclusive<i32> {
+        match (self, self.width()) {
+            (Operand::At(Address::Analog(AnalogInput::Raw(_))), _) => 0..=i32::from(AnalogInput::RAW_MAX),
+            (Operand::At(Address::Analog(AnalogInput::Scaled(_))), _) => 0..=i32::from(AnalogInput::SCALED_MAX),
+            (_, Width::Bit) => 0..=1,
+            (_, Width::Byte) => 0..=255,
+            (_, Width::Word) => i32::from(i16::MIN)..=i32::from(i16::MAX),
+        }
+    }
+}
+
+fn strip_current(text: &str) -> Option<&str> {
+    let stem_len = text.len().checked_sub(3)?;
+    let tail = text.get(stem_len..)?;
+    tail.eq_ignore_ascii_case(".cv").then(|| &text[..stem_len])
+}
+
+fn address(text: &str, symbols: &Symbols) -> Result<Address, OperandError> {
+    let name = text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text);
+    if let Some(symbol) = symbols.find(name) {
+        return Ok(symbol.address);
+    }
+    Address::parse(text).map_err(|error| match error {
+        AddressError::NotAnAddress => OperandError {
+            message: format!("{text} is neither an address nor a symbol of the program"),
+            suggestion: symbols.nearest(name).map(str::to_string),
+        },
+        AddressError::NotSupported(message) => OperandError { message, suggestion: None },
+        AddressError::OutOfRange(message, suggestion) => OperandError { message, suggestion },
+    })
+}
+
+impl fmt::Display for Operand {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Operand::At(address) => address.fmt(f),
+            Operand::TimerCurrent(number) => write!(f, "T{number}.cv"),
+            Operand::CounterCurrent(number) => write!(f, "C{number}.cv"),
+        }
+    }
+}
+
+impl fmt::Display for OperandError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)?;
+        match &self.suggestion {
+            Some(suggestion) => write!(f, " (did you mean {suggestion}?)"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl std::error::Error for OperandError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn symbols() -> Symbols {
+        let mut symbols = Symbols::new();
+        symbols.add("Delay", Address::Timer(101), "");
+        symbols.add("lift up", Address::parse("Q0.1").unwrap(), "raises the platform");
+        symbols
+    }
+
+    #[test]
+    fn bit_and_current_value_of_timers_and_counters() {
+        let symbols = symbols();
+        assert_eq!(Operand::parse("t37", &symbols), Ok(Operand::At(Address::Timer(37))));
+        assert_eq!(Operand::parse("T37.cv", &symbols), Ok(Operand::TimerCurrent(37)));
+        assert_eq!(Operand::parse("z5.CV", &symbols), Ok(Operand::CounterCurrent(5)));
+        assert_eq!(Operand::parse("Delay.cv", &symbols), Ok(Operand::TimerCurrent(101)));
+        assert_eq!(Operand::CounterCurrent(5).to_string(), "C5.cv");
+        let error = Operand::parse("MW3.cv", &symbols).unwrap_err();
+        assert_eq!(error.suggestion.as_deref(), Some("MW3"));
+    }
+
+    #[test]
+    fn symbols_in_any_case_and_quoted() {
+        let symbols = symbols();
+        let raise = Operand::At(Address::parse("Q0.1").unwrap());
+        assert_eq!(Operand::parse("Lift Up", &symbols), Ok(raise));
+        assert_eq!(Operand::parse("\"lift up\"", &symbols), Ok(raise));
+        assert_eq!(Operand::parse("lift uo", &symbols).unwrap_err().suggestion.as_deref(), Some("lift up"));
+        assert_eq!(Operand::parse("I0.9", &symbols).unwrap_err().suggestion.as_deref(), Some("I1.1"));
+    }
+
+    #[test]
+    fn ranges_follow_the_width() {
+        let range = |text| Operand::parse(text, &Symbols::new()).unwrap().range();
+        assert_eq!(range("Ain5"), 0..=1023);
+        assert_eq!(range("AIW0"), 0..=32000);
+        assert_eq!(range("QB0"), 0..=255);
+        assert_eq!(range("T37"), 0..=1);
+        assert_eq!(range("T37.cv"), -32768..=32767);
+    }
+}

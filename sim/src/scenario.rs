@@ -1,0 +1,93 @@
+//! Scenarios: what happens to the plant's signals at which time, and what is expected then. Nothing is run here.
+//!
+//! ```text
+//! scan 1ms                      # length of one scan
+//! plant station1 noise=2        # a plant model that drives inputs
+//! at 0ms    I0.1 = 1, Ain0 = 207
+//! at 500ms  expect Q0.1 = 0, MW3 = 200..210
+//! run 5s
+//! ```
+
+mod parser;
+mod value;
+
+use std::ops::RangeInclusive;
+
+use crate::machine::MachineError;
+use crate::operand::Operand;
+use crate::plant::PlantSpec;
+use crate::problem::Problems;
+use crate::symbols::Symbols;
+
+/// Shortest to longest scan in milliseconds.
+pub const SCAN_MS: RangeInclusive<u64> = 1..=60_000;
+
+/// A scenario that was read without errors.
+#[derive(Debug, Clone, Default)]
+pub struct Scenario {
+    /// Where it comes from, for messages.
+    pub origin: String,
+    /// `scan`: time from scan start to scan start in milliseconds.
+    pub scan_ms: Option<u64>,
+    /// `run`: scans that start before this time in milliseconds are run.
+    pub run_ms: Option<u64>,
+    /// `plant`: the plant model.
+    pub plant: Option<PlantSpec>,
+    /// `at T operand = value`, in the order of the file.
+    pub settings: Vec<Setting>,
+    /// `at T expect operand = value`, in the order of the file.
+    pub expectations: Vec<Expectation>,
+}
+
+/// An operand that gets a value.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Setting {
+    /// When, in milliseconds: scans that start then or later see it.
+    pub at_ms: u64,
+    /// What.
+    pub operand: Operand,
+    /// The value, in the operand's range, words signed.
+    pub value: i32,
+}
+
+/// A value that an operand must have.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Expectation {
+    /// Line of the scenario, from 1.
+    pub line: usize,
+    /// When, in milliseconds: the state after the last scan that started before counts.
+    pub at_ms: u64,
+    /// Which operand.
+    pub operand: Operand,
+    /// The operand as written.
+    pub name: String,
+    /// The values that are right, words signed.
+    pub values: RangeInclusive<i32>,
+}
+
+/// What a scenario is read against.
+pub struct Context<'a> {
+    /// The names that the program gives to addresses.
+    pub symbols: &'a Symbols,
+    /// A plant that takes the place of the scenario's.
+    pub plant: Option<&'a PlantSpec>,
+    /// Whether the machine has the operand: usually [`Machine::read`](crate::machine::Machine::read).
+    pub has_operand: &'a mut dyn FnMut(Operand) -> Result<(), MachineError>,
+}
+
+impl Scenario {
+    /// Reads a scenario. `origin` names it in messages. All errors are found in one go.
+    pub fn parse(origin: &str, text: &str, context: Context<'_>) -> Result<Scenario, Problems> {
+        parser::parse(origin, text, context)
+    }
+
+    /// The time of the last statement in milliseconds, 0 if there is none.
+    pub fn last_ms(&self) -> u64 {
+        let settings = self.settings.iter().map(|setting| setting.at_ms);
+        let expectations = self.expectations.iter().map(|expectation| expectation.at_ms);
+        settings.chain(expectations).max().unwrap_or(0)
+    }
+}
+
+#[cfg(test)]
+mod tests;

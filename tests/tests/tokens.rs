@@ -1,0 +1,47 @@
+//! The token table against its copy kept by hand: a token whose meaning changes would break every stored image.
+
+use plc_isa::{INSTRUCTIONS, WIDE_PREFIX};
+
+/// A line for each form, as the table has it.
+fn table() -> Vec<String> {
+    let mut lines = Vec::new();
+    for instruction in INSTRUCTIONS {
+        for form in instruction.forms {
+            let prefix = if form.wide { format!("{WIDE_PREFIX:02X} ") } else { String::new() };
+            let kinds: Vec<String> = form.kinds.iter().map(|kind| format!("{kind:?}")).collect();
+            let line = format!(
+                "{prefix}{:02X}-{:02X} {:?} {}",
+                form.first_token,
+                form.last_token,
+                instruction.op,
+                kinds.join(" ")
+            );
+            lines.push(line.trim_end().to_string());
+        }
+    }
+    lines.sort();
+    lines
+}
+
+#[test]
+fn tokens_are_the_pinned_ones() {
+    let pinned = include_str!("../tokens.txt");
+    let mut pinned: Vec<&str> = pinned.lines().filter(|line| !line.is_empty() && !line.starts_with('#')).collect();
+    pinned.sort_unstable();
+    assert_eq!(table(), pinned, "a token may be added, never changed");
+}
+
+#[test]
+fn tokens_do_not_overlap_and_leave_the_erased_byte_undefined() {
+    for wide in [false, true] {
+        let mut used = [false; 256];
+        for form in INSTRUCTIONS.iter().flat_map(|instruction| instruction.forms).filter(|form| form.wide == wide) {
+            for token in form.first_token..=form.last_token {
+                assert!(!used[usize::from(token)], "token {token:02X} is used twice");
+                used[usize::from(token)] = true;
+            }
+        }
+        assert!(!used[0xFF], "erased flash must not be an instruction");
+        assert!(wide || !used[usize::from(WIDE_PREFIX)]);
+    }
+}

@@ -1,0 +1,233 @@
+//! Speed of the host interpreter and of the assembler, compared with their budgets.
+//!
+//! Each figure is the best of several rounds: other work on the machine only makes rounds slower. What
+//! is counted is checked in the same run: a benchmark that did not execute its instructions fails.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::time::Instant;
+
+use anyhow::{Context, Result, bail, ensure};
+use awl_asm::assemble::{Assembly, assemble};
+use awl_asm::diagnostic::{Code, Severity};
+use awl_asm::source::Source;
+use plc_isa::{LogicStack, M_START};
+use plc_vm::{Environment, Inputs, Memory, Mode, Plc};
+
+use crate::budgets;
+use crate::process::{cargo, root, run as run_command};
+
+const ROUNDS: usize = 7;
+
+/// Measures, prints and compares. Rebuilds itself with optimisation if need be.
+pub fn run() -> Result<()> {
+    if cfg!(debug_assertions) {
+        return gate();
+    }
+    let figures = [host_interpreter()?, assembler()?, large_file()?, density()?];
+    let mut missed = 0;
+    for figure in &figures {
+        let good = if figure.lower_is_better { figure.value <= figure.budget } else { figure.value >= figure.budget };
+        missed += usize::from(!good);
+        let sign = if figure.lower_is_better { "<=" } else { ">=" };
+        let verdict = if good { "good" } else { "MISSED" };
+        println!("{:<44} {:>10.2} {:<22} budget {sign} {:<8} {verdict}", figure.name, figure.value, figure.unit, figure.budget);
+        println!("    {}", figure.evidence);
+    }
+    ensure!(missed == 0, "{missed} budgets missed");
+    Ok(())
+}
+
+/// The same from an unoptimised xtask: a release build does the measuring.
+pub fn gate() -> Result<()> {
+    run_command(cargo().args(["run", "--quiet", "--release", "--package", "xtask", "--", "bench"]))
+}
+
+struct Figure {
+    name: &'static str,
+    value: f64,
+    unit: &'static str,
+    budget: f64,
+    lower_is_better: bool,
+    evidence: String,
+}
+
+/// Time stands still, loops do not occur, instructions are counted when asked to.
+struct Counting {
+    executed: u64,
+}
+
+impl Environment for Counting {
+    fn now_ms(&mut self) -> u32 {
+        0
+    }
+    fn is_overdue(&mut self, _bytes: u16) -> bool {
+        true
+    }
+    fn retrigger_watchdog(&mut self) {}
+    fn executed(&mut self, _at: u16, _stack: LogicStack) {
+        self.executed += 1;
+    }
+}
+
+/// The same without counting: what is measured.
+struct Silent;
+
+impl Environment for Silent {
+    fn now_ms(&mut self) -> u32 {
+        0
+    }
+    fn is_overdue(&mut self, _bytes: u16) -> bool {
+        true
+    }
+    fn retrigger_watchdog(&mut self) {}
+}
+
+const RUNG: &str = "LD I0.0\nO M0.1\nAN I0.2\nLPS\nA M1.3\n= Q0.1\nLPP\nON M2.4\n= M0.1\nLDN I0.3\nA M3.0\nLD M0.5\nAN Q0.1\nOLD\nS M4.1, 1\nLD M4.1\nA I0.4\nR M4.1, 1\nNOT\n= M2.4\n";
+const RUNGS: u64 = 150;
+const RUNG_INSTRUCTIONS: u64 = 20;
+
+fn host_interpreter() -> Result<Figure> {
+    let text = format!("{}LD SM0.0\nINCW MW20\n", RUNG.repeat(RUNGS as usize));
+    let image = assembled(&text)?.image.context("the benchmark program has errors")?;
+    let per_scan = RUNGS * RUNG_INSTRUCTIONS;
+
+    // The instructions executed in a scan, counted one by one: the program, its proof and its end.
+    let mut counting = Counting { executed: 0 };
+    let (mut plc, mut memory) = loaded(&image)?;
+    plc.scan(&mut memory, &Inputs::default(), &mut counting);
+    ensure!(counting.executed == per_scan + 3, "executed {} instructions, not {}", counting.executed, per_scan + 3);
+
+    let scans_per_round: u16 = 20_000;
+    let mut best = f64::INFINITY;
+    for _ in 0..ROUNDS {
+        let (mut plc, mut memory) = loaded(&image)?;
+        let mut inputs = Inputs::default();
+        let start = Instant::now();
+        for scan in 0..scans_per_round {
+            inputs.digital[0] = scan as u8;
+            plc.scan(&mut memory, &inputs, &mut Silent);
+        }
+        best = best.min(start.elapsed().as_secs_f64());
+        // The program counts its own scans.
+        ensure!(plc.mode() == Mode::Run && memory.word(M_START + 20) == scans_per_round, "the program did not run");
+    }
+    let executed = per_scan * u64::from(scans_per_round);
+    Ok(Figure {
+        name: "host interpreter",
+        value: executed as f64 / best / 1e6,
+        unit: "million bits/s",
+        budget: budgets::HOST_BITS_PER_SECOND_MIN / 1e6,
+        lower_is_better: false,
+        evidence: format!("{executed} bit instructions executed and counted in {best:.3} s, best of {ROUNDS} rounds"),
+    })
+}
+
+fn loaded(image: &[u8]) -> Result<(Plc<&[u8]>, Memory)> {
+    let (mut plc, mut memory) = (Plc::new(), Memory::new());
+    if let Err(error) = plc.load(&mut memory, image) {
+        bail!("the benchmark image is refused: {}", error.fault.message());
+    }
+    plc.run();
+    Ok((plc, memory))
+}
+
+fn assembled(text: &str) -> Result<Assembly> {
+    Ok(assemble(&Source::new("bench.awl", text)?, Vec::new()))
+}
+
+/// A program text of so many lines, with what real ones have: networks, comments, words, timers.
+fn program_text(lines: usize) -> (String, usize) {
+    let mut text = String::new();
+    let (mut written, mut instructions, mut network) = (0, 0, 0);
+    while written < lines {
+        network += 1;
+        let (byte, bit, timer) = (network % 32, network % 8, 37 + network % 27);
+        let _ = write!(
+            text,
+            "NETWORK {network} // station {network}\n// what it does, in a line of comment\n\
+             LD     I0.{}\nO      M{byte}.{bit}\nAN     \"Stop {}\"\n=      M{byte}.{bit}\n\
+             LDW>=  MW{byte}, {network}\nA      T{timer}\nMOVW   +{network}, VW{} // note\nTON    T{timer}, 10\n",
+            network % 6,
+            network % 4,
+            2 * (network % 200),
+        );
+        written += 10;
+        instructions += 8;
+    }
+    (text, instructions)
+}
+
+const SYMBOLS: &str = "//# symbol \"Stop 0\" I0.0\n//# symbol \"Stop 1\" I0.1\n//# symbol \"Stop 2\" I0.2\n//# symbol \"Stop 3\" I0.3\n";
+
+/// Best time for a text of so many lines, and what was assembled. The text is larger than the board: that
+/// one error is expected, and nothing else.
+fn assembling_time(lines: usize) -> Result<(f64, usize)> {
+    let (text, instructions) = program_text(lines);
+    let text = format!("{SYMBOLS}{text}");
+    let mut best = f64::INFINITY;
+    for _ in 0..ROUNDS {
+        let start = Instant::now();
+        let assembly = assembled(&text)?;
+        best = best.min(start.elapsed().as_secs_f64());
+        let errors: Vec<Code> = assembly
+            .diagnostics
+            .iter()
+            .filter(|diagnostic| diagnostic.severity() == Severity::Error)
+            .map(|diagnostic| diagnostic.code)
+            .collect();
+        ensure!(errors == [Code::ProgramTooLarge], "unexpected errors: {errors:?}");
+        ensure!(assembly.lines.len() == instructions, "encoded {} of {instructions}", assembly.lines.len());
+    }
+    Ok((best, instructions))
+}
+
+fn assembler() -> Result<Figure> {
+    let lines = 20_000;
+    let (best, instructions) = assembling_time(lines)?;
+    Ok(Figure {
+        name: "assembler",
+        value: lines as f64 / best / 1e6,
+        unit: "million lines/s",
+        budget: budgets::ASSEMBLER_LINES_PER_SECOND_MIN / 1e6,
+        lower_is_better: false,
+        evidence: format!("{lines} lines, {instructions} instructions encoded, in {best:.4} s, best of {ROUNDS} rounds"),
+    })
+}
+
+fn large_file() -> Result<Figure> {
+    let lines = 100_000;
+    let (best, instructions) = assembling_time(lines)?;
+    Ok(Figure {
+        name: "assembler, 100,000 lines",
+        value: best,
+        unit: "s",
+        budget: budgets::LARGE_FILE_SECONDS_MAX,
+        lower_is_better: true,
+        evidence: format!("{instructions} instructions encoded, best of {ROUNDS} rounds"),
+    })
+}
+
+/// Bytes of code an instruction over all examples.
+fn density() -> Result<Figure> {
+    let (mut bytes, mut instructions) = (0, 0);
+    for entry in fs::read_dir(root().join("examples"))? {
+        let path = entry?.path();
+        if path.extension().is_some_and(|extension| extension == "awl") {
+            let source = Source::from_bytes(path.display().to_string(), &fs::read(&path)?)?;
+            let assembly = assemble(&source, Vec::new());
+            ensure!(assembly.image.is_some(), "{} has errors", path.display());
+            bytes += assembly.lines.iter().map(|line| u32::from(line.len)).sum::<u32>();
+            instructions += assembly.lines.len();
+        }
+    }
+    ensure!(instructions > 0, "no examples");
+    Ok(Figure {
+        name: "program density, all examples",
+        value: f64::from(bytes) / instructions as f64,
+        unit: "bytes/instruction",
+        budget: budgets::CODE_BYTES_PER_INSTRUCTION_MAX,
+        lower_is_better: true,
+        evidence: format!("{bytes} bytes of code for {instructions} instructions"),
+    })
+}

@@ -1,0 +1,59 @@
+//! Tasks of the repository: `cargo xtask demo`, `test`, `bench`, `docs`. Nothing here is shipped.
+
+mod avr;
+mod bench;
+mod budgets;
+mod demo;
+mod docs;
+mod packages;
+mod process;
+mod rules;
+mod test;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Tasks of the repository.
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    task: Task,
+}
+
+#[derive(Subcommand)]
+enum Task {
+    /// A sorting station runs its AWL program: timeline, counts, timing diagram.
+    Demo,
+    /// Everything that must hold: format, lints, rules, tests, the board's compiler.
+    Test {
+        /// Leave out what needs the AVR toolchain; the last line says so.
+        #[arg(long)]
+        host_only: bool,
+    },
+    /// Measures interpreter and assembler and compares them with their budgets.
+    Bench,
+    /// Writes docs/instructions.md from the instruction table.
+    Docs {
+        /// Only compare, and fail if it would change.
+        #[arg(long)]
+        check: bool,
+    },
+}
+
+fn main() -> ExitCode {
+    let result = match Arguments::parse().task {
+        Task::Demo => demo::run(),
+        Task::Test { host_only } => test::run(host_only),
+        Task::Bench => bench::run(),
+        Task::Docs { check } => docs::run(check),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! Running other programs and finding the repository.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, ensure};
+
+/// The root of the repository.
+pub fn root() -> PathBuf {
+    // xtask is one folder below the root.
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new(".")).to_path_buf()
+}
+
+/// The cargo that runs this task.
+pub fn cargo() -> Command {
+    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.current_dir(root());
+    command
+}
+
+/// Runs a program to its end; its output goes to the terminal.
+pub fn run(command: &mut Command) -> Result<()> {
+    let words = describe(command);
+    let status = command.status().with_context(|| format!("cannot start `{words}`"))?;
+    ensure!(status.success(), "`{words}` failed ({status})");
+    Ok(())
+}
+
+fn describe(command: &Command) -> String {
+    let arguments = command.get_args().map(|argument| argument.to_string_lossy());
+    let program = Path::new(command.get_program()).file_name().unwrap_or_default().to_string_lossy();
+    [program].into_iter().chain(arguments).collect::<Vec<_>>().join(" ")
+}
