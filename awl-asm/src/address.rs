@@ -119,7 +119,13 @@ fn number_of(digits: &str) -> u32 {
     digits.parse().unwrap_or(u32::MAX)
 }
 
-fn numbered(text: &str, number: &str, what: &str, letter: &str, make: fn(u8) -> Address) -> Result<Address, AddressError> {
+fn numbered(
+    text: &str,
+    number: &str,
+    what: &str,
+    letter: &str,
+    make: fn(u8) -> Address,
+) -> Result<Address, AddressError> {
     if number.contains('.') {
         let plain = format!("{letter}{}", number.split('.').next().unwrap_or(""));
         return Err(out_of_range(format!("{text}: {what} have no bit number"), plain));
@@ -145,10 +151,9 @@ fn scaled_analog(text: &str, number: &str) -> Result<Address, AddressError> {
         byte if byte < limit && byte % 2 == 0 && !number.contains('.') => {
             Ok(Address::Analog(AnalogInput::Scaled((byte / 2) as u8)))
         }
-        byte if byte < limit && !number.contains('.') => Err(out_of_range(
-            format!("{text}: analog inputs have even addresses"),
-            Some(format!("AIW{}", byte - 1)),
-        )),
+        byte if byte < limit && !number.contains('.') => {
+            Err(out_of_range(format!("{text}: analog inputs have even addresses"), Some(format!("AIW{}", byte - 1))))
+        }
         _ => Err(out_of_range(format!("{text}: the analog inputs are AIW0, AIW2, ... AIW10"), None)),
     }
 }
@@ -187,7 +192,9 @@ fn in_area(text: &str, area: Area, size: Size, number: &str) -> Result<Address, 
         )),
         (Size::Byte, None) if byte <= last => Ok(Address::Byte { area, byte: byte as u16 }),
         (Size::Word, None) if byte < last => Ok(Address::Word { area, byte: byte as u16 }),
-        (Size::Byte, None) => Err(out_of_range(format!("{text}: {name} has the bytes {name}B0 to {name}B{last}"), None)),
+        (Size::Byte, None) => {
+            Err(out_of_range(format!("{text}: {name} has the bytes {name}B0 to {name}B{last}"), None))
+        }
         (Size::Word, None) => {
             Err(out_of_range(format!("{text}: {name} has the words {name}W0 to {name}W{}", last - 1), None))
         }

@@ -1,9 +1,7 @@
 //! The assembler from text to image: runs the passes in order and keeps what listing and map need.
 
-use plc_isa::Op;
-
-use crate::ast::{Program, Symbol};
-use crate::check::{Depths, Usage, control, stack, usage};
+use crate::ast::{Program, Span, Symbol};
+use crate::check::{Depths, Usage, control, span_of, stack, usage};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::encode::{Encoding, Line, encode};
 use crate::parser::parse;
@@ -38,15 +36,9 @@ impl Assembly {
         self.diagnostics.iter().any(|diagnostic| diagnostic.severity() == Severity::Error)
     }
 
-    /// Index of the instruction whose bytes hold this offset of the image.
-    pub fn instruction_at(&self, offset: u16) -> Option<usize> {
-        let offset = u32::from(offset);
-        self.lines.iter().position(|line| (line.at..line.at + u32::from(line.len)).contains(&offset))
-    }
-
-    /// Whether a program uses this instruction.
-    pub fn uses(&self, op: Op) -> bool {
-        self.code.iter().any(|selected| selected.op == op)
+    /// Where an instruction of the program stands in the source.
+    pub fn span_of(&self, selected: &Selected) -> Span {
+        span_of(&self.program, selected)
     }
 }
 

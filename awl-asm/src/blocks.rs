@@ -63,7 +63,8 @@ impl Blocks {
             }
             Some(open) if open.block == Block::Organization => {
                 if !open.has_begun {
-                    let diagnostic = Diagnostic::new(Code::Block, place, "BEGIN is missing before the first instruction");
+                    let diagnostic =
+                        Diagnostic::new(Code::Block, place, "BEGIN is missing before the first instruction");
                     diagnostics.push(diagnostic.related(open.header, "of this block"));
                     open.has_begun = true;
                 }
@@ -73,7 +74,8 @@ impl Blocks {
                 if content == Content::Other && !open.is_refused {
                     let message = format!("{}: such blocks are not supported yet", open.block.header());
                     let diagnostic = Diagnostic::new(Code::NotSupported, open.header, message);
-                    diagnostics.push(diagnostic.help("uno200 runs the main program OB1 only; an empty block does no harm"));
+                    diagnostics
+                        .push(diagnostic.help("uno200 runs the main program OB1 only; an empty block does no harm"));
                     open.is_refused = true;
                 }
                 false
@@ -134,7 +136,8 @@ impl Blocks {
         self.close_variables(diagnostics);
         if let Some(open) = self.open.take() {
             let message = format!("{}: {} is missing before it", block.header(), open.block.end());
-            diagnostics.push(Diagnostic::new(Code::Block, place, message).related(open.header, "this block is still open"));
+            diagnostics
+                .push(Diagnostic::new(Code::Block, place, message).related(open.header, "this block is still open"));
         } else if let Some(outside) = self.outside.filter(|_| !self.has_blocks) {
             let message = format!("{}: instructions stand before the first block", block.header());
             diagnostics.push(Diagnostic::new(Code::Block, place, message).related(outside, "this one, for example"));

@@ -214,7 +214,12 @@ fn address(piece: Piece<'_>) -> Outcome<Address> {
 }
 
 /// Reads a list of points and sets their bits; every bad item is reported.
-fn points(word: Piece<'_>, list: Piece<'_>, targets: &mut Targets<'_>, field: fn(&mut Settings, Area) -> Option<&mut u8>) {
+fn points(
+    word: Piece<'_>,
+    list: Piece<'_>,
+    targets: &mut Targets<'_>,
+    field: fn(&mut Settings, Area) -> Option<&mut u8>,
+) {
     if list.text.is_empty() {
         targets.diagnostics.push(*word.error("points are missing, such as I0.0-I0.5"));
         return;
@@ -276,10 +281,16 @@ fn retain(word: Piece<'_>, list: Piece<'_>, targets: &mut Targets<'_>) {
         return;
     }
     for item in ranges(list) {
-        match item.and_then(|(item, first, last)| retained(item, first, last)) {
-            Ok(range) => targets.program.retained.push(range),
-            Err(diagnostic) => targets.diagnostics.push(*diagnostic),
-        }
+        let outcome = item.and_then(|(item, first, last)| {
+            let range = retained(item, first, last)?;
+            if targets.program.retained.len() == usize::from(Retained::RANGES_MAX) {
+                let message = format!("{}: a program can retain {} ranges at most", item.text, Retained::RANGES_MAX);
+                return Err(Box::new(Diagnostic::new(Code::TooMany, item.span(), message)));
+            }
+            targets.program.retained.push(range);
+            Ok(())
+        });
+        targets.diagnostics.extend(outcome.err().map(|diagnostic| *diagnostic));
     }
 }
 
@@ -300,7 +311,9 @@ fn retained(item: Piece<'_>, first: Address, last: Address) -> Outcome<RetainedR
     let loses = |number: u16| u8::try_from(number).is_ok_and(|number| timer_family(number) != TimerFamily::Tonr);
     if let Some(number) = (from..=to).find(|&number| area == Area::T && loses(number)) {
         let help = "these are T0 to T31 and T64 to T95";
-        return Err(Box::new(item.error(format!("T{number} is no timer of TONR, and only those are retained")).help(help)));
+        return Err(Box::new(
+            item.error(format!("T{number} is no timer of TONR, and only those are retained")).help(help),
+        ));
     }
     Ok(RetainedRange { span: item.span(), range: Retained { area, first: from, count: to - from + len } })
 }

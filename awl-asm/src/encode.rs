@@ -1,6 +1,8 @@
 //! Turns a checked program into an image: header, tables, code, checksum. Finds no faults but size.
 
-use plc_isa::{CRC_LEN, Crc32, Encoded, Header, NAME_LEN_MAX, Op, Operand, SLOT_LEN, TimerResolution, timer_resolution};
+use plc_isa::{
+    CRC_LEN, Crc32, Encoded, Header, NAME_LEN_MAX, Op, Operand, SLOT_LEN, TimerResolution, timer_resolution,
+};
 
 use crate::address::Address;
 use crate::ast::Program;

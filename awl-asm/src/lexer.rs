@@ -11,6 +11,8 @@ pub(crate) struct Lexer<'a> {
     text: &'a str,
     bytes: &'a [u8],
     at: usize,
+    /// End of the block comment at the position, if it goes over a line end.
+    comment_end: usize,
     /// A block comment that the text ends in.
     pub(crate) unclosed_comment: Option<Span>,
 }
@@ -22,7 +24,7 @@ pub(crate) enum Ahead {
     End,
     /// A line end character.
     LineEnd,
-    /// A block comment went over a line end: what comes is on a new line.
+    /// A block comment over a line end: what follows it is on a new line.
     NewLine,
     /// A comment up to the end of the line.
     Comment,
@@ -45,7 +47,7 @@ pub(crate) enum Cut {
 
 impl<'a> Lexer<'a> {
     pub(crate) fn new(text: &'a str) -> Self {
-        Lexer { text, bytes: text.as_bytes(), at: 0, unclosed_comment: None }
+        Lexer { text, bytes: text.as_bytes(), at: 0, comment_end: 0, unclosed_comment: None }
     }
 
     pub(crate) fn position(&self) -> usize {
@@ -67,9 +69,12 @@ impl<'a> Lexer<'a> {
                 b',' => return Ahead::Comma,
                 b'/' if self.peek(1) == b'/' => return Ahead::Comment,
                 b'/' | b'(' if self.peek(1) == b'*' => {
-                    if self.block_comment() {
+                    let end = self.block_comment_end();
+                    if self.bytes.get(self.at..end).unwrap_or(&[]).iter().any(|&byte| is_line_end(byte)) {
+                        self.comment_end = end;
                         return Ahead::NewLine;
                     }
+                    self.at = end;
                 }
                 _ if blank_len(self.bytes, self.at) > 0 => {}
                 _ => return Ahead::Text,
@@ -77,27 +82,23 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// Steps over the one character that was announced.
+    /// Steps over what was announced: one character, or a comment over a line end.
     pub(crate) fn step(&mut self) {
-        if self.at < self.bytes.len() {
-            self.at += 1;
-        }
+        self.at = (self.at + 1).max(self.comment_end).min(self.bytes.len());
     }
 
-    /// Skips a block comment; true if it went over a line end.
-    fn block_comment(&mut self) -> bool {
+    /// Where the block comment at the position ends.
+    fn block_comment_end(&mut self) -> usize {
         let start = self.at;
         let close = if self.peek(0) == b'(' { "*)" } else { "*/" };
         let inside = self.bytes.get(start + 2..).unwrap_or(&[]);
-        let len = inside.windows(2).position(|pair| pair == close.as_bytes());
-        self.at = match len {
+        match inside.windows(2).position(|pair| pair == close.as_bytes()) {
             Some(len) => start + 2 + len + 2,
             None => {
                 self.unclosed_comment = Some(Span::new(start, start + 2));
                 self.bytes.len()
             }
-        };
-        self.bytes.get(start..self.at).unwrap_or(&[]).iter().any(|&byte| is_line_end(byte))
+        }
     }
 
     /// Everything up to the end of the line, which stays.
@@ -126,6 +127,8 @@ impl<'a> Lexer<'a> {
         let start = self.at;
         match self.peek(0) {
             b'=' => self.at += 1 + usize::from(self.is_immediate_output()),
+            // The end of a comment that never began.
+            b'*' if matches!(self.peek(1), b')' | b'/') => self.at += 2,
             b'+' | b'-' | b'*' | b'/' => {
                 self.at += 1;
                 self.word();

@@ -1,30 +1,29 @@
 //! The assembler as a library: AWL text to program image and back, with diagnostics. It never runs a program.
 
 pub mod address;
-pub mod ast;
-pub mod diagnostic;
-pub mod parser;
-pub mod render;
-pub mod source;
-pub mod symbols;
-mod blocks;
-mod directives;
-mod instructions;
-mod lexer;
-mod literal;
-mod mnemonics;
-mod resolve;
-mod suggest;
-
 pub mod assemble;
+pub mod ast;
+mod blocks;
 pub mod check;
+pub mod diagnostic;
+mod directives;
 pub mod disassemble;
 pub mod encode;
 pub mod files;
 pub mod hex;
+mod instructions;
+mod lexer;
 pub mod listing;
+mod literal;
 pub mod map;
+mod mnemonics;
+pub mod parser;
 pub mod plan;
+pub mod render;
+mod resolve;
 pub mod select;
+pub mod source;
+mod suggest;
+pub mod symbols;
 
 pub use address::Address;

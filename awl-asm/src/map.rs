@@ -36,7 +36,13 @@ fn places(image: &[u8], text: &mut String) {
         address += len;
     }
     for slot in plan.timers() {
-        let _ = writeln!(text, "  {:04X}  T{} ({} ms)", slot.address, slot.number, plc_isa::timer_resolution(slot.number).ms());
+        let _ = writeln!(
+            text,
+            "  {:04X}  T{} ({} ms)",
+            slot.address,
+            slot.number,
+            plc_isa::timer_resolution(slot.number).ms()
+        );
     }
     for slot in plan.counters() {
         let _ = writeln!(text, "  {:04X}  C{}", slot.address, slot.number);

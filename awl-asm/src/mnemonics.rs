@@ -253,7 +253,10 @@ mod tests {
     #[test]
     fn missing_is_only_what_is_missing() {
         for word in MISSING.split_ascii_whitespace() {
-            assert!(matches!(meaning(word), Some(Meaning::Missing(None))), "{word} exists, or stands twice in the lists");
+            assert!(
+                matches!(meaning(word), Some(Meaning::Missing(None))),
+                "{word} exists, or stands twice in the lists"
+            );
         }
         for (word, _) in MISSING_CONTACTS {
             assert!(matches!(meaning(word), Some(Meaning::Missing(Some(_)))), "{word}");

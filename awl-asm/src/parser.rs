@@ -52,8 +52,7 @@ impl Parser<'_> {
         loop {
             match self.lexer.ahead() {
                 Ahead::End => return,
-                Ahead::LineEnd | Ahead::Semicolon => self.lexer.step(),
-                Ahead::NewLine => {}
+                Ahead::LineEnd | Ahead::NewLine | Ahead::Semicolon => self.lexer.step(),
                 Ahead::Comment => {
                     let span = self.lexer.rest_of_line();
                     self.comment(span);
@@ -200,7 +199,8 @@ impl Parser<'_> {
 
     fn title_without_sign(&mut self, span: Span) {
         let text = span.text(self.text);
-        let diagnostic = Diagnostic::new(Code::Syntax, span, format!("{text}: the title of a network stands behind //"));
+        let diagnostic =
+            Diagnostic::new(Code::Syntax, span, format!("{text}: the title of a network stands behind //"));
         self.diagnostics.push(diagnostic.suggest(format!("// {text}")));
     }
 

@@ -1,0 +1,617 @@
+//! Tests of the whole front end: spellings that are accepted, and each diagnostic with its place.
+
+use std::fmt::Write as _;
+
+use super::*;
+use crate::ast::{Instruction, Value};
+
+fn source(text: &str) -> Source {
+    Source::new("t.awl", text).unwrap()
+}
+
+fn shown(instruction: &Instruction) -> String {
+    let mut text = instruction.mnemonic.to_owned();
+    text += instruction.relation.map_or("", |relation| relation.symbol());
+    for (index, operand) in instruction.operands.iter().enumerate() {
+        text += if index == 0 { " " } else { "," };
+        let _ = match &operand.value {
+            Value::Address(address) => write!(text, "{address}"),
+            Value::Constant(constant) if constant.is_pattern => write!(text, "16#{:X}", constant.value),
+            Value::Constant(constant) => write!(text, "{}", constant.value),
+            Value::Invalid => write!(text, "?"),
+        };
+    }
+    text
+}
+
+/// The statements one after the other, as the parser understood them.
+fn statements(program: &Program) -> String {
+    let statements = program.statements.iter().map(|statement| match statement {
+        Statement::Network(network) => format!("NETWORK {}:{}", network.number, network.title),
+        Statement::Instruction(instruction) => shown(instruction),
+    });
+    statements.collect::<Vec<_>>().join("; ")
+}
+
+fn place(source: &Source, span: Span) -> String {
+    let (line, column) = source.position(span.start as usize);
+    format!("{line}:{column} `{}`", span.text(&source.text))
+}
+
+fn diagnostics(source: &Source, diagnostics: &[Diagnostic]) -> Vec<String> {
+    let shown = diagnostics.iter().map(|diagnostic| {
+        let mut text = format!("{} {}: {}", diagnostic.code.text(), place(source, diagnostic.span), diagnostic.message);
+        if let Some(suggestion) = &diagnostic.suggestion {
+            text += &format!(" -> {suggestion}");
+        }
+        for (span, words) in &diagnostic.related {
+            text += &format!(" ({words}: {})", place(source, *span));
+        }
+        text
+    });
+    shown.collect()
+}
+
+/// Parses a text without errors.
+#[track_caller]
+fn good_program(text: &str) -> Program {
+    let source = source(text);
+    let (program, found) = parse(&source, Vec::new());
+    assert_eq!(diagnostics(&source, &found), [""; 0], "{text}");
+    program
+}
+
+#[track_caller]
+fn good(text: &str, expected: &str) {
+    assert_eq!(statements(&good_program(text)), expected, "{text}");
+}
+
+#[track_caller]
+fn bad(text: &str, expected: &[&str]) {
+    let source = source(text);
+    let (_, found) = parse(&source, Vec::new());
+    assert_eq!(diagnostics(&source, &found), expected, "{text}");
+}
+
+/// What was understood of a text with errors.
+fn understood(text: &str) -> String {
+    statements(&parse(&source(text), Vec::new()).0)
+}
+
+#[test]
+fn spellings_of_instructions() {
+    for text in ["LDW>= 5,MW0", "LDW >= 5 , MW0", "LDW>=5,MW0", "ldw>=5 mw0", "\tLdW\t>=\t5\tMW0\t", "LDW>=+5,MW0;"] {
+        good(text, "LDW>= 5,MW0");
+    }
+    for text in ["=Q0.0", "= Q0.0", "=A0.0", "=   q0.0 ;", "=Q0.0// x", "= (* a *) Q0.0 /* b */"] {
+        good(text, "= Q0.0");
+    }
+    for text in ["+I 5,VW0", "+I +5, VW0", "+i 5 vw0", "+I + 5,VW0", "+I\t+5\tVW0"] {
+        good(text, "+I 5,VW0");
+    }
+    good("-I -5 VW0\n/I 2,VW0 // half\n*I 3,VW0\n*i VW2 VW0", "-I -5,VW0; /I 2,VW0; *I 3,VW0; *I VW2,VW0");
+    good("S Q0.0,1\nR Q0.0 1\ns a0.0 , 1\nA A0.0\nO A0.1", "S Q0.0,1; R Q0.0,1; S Q0.0,1; A Q0.0; O Q0.1");
+    good("MOVW Ain0,MW3\nMOVW aiw2 MW3\nMOVW AEW4,MW3", "MOVW Ain0,MW3; MOVW AIW2,MW3; MOVW AIW4,MW3");
+    good("U E0.0\nUN A0.1\nUW= EW0,5\nub<> 5,MB0", "A I0.0; AN Q0.1; AW= IW0,5; AB<> 5,MB0");
+    good("TOFF T37,5\nTON T38 +5\nCTU Z1,3\nLD T38", "TOF T37,5; TON T38,5; CTU C1,3; LD T38");
+    good("LD I0.0; A I0.1; = Q0.0;\n;;\nNOT", "LD I0.0; A I0.1; = Q0.0; NOT");
+    good("ON I0.0\nEU\nLDS 3\nJMP 1\nLBL 1\nNOP 0", "ON I0.0; EU; LDS 3; JMP 1; LBL 1; NOP 0");
+    good("LD SM0.1\rA IX0.0\r\nO MX1.1", "LD SM0.1; A I0.0; O M1.1");
+    good("LD\u{A0}I0.0\u{1A}", "LD I0.0");
+    good("", "");
+}
+
+#[test]
+fn relations() {
+    for relation in ["=", "<>", "<", ">", "<=", ">="] {
+        good(&format!("LDB{relation}MB0,5"), &format!("LDB{relation} MB0,5"));
+    }
+    bad("LDW== MW0,5", &["E0002 1:4 `==`: ==: no such comparison; there are = <> < > <= >= -> ="]);
+    bad("LDW=>MW0,5", &["E0002 1:4 `=>`: =>: no such comparison; there are = <> < > <= >= -> >="]);
+    bad("AW !=MW0,5", &["E0002 1:4 `!=`: !=: no such comparison; there are = <> < > <= >= -> <>"]);
+    bad("LDW MW0,5", &["E0002 1:1 `LDW`: LDW: the comparison is missing"]);
+    bad("LD>= 5,MW0", &["E0001 1:1 `LD>=`: LD>=: no such instruction -> LDW>="]);
+    bad("XDW>= 5,MW0", &["E0001 1:1 `XDW>=`: XDW>=: no such instruction -> LDW>="]);
+    bad("MOVW= 5,MW0", &["E0001 1:1 `MOVW=`: MOVW=: no such instruction"]);
+    assert_eq!(understood("LDW MW0,5\nLD>= 5,MW0"), "LDW= MW0,5; LDW= ?,?");
+}
+
+#[test]
+fn constants() {
+    good("MOVW 16#FF,MW0\nMOVW 2#1010_0101 MW0", "MOVW 16#FF,MW0; MOVW 16#A5,MW0");
+    good("MOVB 'A',MB0\nMOVW 'AB' MW0\nMOVB '/',MB0", "MOVB 16#41,MB0; MOVW 16#4142,MW0; MOVB 16#2F,MB0");
+    good("MOVW '//',MW0\nMOVW '\"\"' MW0\nMOVB '$'' , MB0", "MOVW 16#2F2F,MW0; MOVW 16#2222,MW0; MOVB 16#27,MB0");
+    good("MOVB B#'A',MB0\nMOVW W#16#FFFF,MW0\nMOVB ON,MB0", "MOVB 16#41,MB0; MOVW 16#FFFF,MW0; MOVB 1,MB0");
+    good("MOVW 99999999999999999999,MW0", "MOVW 9223372036854775807,MW0");
+    bad("MOVW 16#G1,MW0", &["E0006 1:6 `16#G1`: 16#G1: G is no hexadecimal digit"]);
+    bad("MOVW MW0, 5x", &["E0006 1:11 `5x`: 5x: x is no digit"]);
+    bad("MOVW 1.5,MW0", &["E0022 1:6 `1.5`: 1.5: real numbers are not supported yet"]);
+    bad("MOVW 'A,MW0", &["E0002 1:6 `'A,MW0`: 'A,MW0: the quote is not closed"]);
+    bad("MOVW DW#16#5,MW0", &["E0022 1:6 `DW#16#5`: DW#16#5: double words are not supported yet"]);
+}
+
+#[test]
+fn addresses() {
+    bad("= Q0.9", &["E0005 1:3 `Q0.9`: Q0.9: a byte has bits 0 to 7 -> Q1.1"]);
+    bad("MOVW AC0,VW0", &["E0022 1:6 `AC0`: AC0: accumulators are not supported yet"]);
+    bad(
+        "MOVW *AC1,&VB0",
+        &[
+            "E0022 1:6 `*AC1`: *AC1: pointers are not supported yet",
+            "E0022 1:11 `&VB0`: &VB0: pointers are not supported yet",
+        ],
+    );
+    bad("LD #x", &["E0022 1:4 `#x`: #x: local variables are not supported yet"]);
+    bad("LD IO.0", &["E0007 1:4 `IO.0`: IO.0: no such symbol -> I0.0"]);
+    bad("= QO.1", &["E0007 1:3 `QO.1`: QO.1: no such symbol -> Q0.1"]);
+    bad("LD I0.O", &["E0007 1:4 `I0.O`: I0.O: no such symbol -> I0.0"]);
+    bad("LD I0,0", &["E0005 1:4 `I0,0`: I0,0: a point stands before the number of the bit -> I0.0"]);
+    bad("S Q0,0,1", &["E0005 1:3 `Q0,0`: Q0,0: a point stands before the number of the bit -> Q0.0"]);
+    bad("LD I 0.0", &["E0005 1:4 `I 0.0`: I 0.0: no blank stands inside an address -> I0.0"]);
+    bad("LD M1.", &["E0005 1:4 `M1.`: M1.: an address ends with its number -> M1.0"]);
+    bad("LD %I0.0", &["E0007 1:4 `%I0.0`: %I0.0: no such symbol -> I0.0"]);
+    bad("LD ?", &["E0002 1:4 `?`: ?: neither an address nor a constant nor a symbol"]);
+    assert_eq!(understood("LD I0,0\nS Q0,0,1\nTON ?,5"), "LD ?; S ?,1; TON ?,5");
+}
+
+#[test]
+fn commas() {
+    bad("S Q0.0,,1", &["E0002 1:8 `,`: ,: an operand is missing before the comma"]);
+    bad("S ,Q0.0,1", &["E0002 1:3 `,`: ,: an operand is missing before the comma"]);
+    bad("S Q0.0,", &["E0002 1:7 `,`: ,: an operand is missing behind the comma"]);
+    bad(", LD I0.0", &["E0002 1:1 `,`: ,: an instruction begins with its mnemonic"]);
+    assert_eq!(understood("S Q0.0,"), "S Q0.0,?");
+}
+
+#[test]
+fn unknown_mnemonics() {
+    let meant = |wrong: &str, right: &str| {
+        bad(wrong, &[&format!("E0001 1:1 `{wrong}`: {wrong}: no such instruction -> {right}")]);
+    };
+    for (wrong, right) in [
+        ("OUT", "="),
+        ("and", "A"),
+        ("OR", "O"),
+        ("ANDN", "AN"),
+        ("UND", "A"),
+        ("SET", "S"),
+        ("RST", "R"),
+        ("RES", "R"),
+        ("ADD_I", "+I"),
+        ("ADDI", "+I"),
+        ("MOV", "MOVW"),
+        ("TIM", "TON"),
+        ("JP", "JMP"),
+        ("MVOW", "MOVW"),
+        ("TOON", "TON"),
+        ("NETWROK", "NETWORK"),
+        ("LDI0.0", "LD I0.0"),
+        ("SQ0.0", "S Q0.0"),
+        ("TONT37", "TON T37"),
+        ("JMP1", "JMP 1"),
+    ] {
+        meant(wrong, right);
+    }
+    bad("XYZZY I0.9,,", &["E0001 1:1 `XYZZY`: XYZZY: no such instruction"]);
+    bad("\n  Motör ?", &["E0001 2:3 `Motör`: Motör: no such instruction"]);
+    bad("M1: LD I0.0", &["E0001 1:1 `M1:`: M1:: no such instruction"]);
+    bad("\"x\" = 5", &["E0002 1:1 `\"x\"`: \"x\": an instruction begins with its mnemonic"]);
+    bad(") x", &["E0002 1:1 `)`: ): an instruction begins with its mnemonic"]);
+    assert_eq!(understood("LDX I0.0\nAND Q0.0\nXYZZY\n= Q0.0"), "LD ?; A ?; = Q0.0");
+}
+
+#[test]
+fn missing_instructions() {
+    for word in ["CALL", "LDI", "LDD>=", "AR=", "OR=", "LDS=", "=I", "+R", "/D", "SRB", "fnd<>", "AENO", "LSCR", "UD<"]
+    {
+        let message = format!("E0022 1:1 `{word}`: {word} is an S7-200 instruction that uno200 does not have yet");
+        bad(&format!("{word} VD0,*AC1"), &[&message]);
+    }
+    assert_eq!(understood("LDI I0.0\nLDD>= VD0,5\nCALL SBR0\nOR= VD0,VD4"), "LD ?; LDW= ?,?; OW= ?,?");
+}
+
+#[test]
+fn comments() {
+    good("/* a\n b */ LD I0.0 (* x\n *) = Q0.0", "LD I0.0; = Q0.0");
+    good("NOT /* a\n b */ LD I0.0\nNETWORK 2 (*\n*) = Q0.0", "NOT; LD I0.0; NETWORK 2:; = Q0.0");
+    good("S Q0.0, (* how\n many *) // ?\nNOT".replace("0, ", "0,1").as_str(), "S Q0.0,1; NOT");
+    bad(
+        "LDW /*\n*/ >= 5,MW0",
+        &[
+            "E0002 1:1 `LDW`: LDW: the comparison is missing",
+            "E0002 2:4 `>=`: >=: an instruction begins with its mnemonic",
+        ],
+    );
+    good("// LD I0.0\nLD I0.0 // ( /* not open\n= Q0.0", "LD I0.0; = Q0.0");
+    bad("LD I0.0\n= Q0.0 (* x\nLD", &["E0002 2:8 `(*`: (*: the comment is not closed"]);
+    bad("/*", &["E0002 1:1 `/*`: /*: the comment is not closed"]);
+    bad("*) LD", &["E0002 1:1 `*)`: *): no comment is open here"]);
+}
+
+#[test]
+fn networks() {
+    let program = good_program("NETWORK\nLD I0.0\nNetwork 7 // Title\n= Q0.0\nnetwork\n// first\n// second\nEU");
+    assert!(program.has_networks);
+    assert_eq!(statements(&program), "NETWORK 1:; LD I0.0; NETWORK 7:Title; = Q0.0; NETWORK 8:first; EU");
+    good("NETWORK 1 //NETWORK TITLE (one line)\nNETWORK 2 ;", "NETWORK 1:NETWORK TITLE (one line); NETWORK 2:");
+    good("NETWORK 3\nLD I0.0 // no title\n// none either", "NETWORK 3:; LD I0.0");
+    let span = |text: &str| match &good_program(text).statements[0] {
+        Statement::Network(network) => network.span.text(text).to_owned(),
+        Statement::Instruction(_) => String::new(),
+    };
+    assert_eq!(span("Network 1 // x \nLD I0.0"), "Network 1 // x");
+    assert_eq!(span("Network 12  \nLD I0.0"), "Network 12");
+    assert_eq!(span("Network\nLD I0.0"), "Network");
+    bad(
+        "NETWORK 1 Motor an",
+        &["E0002 1:11 `Motor an`: Motor an: the title of a network stands behind // -> // Motor an"],
+    );
+    bad("NETWORK Motor", &["E0002 1:9 `Motor`: Motor: the title of a network stands behind // -> // Motor"]);
+    assert!(!good_program("LD I0.0").has_networks);
+}
+
+const EXPORT: &str = "\
+ORGANIZATION_BLOCK MAIN:OB1\r
+TITLE=PROGRAM COMMENTS: don't (* panic\r
+// comment\r
+VAR\r
+END_VAR\r
+BEGIN\r
+Network 1 // First\r
+// Network Comment\r
+LD     SM0.0\r
+=      Q0.0\r
+END_ORGANIZATION_BLOCK\r
+SUBROUTINE_BLOCK SBR_0:SBR0\r
+TITLE=SUBROUTINE COMMENTS\r
+VAR_INPUT\r
+x:BOOL; // input\r
+END_VAR\r
+BEGIN\r
+Network 1 // Network Title\r
+// Network Comment\r
+END_SUBROUTINE_BLOCK\r
+INTERRUPT_BLOCK INT_0:INT0\r
+TITLE=INTERRUPT ROUTINE COMMENTS\r
+BEGIN\r
+Network 1 // Network Title\r
+END_INTERRUPT_BLOCK\r
+";
+
+#[test]
+fn exported_blocks() {
+    good(EXPORT, "NETWORK 1:First; LD SM0.0; = Q0.0");
+    good(&EXPORT.to_lowercase().replace("\r\n", "\n"), "NETWORK 1:first; LD SM0.0; = Q0.0");
+}
+
+#[test]
+fn blocks_with_content_are_refused_once() {
+    let text = EXPORT.replace("Network Title\r\n", "x\r\nLD I0.9\r\nFOO BAR\r\n");
+    bad(
+        &text,
+        &[
+            "E0022 12:1 `SUBROUTINE_BLOCK`: SUBROUTINE_BLOCK: such blocks are not supported yet",
+            "E0022 23:1 `INTERRUPT_BLOCK`: INTERRUPT_BLOCK: such blocks are not supported yet",
+        ],
+    );
+    assert_eq!(understood(&text), "NETWORK 1:First; LD SM0.0; = Q0.0");
+    bad(
+        "DATA_BLOCK x\nBEGIN\nVB0 1, 2\nEND_DATA_BLOCK",
+        &["E0022 1:1 `DATA_BLOCK`: DATA_BLOCK: such blocks are not supported yet"],
+    );
+    bad(
+        &EXPORT.replacen("END_VAR", "x:BOOL;\nEND_VAR", 1),
+        &["E0022 4:1 `VAR`: VAR: local variables are not supported yet"],
+    );
+}
+
+#[test]
+fn block_structure_errors() {
+    bad(
+        "ORGANIZATION_BLOCK M:OB1\nBEGIN\nLD I0.0",
+        &["E0021 1:1 `ORGANIZATION_BLOCK`: ORGANIZATION_BLOCK: END_ORGANIZATION_BLOCK is missing"],
+    );
+    bad(
+        "BEGIN\nTITLE=x\nVAR\nEND_VAR\nEND_VAR\nEND_DATA_BLOCK",
+        &[
+            "E0021 1:1 `BEGIN`: BEGIN: no block is open",
+            "E0021 2:1 `TITLE`: TITLE: no block is open",
+            "E0021 3:1 `VAR`: VAR: no block is open",
+            "E0021 5:1 `END_VAR`: END_VAR: no VAR section is open",
+            "E0021 6:1 `END_DATA_BLOCK`: END_DATA_BLOCK: no block is open",
+        ],
+    );
+    bad(
+        "ORGANIZATION_BLOCK M:OB1\nLD I0.0\nBEGIN\nVAR\nEND_SUBROUTINE_BLOCK\nLD I0.0",
+        &[
+            "E0021 2:1 `LD`: BEGIN is missing before the first instruction (of this block: 1:1 `ORGANIZATION_BLOCK`)",
+            "E0021 3:1 `BEGIN`: BEGIN: the block has already begun",
+            "E0021 4:1 `VAR`: VAR: the block has already begun",
+            "E0021 4:1 `VAR`: VAR: END_VAR is missing",
+            "E0021 5:1 `END_SUBROUTINE_BLOCK`: END_SUBROUTINE_BLOCK: the open block is another \
+         -> END_ORGANIZATION_BLOCK (the open block: 1:1 `ORGANIZATION_BLOCK`)",
+            "E0021 6:1 `LD`: an instruction stands outside of the blocks",
+        ],
+    );
+    bad(
+        "LD I0.0\nORGANIZATION_BLOCK M:OB1\nBEGIN x\nORGANIZATION_BLOCK N:OB1\nBEGIN\nEND_ORGANIZATION_BLOCK",
+        &[
+            "E0021 2:1 `ORGANIZATION_BLOCK`: ORGANIZATION_BLOCK: instructions stand before the first block \
+         (this one, for example: 1:1 `LD`)",
+            "E0002 3:7 `x`: x: nothing stands behind BEGIN",
+            "E0021 4:1 `ORGANIZATION_BLOCK`: ORGANIZATION_BLOCK: END_ORGANIZATION_BLOCK is missing before it \
+         (this block is still open: 2:1 `ORGANIZATION_BLOCK`)",
+            "E0021 4:1 `ORGANIZATION_BLOCK`: ORGANIZATION_BLOCK: a program has only one \
+         (the first one: 2:1 `ORGANIZATION_BLOCK`)",
+        ],
+    );
+}
+
+#[test]
+fn symbols_are_known_everywhere() {
+    let text = "LD start\nA \"START\"\n= Größe\nMOVW \"a b\",MW0\n//# symbol Start I0.0 // green\n\
+                \t//# symbol größe Q0.0  lamp on the left\n//#symbol \"a b\" 16#FF\n";
+    let program = good_program(text);
+    assert_eq!(statements(&program), "LD I0.0; A I0.0; = Q0.0; MOVW 16#FF,MW0");
+    let comments: Vec<_> = program.symbols.iter().map(|symbol| symbol.comment.as_str()).collect();
+    assert_eq!(comments, ["green", "lamp on the left", ""]);
+    good("//# symbol M1 Q0.0\n//# symbol S1 I0.1\nLD S1\n= M1", "LD I0.1; = Q0.0");
+}
+
+#[test]
+fn symbol_errors() {
+    bad(
+        "//# symbol Start I0.0\nLD Strat\nLD \"Strat\"\nLD Nothing\n= \"x",
+        &[
+            "E0007 2:4 `Strat`: Strat: no such symbol -> Start",
+            "E0007 3:4 `\"Strat\"`: \"Strat\": no such symbol -> \"Start\"",
+            "E0007 4:4 `Nothing`: Nothing: no such symbol",
+            "E0002 5:3 `\"x`: \"x: the quote is not closed",
+        ],
+    );
+    bad(
+        "//# symbol\n//# symbol x\n//# symbol I0.0 I0.1\n//# symbol y I0.9\n//# symbol z VD0\n//# symbol ON 1\nLD y",
+        &[
+            "E0008 1:5 `symbol`: symbol: //# symbol is followed by a name and an address",
+            "E0008 2:12 `x`: x: //# symbol is followed by a name and an address",
+            "E0008 3:12 `I0.0`: I0.0: a symbol cannot be named like an address",
+            "E0008 4:14 `I0.9`: I0.9: a byte has bits 0 to 7 -> I1.1",
+            "E0022 5:14 `VD0`: VD0: double words are not supported yet",
+            "E0008 6:12 `ON`: ON: a symbol cannot be named like a constant",
+        ],
+    );
+    bad(
+        "//# symbol a I0.0\n//# symbol A I0.1\n//# symbol A I0.0",
+        &["E0008 2:12 `A`: A: is already I0.0 (first defined here: 1:12 `a`)"],
+    );
+}
+
+#[test]
+fn symbols_of_files() {
+    let (symbols, found) = crate::symbols::load(&source("x,I0.0\nTotal,VD0\ny,I0.1\ny2,I0.1"));
+    assert!(found.is_empty());
+    let mut doubled = symbols.clone();
+    doubled.extend(crate::symbols::load(&source("Y,I0.2")).0);
+    let program = source("LD x\nMOVW total,MW0\nA y\n//# symbol y2 I0.3\n");
+    let (parsed, found) = parse(&program, doubled);
+    assert_eq!(statements(&parsed), "LD I0.0; MOVW ?,MW0; A ?");
+    assert_eq!(
+        diagnostics(&program, &found),
+        [
+            "E0022 2:6 `total`: total: the symbol stands for something that uno200 does not have yet",
+            "E0008 3:3 `y`: y: symbol files give it different values",
+            "E0008 4:12 `y2`: y2: is already I0.1",
+        ]
+    );
+}
+
+#[test]
+fn settings() {
+    let program = good_program(
+        "//# pullup I0.0-I0.2, I0.5\n  //#invert I0.3, Q0.0 - Q0.4 // relays\n//# WATCHDOG 2 s\n//# scan 10ms\n\
+         //# name \"Station 1\"\n//################\n//#1 is a comment\n//#\n// # pullup x\nLD I0.0 //# foo",
+    );
+    let settings = program.settings;
+    assert_eq!((settings.pullup, settings.invert_inputs, settings.invert_outputs), (0b100111, 0b1000, 0b11111));
+    assert_eq!((settings.watchdog_ms, settings.scan_ms), (2000, 10));
+    assert_eq!(program.name.as_deref(), Some("Station 1"));
+    assert_eq!(good_program("//# name Station 1 // x").name.as_deref(), Some("Station 1"));
+    assert_eq!(good_program("//# scan 0ms").settings.scan_ms, 0);
+}
+
+#[test]
+fn retained_ranges() {
+    let program = good_program("//# retain VB0-VB31, C0-C9, T0-T3, MB0-MB13\n//# retain VW40, VW50-VW52, C12, T64");
+    let shown: Vec<_> = program
+        .retained
+        .iter()
+        .map(|retained| format!("{}{}+{}", retained.range.area.name(), retained.range.first, retained.range.count))
+        .collect();
+    assert_eq!(shown, ["V0+32", "C0+10", "T0+4", "M0+14", "V40+2", "V50+4", "C12+1", "T64+1"]);
+    bad(
+        "//# retain T30-T33, VB5-VB1, I0.0, VB0-VW2, VB0-C1, VB1-",
+        &[
+            "E0020 1:12 `T30-T33`: T30-T33: T32 is no timer of TONR, and only those are retained",
+            "E0020 1:21 `VB5-VB1`: VB5-VB1: a range begins with its lower address",
+            "E0020 1:30 `I0.0`: I0.0: cannot be retained",
+            "E0020 1:36 `VB0-VW2`: VB0-VW2: a range goes from one address to another of the same kind",
+            "E0020 1:45 `VB0-C1`: VB0-C1: a range goes from one address to another of the same kind",
+            "E0020 1:57 ``: an address is missing here",
+        ],
+    );
+}
+
+#[test]
+fn setting_errors() {
+    bad(
+        "//# pulup I0.0\n//# pullup\n//# pullup I0.6, Q0.0, IB0, I0.8, I0.x\n//# invert Q0.4-Q1.0, M0.0",
+        &[
+            "E0020 1:5 `pulup`: pulup: no such setting -> pullup",
+            "E0020 2:5 `pullup`: pullup: points are missing, such as I0.0-I0.5",
+            "E0020 3:12 `I0.6`: I0.6: the Uno has no pin for it",
+            "E0020 3:18 `Q0.0`: Q0.0: pullup is for inputs, not for Q",
+            "E0020 3:24 `IB0`: IB0: only single inputs and outputs such as I0.0 and Q0.0 have pins",
+            "E0005 3:29 `I0.8`: I0.8: a byte has bits 0 to 7 -> I1.0",
+            "E0020 3:35 `I0.x`: I0.x: is no address",
+            "E0020 4:12 `Q0.4-Q1.0`: Q0.4-Q1.0: the Uno has no pin for it",
+            "E0020 4:23 `M0.0`: M0.0: only single inputs and outputs such as I0.0 and Q0.0 have pins",
+        ],
+    );
+    bad(
+        "//# watchdog 5\n//# watchdog 0ms\n//# scan 61s\n//# scan\n//# scan 5min\n//# scan ms",
+        &[
+            "E0020 1:14 `5`: 5: a time has a unit, ms or s -> 5ms",
+            "E0020 2:14 `0ms`: 0ms: the time for watchdog is 1 to 60000 ms",
+            "E0020 3:10 `61s`: 61s: the time for scan is 0 to 60000 ms",
+            "E0020 4:5 `scan`: scan: a time is missing, such as 500ms",
+            "E0020 5:10 `5min`: 5min: is no time; write a whole number with ms or s",
+            "E0020 6:10 `ms`: ms: is no time; write a whole number with ms or s",
+        ],
+    );
+    bad(
+        "//# scan 5ms\n//# scan 6ms\n//# name a\n//# name b",
+        &[
+            "E0020 2:5 `scan`: scan: is already set (first set here: 1:5 `scan 5ms`)",
+            "E0020 4:5 `name`: name: is already set (first set here: 3:5 `name a`)",
+        ],
+    );
+    bad(
+        "//# name\n//# name \"x\n//# name ä\n//# name 1234567890123456789012345",
+        &[
+            "E0020 1:5 `name`: name: a name is missing",
+            "E0020 2:10 `\"x`: \"x: the quote is not closed",
+            "E0020 3:10 `ä`: ä: \\u{e4} cannot stand in a name, only printable ASCII",
+            "E0020 4:10 `1234567890123456789012345`: 1234567890123456789012345: a name has at most 24 characters",
+        ],
+    );
+}
+
+#[test]
+fn spans() {
+    let text = "  LDW >= 5 , MW0 ; // x";
+    let program = good_program(text);
+    let Statement::Instruction(instruction) = &program.statements[0] else { panic!() };
+    assert_eq!(instruction.mnemonic_span.text(text), "LDW >=");
+    assert_eq!(instruction.span.text(text), "LDW >= 5 , MW0");
+    assert_eq!(instruction.operands.iter().map(|o| o.span.text(text)).collect::<Vec<_>>(), ["5", "MW0"]);
+}
+
+#[test]
+fn all_errors_in_one_run_and_in_order() {
+    let text = "\u{FEFF}";
+    let bytes = format!("{text}LD I0.9\r\n\tFOO\r\n= Motor\r\nMOVW 1.5,,VW0\r\n");
+    let source = Source::from_bytes("t.awl", bytes.as_bytes()).unwrap();
+    let (_, found) = parse(&source, Vec::new());
+    assert_eq!(
+        diagnostics(&source, &found),
+        [
+            "E0005 1:4 `I0.9`: I0.9: a byte has bits 0 to 7 -> I1.1",
+            "E0001 2:2 `FOO`: FOO: no such instruction -> FOR",
+            "E0007 3:3 `Motor`: Motor: no such symbol",
+            "E0022 4:6 `1.5`: 1.5: real numbers are not supported yet",
+            "E0002 4:10 `,`: ,: an operand is missing before the comma",
+        ]
+    );
+}
+
+/// A small generator: the same texts in every run.
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, bound: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 33) as usize % bound.max(1)
+    }
+}
+
+#[test]
+fn no_text_panics() {
+    let pieces = [
+        "LD",
+        "I0.0",
+        "= ",
+        "Q0.",
+        "\n",
+        "\r",
+        "\r\n",
+        " ",
+        "\t",
+        ",",
+        ";",
+        "//",
+        "//#",
+        "/*",
+        "*/",
+        "(*",
+        "*)",
+        "'",
+        "\"",
+        "$",
+        "symbol",
+        "pullup",
+        "retain",
+        "name",
+        "scan",
+        "VB0-VB",
+        "-",
+        "ä",
+        "\u{A0}",
+        "€",
+        "中",
+        "NETWORK",
+        "TITLE=",
+        "ORGANIZATION_BLOCK",
+        "BEGIN",
+        "END_ORGANIZATION_BLOCK",
+        "VAR",
+        "SUBROUTINE_BLOCK",
+        "LDW",
+        ">=",
+        "16#",
+        "2#",
+        "5",
+        "+I",
+        "/I",
+        "*I",
+        "&",
+        "*AC1",
+        "#",
+        "%",
+        ".",
+        "9999999999",
+        "S",
+        "OR=",
+        "é",
+        "\0",
+        "\u{1A}",
+        "\u{FEFF}",
+        "E",
+        "AIW",
+        "Ain",
+    ];
+    let mut random = Random(7);
+    for _ in 0..6000 {
+        let mut text = if random.below(4) == 0 { EXPORT.to_owned() } else { String::new() };
+        for _ in 0..random.below(30) {
+            let mut at = random.below(text.len() + 1);
+            while !text.is_char_boundary(at) {
+                at -= 1;
+            }
+            match random.below(5) {
+                0 if !text.is_empty() => drop(text.drain(at..).next()),
+                _ => text.insert_str(at, pieces[random.below(pieces.len())]),
+            }
+        }
+        let source = source(&text);
+        let (symbols, found) = crate::symbols::load(&source);
+        let (_, more) = parse(&source, symbols);
+        for diagnostic in found.iter().chain(&more) {
+            assert!(
+                text.get(diagnostic.span.start as usize..diagnostic.span.end as usize).is_some(),
+                "{text:?} {diagnostic:?}"
+            );
+            crate::render::human(&source, diagnostic, false);
+            crate::render::json(&source, diagnostic);
+        }
+    }
+}

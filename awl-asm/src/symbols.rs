@@ -338,7 +338,10 @@ mod tests {
     fn headers_comments_and_blank_lines() {
         assert_eq!(good("Symbol\tAddress\tComment\nA1\tI0.0\t"), ["A1=I0.0="]);
         assert_eq!(good("// list\n\nSymbol,Adresse,Kommentar\n\n  // x\nM1,Q0.0"), ["M1=Q0.0="]);
-        assert_eq!(loaded("A,I0.0\nSymbol,Address").1, ["2:8 E0008 Address: a symbol stands for an address or a constant"]);
+        assert_eq!(
+            loaded("A,I0.0\nSymbol,Address").1,
+            ["2:8 E0008 Address: a symbol stands for an address or a constant"]
+        );
     }
 
     #[test]

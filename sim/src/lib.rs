@@ -4,6 +4,7 @@
 //! what happened comes out as a [`run::Outcome`] with a [`trace::Trace`].
 
 pub mod machine;
+pub mod open;
 pub mod operand;
 pub mod plant;
 pub mod problem;

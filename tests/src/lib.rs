@@ -1,5 +1,6 @@
-//! What the tests of all machines share: a naive evaluator of AWL, random programs, broken texts. Runs no machine.
+//! What the tests of all machines share: cases, a naive evaluator of AWL, random programs, broken texts.
 
+pub mod case;
 pub mod mutate;
 pub mod naive;
 pub mod random;

@@ -50,4 +50,3 @@ fn debian_cargo() -> Command {
     command.arg("build");
     command
 }
-

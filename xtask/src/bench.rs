@@ -31,7 +31,10 @@ pub fn run() -> Result<()> {
         missed += usize::from(!good);
         let sign = if figure.lower_is_better { "<=" } else { ">=" };
         let verdict = if good { "good" } else { "MISSED" };
-        println!("{:<44} {:>10.2} {:<22} budget {sign} {:<8} {verdict}", figure.name, figure.value, figure.unit, figure.budget);
+        println!(
+            "{:<44} {:>10.2} {:<22} budget {sign} {:<8} {verdict}",
+            figure.name, figure.value, figure.unit, figure.budget
+        );
         println!("    {}", figure.evidence);
     }
     ensure!(missed == 0, "{missed} budgets missed");
@@ -142,7 +145,7 @@ fn program_text(lines: usize) -> (String, usize) {
     let (mut written, mut instructions, mut network) = (0, 0, 0);
     while written < lines {
         network += 1;
-        let (byte, bit, timer) = (network % 32, network % 8, 37 + network % 27);
+        let (byte, bit, timer) = (network % 31, network % 8, 37 + network % 27);
         let _ = write!(
             text,
             "NETWORK {network} // station {network}\n// what it does, in a line of comment\n\
@@ -158,7 +161,8 @@ fn program_text(lines: usize) -> (String, usize) {
     (text, instructions)
 }
 
-const SYMBOLS: &str = "//# symbol \"Stop 0\" I0.0\n//# symbol \"Stop 1\" I0.1\n//# symbol \"Stop 2\" I0.2\n//# symbol \"Stop 3\" I0.3\n";
+const SYMBOLS: &str =
+    "//# symbol \"Stop 0\" I0.0\n//# symbol \"Stop 1\" I0.1\n//# symbol \"Stop 2\" I0.2\n//# symbol \"Stop 3\" I0.3\n";
 
 /// Best time for a text of so many lines, and what was assembled. The text is larger than the board: that
 /// one error is expected, and nothing else.
@@ -191,7 +195,9 @@ fn assembler() -> Result<Figure> {
         unit: "million lines/s",
         budget: budgets::ASSEMBLER_LINES_PER_SECOND_MIN / 1e6,
         lower_is_better: false,
-        evidence: format!("{lines} lines, {instructions} instructions encoded, in {best:.4} s, best of {ROUNDS} rounds"),
+        evidence: format!(
+            "{lines} lines, {instructions} instructions encoded, in {best:.4} s, best of {ROUNDS} rounds"
+        ),
     })
 }
 

@@ -58,7 +58,7 @@ fn page() -> String {
 fn row(instruction: &Instruction, text: &mut String) {
     let relation = if instruction.has_relation() { "x" } else { "" };
     let also: Vec<String> = instruction.mnemonics.iter().skip(1).map(|name| format!("`{name}{relation}`")).collect();
-    let forms: Vec<String> = instruction.forms.iter().map(|form| form.len().to_string()).collect();
+    let forms: Vec<String> = instruction.forms.iter().map(|form| form.encoded_len().to_string()).collect();
     let boxed = if instruction.power_flow == PowerFlow::Needed { " Box." } else { "" };
     let stack = instruction.stack;
     let _ = writeln!(

@@ -18,7 +18,9 @@ pub fn ensure_installed(packages: &[&str]) -> Result<()> {
     }
     let names = missing.join(" ");
     if !Path::new("/etc/debian_version").exists() || !is_root() {
-        bail!("missing packages: {names}\n  Debian: sudo apt-get install --no-install-recommends {names}\n  or leave this part out with --host-only");
+        bail!(
+            "missing packages: {names}\n  Debian: sudo apt-get install --no-install-recommends {names}\n  or leave this part out with --host-only"
+        );
     }
     println!("installing {names}");
     run(Command::new("apt-get").args(["-qq", "update"]))?;

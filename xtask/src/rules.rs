@@ -41,7 +41,10 @@ pub fn check() -> Result<()> {
 }
 
 fn tracked_files() -> Result<Vec<String>> {
-    let output = Command::new("git").args(["ls-files", "--cached", "--others", "--exclude-standard"]).current_dir(root()).output();
+    let output = Command::new("git")
+        .args(["ls-files", "--cached", "--others", "--exclude-standard"])
+        .current_dir(root())
+        .output();
     let output = output.context("cannot start git")?;
     ensure!(output.status.success(), "git ls-files failed");
     Ok(String::from_utf8_lossy(&output.stdout).lines().map(str::to_string).collect())
@@ -77,7 +80,8 @@ fn file_breaches(file: &str, text: &str) -> Vec<String> {
 }
 
 fn dependency_breaches() -> Result<Vec<String>> {
-    let output = cargo().args(["metadata", "--no-deps", "--format-version", "1"]).output().context("cannot start cargo")?;
+    let output =
+        cargo().args(["metadata", "--no-deps", "--format-version", "1"]).output().context("cannot start cargo")?;
     ensure!(output.status.success(), "cargo metadata failed");
     let metadata: Value = serde_json::from_slice(&output.stdout)?;
     let mut breaches = Vec::new();

@@ -13,7 +13,9 @@ pub fn run(host_only: bool) -> Result<()> {
         ("format", || process::run(cargo().args(["fmt", "--all", "--check"]))),
         ("rules of the repository", rules::check),
         ("generated pages", || docs::run(true)),
-        ("lints", || process::run(cargo().args(["clippy", "--quiet", "--workspace", "--all-targets", "--", "-D", "warnings"]))),
+        ("lints", || {
+            process::run(cargo().args(["clippy", "--quiet", "--workspace", "--all-targets", "--", "-D", "warnings"]))
+        }),
         ("tests", || process::run(cargo().args(["test", "--quiet", "--workspace"]))),
         ("budgets", bench::gate),
         ("board compiler", avr::check),

@@ -83,11 +83,9 @@ fn find_loops(program: &Program, code: &[Selected], control: &mut Control, diagn
                         control.outermost.push((start, index));
                     }
                 }
-                None => diagnostics.push(Diagnostic::new(
-                    Code::LoopPairing,
-                    span_of(program, selected),
-                    "NEXT without FOR",
-                )),
+                None => {
+                    diagnostics.push(Diagnostic::new(Code::LoopPairing, span_of(program, selected), "NEXT without FOR"))
+                }
             },
             _ => {}
         }
@@ -109,9 +107,13 @@ fn find_jumps(program: &Program, code: &[Selected], control: &mut Control, diagn
         control.jumps.push((index, target));
         if let Some(start) = control.innermost[target].filter(|&start| !control.is_in_loop(index, start)) {
             diagnostics.push(
-                Diagnostic::new(Code::JumpIntoLoop, span, format!("label {label} is inside a loop that this jump is not in"))
-                    .related(span_of(program, &code[start]), "the loop begins here")
-                    .help("NEXT will then use whatever the loop's index holds"),
+                Diagnostic::new(
+                    Code::JumpIntoLoop,
+                    span,
+                    format!("label {label} is inside a loop that this jump is not in"),
+                )
+                .related(span_of(program, &code[start]), "the loop begins here")
+                .help("NEXT will then use whatever the loop's index holds"),
             );
         }
     }

@@ -12,7 +12,8 @@ pub type Depths = Vec<u8>;
 
 /// Follows the depth through the program and reports what cannot be right.
 pub fn stack(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnostic>) -> Depths {
-    let mut follow = Follow { program, diagnostics, total: 0, fresh: 0, after_output: false, at_start: None, warned: false };
+    let mut follow =
+        Follow { program, diagnostics, total: 0, fresh: 0, after_output: false, at_start: None, warned: false };
     let mut depths = Vec::with_capacity(code.len());
     let mut statement = 0;
     follow.network(Span::default(), 1);
@@ -94,7 +95,7 @@ impl Follow<'_> {
                     span(),
                     format!("{name} takes a value that an earlier rung left on the logic stack"),
                 )
-                .help("start the program parts with NETWORK lines if this is meant"),
+                .help("a load is probably missing in this rung; NETWORK lines say where a network starts"),
             );
         }
         self.fresh = self.fresh.max(u16::from(needs));

@@ -124,10 +124,14 @@ impl Check<'_> {
             let (code, message) = if other_name == first_name {
                 (Code::StartedTwice, format!("{name} is executed by {first_name} in two places"))
             } else {
-                (two_kinds, format!("{name} is used by {first_name} and by {other_name}: {what} can be only one of them"))
+                (
+                    two_kinds,
+                    format!("{name} is used by {first_name} and by {other_name}: {what} can be only one of them"),
+                )
             };
             diagnostics.push(
-                Diagnostic::new(code, self.span(other), message).related(self.span(first), format!("{first_name} here")),
+                Diagnostic::new(code, self.span(other), message)
+                    .related(self.span(first), format!("{first_name} here")),
             );
         }
     }

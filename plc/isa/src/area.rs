@@ -119,7 +119,7 @@ impl AnalogInput {
 
     /// The analog input whose word is at this data address.
     pub const fn at_address(address: u16) -> Option<AnalogInput> {
-        if address < AIW_START || address >= AIN_START + 2 * ANALOG_INPUTS || address % 2 != 0 {
+        if address < AIW_START || address >= AIN_START + 2 * ANALOG_INPUTS || !address.is_multiple_of(2) {
             return None;
         }
         let index = ((address - AIW_START) / 2) as u8;

@@ -493,7 +493,7 @@ impl Encoded {
 
 impl Form {
     /// Bytes of an instruction in this form.
-    pub fn len(&self) -> u16 {
+    pub fn encoded_len(&self) -> u16 {
         1 + u16::from(self.wide) + self.kinds.iter().map(|kind| u16::from(kind.stored_len())).sum::<u16>()
     }
 

@@ -33,8 +33,8 @@ impl Clock {
         self.scan_start_ms = now_ms;
         self.ticks_10 = intervals(&mut self.rest_10, passed, 10);
         self.ticks_100 = intervals(&mut self.rest_100, passed, 100);
-        self.half_second ^= intervals(&mut self.rest_500, passed, 500) % 2 != 0;
-        self.half_minute ^= intervals(&mut self.rest_30_000, passed, 30_000) % 2 != 0;
+        self.half_second ^= !intervals(&mut self.rest_500, passed, 500).is_multiple_of(2);
+        self.half_minute ^= !intervals(&mut self.rest_30_000, passed, 30_000).is_multiple_of(2);
         passed
     }
 

@@ -6,6 +6,7 @@ use crate::operand::Operand;
 
 #[cfg(test)]
 pub(crate) mod fake;
+pub mod host;
 
 /// Whether the program is executed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

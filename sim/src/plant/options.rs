@@ -53,9 +53,10 @@ impl Options {
     /// One of several words, by its place in `words`.
     pub fn word(&self, key: &'static str, words: &[&str], default: usize) -> Result<usize, OptionError> {
         let Some(text) = self.text(key) else { return Ok(default) };
-        words.iter().position(|word| *word == text).ok_or_else(|| {
-            OptionError::new(key, format!("{key}={text}: {key} is one of {}", words.join(", ")))
-        })
+        words
+            .iter()
+            .position(|word| *word == text)
+            .ok_or_else(|| OptionError::new(key, format!("{key}={text}: {key} is one of {}", words.join(", "))))
     }
 }
 

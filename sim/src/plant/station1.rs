@@ -93,7 +93,13 @@ struct Relays {
 impl Relays {
     fn of_pins(levels: u8) -> Relays {
         let energised = |bit: u8| levels >> bit & 1 == 0;
-        Relays { lower: energised(0), raise: energised(1), push: energised(2), sensor: energised(3), hold: energised(4) }
+        Relays {
+            lower: energised(0),
+            raise: energised(1),
+            push: energised(2),
+            sensor: energised(3),
+            hold: energised(4),
+        }
     }
 }
 
@@ -223,7 +229,8 @@ impl Station1 {
         if let Some(occupant) = &self.on_ramp2 {
             self.collisions += 1;
             let other = occupant.piece.number;
-            self.report.event(now_ms, format!("collision: piece {number} ({height}) pushed against piece {other} on ramp 2"));
+            self.report
+                .event(now_ms, format!("collision: piece {number} ({height}) pushed against piece {other} on ramp 2"));
             return;
         }
         self.good += 1;

@@ -19,8 +19,7 @@ struct Bench {
 impl Bench {
     fn new(options: &str) -> Bench {
         let spec: PlantSpec = parse_spec(&format!("station1 {options}")).unwrap();
-        let mut bench =
-            Bench { plant: spec.build().unwrap(), inputs: Inputs::default(), now_ms: 0, step_ms: 1 };
+        let mut bench = Bench { plant: spec.build().unwrap(), inputs: Inputs::default(), now_ms: 0, step_ms: 1 };
         bench.plant.step(0, 0xFF, &mut bench.inputs);
         bench
     }

@@ -70,10 +70,7 @@ fn memory_is_written_once() {
 #[test]
 fn failures_come_in_order_of_time_with_line_and_values() {
     let text = "at 20ms expect MW0 = 7..9\nat 10ms expect mw0 = 0, MW2 = 0";
-    assert_eq!(failures(text, 10), [
-        "2: at 10ms expected mw0 = 0, got 1",
-        "1: at 20ms expected MW0 = 7..9, got 2"
-    ]);
+    assert_eq!(failures(text, 10), ["2: at 10ms expected mw0 = 0, got 1", "1: at 20ms expected MW0 = 7..9, got 2"]);
 }
 
 fn scans_run(text: &str, scan_ms: u64, length: Length) -> Vec<u64> {
@@ -163,7 +160,8 @@ fn a_plant_steps_before_every_scan_and_drives_its_signals_only() {
     let mut machine = copier();
     machine.invert_outputs = 0b10;
     let job = Job { plant: Some(Box::new(Mirror::default())), ..job(10, Length::Scans(4)) };
-    let text = "at 10ms I0.0 = 1\nat 20ms expect I0.1 = 0, Q0.0 = 1\nat 21ms expect I0.1 = 1\nat 21ms expect Ain2 = 1023";
+    let text =
+        "at 10ms I0.0 = 1\nat 20ms expect I0.1 = 0, Q0.0 = 1\nat 21ms expect I0.1 = 1\nat 21ms expect Ain2 = 1023";
     let outcome = run(&mut machine, &scenario(text), job).unwrap();
     assert_eq!(outcome.failures, []);
     let events: Vec<_> = outcome.plant.unwrap().events.into_iter().map(|event| (event.time_ms, event.text)).collect();

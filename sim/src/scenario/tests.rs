@@ -98,8 +98,7 @@ fn malformed_values_and_lists() {
                 at 0s expect MW0 = 5..4\nat 0s MW0 = 8#7\nat 0s MW0 = 1_000\nat 0s = 1\nscan 0ms\nscan";
     let messages = errors(text);
     let places: Vec<_> = messages.iter().map(|message| message.split(' ').next().unwrap()).collect();
-    let expected =
-        ["1:13", "2:7", "3:16", "4:6", "5:13", "6:13", "7:20", "8:13", "9:13", "10:7", "11:6", "12:1"];
+    let expected = ["1:13", "2:7", "3:16", "4:6", "5:13", "6:13", "7:20", "8:13", "9:13", "10:7", "11:6", "12:1"];
     assert_eq!(places, expected, "{messages:#?}");
     assert!(messages[6].contains("5 is more than 4"), "{}", messages[6]);
 }

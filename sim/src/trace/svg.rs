@@ -83,7 +83,8 @@ fn signal_row(trace: &Trace, index: usize, signal: &Signal, row: &Row, layout: &
     let ink = colour::of(signal.operand);
     let name = text::shorten(&signal.name, layout.names_width, layout::NAME_SIZE);
     let mut group = Group::new().add(
-        label(&name, layout::MARGIN, baseline, layout::NAME_SIZE, colour::INK, Anchor::Start).set("font-weight", "bold"),
+        label(&name, layout::MARGIN, baseline, layout::NAME_SIZE, colour::INK, Anchor::Start)
+            .set("font-weight", "bold"),
     );
     if has_description {
         let shown = text::shorten(&signal.description, layout.names_width, layout::DESCRIPTION_SIZE);

@@ -77,7 +77,10 @@ time/s  scan  Q0.1    MW3
 
     #[test]
     fn last_change_in_the_last_scan_is_one_row() {
-        assert_eq!(text(&trace(1, &[("Q0.1", &[0, 1])])), "time/s  scan  Q0.1\n 0.000     1     0\n 0.001     2     1\n");
+        assert_eq!(
+            text(&trace(1, &[("Q0.1", &[0, 1])])),
+            "time/s  scan  Q0.1\n 0.000     1     0\n 0.001     2     1\n"
+        );
         assert_eq!(text(&trace(1, &[("Q0.1", &[1])])), "time/s  scan  Q0.1\n 0.000     1     1\n");
     }
 }

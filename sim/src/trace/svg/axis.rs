@@ -65,8 +65,8 @@ impl Unit {
     fn of(total_ms: u64) -> Unit {
         match total_ms {
             ..=1999 => Unit::Milliseconds,
-            ..=179_999 => Unit::Seconds,
-            ..=10_799_999 => Unit::Minutes,
+            2000..=179_999 => Unit::Seconds,
+            180_000..=10_799_999 => Unit::Minutes,
             _ => Unit::Hours,
         }
     }

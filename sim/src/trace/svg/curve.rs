@@ -6,7 +6,7 @@ use super::colour;
 use super::layout::{Layout, Row, VALUE_SIZE};
 use super::path::{Path, Stretch, stretches};
 use super::text::{Anchor, label, width};
-use super::wave::outline;
+use super::wave::{LINE, outline};
 use crate::trace::{Change, Trace};
 
 /// Above the curve there is place for a value.
@@ -16,6 +16,8 @@ const PADDING_BOTTOM: f64 = 9.0;
 const COLUMN: f64 = 2.0;
 /// A value needs this much more width than its digits.
 const VALUE_ROOM: f64 = 10.0;
+/// A band no higher than this is a steep slope, drawn like the line.
+const SLOPE: f64 = 12.0;
 
 /// The vertical scale of a word.
 struct Scale {
@@ -36,8 +38,7 @@ impl Scale {
 pub(super) fn draw(changes: &[Change], trace: &Trace, row: &Row, layout: &Layout, ink: &str) -> Group {
     let values = changes.iter().map(|change| change.value);
     let (Some(lowest), Some(highest)) = (values.clone().min(), values.max()) else { return Group::new() };
-    let scale =
-        Scale { lowest, highest, top: row.top + PADDING_TOP, bottom: row.top + row.height - PADDING_BOTTOM };
+    let scale = Scale { lowest, highest, top: row.top + PADDING_TOP, bottom: row.top + row.height - PADDING_BOTTOM };
     let list = stretches(changes, |scan| layout.scan_x(scan), layout.scan_x(trace.scans()), COLUMN);
     let mut group = limits(&scale, layout);
     for shape in shapes(&list, &scale, ink) {
@@ -64,7 +65,8 @@ fn limits(scale: &Scale, layout: &Layout) -> Group {
 }
 
 fn shapes(list: &[Stretch], scale: &Scale, ink: &str) -> Vec<Shape> {
-    let (mut line, mut fill, mut band) = (Path::default(), Path::default(), Path::default());
+    let (mut line, mut fill) = (Path::default(), Path::default());
+    let (mut slope, mut band) = (Path::default(), Path::default());
     let mut is_joined = false;
     for stretch in list {
         match *stretch {
@@ -76,14 +78,16 @@ fn shapes(list: &[Stretch], scale: &Scale, ink: &str) -> Vec<Shape> {
             }
             Stretch::Busy { left, right, low, high } => {
                 // At least a line's width, where it is busy within one pixel.
-                band.block(left, right, scale.y(high) - 0.8, scale.y(low) + 0.8);
+                let (top, bottom) = (scale.y(high) - LINE / 2.0, scale.y(low) + LINE / 2.0);
+                let path = if bottom - top > SLOPE { &mut band } else { &mut slope };
+                path.block(left, right, top, bottom);
                 fill.block(left, right, scale.y(low), scale.bottom);
                 is_joined = false;
             }
         }
     }
     let mut shapes = Vec::new();
-    for (path, opacity) in [(fill, 0.08), (band, 0.5)] {
+    for (path, opacity) in [(fill, 0.08), (band, 0.5), (slope, 1.0)] {
         if !path.is_empty() {
             shapes.push(Shape::new().set("d", path.finish()).set("fill", ink).set("fill-opacity", opacity));
         }

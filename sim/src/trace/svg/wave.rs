@@ -10,6 +10,8 @@ use crate::trace::{Change, Trace};
 const PADDING: f64 = 10.0;
 /// Width of a column in which more than two changes become a band.
 const COLUMN: f64 = 3.0;
+/// Width of a line.
+pub(super) const LINE: f64 = 1.6;
 
 pub(super) fn draw(changes: &[Change], trace: &Trace, row: &Row, layout: &Layout, ink: &str) -> Group {
     let (high, low) = (row.top + PADDING, row.top + row.height - PADDING);
@@ -48,5 +50,5 @@ pub(super) fn draw(changes: &[Change], trace: &Trace, row: &Row, layout: &Layout
 
 /// The line of a wave or curve.
 pub(super) fn outline(line: Path, ink: &str) -> Shape {
-    Shape::new().set("d", line.finish()).set("fill", "none").set("stroke", ink).set("stroke-width", 1.6)
+    Shape::new().set("d", line.finish()).set("fill", "none").set("stroke", ink).set("stroke-width", LINE)
 }

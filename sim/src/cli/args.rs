@@ -1,0 +1,109 @@
+//! The arguments of `awl-sim`.
+
+use std::path::PathBuf;
+
+use awl_sim::open::Target;
+use awl_sim::scenario::SCAN_MS;
+use awl_sim::time::parse_time;
+use clap::{Parser, ValueEnum};
+
+/// Most scans in a run: the longest time at 1 ms. Even with the longest scans no time overflows.
+const SCANS_MAX: u64 = 86_400_000_000;
+
+const EXAMPLES: &str = "\
+Examples:
+  awl-sim motor.awl --scenario motor.scn
+  awl-sim motor.awl --scenario motor.scn --trace I0.0,Q0.0,T37.cv --format table
+  awl-sim station1.awl --plant \"station1 pieces=small,207 seed=3\" --for 60s -o station1.svg
+
+Exit codes: 0 good, 1 an expectation failed, 2 usage, file or program errors, 3 PLC fault.";
+
+/// Runs an S7-200 program scan by scan, with a scenario of inputs and expectations, a plant, and traces.
+#[derive(Debug, Parser)]
+#[command(name = "awl-sim", version, after_help = EXAMPLES)]
+pub struct Args {
+    /// The program: AWL text or an image of awl-asm
+    #[arg(value_name = "PROGRAM.awl|PROGRAM.bin")]
+    pub program: PathBuf,
+
+    /// Inputs over time, and what is expected
+    #[arg(long, value_name = "F.scn")]
+    pub scenario: Option<PathBuf>,
+
+    /// How long to run, such as 5s or 500ms; overrides the scenario's `run`
+    #[arg(long = "for", value_name = "TIME", value_parser = parse_time, conflicts_with = "scans")]
+    pub run_for: Option<u64>,
+
+    /// How many scans to run; overrides the scenario's `run`
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..=SCANS_MAX))]
+    pub scans: Option<u64>,
+
+    /// Time from scan to scan, 1ms to 60s; overrides the scenario's `scan` and the program's period [default: 1ms]
+    #[arg(long, value_name = "TIME", value_parser = parse_scan_time)]
+    pub scan_time: Option<u64>,
+
+    /// What runs the program
+    #[arg(long, value_name = "MACHINE", value_enum, default_value_t = On::Host)]
+    pub on: On,
+
+    /// What is wired to the PLC, with its options: "station1 noise=2"; overrides the scenario's `plant`
+    #[arg(long, value_name = "PLANT")]
+    pub plant: Option<String>,
+
+    /// Operands to trace, separated by commas; without it, if a format is given, what the program uses
+    #[arg(long, value_name = "I0.0,Q0.1,...")]
+    pub trace: Option<String>,
+
+    /// Format of the trace; without it, by the name of the file, else csv
+    #[arg(long, value_enum)]
+    pub format: Option<Format>,
+
+    /// File for the trace instead of standard output
+    #[arg(short, long, value_name = "F")]
+    pub output: Option<PathBuf>,
+
+    /// A file with symbols of the program; can be given several times
+    #[arg(long, value_name = "F")]
+    pub symbols: Vec<PathBuf>,
+}
+
+/// Machines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum On {
+    /// The reference interpreter on this computer
+    Host,
+    /// The firmware on a virtual Uno, interpreting
+    Uno,
+    /// The firmware on a virtual Uno, with a translated program
+    UnoNative,
+}
+
+impl From<On> for Target {
+    fn from(on: On) -> Target {
+        match on {
+            On::Host => Target::Host,
+            On::Uno => Target::Uno,
+            On::UnoNative => Target::UnoNative,
+        }
+    }
+}
+
+/// Formats of a trace.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// Comma separated values, a row per scan
+    Csv,
+    /// Aligned columns, a row per change
+    Table,
+    /// Value change dump, for GTKWave
+    Vcd,
+    /// Timing diagram
+    Svg,
+}
+
+fn parse_scan_time(text: &str) -> Result<u64, String> {
+    match parse_time(text)? {
+        ms if SCAN_MS.contains(&ms) => Ok(ms),
+        _ => Err("a scan takes 1ms to 60s".to_string()),
+    }
+}

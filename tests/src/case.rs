@@ -1,0 +1,201 @@
+//! Cases: AWL files that carry their scenario and its expectations in `//$` lines. Reads, assembles and runs them.
+//!
+//! `README.md` says how a case is written. What runs it is any [`Machine`].
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use awl_asm::assemble::{Assembly, assemble};
+use awl_asm::ast::Value;
+use awl_asm::diagnostic::Severity;
+use awl_asm::render::human;
+use awl_asm::source::Source;
+use awl_sim::machine::Machine;
+use awl_sim::machine::host::Host;
+use awl_sim::run::{Job, Length, Outcome, run};
+use awl_sim::scenario::{Context, Scenario};
+use awl_sim::symbols::Symbols;
+
+/// What a line of the scenario begins with.
+const MARK: &str = "//$ ";
+/// The statement that is not one of scenarios: it names a fault that must come.
+const FAULT: &str = "fault ";
+
+/// A machine that cases run on.
+pub struct MachineKind {
+    /// Its name in messages.
+    pub name: &'static str,
+    /// Makes one that is in RUN with this image.
+    pub start: fn(image: &[u8]) -> Box<dyn Machine>,
+}
+
+/// Every machine there is.
+pub const MACHINES: [MachineKind; 1] =
+    [MachineKind { name: "host", start: |image| Box::new(Host::new(image.to_vec(), Box::new(|_| String::new()))) }];
+
+/// A case as its file has it.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Chapter and name, such as `timer/tof`.
+    pub name: String,
+    /// The whole file; the scenario is comments in it.
+    pub awl: String,
+    /// The scenario, each statement on its line of the file.
+    pub scenario: String,
+    /// Parts of the faults that must come, in words.
+    pub faults: Vec<String>,
+}
+
+impl Case {
+    /// All cases, by name.
+    pub fn all() -> Vec<Case> {
+        let root = folder("cases");
+        files(&root).iter().map(|path| Case::new(name_of(&root, path), read(path))).collect()
+    }
+
+    /// A case from its text.
+    pub fn new(name: String, awl: String) -> Case {
+        let (mut scenario, mut faults) = (String::new(), Vec::new());
+        for line in awl.lines() {
+            if let Some(statement) = line.trim_start().strip_prefix(MARK) {
+                match statement.trim().strip_prefix(FAULT) {
+                    Some(fault) => faults.push(fault.trim().to_string()),
+                    // As many blanks as were taken away, so that columns stay right.
+                    None => scenario += &line.replacen(MARK, "    ", 1),
+                }
+            }
+            scenario.push('\n');
+        }
+        Case { name, awl, scenario, faults }
+    }
+
+    /// Assembles the case. Errors come as the assembler shows them; warnings are none of ours.
+    pub fn prepare(self) -> Result<Prepared, String> {
+        let source = Source::new(format!("tests/cases/{}.awl", self.name), &*self.awl).map_err(|e| e.to_string())?;
+        let assembly = assemble(&source, Vec::new());
+        let errors = assembly.diagnostics.iter().filter(|diagnostic| diagnostic.severity() == Severity::Error);
+        let text: String = errors.map(|diagnostic| human(&source, diagnostic, false)).collect();
+        match assembly.image {
+            Some(ref image) if text.is_empty() => {
+                Ok(Prepared { image: image.clone(), symbols: symbols_of(&assembly), case: self, assembly })
+            }
+            _ => Err(text),
+        }
+    }
+}
+
+/// A case with its program.
+pub struct Prepared {
+    /// The case.
+    pub case: Case,
+    /// The program.
+    pub image: Vec<u8>,
+    /// What the assembler knows about it.
+    pub assembly: Assembly,
+    symbols: Symbols,
+}
+
+impl Prepared {
+    /// All cases that can be assembled.
+    ///
+    /// # Panics
+    /// Where one cannot.
+    pub fn all() -> Vec<Prepared> {
+        let prepare = |case: Case| case.prepare().unwrap_or_else(|errors| panic!("{errors}"));
+        Case::all().into_iter().map(prepare).collect()
+    }
+
+    /// Runs an image, usually the case's own, and returns everything that is not as the case wants it.
+    pub fn failures(&self, kind: &MachineKind, image: &[u8]) -> Vec<String> {
+        let mut machine = (kind.start)(image);
+        let scenario = match self.scenario(&mut *machine) {
+            Ok(scenario) => scenario,
+            Err(problems) => return vec![problems],
+        };
+        if scenario.expectations.is_empty() && self.case.faults.is_empty() {
+            return vec![format!("{}: nothing is expected", self.place(1))];
+        }
+        let scan_ms = scenario.scan_ms.unwrap_or(match self.assembly.program.settings.scan_ms {
+            0 => 1,
+            ms => u64::from(ms),
+        });
+        let job = Job { scan_ms, length: Length::Scenario, signals: Vec::new(), plant: None, progress: None };
+        match run(&mut *machine, &scenario, job) {
+            Ok(outcome) => self.judge(&outcome),
+            Err(error) => vec![format!("{}: {error}", self.place(1))],
+        }
+    }
+
+    fn scenario(&self, machine: &mut dyn Machine) -> Result<Scenario, String> {
+        let origin = format!("tests/cases/{}.awl", self.case.name);
+        let mut has_operand = |operand| machine.read(operand).map(|_| ());
+        let context = Context { symbols: &self.symbols, plant: None, has_operand: &mut has_operand };
+        let scenario = Scenario::parse(&origin, &self.case.scenario, context).map_err(|problems| problems.to_string())?;
+        match scenario.plant {
+            Some(_) => Err(format!("{origin}: a case has no plant")),
+            None => Ok(scenario),
+        }
+    }
+
+    fn judge(&self, outcome: &Outcome) -> Vec<String> {
+        let mut failures: Vec<String> =
+            outcome.failures.iter().map(|failure| format!("{}: {failure}", self.place(failure.line))).collect();
+        let fault = outcome.fault.as_ref().map_or("", |fault| &fault.text);
+        if !fault.is_empty() && self.case.faults.is_empty() {
+            failures.push(format!("{}: fault: {fault}", self.place(1)));
+        }
+        let missing = self.case.faults.iter().filter(|wanted| !fault.contains(wanted.as_str()));
+        failures.extend(missing.map(|wanted| format!("{}: expected fault {wanted}, got \"{fault}\"", self.place(1))));
+        failures
+    }
+
+    fn place(&self, line: usize) -> String {
+        format!("tests/cases/{}.awl:{line}", self.case.name)
+    }
+}
+
+fn symbols_of(assembly: &Assembly) -> Symbols {
+    let mut symbols = Symbols::new();
+    for symbol in &assembly.program.symbols {
+        if let Value::Address(address) = symbol.value {
+            symbols.add(&*symbol.name, address, "");
+        }
+    }
+    symbols
+}
+
+/// A folder of this crate.
+pub fn folder(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+/// The text of a file.
+///
+/// # Panics
+/// If it cannot be read: a test has no use for less.
+pub fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The AWL files in a folder and the folders in it, by name.
+///
+/// # Panics
+/// If the folder cannot be read.
+pub fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let mut found = Vec::new();
+    for path in entries.map_while(Result::ok).map(|entry| entry.path()) {
+        if path.is_dir() {
+            found.extend(files(&path));
+        } else if path.extension().is_some_and(|extension| extension == "awl") {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+fn name_of(root: &Path, path: &Path) -> String {
+    let name = path.strip_prefix(root).unwrap_or(path).with_extension("");
+    name.to_string_lossy().replace('\\', "/")
+}
