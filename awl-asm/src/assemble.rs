@@ -1,8 +1,10 @@
 //! The assembler from text to image: runs the passes in order and keeps what listing and map need.
 
+use std::collections::HashSet;
+
 use crate::ast::{Program, Span, Symbol};
 use crate::check::{Depths, Usage, control, span_of, stack, usage};
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::encode::{Encoding, Line, encode};
 use crate::parser::parse;
 use crate::plan::{Demand, demand};
@@ -50,6 +52,7 @@ pub fn assemble(source: &Source, symbols: Vec<Symbol>) -> Assembly {
     let depths = stack(&program, &code, &mut diagnostics);
     let usage = usage(&program, &code, &mut diagnostics);
     let demand = demand(&program, &code, &mut diagnostics);
+    drop_follow_ups(&mut diagnostics);
     let has_errors = diagnostics.iter().any(|diagnostic| diagnostic.severity() == Severity::Error);
     let encoding = match has_errors {
         true => Encoding::default(),
@@ -58,4 +61,12 @@ pub fn assemble(source: &Source, symbols: Vec<Symbol>) -> Assembly {
     diagnostics.sort_by_key(|diagnostic| diagnostic.span);
     let image = (!encoding.image.is_empty()).then_some(encoding.image);
     Assembly { image, diagnostics, program, code, lines: encoding.lines, depths, usage, demand }
+}
+
+/// A word that was no instruction is taken for the one it resembles, for the sake of the lines that follow. What is
+/// then wrong with that guess itself is no news.
+fn drop_follow_ups(diagnostics: &mut Vec<Diagnostic>) {
+    let is_guess = |diagnostic: &&Diagnostic| matches!(diagnostic.code, Code::UnknownMnemonic | Code::NotSupported);
+    let guesses: HashSet<Span> = diagnostics.iter().filter(is_guess).map(|diagnostic| diagnostic.span).collect();
+    diagnostics.retain(|diagnostic| is_guess(&diagnostic) || !guesses.contains(&diagnostic.span));
 }

@@ -8,10 +8,10 @@ use awl_asm::Address;
 use awl_asm::assemble::{Assembly, assemble};
 use awl_asm::ast::{self, Value};
 use awl_asm::diagnostic::{Diagnostic, Severity};
-use awl_asm::disassemble::disassemble;
+use awl_asm::disassemble::{disassemble, instructions};
 use awl_asm::render::human;
 use awl_asm::source::Source;
-use plc_isa::{Area, MAGIC};
+use plc_isa::{Area, MAGIC, verify};
 
 use crate::machine::Machine;
 use crate::machine::host::{Host, PlaceOf};
@@ -56,52 +56,78 @@ impl fmt::Display for ProgramErrors {
 
 impl std::error::Error for ProgramErrors {}
 
-/// Opens a program, AWL text or image, on a machine. `symbols`: files with further symbols, for AWL text.
+/// Opens a program, AWL text or image, on a machine. `symbol_files`: further symbols.
 ///
-/// Errors in the program come as [`ProgramErrors`], all at once.
-pub fn open_machine(program: &Path, symbols: &[PathBuf], target: Target) -> Result<Opened> {
+/// Errors in the program come as [`ProgramErrors`], all at once. A bad image is none: it is opened, and the machine is
+/// in STOP with a fault, as a board would be.
+pub fn open_machine(program: &Path, symbol_files: &[PathBuf], target: Target) -> Result<Opened> {
     if target != Target::Host {
         bail!("this build has no virtual Uno yet; programs run with --on host");
     }
-    let bytes = std::fs::read(program).with_context(|| format!("cannot read {}", program.display()))?;
+    let has_ending = |ending| program.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(ending));
+    if has_ending("hex") {
+        bail!("{}: Intel HEX is for avrdude; awl-sim takes AWL text or a .bin image", program.display());
+    }
+    let bytes = read(program)?;
     let name = program.display().to_string();
-    if bytes.starts_with(&MAGIC) { open_image(&name, bytes) } else { open_text(&name, &bytes, symbols) }
+    let mut shown = Shown::default();
+    let symbols = load_symbols(symbol_files, &mut shown)?;
+    if bytes.starts_with(&MAGIC) || has_ending("bin") {
+        open_image(name, bytes, symbols, shown)
+    } else {
+        open_text(&Source::from_bytes(name, &bytes)?, symbols, shown)
+    }
 }
 
-fn open_text(name: &str, bytes: &[u8], symbol_files: &[PathBuf]) -> Result<Opened> {
-    let source = Source::from_bytes(name, bytes)?;
-    let mut shown = Shown::default();
+fn read(path: &Path) -> Result<Vec<u8>> {
+    std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))
+}
+
+fn load_symbols(files: &[PathBuf], shown: &mut Shown) -> Result<Vec<ast::Symbol>> {
     let mut symbols = Vec::new();
-    for path in symbol_files {
-        let bytes = std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
-        let table = Source::from_bytes(path.display().to_string(), &bytes)?;
+    for path in files {
+        let table = Source::from_bytes(path.display().to_string(), &read(path)?)?;
         let (list, diagnostics) = awl_asm::symbols::load(&table);
         shown.add(&table, &diagnostics);
         symbols.extend(list);
     }
-    let assembly = assemble(&source, symbols);
-    shown.add(&source, &assembly.diagnostics);
-    let Some(image) = assembly.image.clone().filter(|_| !shown.has_errors) else {
+    Ok(symbols)
+}
+
+fn open_text(source: &Source, symbols: Vec<ast::Symbol>, mut shown: Shown) -> Result<Opened> {
+    let mut assembly = assemble(source, symbols);
+    shown.add(source, &assembly.diagnostics);
+    let Some(image) = assembly.image.take().filter(|_| !shown.has_errors) else {
         return Err(ProgramErrors(shown.text).into());
     };
-    let places = places(&source, &assembly);
+    let places = places(source, &assembly);
     Ok(opened(image, &assembly, places, shown.text))
 }
 
-/// The listing of an image tells what the program uses; names it has none.
-fn open_image(name: &str, image: Vec<u8>) -> Result<Opened> {
-    let text = disassemble(&image)
-        .map_err(|error| anyhow::anyhow!("{name}: {} (offset {:#06x})", error.fault.message(), error.at))?;
-    let assembly = assemble(&Source::new(name, text)?, Vec::new());
-    Ok(opened(image, &assembly, Box::new(|_| String::new()), String::new()))
+/// The disassembly of an image tells what the program uses; of a bad image nothing is known.
+fn open_image(name: String, image: Vec<u8>, symbols: Vec<ast::Symbol>, shown: Shown) -> Result<Opened> {
+    if shown.has_errors {
+        return Err(ProgramErrors(shown.text).into());
+    }
+    let assembly = assemble(&Source::new(name, disassemble(&image).unwrap_or_default())?, symbols);
+    let lines = verify(image.as_slice()).map(|program| instructions(&program)).unwrap_or_default();
+    let place_of = move |at: u16| {
+        let line = lines.iter().find(|line| (line.at..line.at + line.decoded.len).contains(&at));
+        line.map_or_else(String::new, |line| format!("`{}` (offset {at:#06x})", line.text))
+    };
+    Ok(opened(image, &assembly, Box::new(place_of), shown.text))
 }
 
 fn opened(image: Vec<u8>, assembly: &Assembly, place_of: PlaceOf, warnings: String) -> Opened {
     let scan_ms = u64::from(assembly.program.settings.scan_ms);
+    let mut machine = Host::new(image, place_of);
+    let mut default_signals = default_signals(assembly);
+    // A timer that is only reset has a bit, but no current value.
+    default_signals.retain(|&signal| machine.read(signal).is_ok());
     Opened {
-        machine: Box::new(Host::new(image, place_of)),
+        machine: Box::new(machine),
         symbols: symbols_of(&assembly.program.symbols),
-        default_signals: default_signals(assembly),
+        default_signals,
         scan_ms: (scan_ms > 0).then_some(scan_ms),
         warnings,
     }

@@ -56,7 +56,7 @@ impl Problems {
     }
 
     fn render_one(&self, renderer: &Renderer, problem: &Problem) -> String {
-        let place = AnnotationKind::Primary.span(problem.span.clone());
+        let place = AnnotationKind::Primary.span(whole_characters(&self.text, &problem.span));
         let snippet = Snippet::source(&*self.text).path(&*self.origin).annotation(place);
         let group = Level::ERROR.primary_title(&*problem.message).element(snippet);
         match &problem.help {
@@ -64,6 +64,16 @@ impl Problems {
             None => renderer.render(&[group]),
         }
     }
+}
+
+/// The span inside the text, widened to whole characters. The renderer takes nothing else.
+fn whole_characters(text: &str, span: &Range<usize>) -> Range<usize> {
+    let is_boundary = |at: &usize| text.is_char_boundary(*at);
+    let start = span.start.min(text.len());
+    let end = span.end.clamp(start, text.len());
+    let start = (0..=start).rev().find(is_boundary).unwrap_or(0);
+    let end = (end..=text.len()).find(is_boundary).unwrap_or(text.len());
+    start..end
 }
 
 impl fmt::Display for Problems {

@@ -130,7 +130,8 @@ impl Prepared {
         let origin = format!("tests/cases/{}.awl", self.case.name);
         let mut has_operand = |operand| machine.read(operand).map(|_| ());
         let context = Context { symbols: &self.symbols, plant: None, has_operand: &mut has_operand };
-        let scenario = Scenario::parse(&origin, &self.case.scenario, context).map_err(|problems| problems.to_string())?;
+        let scenario =
+            Scenario::parse(&origin, &self.case.scenario, context).map_err(|problems| problems.to_string())?;
         match scenario.plant {
             Some(_) => Err(format!("{origin}: a case has no plant")),
             None => Ok(scenario),

@@ -208,7 +208,7 @@ impl Generator<'_> {
         self.text.push_str(line.trim_end());
         self.text.push('\n');
         self.wanted = self.wanted.saturating_sub(1);
-        self.code_len += u32::from(form.len());
+        self.code_len += u32::from(form.encoded_len());
         self.work += self.passes;
         self.edges += u32::from(form.kinds.contains(&Kind::Edge));
         self.depth = match row.op {

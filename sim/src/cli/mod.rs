@@ -119,7 +119,7 @@ fn signals(args: &Args, symbols: &Symbols, defaults: &[Operand], machine: &mut d
                 Ok(()) => signals.push(signal),
                 Err(error) => list.push(Problem::new(span, error.to_string())),
             },
-            Err(error) if name.is_empty() => list.push(Problem::new(span, "an operand is missing").help(error.message)),
+            Err(_) if name.is_empty() => list.push(Problem::new(span, "an operand is missing")),
             Err(error) => list.push(Problem::new(span, error.message).did_you_mean(error.suggestion)),
         }
     }

@@ -113,52 +113,40 @@ impl Host {
         self.plc.program().map(|program| program.plan())
     }
 
-    /// Where a byte of an area lives.
-    fn byte_address(&self, area: Area, byte: u16) -> Result<u16, MachineError> {
-        let not_planned = || MachineError(format!("the program does not use {}B{byte}", area.name()));
-        match (area.page_start(), self.plan()) {
-            (Some(start), _) => Ok(start + byte),
-            (None, Some(plan)) => plan.v_address(byte).ok_or_else(not_planned),
-            // Without a program there is no memory to look at; the fault is reported elsewhere.
-            (None, None) => Err(not_planned()),
+    /// Where a byte of an area lives; `None` where the program has none planned.
+    fn byte_address(&self, area: Area, byte: u16) -> Option<u16> {
+        match area.page_start() {
+            Some(start) => Some(start + byte),
+            None => self.plan()?.v_address(byte),
         }
     }
 
-    fn current_value_address(&self, operand: Operand) -> Result<u16, MachineError> {
-        let address = match operand {
-            Operand::TimerCurrent(number) => {
-                self.plan().and_then(|plan| plan.timer_slot(number)).map(|slot| slot.address)
-            }
-            Operand::CounterCurrent(number) => {
-                self.plan().and_then(|plan| plan.counter_slot(number)).map(|slot| slot.address)
-            }
+    fn current_value_address(&self, operand: Operand) -> Option<u16> {
+        match operand {
+            Operand::TimerCurrent(number) => self.plan()?.timer_slot(number).map(|slot| slot.address),
+            Operand::CounterCurrent(number) => self.plan()?.counter_slot(number).map(|slot| slot.address),
             Operand::At(_) => None,
-        };
-        address.ok_or_else(|| MachineError(format!("the program does not use {}", operand.address())))
+        }
     }
 
     /// A byte as seen from outside: inputs and outputs are the physical points.
-    fn outside_byte(&self, area: Area, byte: u16) -> Result<u8, MachineError> {
+    fn outside_byte(&self, area: Area, byte: u16) -> Option<u8> {
         match area {
-            Area::I => Ok(self.inputs.digital.get(usize::from(byte)).copied().unwrap_or(0)),
-            Area::Q => Ok(self.plc.outputs(&self.memory, byte as u8)),
-            _ => Ok(self.memory.byte(self.byte_address(area, byte)?)),
+            Area::I => self.inputs.digital.get(usize::from(byte)).copied(),
+            Area::Q => Some(self.plc.outputs(&self.memory, byte as u8)),
+            _ => Some(self.memory.byte(self.byte_address(area, byte)?)),
         }
     }
 
-    fn set_outside_byte(&mut self, area: Area, byte: u16, value: u8) -> Result<(), MachineError> {
+    fn set_outside_byte(&mut self, area: Area, byte: u16, value: u8) -> Option<()> {
         match area {
-            Area::I => {
-                if let Some(place) = self.inputs.digital.get_mut(usize::from(byte)) {
-                    *place = value;
-                }
-            }
+            Area::I => *self.inputs.digital.get_mut(usize::from(byte))? = value,
             _ => {
                 let address = self.byte_address(area, byte)?;
                 self.memory.set_byte(address, value);
             }
         }
-        Ok(())
+        Some(())
     }
 
     fn analog(&mut self, input: AnalogInput, value: u16) {
@@ -173,8 +161,8 @@ impl Host {
         }
     }
 
-    fn read_address(&self, address: Address) -> Result<i32, MachineError> {
-        Ok(match address {
+    fn read_address(&self, address: Address) -> Option<i32> {
+        Some(match address {
             Address::Bit { area, byte, bit } => i32::from(self.outside_byte(area, byte)? >> bit & 1),
             Address::Byte { area, byte } => i32::from(self.outside_byte(area, byte)?),
             Address::Word { area, byte } => {
@@ -192,36 +180,27 @@ impl Host {
         })
     }
 
-    fn write_address(&mut self, address: Address, value: i32) -> Result<(), MachineError> {
+    fn write_address(&mut self, address: Address, value: i32) -> Option<()> {
         match address {
             Address::Bit { area: Area::I, byte, bit } => {
                 let old = self.outside_byte(Area::I, byte)?;
-                self.set_outside_byte(Area::I, byte, old & !(1 << bit) | u8::from(value != 0) << bit)
+                self.set_outside_byte(Area::I, byte, old & !(1 << bit) | u8::from(value != 0) << bit)?;
             }
             Address::Bit { area, byte, bit } => {
                 let address = self.byte_address(area, byte)?;
                 self.memory.set_bit(Bit { address, bit }, value != 0);
-                Ok(())
             }
-            Address::Byte { area, byte } => self.set_outside_byte(area, byte, value as u8),
+            Address::Byte { area, byte } => self.set_outside_byte(area, byte, value as u8)?,
             Address::Word { area, byte } => {
                 let [high, low] = (value as u16).to_be_bytes();
                 self.set_outside_byte(area, byte, high)?;
-                self.set_outside_byte(area, byte + 1, low)
+                self.set_outside_byte(area, byte + 1, low)?;
             }
-            Address::Timer(number) => {
-                self.memory.set_bit(timer_bit(number), value != 0);
-                Ok(())
-            }
-            Address::Counter(number) => {
-                self.memory.set_bit(counter_bit(number), value != 0);
-                Ok(())
-            }
-            Address::Analog(input) => {
-                self.analog(input, value as u16);
-                Ok(())
-            }
+            Address::Timer(number) => self.memory.set_bit(timer_bit(number), value != 0),
+            Address::Counter(number) => self.memory.set_bit(counter_bit(number), value != 0),
+            Address::Analog(input) => self.analog(input, value as u16),
         }
+        Some(())
     }
 
     fn place(&self, at: u16) -> String {
@@ -232,23 +211,23 @@ impl Host {
 
 impl Machine for Host {
     fn write(&mut self, operand: Operand, value: i32) -> Result<(), MachineError> {
-        match operand {
+        let written = match operand {
             Operand::At(address) => self.write_address(address, value),
             Operand::TimerCurrent(_) | Operand::CounterCurrent(_) => {
-                let address = self.current_value_address(operand)?;
-                self.memory.set_word(address, value as u16);
-                Ok(())
+                self.current_value_address(operand).map(|address| self.memory.set_word(address, value as u16))
             }
-        }
+        };
+        written.ok_or_else(|| not_used(operand))
     }
 
     fn read(&mut self, operand: Operand) -> Result<i32, MachineError> {
-        match operand {
+        let value = match operand {
             Operand::At(address) => self.read_address(address),
             Operand::TimerCurrent(_) | Operand::CounterCurrent(_) => {
-                Ok(i32::from(self.memory.int(self.current_value_address(operand)?)))
+                self.current_value_address(operand).map(|address| i32::from(self.memory.int(address)))
             }
-        }
+        };
+        value.ok_or_else(|| not_used(operand))
     }
 
     fn scan(&mut self, now_ms: u64) {
@@ -290,4 +269,8 @@ impl Machine for Host {
             *byte = *byte & !(1 << (input & 7)) | u8::from(logical) << (input & 7);
         }
     }
+}
+
+fn not_used(operand: Operand) -> MachineError {
+    MachineError(format!("the program does not use {}", operand.address()))
 }

@@ -135,3 +135,22 @@ fn plant_of_the_command_line_counts() {
     let messages: Vec<_> = problems.list.iter().map(|problem| &*problem.message).collect();
     assert_eq!(messages, ["AIW0 is driven by the plant tank", "IB0 is driven by the plant tank"]);
 }
+
+#[test]
+fn no_text_makes_it_panic() {
+    let parts = [
+        "at", "expect", "scan", "run", "plant", "tank", "station1", "pieces", " ", " ", " ", "\n", "\r\n", "\t", "=",
+        ",", "..", "#", "16#", "2#", "\"", "-", "0", "7", "70000", "1s", "5ms", "1.5s", "I0.0", "MW3", "T37", ".cv",
+        "Ain0", "ü", "日本", "\u{a0}", "\u{0}", "🦀",
+    ];
+    let mut random = fastrand::Rng::with_seed(1);
+    let mut failed = 0;
+    for _ in 0..20_000 {
+        let text: String = (0..random.usize(0..30)).map(|_| parts[random.usize(0..parts.len())]).collect();
+        if let Err(problems) = parse(&text) {
+            failed += 1;
+            assert!(problems.render(true).contains("t.scn:"), "{text:?}");
+        }
+    }
+    assert!((10_000..20_000).contains(&failed), "{failed}");
+}

@@ -1,0 +1,172 @@
+//! The command `awl-sim` from outside: arguments, exit codes, what goes where.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A folder of its own for each test, removed afterwards.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Folder {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        let _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(&path).unwrap();
+        Folder(path)
+    }
+
+    fn with_files(name: &str, files: &[(&str, &str)]) -> Folder {
+        let folder = Folder::new(name);
+        for (file, text) in files {
+            fs::write(folder.0.join(file), text).unwrap();
+        }
+        folder
+    }
+
+    fn sim(&self, arguments: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_awl-sim")).current_dir(&self.0).args(arguments).output().unwrap()
+    }
+
+    fn names(&self) -> Vec<String> {
+        let mut names: Vec<_> = fs::read_dir(&self.0)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Exit code, standard output, standard error.
+fn told(output: &Output) -> (Option<i32>, String, String) {
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (output.status.code(), text(&output.stdout), text(&output.stderr))
+}
+
+const COPY: &str = "//# symbol Lamp Q0.0 the lamp\nLD I0.0\n= Lamp\nLD SM0.0\nMOVW Ain0, MW3\n";
+/// Loops for ever as soon as I0.0 is on.
+const LOOP: &str = "LBL 1\nLD I0.0\nJMP 1\nLD SM0.0\n= Q0.0\n";
+
+#[test]
+fn a_good_run_tells_its_summary() {
+    let scenario = "at 2ms I0.0 = 1, Ain0 = 7\nat 3ms expect Lamp = 1, MW3 = 7\nrun 5s\n";
+    let folder = Folder::with_files("good", &[("p.awl", COPY), ("s.scn", scenario)]);
+    let expected = (Some(0), String::new(), "ran 5000 scans (5 s), 2 expectations met\n".to_string());
+    assert_eq!(told(&folder.sim(&["p.awl", "--scenario", "s.scn"])), expected);
+}
+
+#[test]
+fn a_failed_expectation_is_exit_1_with_its_place() {
+    let scenario = "at 2ms I0.0 = 1\nat 3ms expect Lamp = 0, MW3 = 5..9\n";
+    let folder = Folder::with_files("failed", &[("p.awl", COPY), ("s.scn", scenario)]);
+    let (code, _, errors) = told(&folder.sim(&["p.awl", "--scenario", "s.scn"]));
+    let expected = "s.scn:2: at 3ms expected Lamp = 0, got 1\ns.scn:2: at 3ms expected MW3 = 5..9, got 0\n\
+                    ran 3 scans (3 ms), 0 expectations met, 2 failed\n";
+    assert_eq!((code, &*errors), (Some(1), expected));
+}
+
+#[test]
+fn a_fault_is_exit_3_and_wins() {
+    let scenario = "at 5ms I0.0 = 1\nat 5ms expect Q0.0 = 1\nat 8ms expect Q0.0 = 1\n";
+    let folder = Folder::with_files("fault", &[("p.awl", LOOP), ("s.scn", scenario)]);
+    let (code, _, errors) = told(&folder.sim(&["p.awl", "--scenario", "s.scn"]));
+    assert_eq!(code, Some(3));
+    assert!(errors.contains("s.scn:3: at 8ms expected Q0.0 = 1, got 0\n"), "{errors}");
+    assert!(errors.contains("error: PLC fault at 5ms: watchdog"), "{errors}");
+    assert!(errors.contains("1 expectation met, 1 failed"), "{errors}");
+}
+
+#[test]
+fn what_cannot_run_is_exit_2() {
+    let files = [("p.awl", COPY), ("bad.awl", "LD I0.0\nJMP 7\n"), ("s.scn", "scna 1ms\nat 1s Lmap = 1\n")];
+    let folder = Folder::with_files("cannot", &files);
+    let cases: &[(&[&str], &str)] = &[
+        (&[], "Usage"),
+        (&["none.awl"], "cannot read none.awl"),
+        (&["bad.awl"], "bad.awl:2:5"),
+        (&["p.awl", "--scenario", "none.scn"], "cannot read none.scn"),
+        (&["p.awl", "--for", "5"], "needs its unit"),
+        (&["p.awl", "--for", "5s", "--scans", "3"], "cannot be used with"),
+        (&["p.awl", "--scan-time", "0ms"], "1ms to 60s"),
+        (&["p.awl", "--on", "uno"], "no virtual Uno yet"),
+        (&["p.awl", "--plant", "press"], "there is no plant press"),
+        (&["p.awl", "--plant", "tank level=200"], "0 to 100"),
+        (&["p.awl", "--trace", "I0.0,Q0.9"], "--trace:1:6"),
+        (&["p.awl", "--trace", "VW0"], "the program does not use"),
+        (&["p.awl", "--format", "svg", "-o", "none/x.svg", "--scans", "1"], "cannot write none/x.svg"),
+    ];
+    for (arguments, part) in cases {
+        let (code, output, errors) = told(&folder.sim(arguments));
+        assert_eq!((code, &*output), (Some(2), ""), "{arguments:?}: {errors}");
+        assert!(errors.contains(part), "{arguments:?}: {errors}");
+    }
+    let (code, _, errors) = told(&folder.sim(&["p.awl", "--scenario", "s.scn"]));
+    assert_eq!(code, Some(2));
+    for part in ["s.scn:1:1", "did you mean `scan`?", "s.scn:2:7", "did you mean `Lamp`?"] {
+        assert!(errors.contains(part), "{errors}");
+    }
+}
+
+#[test]
+fn the_trace_goes_to_stdout_and_only_the_trace() {
+    let scenario = "scan 10ms\nat 10ms I0.0 = 1, Ain0 = 300\nrun 30ms\n";
+    let folder = Folder::with_files("stdout", &[("p.awl", COPY), ("s.scn", scenario)]);
+    let (code, output, errors) = told(&folder.sim(&["p.awl", "--scenario", "s.scn", "--trace", "I0.0, lamp,MW3"]));
+    assert_eq!((code, &*errors), (Some(0), "ran 3 scans (30 ms)\n"));
+    assert_eq!(output, "time_ms,scan,I0.0,lamp,MW3\n0,1,0,0,0\n10,2,1,1,300\n20,3,1,1,300\n");
+}
+
+#[test]
+fn files_are_written_whole_and_their_name_tells_the_format() {
+    let folder = Folder::with_files("files", &[("p.awl", COPY)]);
+    for (file, start) in
+        [("a.csv", "time_ms,scan,I0.0,Q0.0,"), ("a.svg", "<svg"), ("a.vcd", "$version"), ("a.txt", "time/s")]
+    {
+        fs::write(folder.0.join(file), "old").unwrap();
+        let (code, output, errors) = told(&folder.sim(&["p.awl", "--scans", "20", "-o", file]));
+        assert_eq!((code, &*output), (Some(0), ""), "{errors}");
+        let text = fs::read_to_string(folder.0.join(file)).unwrap();
+        assert!(text.starts_with(start), "{file}: {text}");
+    }
+    assert_eq!(folder.names(), ["a.csv", "a.svg", "a.txt", "a.vcd", "p.awl"]);
+}
+
+#[test]
+fn the_command_line_overrides_the_scenario_and_says_what_it_cuts_off() {
+    let scenario = "scan 10ms\nat 20ms I0.0 = 1\nat 30ms expect Lamp = 1\nrun 1s\n";
+    let folder = Folder::with_files("override", &[("p.awl", COPY), ("s.scn", scenario)]);
+    let (code, _, errors) = told(&folder.sim(&["p.awl", "--scenario", "s.scn", "--scan-time", "5ms", "--scans", "4"]));
+    let expected = "warning: 1 expectation not checked: the run ended before\n\
+                    warning: 1 value set at the end of the run or later: no scan has seen it\nran 4 scans (20 ms)\n";
+    assert_eq!((code, &*errors), (Some(0), expected));
+}
+
+#[test]
+fn the_scan_period_of_the_program_counts_where_nothing_else_is_said() {
+    let folder = Folder::with_files("period", &[("p.awl", &format!("//# scan 20ms\n{COPY}"))]);
+    assert_eq!(told(&folder.sim(&["p.awl", "--for", "100ms"])).2, "ran 5 scans (100 ms)\n");
+    assert_eq!(told(&folder.sim(&["p.awl", "--for", "100ms", "--scan-time", "50ms"])).2, "ran 2 scans (100 ms)\n");
+}
+
+#[test]
+fn symbols_from_a_file_name_operands() {
+    let folder = Folder::with_files("symbols", &[("p.awl", "LD I0.0\n= Q0.0\n"), ("t.csv", "Horn,Q0.0,the horn\n")]);
+    let (code, output, errors) = told(&folder.sim(&["p.awl", "--symbols", "t.csv", "--trace", "Horn", "--scans", "1"]));
+    assert_eq!((code, &*output), (Some(0), "time_ms,scan,Horn\n0,1,0\n"), "{errors}");
+}
+
+#[test]
+fn a_plant_reports_on_stderr() {
+    let folder = Folder::with_files("plant", &[("p.awl", COPY)]);
+    let (code, _, errors) =
+        told(&folder.sim(&["p.awl", "--plant", "tank level=1 outflow=1 variation=0", "--for", "2s"]));
+    assert_eq!(code, Some(0));
+    assert!(errors.contains("1.000 s  tank empty"), "{errors}");
+    assert!(errors.contains("plant tank: level_min_permille 0, "), "{errors}");
+}
