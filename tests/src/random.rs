@@ -776,8 +776,7 @@ mod tests {
     use awl_asm::ast::{Program, Statement, Value};
 
     use super::*;
-    use crate::naive::plain_source::parse;
-    use crate::naive::{INSTRUCTIONS_MAX, Mode, Naive};
+    use crate::naive::{INSTRUCTIONS_MAX, Mode, Naive, parse};
 
     /// What an operand is, as far as a form cares.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,12 +1,8 @@
 //! A decoded instruction: what the checker, the disassembler and the listing look at. Executing is elsewhere.
 
 use crate::image::ProgramMemory;
-use crate::operand::{Kind, Operand, Relation};
-use crate::table::{Op, StackEffect};
-
-pub use crate::table::decode;
-
-const OPERANDS_MAX: usize = 4;
+use crate::operand::{Kind, Operand, OperandReader, Relation};
+use crate::table::{Looked, OPERANDS_MAX, Op, StackEffect, WIDE_PREFIX, look_up, look_up_wide};
 
 /// Why bytes are no instruction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,12 +28,31 @@ pub struct Decoded {
     count: u8,
 }
 
+/// Decodes the instruction at offset `pc` without executing it.
+pub fn decode<P: ProgramMemory>(code: &P, pc: u16) -> Result<Decoded, DecodeError> {
+    let token = code.byte(pc);
+    let (looked, operands_at) = match token {
+        WIDE_PREFIX => (look_up_wide(code.byte(pc.wrapping_add(1))), pc.wrapping_add(2)),
+        token => (look_up(token), pc.wrapping_add(1)),
+    };
+    let looked = looked.ok_or(DecodeError::UndefinedToken)?;
+    let mut reader = OperandReader::new(code, pc, operands_at, looked.in_token);
+    let mut decoded = Decoded::new(&looked);
+    let mut kinds = looked.kinds;
+    while let Some(kind) = Kind::unpacked(kinds as u8) {
+        decoded.push(kind, kind.read(&mut reader));
+        kinds >>= 8;
+    }
+    decoded.finish(code, pc, reader.position())
+}
+
 impl Decoded {
-    pub(crate) fn new(op: Op, stack: StackEffect) -> Self {
-        Decoded { op, stack, len: 0, operands: [(Kind::Here, Operand::Offset(0)); OPERANDS_MAX], count: 0 }
+    fn new(looked: &Looked) -> Self {
+        let operands = [(Kind::Here, Operand::Offset(0)); OPERANDS_MAX];
+        Decoded { op: looked.op, stack: looked.stack, len: 0, operands, count: 0 }
     }
 
-    pub(crate) fn push(&mut self, kind: Kind, operand: Operand) {
+    fn push(&mut self, kind: Kind, operand: Operand) {
         if let Some(place) = self.operands.get_mut(usize::from(self.count)) {
             *place = (kind, operand);
             self.count += 1;
@@ -47,7 +62,7 @@ impl Decoded {
         }
     }
 
-    pub(crate) fn finish<P: ProgramMemory>(mut self, code: &P, pc: u16, next: u16) -> Result<Decoded, DecodeError> {
+    fn finish<P: ProgramMemory>(mut self, code: &P, pc: u16, next: u16) -> Result<Decoded, DecodeError> {
         if next > code.len() || next <= pc {
             return Err(DecodeError::Truncated);
         }

@@ -23,7 +23,7 @@ pub trait ProgramMemory {
     /// The byte at an offset; 0xFF, an undefined token, past the end.
     fn byte(&self, offset: u16) -> u8;
     /// The little-endian word at an offset.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn word(&self, offset: u16) -> u16 {
         u16::from_le_bytes([self.byte(offset), self.byte(offset.wrapping_add(1))])
     }
@@ -34,11 +34,11 @@ pub trait ProgramMemory {
 }
 
 impl ProgramMemory for &[u8] {
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn len(&self) -> u16 {
         u16::try_from(<[u8]>::len(self)).unwrap_or(u16::MAX)
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn byte(&self, offset: u16) -> u8 {
         self.get(usize::from(offset)).copied().unwrap_or(0xFF)
     }

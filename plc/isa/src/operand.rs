@@ -73,7 +73,7 @@ impl Relation {
     }
 
     /// Whether `a relation b` holds.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn holds<T: Ord>(self, a: T, b: T) -> bool {
         match self {
             Relation::Equal => a == b,
@@ -85,7 +85,7 @@ impl Relation {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn of_token_offset(offset: u8) -> Relation {
         match offset {
             0 => Relation::Equal,
@@ -127,25 +127,25 @@ pub struct OperandReader<'a, P> {
 impl<'a, P: ProgramMemory> OperandReader<'a, P> {
     /// A reader for the instruction at `start` whose operands begin at `at`; `in_token` is the token's
     /// distance from the first token of its form.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn new(code: &'a P, start: u16, at: u16, in_token: u8) -> Self {
         OperandReader { code, start, at, in_token }
     }
 
     /// Offset of the first byte not read yet: after the last operand, the next instruction.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn position(&self) -> u16 {
         self.at
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn byte(&mut self) -> u8 {
         let byte = self.code.byte(self.at);
         self.at = self.at.wrapping_add(1);
         byte
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn word(&mut self) -> u16 {
         let word = self.code.word(self.at);
         self.at = self.at.wrapping_add(2);
@@ -176,6 +176,22 @@ macro_rules! operand_kinds {
             pub const fn stored_len(self) -> u8 {
                 match self { $( Kind::$name => $len, )+ }
             }
+
+            /// The kind as a byte that is not 0.
+            pub(crate) const fn packed(self) -> u8 {
+                self as u8 + 1
+            }
+
+            /// The kind of a byte; `None` for 0, which ends a list.
+            pub(crate) fn unpacked(byte: u8) -> Option<Kind> {
+                $( if byte == Kind::$name.packed() { return Some(Kind::$name); } )+
+                None
+            }
+
+            /// Reads an operand of this kind.
+            pub(crate) fn read<P: ProgramMemory>(self, reader: &mut OperandReader<'_, P>) -> Operand {
+                match self { $( Kind::$name => kinds::$name::operand(kinds::$name::read(reader)), )+ }
+            }
         }
 
         /// A type for each kind, for the instruction table.
@@ -188,9 +204,9 @@ macro_rules! operand_kinds {
                 impl OperandKind for $name {
                     type Value = $value;
                     const KIND: Kind = Kind::$name;
-                    #[inline(always)]
+                    #[cfg_attr(not(target_arch = "avr"), inline(always))]
                     fn read<P: ProgramMemory>($reader: &mut OperandReader<'_, P>) -> $value { $read }
-                    #[inline(always)]
+                    #[cfg_attr(not(target_arch = "avr"), inline(always))]
                     fn operand($v: $value) -> Operand { $operand }
                 }
             )+
@@ -198,18 +214,18 @@ macro_rules! operand_kinds {
     };
 }
 
-#[inline(always)]
+#[cfg_attr(not(target_arch = "avr"), inline(always))]
 fn page_bit<P: ProgramMemory>(reader: &mut OperandReader<'_, P>) -> Bit {
     Bit { bit: reader.in_token, address: PAGE_START + u16::from(reader.byte()) }
 }
 
-#[inline(always)]
+#[cfg_attr(not(target_arch = "avr"), inline(always))]
 fn far_bit<P: ProgramMemory>(reader: &mut OperandReader<'_, P>) -> Bit {
     let packed = reader.word();
     Bit { address: DATA_START + (packed >> 3), bit: (packed & 7) as u8 }
 }
 
-#[inline(always)]
+#[cfg_attr(not(target_arch = "avr"), inline(always))]
 fn is_memory<P: ProgramMemory>(reader: &mut OperandReader<'_, P>) -> bool {
     reader.byte() == MODE_MEMORY
 }

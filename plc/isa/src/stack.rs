@@ -14,43 +14,43 @@ impl LogicStack {
     pub const EMPTY: LogicStack = LogicStack(0);
 
     /// S0, the top of the stack: the power flow.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub const fn top(self) -> bool {
         self.0 & 1 != 0
     }
 
     /// Level `n`, 0 for the top. Levels that do not exist read 0.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub const fn level(self, n: u8) -> bool {
         n < STACK_LEVELS && self.0 >> n & 1 != 0
     }
 
     /// S0 := `value`, nothing moves.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub const fn set_top(&mut self, value: bool) {
         self.0 = self.0 & !1 | value as u16;
     }
 
     /// S0 := S0 AND `value`.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub const fn and(&mut self, value: bool) {
         self.0 &= !1 | value as u16;
     }
 
     /// S0 := S0 OR `value`.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub const fn or(&mut self, value: bool) {
         self.0 |= value as u16;
     }
 
     /// Pushes a value; S8 is lost.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub const fn push(&mut self, value: bool) {
         self.0 = (self.0 << 1 | value as u16) & MASK;
     }
 
     /// Removes and returns S0; a 0 comes in from below.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub const fn pop(&mut self) -> bool {
         let top = self.top();
         self.0 >>= 1;

@@ -4,7 +4,6 @@
 //! implements, the mnemonics of the assembler and disassembler, and docs/instructions.md. Tokens are
 //! explicit because images outlive builds; `tests/tokens.txt` pins them a second time.
 
-use crate::decode::{DecodeError, Decoded};
 use crate::image::ProgramMemory;
 use crate::operand::{Bit, ByteSource, Kind, Operand, OperandKind, OperandReader, Relation, WordSource, kinds};
 
@@ -142,7 +141,7 @@ macro_rules! instruction_table {
         }
 
         /// Executes the instruction at offset `pc`. Never returns [`Flow::Next`]: that has become a jump.
-        #[inline(always)]
+        #[cfg_attr(not(target_arch = "avr"), inline(always))]
         pub fn execute<E: Execute, P: ProgramMemory>(engine: &mut E, code: &P, pc: u16) -> Flow<E::Exit> {
             let token = code.byte(pc);
             match token {
@@ -167,37 +166,58 @@ macro_rules! instruction_table {
             }
         }
 
-        /// Decodes the instruction at offset `pc` without executing it.
-        pub fn decode<P: ProgramMemory>(code: &P, pc: u16) -> Result<Decoded, DecodeError> {
-            let token = code.byte(pc);
-            match token {
-                $( $( $first..=$last => {
-                    #[allow(unused_mut)]
-                    let mut reader = OperandReader::new(code, pc, pc.wrapping_add(1), token - $first);
-                    #[allow(unused_mut)]
-                    let mut decoded = Decoded::new(Op::$op, StackEffect { needs: $needs, adds: $adds });
-                    $( decoded.push(kinds::$kind::KIND, kinds::$kind::operand(kinds::$kind::read(&mut reader))); )*
-                    decoded.finish(code, pc, reader.position())
-                } )* )+
-                WIDE_PREFIX => {
-                    let token = code.byte(pc.wrapping_add(1));
-                    match token {
-                        $( $( $wide_first..=$wide_last => {
-                            let mut reader = OperandReader::new(code, pc, pc.wrapping_add(2), token - $wide_first);
-                            let mut decoded = Decoded::new(Op::$op, StackEffect { needs: $needs, adds: $adds });
-                            $( decoded.push(kinds::$wide_kind::KIND, kinds::$wide_kind::operand(kinds::$wide_kind::read(&mut reader))); )*
-                            decoded.finish(code, pc, reader.position())
-                        } )* )+
-                        _ => Err(DecodeError::UndefinedToken),
-                    }
-                }
-                _ => Err(DecodeError::UndefinedToken),
-            }
+        /// What the first token of an instruction says; `None` for a token that is not in the table.
+        pub(crate) fn look_up(token: u8) -> Option<Looked> {
+            Some(match token {
+                $( $( $first..=$last => looked(Op::$op, $needs, $adds, token - $first, const { packed(&[ $( Kind::$kind ),* ]) }), )* )+
+                _ => return None,
+            })
+        }
+
+        /// What the token behind [`WIDE_PREFIX`] says.
+        pub(crate) fn look_up_wide(token: u8) -> Option<Looked> {
+            Some(match token {
+                $( $( $wide_first..=$wide_last =>
+                    looked(Op::$op, $needs, $adds, token - $wide_first, const { packed(&[ $( Kind::$wide_kind ),* ]) }), )* )+
+                _ => return None,
+            })
         }
     };
 }
 
-#[inline(always)]
+/// What a token says about its instruction: in a few bytes without pointers, because on the board a table of
+/// constants would cost SRAM.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Looked {
+    pub op: Op,
+    pub stack: StackEffect,
+    /// The token's distance from the first one of its form.
+    pub in_token: u8,
+    /// The kinds of the operands, first one lowest, a byte each; see [`Kind::packed`].
+    pub kinds: u32,
+}
+
+/// Most operands of an instruction: as many kinds as fit into [`Looked::kinds`].
+pub(crate) const OPERANDS_MAX: usize = 4;
+
+#[cfg_attr(not(target_arch = "avr"), inline(always))]
+const fn looked(op: Op, needs: u8, adds: i8, in_token: u8, kinds: u32) -> Looked {
+    Looked { op, stack: StackEffect { needs, adds }, in_token, kinds }
+}
+
+#[cfg_attr(not(target_arch = "avr"), inline(always))]
+const fn packed(kinds: &[Kind]) -> u32 {
+    assert!(kinds.len() <= OPERANDS_MAX);
+    let mut packed = 0;
+    let mut index = kinds.len();
+    while index > 0 {
+        index -= 1;
+        packed = packed << 8 | kinds[index].packed() as u32;
+    }
+    packed
+}
+
+#[cfg_attr(not(target_arch = "avr"), inline(always))]
 fn go_on<X>(flow: Flow<X>, next: u16) -> Flow<X> {
     match flow {
         Flow::Next => Flow::Jump(next),

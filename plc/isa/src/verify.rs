@@ -24,19 +24,19 @@ pub struct Program<P> {
 
 impl<P: ProgramMemory> Program<P> {
     /// The memory plan, with header and settings.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn plan(&self) -> &Plan<P> {
         &self.plan
     }
 
     /// The image's bytes.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn memory(&self) -> &P {
         &self.plan.memory
     }
 
     /// Offset of the first instruction.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn code_at(&self) -> u16 {
         self.code_at
     }

@@ -15,7 +15,7 @@ pub trait Environment {
     fn retrigger_watchdog(&mut self);
 
     /// Called after every instruction with its offset and the stack it left. For monitors and tests.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn executed(&mut self, at: u16, stack: LogicStack) {
         let _ = (at, stack);
     }

@@ -61,18 +61,18 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
         self.program.plan()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn words(&self, relation: Relation, in1: WordSource, in2: WordSource) -> bool {
         relation.holds(self.memory.int_of(in1), self.memory.int_of(in2))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn bytes(&self, relation: Relation, in1: ByteSource, in2: ByteSource) -> bool {
         relation.holds(self.memory.byte_of(in1), self.memory.byte_of(in2))
     }
 
     /// An integer box: `compute(OUT, IN1)` gives the result, `None` when it does not fit.
-    #[inline]
+    #[cfg_attr(not(target_arch = "avr"), inline)]
     fn int_box(
         &mut self,
         in1: WordSource,
@@ -138,43 +138,43 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
 impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
     type Exit = Exit;
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn load(&mut self, bit: Bit) -> Flow<Exit> {
         self.stack.push(self.memory.bit(bit));
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn load_not(&mut self, bit: Bit) -> Flow<Exit> {
         self.stack.push(!self.memory.bit(bit));
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn and(&mut self, bit: Bit) -> Flow<Exit> {
         self.stack.and(self.memory.bit(bit));
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn and_not(&mut self, bit: Bit) -> Flow<Exit> {
         self.stack.and(!self.memory.bit(bit));
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn or(&mut self, bit: Bit) -> Flow<Exit> {
         self.stack.or(self.memory.bit(bit));
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn or_not(&mut self, bit: Bit) -> Flow<Exit> {
         self.stack.or(!self.memory.bit(bit));
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn not(&mut self) -> Flow<Exit> {
         self.stack.set_top(!self.stack.top());
         Flow::Next
@@ -194,18 +194,18 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn assign(&mut self, bit: Bit) -> Flow<Exit> {
         self.memory.set_bit(bit, self.stack.top());
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn set(&mut self, bit: Bit, n: ByteSource) -> Flow<Exit> {
         self.bit_range(bit, n, true)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn reset(&mut self, bit: Bit, n: ByteSource) -> Flow<Exit> {
         self.bit_range(bit, n, false)
     }
@@ -236,86 +236,86 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn no_operation(&mut self, _n: u8) -> Flow<Exit> {
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn and_load(&mut self) -> Flow<Exit> {
         let top = self.stack.pop();
         self.stack.and(top);
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn or_load(&mut self) -> Flow<Exit> {
         let top = self.stack.pop();
         self.stack.or(top);
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn logic_push(&mut self) -> Flow<Exit> {
         self.stack.push(self.stack.top());
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn logic_read(&mut self) -> Flow<Exit> {
         self.stack.set_top(self.stack.level(1));
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn logic_pop(&mut self) -> Flow<Exit> {
         self.stack.pop();
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn load_stack(&mut self, n: u8) -> Flow<Exit> {
         self.stack.push(self.stack.level(n));
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn load_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow<Exit> {
         self.stack.push(self.words(relation, in1, in2));
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn and_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow<Exit> {
         self.stack.and(self.words(relation, in1, in2));
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn or_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow<Exit> {
         self.stack.or(self.words(relation, in1, in2));
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn load_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow<Exit> {
         self.stack.push(self.bytes(relation, in1, in2));
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn and_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow<Exit> {
         self.stack.and(self.bytes(relation, in1, in2));
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn or_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow<Exit> {
         self.stack.or(self.bytes(relation, in1, in2));
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn move_byte(&mut self, input: ByteSource, out: u16) -> Flow<Exit> {
         if self.stack.top() {
             let value = self.memory.byte_of(input);
@@ -324,7 +324,7 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         Flow::Next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn move_word(&mut self, input: WordSource, out: u16) -> Flow<Exit> {
         if self.stack.top() {
             let value = self.memory.int_of(input);
@@ -429,7 +429,7 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         self.go_to(self.plan().label(label), here)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn label(&mut self, _n: u8) -> Flow<Exit> {
         Flow::Next
     }

@@ -18,7 +18,7 @@ impl Default for Memory {
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(target_arch = "avr"), inline(always))]
 const fn index(address: u16) -> usize {
     address.wrapping_sub(DATA_START) as usize
 }
@@ -45,13 +45,13 @@ impl Memory {
     }
 
     /// The byte at an address.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn byte(&self, address: u16) -> u8 {
         self.bytes.get(index(address)).copied().unwrap_or(0)
     }
 
     /// Writes a byte.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn set_byte(&mut self, address: u16, value: u8) {
         if let Some(byte) = self.bytes.get_mut(index(address)) {
             *byte = value;
@@ -59,13 +59,13 @@ impl Memory {
     }
 
     /// The word whose high byte is at an address.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn word(&self, address: u16) -> u16 {
         u16::from_be_bytes([self.byte(address), self.byte(address.wrapping_add(1))])
     }
 
     /// Writes a word.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn set_word(&mut self, address: u16, value: u16) {
         let [high, low] = value.to_be_bytes();
         self.set_byte(address, high);
@@ -73,25 +73,25 @@ impl Memory {
     }
 
     /// The word as a signed number.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn int(&self, address: u16) -> i16 {
         self.word(address) as i16
     }
 
     /// Writes a signed number.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn set_int(&mut self, address: u16, value: i16) {
         self.set_word(address, value as u16);
     }
 
     /// A bit.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn bit(&self, bit: Bit) -> bool {
         self.byte(bit.address) >> (bit.bit & 7) & 1 != 0
     }
 
     /// Writes a bit.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn set_bit(&mut self, bit: Bit, value: bool) {
         let place = bit.bit & 7;
         let byte = self.byte(bit.address) & !(1 << place) | u8::from(value) << place;
@@ -99,7 +99,7 @@ impl Memory {
     }
 
     /// The value of a signed word operand.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub(crate) fn int_of(&self, source: WordSource) -> i16 {
         match source {
             WordSource::Constant(value) => value as i16,
@@ -108,7 +108,7 @@ impl Memory {
     }
 
     /// The value of a byte operand.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub(crate) fn byte_of(&self, source: ByteSource) -> u8 {
         match source {
             ByteSource::Constant(value) => value,

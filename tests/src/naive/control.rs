@@ -1,0 +1,135 @@
+//! The program from instruction to instruction: which comes next.
+
+use std::sync::Arc;
+
+use awl_asm::ast::Instruction;
+
+use super::memory::number;
+use super::{Fault, INSTRUCTIONS_MAX, Mode, Naive};
+
+/// What follows an instruction.
+enum Go {
+    Next,
+    To(usize),
+    Leave,
+}
+
+/// The program.
+impl Naive {
+    pub(super) fn run_program(&mut self) {
+        let program = Arc::clone(&self.program);
+        let mut at = 0;
+        while let Some(instruction) = program.get(at) {
+            if self.instructions_in_scan >= INSTRUCTIONS_MAX {
+                self.fault = Some(Fault::Watchdog);
+                self.mode = Mode::Stop;
+                return;
+            }
+            self.instructions_in_scan += 1;
+            match self.execute(at, instruction) {
+                Go::Next => at += 1,
+                Go::To(target) => at = target,
+                Go::Leave => return,
+            }
+        }
+    }
+
+    fn execute(&mut self, at: usize, instruction: &Instruction) -> Go {
+        match instruction.mnemonic {
+            "LD" | "LDN" | "A" | "AN" | "O" | "ON" | "NOT" | "EU" | "ED" | "NOP" => self.contact(at, instruction),
+            "ALD" | "OLD" | "LPS" | "LRD" | "LPP" | "LDS" => self.stack_operation(instruction),
+            "LDW" | "AW" | "OW" | "LDB" | "AB" | "OB" => self.compare(instruction),
+            "=" | "S" | "R" => self.coil(instruction),
+            "MOVB" | "MOVW" | "+I" | "-I" | "*I" | "/I" | "INCW" | "DECW" => self.word_box(instruction),
+            "TON" | "TONR" | "TOF" => self.timer_instruction(instruction),
+            "CTU" | "CTD" | "CTUD" => self.counter_instruction(instruction),
+            "FOR" | "NEXT" | "JMP" | "LBL" | "END" | "STOP" | "WDR" => return self.control(at, instruction),
+            other => panic!("{other} is unknown here"),
+        }
+        Go::Next
+    }
+}
+
+/// Program control.
+impl Naive {
+    fn control(&mut self, at: usize, instruction: &Instruction) -> Go {
+        match instruction.mnemonic {
+            "NEXT" => return self.end_of_pass(at),
+            "LBL" => return Go::Next,
+            _ if !self.stack[0] => {
+                let skips = instruction.mnemonic == "FOR";
+                return if skips { Go::To(self.matching_next(at) + 1) } else { Go::Next };
+            }
+            _ => {}
+        }
+        match instruction.mnemonic {
+            "FOR" => self.enter_loop(at, instruction),
+            "JMP" => Go::To(self.label(number(&instruction.operands[0]))),
+            "STOP" => {
+                self.mode = Mode::Stop;
+                Go::Leave
+            }
+            "WDR" => {
+                self.instructions_in_scan = 0;
+                Go::Next
+            }
+            _ => Go::Leave,
+        }
+    }
+
+    fn enter_loop(&mut self, at: usize, instruction: &Instruction) -> Go {
+        let [indx, init, last] = &instruction.operands[..] else { panic!("FOR has three operands") };
+        self.write_word_operand(indx, self.word_operand(init));
+        if self.word_operand(indx) > self.word_operand(last) {
+            return Go::To(self.matching_next(at) + 1);
+        }
+        Go::Next
+    }
+
+    fn end_of_pass(&mut self, at: usize) -> Go {
+        let start = self.matching_for(at);
+        let program = Arc::clone(&self.program);
+        let [indx, _, last] = &program[start].operands[..] else { panic!("FOR has three operands") };
+        let index = self.word_operand(indx);
+        let was_last = index >= self.word_operand(last);
+        self.write_word_operand(indx, index.wrapping_add(1));
+        self.stack[0] = true;
+        if was_last { Go::Next } else { Go::To(start + 1) }
+    }
+
+    fn matching_next(&self, start: usize) -> usize {
+        let mut open = 0;
+        for (at, instruction) in self.program.iter().enumerate().skip(start) {
+            match instruction.mnemonic {
+                "FOR" => open += 1,
+                "NEXT" => open -= 1,
+                _ => {}
+            }
+            if open == 0 {
+                return at;
+            }
+        }
+        panic!("FOR without NEXT")
+    }
+
+    fn matching_for(&self, end: usize) -> usize {
+        let mut open = 0;
+        for at in (0..=end).rev() {
+            match self.program[at].mnemonic {
+                "NEXT" => open += 1,
+                "FOR" => open -= 1,
+                _ => {}
+            }
+            if open == 0 {
+                return at;
+            }
+        }
+        panic!("NEXT without FOR")
+    }
+
+    fn label(&self, wanted: i64) -> usize {
+        let is_wanted =
+            |instruction: &Instruction| instruction.mnemonic == "LBL" && number(&instruction.operands[0]) == wanted;
+        self.program.iter().position(is_wanted).unwrap_or_else(|| panic!("no LBL {wanted}"))
+    }
+}
