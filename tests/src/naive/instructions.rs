@@ -118,9 +118,7 @@ impl Naive {
                 for timer in &mut self.timers[usize::from(first)..usize::from(first) + n] {
                     timer.bit = value;
                     if !value {
-                        timer.current = 0;
-                        timer.running = false;
-                        timer.input_was_on = false;
+                        timer.reset();
                     }
                 }
             }

@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 use awl_asm::ast::{Instruction, Program, Statement};
-use plc_isa::{Area, TimerFamily, timer_family};
+use plc_isa::Area;
 
 pub use counters::Counter;
 use system::Passed;
@@ -126,9 +126,7 @@ impl Naive {
             self.fault = None;
             self.first_scan = true;
             for (number, timer) in (0..=255).zip(&mut self.timers) {
-                let is_retentive = timer_family(number) == TimerFamily::Tonr;
-                let current = if is_retentive { timer.current } else { 0 };
-                *timer = Timer { current, kind: timer.kind, ..Timer::default() };
+                timer.come_to_rest(number);
             }
         }
     }

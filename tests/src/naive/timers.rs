@@ -1,13 +1,14 @@
 //! Timers TON, TOF and TONR.
 
 use awl_asm::ast::Instruction;
+use plc_isa::{TimerFamily, timer_family};
 
 use super::Naive;
 use super::memory::timer_number;
 
 /// Which instruction a timer was last executed by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum TimerKind {
+enum TimerKind {
     Ton,
     Tonr,
     Tof,
@@ -24,7 +25,7 @@ pub struct Timer {
     pub running: bool,
     preset: i16,
     input_was_on: bool,
-    pub(super) kind: Option<TimerKind>,
+    kind: Option<TimerKind>,
 }
 
 /// What a timer counts in, by its number.
@@ -37,6 +38,20 @@ pub(super) fn resolution_ms(number: u8) -> u32 {
 }
 
 impl Timer {
+    /// What the change from STOP to RUN leaves of a timer.
+    pub(super) fn come_to_rest(&mut self, number: u8) {
+        let is_retentive = timer_family(number) == TimerFamily::Tonr;
+        let current = if is_retentive { self.current } else { 0 };
+        *self = Timer { current, kind: self.kind, ..Timer::default() };
+    }
+
+    /// R: its bit is the caller's.
+    pub(super) fn reset(&mut self) {
+        self.current = 0;
+        self.running = false;
+        self.input_was_on = false;
+    }
+
     pub(super) fn advance(&mut self, ticks: u32) {
         self.current = (i64::from(self.current) + i64::from(ticks)).min(32767) as i16;
     }
