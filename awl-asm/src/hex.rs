@@ -11,7 +11,5 @@ pub fn intel_hex(image: &[u8]) -> Result<String, WriterError> {
     let mut records: Vec<Record> =
         records.map(|(bytes, offset)| Record::Data { offset, value: bytes.to_vec() }).collect();
     records.push(Record::EndOfFile);
-    let mut text = create_object_file_representation(&records)?;
-    text.push('\n');
-    Ok(text)
+    create_object_file_representation(&records)
 }

@@ -69,6 +69,9 @@ fn prefix(text: &str) -> Result<Option<(Prefix, &str)>, LiteralError> {
     if is("REAL") {
         return Err(not_supported(text, "real numbers are"));
     }
+    if ["T", "S5T", "TIME"].into_iter().any(is) {
+        return Err(malformed(text, COUNTS_NOT_TIMES));
+    }
     match PREFIXES.into_iter().find(|prefix| prefix.names.into_iter().any(is)) {
         Some(prefix) => Ok(Some((prefix, rest))),
         None => Err(malformed(text, format!("{name}# is no prefix of a constant; there are 16#, 2#, B#, W# and INT#"))),
@@ -106,6 +109,14 @@ fn plain(whole: &str, text: &str) -> Result<Constant, LiteralError> {
         return Err(malformed(whole, "a bit pattern has no sign"));
     }
     let digits = digits.trim_start_matches([' ', '\t']);
+    if let (Some((byte, bit)), 10) = (digits.split_once('.'), radix)
+        && is_real(digits)
+        && bit.len() == 1
+        && byte.trim_start_matches('0').is_empty()
+        && digits == text
+    {
+        return Err(not_supported(whole, "a bit address has its area before it, such as Q0.1; real numbers are"));
+    }
     if radix == 10 && is_real(digits) {
         return Err(not_supported(whole, "real numbers are"));
     }
@@ -127,6 +138,9 @@ fn number(whole: &str, digits: &str, radix: u32) -> Result<i64, LiteralError> {
     let mut any = false;
     for character in digits.chars().filter(|&character| character != '_') {
         let Some(digit) = character.to_digit(radix) else {
+            if let Some(hint) = foreign_notation(digits) {
+                return Err(malformed(whole, hint));
+            }
             let kind = match radix {
                 16 => "no hexadecimal digit",
                 2 => "no binary digit",
@@ -191,6 +205,20 @@ fn code_page(whole: &str, character: char) -> Result<u8, LiteralError> {
         _ => Err(malformed(whole, format!("{character} is no character of one byte"))),
     }
 }
+
+/// What the notation of another system would be here.
+fn foreign_notation(digits: &str) -> Option<&'static str> {
+    let lower = digits.to_ascii_lowercase();
+    let unit = lower.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | '_'));
+    match unit {
+        "s" | "ms" | "h" | "min" => Some(COUNTS_NOT_TIMES),
+        _ if lower.starts_with("0x") => Some("hexadecimal numbers are written 16#FF"),
+        _ if lower.starts_with("0b") => Some("binary numbers are written 2#1010"),
+        _ => None,
+    }
+}
+
+const COUNTS_NOT_TIMES: &str = "a preset is a number of counts, not a time: with T37, which counts 100 ms, 5 s are 50";
 
 fn malformed(text: &str, why: impl AsRef<str>) -> LiteralError {
     LiteralError::Malformed(format!("{text}: {}", why.as_ref()))
@@ -272,6 +300,9 @@ mod tests {
         assert_eq!(message("-16#5"), "-16#5: a bit pattern has no sign");
         assert_eq!(message("1.5"), "1.5: real numbers are not supported yet");
         assert_eq!(message("-1e5"), "-1e5: real numbers are not supported yet");
+        assert!(message("0.1").starts_with("0.1: a bit address has its area before it"));
+        assert_eq!(message("0xFF"), "0xFF: hexadecimal numbers are written 16#FF");
+        assert!(message("5s").contains("counts, not a time") && message("T#5s").contains("counts, not a time"));
         assert_eq!(message("1.2.3"), "1.2.3: . is no digit");
     }
 

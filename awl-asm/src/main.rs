@@ -9,7 +9,7 @@ use awl_asm::assemble::{Assembly, assemble};
 use awl_asm::ast::Symbol;
 use awl_asm::diagnostic::{Code, Diagnostic, Severity};
 use awl_asm::disassemble::disassemble;
-use awl_asm::files::write_whole;
+use awl_asm::files::{ensure_distinct, write_whole};
 use awl_asm::hex::intel_hex;
 use awl_asm::listing::listing;
 use awl_asm::map::map;
@@ -118,7 +118,10 @@ fn print(text: &str) -> Result<bool> {
 fn disassemble_file(path: &Path, output: Option<&Path>) -> Result<bool> {
     let image = read(path)?;
     match (disassemble(&image), output) {
-        (Ok(text), Some(output)) => write_whole(output, text.as_bytes()).map(|()| true),
+        (Ok(text), Some(output)) => {
+            ensure_distinct(&[path], &[output])?;
+            write_whole(output, text.as_bytes()).map(|()| true)
+        }
         (Ok(text), None) => print(&text),
         (Err(error), _) => {
             eprintln!("error: {}: {} (offset {:#06x})", path.display(), error.fault.message(), error.at);
@@ -137,10 +140,11 @@ fn read_source(path: &Path) -> Result<Source> {
 
 fn assemble_file(path: &Path, arguments: &Arguments) -> Result<bool> {
     let output = arguments.output.clone().unwrap_or_else(|| path.with_extension("bin"));
-    for written in [Some(&output), arguments.listing.as_ref(), arguments.map.as_ref()].into_iter().flatten() {
-        if written.as_path() == path {
-            bail!("{} would be overwritten by the output", path.display());
-        }
+    let inputs: Vec<&Path> = [path].into_iter().chain(arguments.symbols.iter().map(PathBuf::as_path)).collect();
+    let outputs = [Some(&output), arguments.listing.as_ref(), arguments.map.as_ref()];
+    let outputs: Vec<&Path> = outputs.into_iter().flatten().map(PathBuf::as_path).collect();
+    if !arguments.check {
+        ensure_distinct(&inputs, &outputs)?;
     }
     let source = read_source(path)?;
     let mut report = Report { format: arguments.message_format, errors: 0, warnings: 0 };
@@ -152,13 +156,14 @@ fn assemble_file(path: &Path, arguments: &Arguments) -> Result<bool> {
     if arguments.check {
         return Ok(true);
     }
-    write_image(&output, image)?;
+    // The image last: when it is there, everything is.
     if let Some(path) = &arguments.listing {
         write_whole(path, listing(&source, &assembly).as_bytes())?;
     }
     if let Some(path) = &arguments.map {
         write_whole(path, map(&source, &assembly).as_bytes())?;
     }
+    write_image(&output, image)?;
     if arguments.message_format == MessageFormat::Human {
         eprintln!("{}", summary(&output, image, &assembly));
     }

@@ -62,9 +62,9 @@ impl Demand {
         };
         vec![
             format!("V memory   {:>5} bytes  {shown}", self.v_len()),
-            format!("timers     {:>5} bytes  {} of {TIMER_SLOT_LEN} bytes", self.timers_len(), self.timers.len()),
-            format!("counters   {:>5} bytes  {} of {COUNTER_SLOT_LEN} bytes", self.counters_len(), self.counters.len()),
-            format!("edges      {:>5} bytes  {} of a bit each", self.edges_len(), self.edges),
+            format!("timers     {:>5} bytes  {} x {TIMER_SLOT_LEN}", self.timers_len(), self.timers.len()),
+            format!("counters   {:>5} bytes  {} x {COUNTER_SLOT_LEN}", self.counters_len(), self.counters.len()),
+            format!("edges      {:>5} bytes  {}, a bit each", self.edges_len(), self.edges),
             format!("together   {:>5} of {ARENA_LEN} bytes", self.arena_len()),
         ]
     }

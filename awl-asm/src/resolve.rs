@@ -4,7 +4,7 @@ use crate::address::{Address, AddressError};
 use crate::ast::{Instruction, Program, Span, Statement, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::literal::{self, LiteralError};
-use crate::mnemonics::{Meaning, meaning};
+use crate::mnemonics::{Meaning, confused, meaning};
 use crate::suggest::{Suggester, nearby_address};
 use crate::symbols::{Found, SymbolTable};
 
@@ -144,7 +144,8 @@ impl Resolver<'_> {
             }
             Err(AddressError::NotAnAddress) if !text.contains(|c: char| c.is_alphanumeric()) => {
                 let message = format!("{text}: neither an address nor a constant nor a symbol");
-                Err(Box::new(Diagnostic::new(Code::Syntax, span, message)))
+                let diagnostic = Diagnostic::new(Code::Syntax, span, message);
+                Err(Box::new(if text.starts_with('=') { diagnostic.help(ONE_A_LINE) } else { diagnostic }))
             }
             Err(AddressError::NotAnAddress) => Err(self.unknown_symbol(span, text, false)),
         }
@@ -159,9 +160,14 @@ impl Resolver<'_> {
             Some(near) => Some(near.to_owned()),
             None => nearby_address(name),
         };
+        if !is_quoted && (confused(name).is_some() || meaning(name).is_some()) {
+            diagnostic.help.push(ONE_A_LINE.to_owned());
+        }
         Box::new(diagnostic)
     }
 }
+
+const ONE_A_LINE: &str = "one instruction stands on a line";
 
 /// Whether a symbol of this name can be written without quotes.
 fn is_bare_name(name: &str) -> bool {

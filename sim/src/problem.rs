@@ -66,12 +66,14 @@ impl Problems {
     }
 }
 
-/// The span inside the text, widened to whole characters. The renderer takes nothing else.
+/// The span inside its line of the text, widened to whole characters. The renderer takes nothing else, and what is
+/// missing at the end of a line does not belong to the next one.
 fn whole_characters(text: &str, span: &Range<usize>) -> Range<usize> {
     let is_boundary = |at: &usize| text.is_char_boundary(*at);
     let start = span.start.min(text.len());
-    let end = span.end.clamp(start, text.len());
     let start = (0..=start).rev().find(is_boundary).unwrap_or(0);
+    let line_end = text[start..].find(['\r', '\n']).map_or(text.len(), |len| start + len);
+    let end = span.end.clamp(start, line_end);
     let end = (end..=text.len()).find(is_boundary).unwrap_or(text.len());
     start..end
 }

@@ -7,7 +7,7 @@ pub const TIME_MAX_MS: u64 = 1000 * 24 * 3600 * 1000;
 pub fn parse_time(text: &str) -> Result<u64, String> {
     let unit_at = text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len());
     let (number, unit) = text.split_at(unit_at);
-    let decimals = match unit {
+    let decimals = match unit.to_ascii_lowercase().as_str() {
         "ms" => 0,
         "s" => 3,
         "" if is_number(number) => return Err(format!("{text}: a time needs its unit: {text}ms or {text}s")),

@@ -5,9 +5,12 @@ mod output;
 mod report;
 
 use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, Error, Result};
+use awl_asm::files::ensure_distinct;
+use awl_asm::source::Source;
 use awl_sim::machine::{Machine, MachineError};
 use awl_sim::open::{Opened, ProgramErrors, open_machine};
 use awl_sim::operand::Operand;
@@ -48,6 +51,9 @@ fn show(error: &Error) {
 }
 
 fn simulate(args: &Args) -> Result<u8> {
+    let inputs = [Some(&args.program), args.scenario.as_ref()].into_iter().flatten().chain(&args.symbols);
+    let inputs: Vec<&Path> = inputs.map(PathBuf::as_path).collect();
+    ensure_distinct(&inputs, args.output.as_deref().as_slice())?;
     let Opened { mut machine, symbols, default_signals, scan_ms, warnings } =
         open_machine(&args.program, &args.symbols, args.on.into())?;
     anstream::eprint!("{warnings}");
@@ -90,7 +96,9 @@ fn read_scenario(
 ) -> Result<Scenario> {
     let Some(path) = &args.scenario else { return Ok(Scenario::default()) };
     let origin = path.display().to_string();
-    let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {origin}"))?;
+    let bytes = std::fs::read(path).with_context(|| format!("cannot read {origin}"))?;
+    // The same encodings as for programs.
+    let text = Source::from_bytes(&*origin, &bytes)?.text;
     let mut has_operand = |operand| access(machine, operand);
     Ok(Scenario::parse(&origin, &text, Context { symbols, plant, has_operand: &mut has_operand })?)
 }

@@ -79,8 +79,13 @@ pub(super) fn parse(origin: &str, text: &str, context: Context<'_>) -> Result<Sc
     let mut start = 0;
     for (index, line) in text.split_inclusive('\n').enumerate() {
         let code = Piece { text: without_comment(line), start }.trim();
-        if !code.text.is_empty() {
-            parser.statement(code, index + 1);
+        match code.text.find("//") {
+            // Programs and scenarios lie side by side, but their comments differ.
+            Some(at) if !code.text[..at].contains('"') => {
+                parser.fail(code.part(at..code.text.len()), "a comment in a scenario begins with #");
+            }
+            _ if code.text.is_empty() => {}
+            _ => parser.statement(code, index + 1),
         }
         start += line.len();
     }
