@@ -69,4 +69,8 @@ fn drop_follow_ups(diagnostics: &mut Vec<Diagnostic>) {
     let is_guess = |diagnostic: &&Diagnostic| matches!(diagnostic.code, Code::UnknownMnemonic | Code::NotSupported);
     let guesses: HashSet<Span> = diagnostics.iter().filter(is_guess).map(|diagnostic| diagnostic.span).collect();
     diagnostics.retain(|diagnostic| is_guess(&diagnostic) || !guesses.contains(&diagnostic.span));
+    // Whether a value is used cannot be told while instructions are missing.
+    if diagnostics.iter().any(|diagnostic| diagnostic.severity() == Severity::Error) {
+        diagnostics.retain(|diagnostic| diagnostic.code != Code::UnusedValue);
+    }
 }

@@ -67,6 +67,7 @@ codes! {
     CounterNeverCounts = "W0007";
     StartedTwice = "W0008";
     JumpIntoLoop = "W0009";
+    UnusedValue = "W0010";
 }
 
 impl Code {

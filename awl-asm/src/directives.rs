@@ -10,6 +10,12 @@ use crate::symbols::{SymbolTable, check_name, read_value};
 
 const WORDS: [&str; 7] = ["pullup", "invert", "retain", "watchdog", "scan", "name", "symbol"];
 
+/// Whether a comment is a setting, whatever stands before it.
+pub(crate) fn is_setting(comment: &str) -> bool {
+    let word = comment.strip_prefix("//#").and_then(|rest| rest.split_whitespace().next());
+    word.is_some_and(|word| WORDS.iter().any(|known| known.eq_ignore_ascii_case(word)))
+}
+
 type Outcome<T> = Result<T, Box<Diagnostic>>;
 
 /// Where the settings stand that a program can make only once.
@@ -351,10 +357,10 @@ fn name(word: Piece<'_>, value: Piece<'_>) -> Outcome<String> {
         Some(inside) => inside.strip_suffix('"').ok_or_else(|| value.error("the quote is not closed"))?,
         None => value.text,
     };
-    if bare.is_empty() {
+    if value.text.is_empty() {
         return Err(word.error("a name is missing"));
     }
-    if let Some(odd) = bare.chars().find(|c| !(' '..='~').contains(c)) {
+    if let Some(odd) = bare.chars().find(|&c| !(' '..='~').contains(&c) || c == '"') {
         return Err(value.error(format!("{} cannot stand in a name, only printable ASCII", odd.escape_default())));
     }
     if bare.len() > usize::from(NAME_LEN_MAX) {

@@ -54,11 +54,11 @@ pub fn encode(
 
     let code_at = image.len();
     let places = Places::new(header, &image);
-    let mut encoder = Encoder::new(image, control, places, code.len());
+    let mut encoder = Encoder::new(image, code, control, places);
     for (index, selected) in code.iter().enumerate() {
         encoder.instruction(index, selected);
     }
-    encoder.finish(code, labels_at);
+    encoder.finish(labels_at);
 
     let Encoder { mut image, lines, .. } = encoder;
     header.code_len = (image.len() - code_at) as u16;
@@ -76,7 +76,7 @@ pub fn encode(
 
 /// The name as the image can hold it: printable ASCII, short.
 fn program_name(name: &str) -> String {
-    let printable = name.chars().map(|c| if matches!(c, ' '..='~') { c } else { '_' });
+    let printable = name.chars().map(|c| if matches!(c, ' '..='~') && c != '"' { c } else { '_' });
     printable.take(usize::from(NAME_LEN_MAX)).collect()
 }
 
@@ -102,7 +102,8 @@ fn too_large(
     code_at: usize,
     demand: &Demand,
 ) -> Diagnostic {
-    let limit = u32::from(SLOT_LEN - CRC_LEN);
+    // The end of the program takes a byte behind the last instruction.
+    let limit = u32::from(SLOT_LEN - CRC_LEN) - 1;
     let first_outside = lines.iter().position(|line| line.at + u32::from(line.len) > limit).unwrap_or(0);
     let span = code.get(first_outside).map(|selected| span_of(program, selected)).unwrap_or_default();
     let message = format!("the program needs {total_len} bytes, the program slot has {SLOT_LEN}");
@@ -119,6 +120,7 @@ fn too_large(
 struct Encoder<'a> {
     image: Vec<u8>,
     lines: Vec<Line>,
+    code: &'a [Selected],
     control: &'a Control,
     places: Places,
     /// For each label number its index in the label table.
@@ -128,7 +130,7 @@ struct Encoder<'a> {
 }
 
 impl<'a> Encoder<'a> {
-    fn new(image: Vec<u8>, control: &'a Control, places: Places, instructions: usize) -> Encoder<'a> {
+    fn new(image: Vec<u8>, code: &'a [Selected], control: &'a Control, places: Places) -> Encoder<'a> {
         // The table lists labels in the order of the code.
         let mut by_place: Vec<(usize, usize)> =
             control.labels.iter().enumerate().filter_map(|(number, &place)| Some((place?, number))).collect();
@@ -137,13 +139,18 @@ impl<'a> Encoder<'a> {
         for (index, &(_, number)) in by_place.iter().enumerate() {
             label_indices[number] = index as u8;
         }
-        let lines = Vec::with_capacity(instructions);
-        Encoder { image, lines, control, places, label_indices, next_edge: 0, open_loops: Vec::new() }
+        let lines = Vec::with_capacity(code.len());
+        Encoder { image, lines, code, control, places, label_indices, next_edge: 0, open_loops: Vec::new() }
     }
 
     fn instruction(&mut self, index: usize, selected: &Selected) {
         let start = self.image.len();
-        if reads_fast_timer(selected) {
+        // NEXT reads FINAL of its FOR once more.
+        let reader = match (selected.op, self.open_loops.last()) {
+            (Op::Next, Some(&open)) => self.code.get(open).unwrap_or(selected),
+            _ => selected,
+        };
+        if reads_fast_timer(reader) {
             self.push(Op::Refresh, &[]);
         }
         let hidden_len = self.image.len() - start;
@@ -180,9 +187,9 @@ impl<'a> Encoder<'a> {
     }
 
     /// Ends the program and enters the offsets that were not known before.
-    fn finish(&mut self, code: &[Selected], labels_at: usize) {
+    fn finish(&mut self, labels_at: usize) {
         self.push(Op::MainEnd, &[]);
-        for (selected, line) in code.iter().zip(&self.lines) {
+        for (selected, line) in self.code.iter().zip(&self.lines) {
             if let (Op::Lbl, Argument::Number(label)) = (selected.op, selected.arguments[0]) {
                 let entry = labels_at + 2 * usize::from(self.label_indices[usize::from(label)]);
                 self.image[entry..entry + 2].copy_from_slice(&code_offset(line).to_le_bytes());

@@ -22,6 +22,9 @@ fn try_write(path: &Path, write: impl Fn(&mut dyn Write) -> io::Result<()>) -> i
         let mut out = BufWriter::new(file);
         write(&mut out).and_then(|()| out.flush())
     };
+    // A link stays a link: what it leads to is replaced.
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+    let path = target.as_path();
     // A device or pipe cannot be replaced by a file.
     if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
         return write_to(File::options().write(true).open(path)?);

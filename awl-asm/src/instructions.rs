@@ -9,6 +9,9 @@ use crate::mnemonics::{Meaning, comparisons, confused, first_words, meaning};
 use crate::parser::Parser;
 use crate::resolve::{Pending, read_plain};
 
+/// Operands of one instruction that are looked at.
+const OPERANDS_KEPT: usize = 16;
+
 impl Parser<'_> {
     /// An instruction of the table.
     pub(crate) fn instruction(&mut self, entry: &'static Instruction, operand_count: usize, word: Span) {
@@ -74,8 +77,10 @@ impl Parser<'_> {
             _ => None,
         });
         self.diagnostics.push(diagnostic);
+        let from = self.lexer.position();
         self.lexer.skip_instruction();
-        if let Some(mnemonic) = canonical {
+        let operands = self.text.get(from..self.lexer.position()).unwrap_or("").trim();
+        if let Some(mnemonic) = canonical.filter(|mnemonic| is_likely(mnemonic, operands)) {
             self.stand_in(mnemonic, span);
         }
     }
@@ -159,6 +164,11 @@ impl Parser<'_> {
         let mut comma = None;
         loop {
             match self.lexer.ahead() {
+                // More than any instruction takes: one error about their number is enough.
+                Ahead::Text if operands.len() > OPERANDS_KEPT => {
+                    self.lexer.skip_instruction();
+                    break;
+                }
                 Ahead::Text => {
                     let cut = self.lexer.operand();
                     let operand = self.operand(cut, operands.len());
@@ -170,6 +180,7 @@ impl Parser<'_> {
                     let span = Span::new(at, at + 1);
                     if operands.is_empty() || comma.is_some() {
                         self.error(Code::Syntax, span, ",: an operand is missing before the comma");
+                        operands.push(Operand { span, value: Value::Invalid });
                     }
                     comma = Some(span);
                     self.lexer.step();
@@ -198,6 +209,16 @@ impl Parser<'_> {
             Value::Invalid
         });
         Operand { span, value }
+    }
+}
+
+/// Whether a guessed instruction fits its operands. Only asked where a wrong guess would do harm further down.
+fn is_likely(mnemonic: &str, operands: &str) -> bool {
+    match mnemonic {
+        "FOR" => operands.matches(',').count() == 2,
+        "NEXT" => operands.is_empty(),
+        "LBL" | "JMP" => !operands.is_empty() && operands.bytes().all(|byte| byte.is_ascii_digit()),
+        _ => true,
     }
 }
 

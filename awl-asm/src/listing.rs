@@ -6,8 +6,8 @@ use crate::assemble::Assembly;
 use crate::check::span_of;
 use crate::source::Source;
 
-/// Bytes shown on one line.
-const BYTES_SHOWN: usize = 11;
+/// Bytes of the longest instruction: FOR with a hidden one before it.
+const BYTES_SHOWN: usize = 12;
 
 /// Writes the listing of an assembled program.
 pub fn listing(source: &Source, assembly: &Assembly) -> String {

@@ -3,7 +3,7 @@
 use crate::ast::{Network, Program, Span, Statement, Symbol};
 use crate::blocks::{Blocks, Content};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::directives::{Directives, Targets};
+use crate::directives::{Directives, Targets, is_setting};
 use crate::lexer::{Ahead, Lexer};
 use crate::mnemonics::{Keyword, Meaning, meaning};
 use crate::resolve::{Pending, Resolver};
@@ -73,8 +73,11 @@ impl Parser<'_> {
 
     fn comment(&mut self, span: Span) {
         let before = self.text.get(..span.start as usize).unwrap_or("");
-        let is_first = before.trim_end_matches([' ', '\t']).ends_with(['\n', '\r']) || before.trim().is_empty();
-        if !is_first {
+        let before = before.trim_end_matches([' ', '\t']);
+        if !before.is_empty() && !before.ends_with(['\n', '\r']) {
+            if is_setting(span.text(self.text)) {
+                self.error(Code::Setting, span, "a setting stands on a line of its own");
+            }
             return;
         }
         let mut targets = Targets {

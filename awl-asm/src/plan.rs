@@ -11,7 +11,7 @@ use crate::address::Address;
 use crate::ast::{Program, Span};
 use crate::check::{operand_span, span_of};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::select::{Argument, Selected, started_kind};
+use crate::select::{Argument, Selected};
 
 /// What a program uses of the arena.
 #[derive(Debug, Clone, Default)]
@@ -83,8 +83,7 @@ pub fn demand(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagno
         collect.note_if_full(|| retained.span);
     }
     for selected in code {
-        collect.instruction(selected);
-        collect.note_if_full(|| operand_span(program, selected, 0));
+        collect.instruction(program, selected);
         if collect.demand.edges == usize::from(plc_isa::EDGES_MAX) + 1 && is_edge(selected.op) {
             let message = format!("this is one edge too many: a program can have {} EU and ED", plc_isa::EDGES_MAX);
             diagnostics.push(Diagnostic::new(Code::TooMany, span_of(program, selected), message));
@@ -141,9 +140,10 @@ impl Collect {
         }
     }
 
-    fn instruction(&mut self, selected: &Selected) {
+    fn instruction(&mut self, program: &Program, selected: &Selected) {
         self.demand.edges += usize::from(is_edge(selected.op));
-        for (argument, _) in selected.arguments() {
+        self.note_if_full(|| span_of(program, selected));
+        for (index, (argument, _)) in selected.arguments().enumerate() {
             match argument {
                 Argument::Bit(Address::Bit { area: Area::V, byte, bit }) => {
                     let bits = u16::from(bit) + reach(selected);
@@ -156,13 +156,14 @@ impl Collect {
                 }
                 Argument::Memory(Address::Counter(number)) => self.counter(number),
                 Argument::Timer(number) => {
-                    if let Some(kind) = started_kind(selected.op) {
+                    if let Some(kind) = TimerKind::started_by(selected.op) {
                         self.demand.timers.insert(number, kind);
                     }
                 }
                 Argument::Counter(number) if selected.op != Op::ResetCounters => self.counter(number),
                 _ => {}
             }
+            self.note_if_full(|| operand_span(program, selected, index));
         }
     }
 

@@ -74,12 +74,18 @@ fn lines<'d>(source: &'d Source, marks: Vec<Mark<'d>>, home: usize, group: Group
     let last = marks.iter().map(|mark| mark.line).max().unwrap_or(home);
     let mut text = String::new();
     let mut starts = Vec::new();
+    let mut len = 0;
     for line in first..=last {
+        let span = source.line_span(line);
+        len += (span.end - span.start) as usize;
+        if len > LINE_LEN_MAX {
+            break;
+        }
         starts.push(text.len());
         text.push_str(source.line_text(line));
         text.push('\n');
     }
-    if text.len() > LINE_LEN_MAX {
+    if len > LINE_LEN_MAX {
         let main = marks.iter().find(|mark| mark.line == home);
         let (line, column) = source.position(main.map_or(0, |mark| mark.span.start as usize));
         return group.element(Origin::path(&source.name).line(line).char_column(column));

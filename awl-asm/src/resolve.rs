@@ -26,9 +26,17 @@ pub(crate) fn read_plain(text: &str) -> Option<Value> {
         return None;
     }
     match Address::parse(text) {
+        // A symbol may have the name of a German address: that is decided when all symbols are known.
+        Ok(address) if is_german(text, address) => None,
         Ok(address) => Some(Value::Address(address)),
         Err(_) => literal::truth_value(text).map(Value::Constant),
     }
+}
+
+/// Whether an address is written with a German area letter, such as E0.0 or Z1.
+pub(crate) fn is_german(text: &str, address: Address) -> bool {
+    let letter = address.to_string().chars().next();
+    text.chars().next().map(|c| c.to_ascii_uppercase()) != letter
 }
 
 /// Settles the operands that were left open.

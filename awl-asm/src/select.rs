@@ -89,7 +89,18 @@ fn select_one(source: &ast::Instruction, statement: u32, diagnostics: &mut Vec<D
     if source.operands.iter().all(|operand| operand.value != Value::Invalid) {
         diagnostics.push(misfit(source, candidates));
     }
-    Some(selected(candidates.first()?.op, ([Argument::None; ARGUMENTS_MAX], 0)))
+    let likely = candidates.first()?;
+    Some(selected(likely.op, (fit_beginning(likely.forms.first()?.kinds, &source.operands), 0)))
+}
+
+/// The operands before the first that does not fit: they say at least which timer or counter is meant.
+fn fit_beginning(kinds: &'static [Kind], operands: &[ast::Operand]) -> [Argument; ARGUMENTS_MAX] {
+    let mut arguments = [Argument::None; ARGUMENTS_MAX];
+    let fitting = written_kinds(kinds).zip(operands).map_while(|(kind, operand)| fit(kind, &operand.value));
+    for (place, argument) in arguments.iter_mut().zip(fitting) {
+        *place = argument;
+    }
+    arguments
 }
 
 /// The operands of a form that stand in the text.
@@ -226,9 +237,11 @@ fn classes_at(candidates: &[&'static Instruction], prefix: &[ast::Operand], posi
             classes.push(class);
         }
     }
-    // The general classes only repeat what the others say.
-    if classes.len() > 1 {
-        classes.retain(|class| !matches!(class, Class::AnyByte | Class::AnyInt));
+    // A general class says in one phrase what the others say in several, if those have a constant among them too.
+    let is_general = |class: &Class| matches!(class, Class::AnyByte | Class::AnyInt);
+    let has_constant = classes.iter().any(|class| matches!(class, Class::Constant(..)));
+    if classes.iter().any(is_general) {
+        classes.retain(|class| is_general(class) != has_constant);
     }
     classes
 }
@@ -316,7 +329,7 @@ fn check_values(source: &ast::Instruction, selected: &Selected, diagnostics: &mu
             diagnostics.extend(read_only(address, operand.span));
         }
     }
-    if let (Some(kind), Argument::Timer(number)) = (started_kind(selected.op), selected.arguments[0])
+    if let (Some(kind), Argument::Timer(number)) = (TimerKind::started_by(selected.op), selected.arguments[0])
         && !kind.fits(number)
         && let Some(operand) = source.operands.first()
     {
@@ -340,16 +353,6 @@ fn read_only(address: Address, span: Span) -> Option<Diagnostic> {
         Address::Timer(_) | Address::Counter(_) => return None,
     };
     Some(Diagnostic::new(Code::ReadOnly, span, message).label("read only"))
-}
-
-/// How an instruction starts a timer.
-pub fn started_kind(op: Op) -> Option<TimerKind> {
-    match op {
-        Op::Ton => Some(TimerKind::OnDelay),
-        Op::Tof => Some(TimerKind::OffDelay),
-        Op::Tonr => Some(TimerKind::RetentiveOnDelay),
-        _ => None,
-    }
 }
 
 fn wrong_family(mnemonic: &str, number: u8, kind: TimerKind, span: Span) -> Diagnostic {

@@ -6,16 +6,19 @@ use crate::address::Address;
 
 /// Candidates compared in one file: a file full of errors must not cost errors times symbols.
 const COMPARISONS_MAX: usize = 1_000_000;
+/// Candidates looked at in one file, most of them only for their length.
+const CANDIDATES_MAX: usize = 20_000_000;
 
 /// Looks for near words, as long as the budget lasts.
 #[derive(Debug)]
 pub(crate) struct Suggester {
     comparisons_left: Cell<usize>,
+    candidates_left: Cell<usize>,
 }
 
 impl Default for Suggester {
     fn default() -> Self {
-        Suggester { comparisons_left: Cell::new(COMPARISONS_MAX) }
+        Suggester { comparisons_left: Cell::new(COMPARISONS_MAX), candidates_left: Cell::new(CANDIDATES_MAX) }
     }
 }
 
@@ -34,6 +37,11 @@ impl Suggester {
         };
         let mut best: Option<((usize, bool), &str)> = None;
         for candidate in candidates {
+            let left = self.candidates_left.get();
+            if left == 0 {
+                return None;
+            }
+            self.candidates_left.set(left - 1);
             if len.abs_diff(candidate.chars().count()) > distance_max {
                 continue;
             }
@@ -109,7 +117,7 @@ mod tests {
 
     #[test]
     fn the_budget_ends() {
-        let suggester = Suggester { comparisons_left: Cell::new(3) };
+        let suggester = Suggester { comparisons_left: Cell::new(3), ..Suggester::default() };
         assert!((0..5).map(|_| suggester.nearest("MOVX", ["MOVW"].into_iter())).filter(Option::is_some).count() == 3);
     }
 

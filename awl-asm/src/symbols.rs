@@ -7,6 +7,7 @@ use crate::address::{Address, AddressError};
 use crate::ast::{Span, Symbol, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::literal::{self, LiteralError};
+use crate::resolve::is_german;
 use crate::source::Source;
 use crate::suggest::nearby_address;
 
@@ -139,7 +140,8 @@ pub(crate) fn check_name(name: &str, place: Span) -> Result<(), Box<Diagnostic>>
     if name.is_empty() {
         return error("the name of the symbol is missing".to_owned());
     }
-    if Address::parse(name).is_ok() {
+    // Z1 and A1.0 are likely names of valves; programs with German addresses do not use them as such.
+    if Address::parse(name).is_ok_and(|address| !is_german(name, address)) {
         return error(format!("{name}: a symbol cannot be named like an address"));
     }
     if literal::truth_value(name).is_some() || literal::looks_like_literal(name) && literal::parse(name).is_ok() {

@@ -126,7 +126,7 @@ fn the_trace_goes_to_stdout_and_only_the_trace() {
 fn files_are_written_whole_and_their_name_tells_the_format() {
     let folder = Folder::with_files("files", &[("p.awl", COPY)]);
     for (file, start) in
-        [("a.csv", "time_ms,scan,I0.0,Q0.0,"), ("a.svg", "<svg"), ("a.vcd", "$version"), ("a.txt", "time/s")]
+        [("a.csv", "time_ms,scan,I0.0,Q0.0,"), ("a.svg", "<svg"), ("a.vcd", "$version"), ("a.txt", "time_ms,scan")]
     {
         fs::write(folder.0.join(file), "old").unwrap();
         let (code, output, errors) = told(&folder.sim(&["p.awl", "--scans", "20", "-o", file]));

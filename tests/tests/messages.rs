@@ -153,7 +153,7 @@ fn a_program_that_is_too_large() {
 
 #[test]
 fn an_edge_too_many() {
-    let program = |edges: usize| "LD I0.0\n".to_string() + &"EU\n".repeat(edges);
+    let program = |edges: usize| format!("LD I0.0\n{}= M0.0\n", "EU\n".repeat(edges));
     assert_eq!(diagnostics(program(256)), []);
     let [(code, line, message)] = &diagnostics(program(257))[..] else { panic!("one error") };
     assert_eq!((*code, *line), (Code::TooMany, 258));

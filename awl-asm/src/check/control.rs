@@ -22,13 +22,6 @@ pub struct Control {
     pub jumps: Vec<(usize, usize)>,
 }
 
-impl Control {
-    /// Whether an instruction is in the body of the loop that starts at `start`, however deep.
-    fn is_in_loop(&self, instruction: usize, start: usize) -> bool {
-        std::iter::successors(self.innermost[instruction], |&outer| self.innermost[outer]).any(|outer| outer == start)
-    }
-}
-
 /// Finds the control structure and reports what is wrong with it.
 pub fn control(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnostic>) -> Control {
     let mut control = Control { labels: vec![None; 256], ..Control::default() };
@@ -97,15 +90,25 @@ fn find_loops(program: &Program, code: &[Selected], control: &mut Control, diagn
 }
 
 fn find_jumps(program: &Program, code: &[Selected], control: &mut Control, diagnostics: &mut Vec<Diagnostic>) {
+    // A label whose number was wrong may have been the one.
+    let has_unknown_label = code.iter().any(|selected| selected.op == Op::Lbl && number(selected).is_none());
+    let known = known_labels(&control.labels);
+    // A FOR without NEXT reaches to the end.
+    let mut ends = vec![usize::MAX; code.len()];
+    for &(start, end) in &control.loops {
+        ends[start] = end;
+    }
     for (index, selected) in code.iter().enumerate().filter(|(_, selected)| selected.op == Op::Jmp) {
         let Some(label) = number(selected) else { continue };
         let span = operand_span(program, selected, 0);
         let Some(target) = control.labels[usize::from(label)] else {
-            diagnostics.push(missing_label(label, span, &control.labels));
+            if !has_unknown_label {
+                diagnostics.push(missing_label(label, span, &known));
+            }
             continue;
         };
         control.jumps.push((index, target));
-        if let Some(start) = control.innermost[target].filter(|&start| !control.is_in_loop(index, start)) {
+        if let Some(start) = control.innermost[target].filter(|&start| !(start..=ends[start]).contains(&index)) {
             diagnostics.push(
                 Diagnostic::new(
                     Code::JumpIntoLoop,
@@ -119,14 +122,23 @@ fn find_jumps(program: &Program, code: &[Selected], control: &mut Control, diagn
     }
 }
 
-fn missing_label(label: u8, span: Span, labels: &[Option<usize>]) -> Diagnostic {
+/// Most labels that a message lists.
+const LABELS_SHOWN: usize = 10;
+
+fn known_labels(labels: &[Option<usize>]) -> Vec<String> {
+    let numbers = labels.iter().enumerate().filter(|(_, place)| place.is_some());
+    numbers.take(LABELS_SHOWN + 1).map(|(number, _)| number.to_string()).collect()
+}
+
+fn missing_label(label: u8, span: Span, known: &[String]) -> Diagnostic {
     let diagnostic = Diagnostic::new(Code::MissingLabel, span, format!("there is no label {label}"));
-    let known: Vec<String> =
-        (0..labels.len()).filter(|&number| labels[number].is_some()).map(|number| number.to_string()).collect();
-    match known.as_slice() {
+    match known {
         [] => diagnostic.help(format!("put `LBL {label}` where the jump shall go")),
         [one] => diagnostic.suggest(one.clone()),
-        _ => diagnostic.help(format!("the program has the labels {}", known.join(", "))),
+        some if some.len() > LABELS_SHOWN => {
+            diagnostic.help(format!("the program has the labels {}, ...", some[..LABELS_SHOWN].join(", ")))
+        }
+        some => diagnostic.help(format!("the program has the labels {}", some.join(", "))),
     }
 }
 
@@ -150,7 +162,7 @@ fn timers_not_every_scan(program: &Program, code: &[Selected], control: &Control
     }
     for (selected, by) in code.iter().zip(&covered) {
         let (Some((by, words)), Argument::Timer(number)) = (by, selected.arguments[0]) else { continue };
-        let is_started = crate::select::started_kind(selected.op).is_some();
+        let is_started = plc_isa::TimerKind::started_by(selected.op).is_some();
         if is_started && plc_isa::timer_resolution(number) == plc_isa::TimerResolution::Ms100 {
             diagnostics.push(
                 Diagnostic::new(

@@ -12,8 +12,18 @@ pub type Depths = Vec<u8>;
 
 /// Follows the depth through the program and reports what cannot be right.
 pub fn stack(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnostic>) -> Depths {
-    let mut follow =
-        Follow { program, diagnostics, total: 0, fresh: 0, after_output: false, at_start: None, warned: false };
+    let mut follow = Follow {
+        program,
+        diagnostics,
+        total: 0,
+        fresh: 0,
+        after_output: false,
+        after_label: false,
+        at_start: None,
+        warned: false,
+        loads: Vec::new(),
+        taken: 0,
+    };
     let mut depths = Vec::with_capacity(code.len());
     let mut statement = 0;
     follow.network(Span::default(), 1);
@@ -26,6 +36,7 @@ pub fn stack(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
         statement = selected.statement as usize;
         depths.push(follow.instruction(selected));
     }
+    follow.end_of_rung();
     depths
 }
 
@@ -37,15 +48,23 @@ struct Follow<'a> {
     /// Values since the start of the rung: a load behind an output starts a new one.
     fresh: u16,
     after_output: bool,
+    /// Behind a label nothing is certain until the next load: what falls through brings its own values.
+    after_label: bool,
     /// The network whose first instruction is still to come.
     at_start: Option<(Span, u32)>,
     /// Whether this rung's overflow has been reported.
     warned: bool,
+    /// Where the values of this rung come from, the oldest first.
+    loads: Vec<Span>,
+    /// How many of them an output has taken up.
+    taken: usize,
 }
 
 impl Follow<'_> {
     fn network(&mut self, span: Span, number: u32) {
-        (self.total, self.fresh, self.after_output, self.warned) = (0, 0, false, false);
+        self.end_of_rung();
+        (self.total, self.fresh) = (0, 0);
+        (self.after_output, self.after_label, self.warned) = (false, false, false);
         self.at_start = Some((span, number));
     }
 
@@ -58,13 +77,31 @@ impl Follow<'_> {
         let needs = instruction.stack.needs + level;
         let loads = instruction.stack.needs == 0 && instruction.stack.adds > 0;
         if loads && self.after_output {
+            self.end_of_rung();
             (self.fresh, self.warned) = (0, false);
         }
         self.check_needs(selected, instruction, needs);
         self.at_start = None;
         self.after_output = !matches!(instruction.group, Group::Contact | Group::Compare | Group::Stack);
+        if self.after_output {
+            self.taken = self.taken.max(usize::from(needs));
+        }
         self.apply(selected, instruction);
         self.total
+    }
+
+    /// What the outputs of a rung have not taken up was loaded in vain.
+    fn end_of_rung(&mut self) {
+        // After an overflow there is more to say than this.
+        let unused = if self.warned { 0 } else { self.loads.len().saturating_sub(self.taken) };
+        if let Some(&span) = self.loads[..unused].last() {
+            self.diagnostics.push(
+                Diagnostic::new(Code::UnusedValue, span, "the value that is loaded here is not used")
+                    .help("combine it with A or O, or with ALD or OLD, and end the rung with an output"),
+            );
+        }
+        self.loads.clear();
+        self.taken = 0;
     }
 
     fn check_needs(&mut self, selected: &Selected, instruction: &Instruction, needs: u8) {
@@ -88,14 +125,14 @@ impl Follow<'_> {
                     .help("each LD pushes one value; ALD, OLD and LPP take one away"),
             );
             self.total = needs.min(STACK_LEVELS);
-        } else if u16::from(needs) > self.fresh && !self.program.has_networks {
+        } else if u16::from(needs) > self.fresh && (self.after_label || !self.program.has_networks) {
             self.diagnostics.push(
                 Diagnostic::new(
                     Code::StaleStackValue,
                     span(),
                     format!("{name} takes a value that an earlier rung left on the logic stack"),
                 )
-                .help("a load is probably missing in this rung; NETWORK lines say where a network starts"),
+                .help("a load is probably missing in this rung"),
             );
         }
         self.fresh = self.fresh.max(u16::from(needs));
@@ -103,8 +140,18 @@ impl Follow<'_> {
 
     fn apply(&mut self, selected: &Selected, instruction: &Instruction) {
         if matches!(selected.op, Op::Lbl | Op::For | Op::Next) {
-            (self.total, self.fresh) = (1, 1);
+            self.end_of_rung();
+            self.after_label = selected.op == Op::Lbl;
+            (self.total, self.fresh) = (1, u16::from(!self.after_label));
             return;
+        }
+        match instruction.stack.adds {
+            1.. => {
+                self.loads.push(span_of(self.program, selected));
+                self.after_label = false;
+            }
+            0 => {}
+            removed => self.loads.truncate(self.loads.len().saturating_sub(usize::from(removed.unsigned_abs()))),
         }
         let adds = instruction.stack.adds;
         self.total = self.total.saturating_add_signed(adds).min(STACK_LEVELS);

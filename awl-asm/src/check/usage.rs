@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use plc_isa::{Area, DIGITAL_INPUTS, DIGITAL_OUTPUTS, Op};
+use plc_isa::{Area, DIGITAL_INPUTS, DIGITAL_OUTPUTS, Op, TimerKind};
 
 use crate::address::Address;
 use crate::ast::{Program, Span};
 use crate::check::{operand_span, span_of};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::select::{Argument, Selected, started_kind};
+use crate::select::{Argument, Selected};
 
 /// One use of an address by an instruction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,7 +41,7 @@ pub fn usage(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
             }
         }
     }
-    let check = Check { program, code };
+    let check = Check { program, code, unknown: uncertain(code) };
     for (&address, accesses) in &usage.accesses {
         check.address(address, accesses, diagnostics);
     }
@@ -66,6 +66,18 @@ fn updates(op: Op) -> bool {
 struct Check<'a> {
     program: &'a Program,
     code: &'a [Selected],
+    /// The warnings that an instruction without its operands makes uncertain.
+    unknown: Vec<Code>,
+}
+
+fn uncertain(code: &[Selected]) -> Vec<Code> {
+    let bare = code.iter().filter(|selected| selected.arguments[0] == Argument::None);
+    let warnings = bare.filter_map(|selected| match selected.op {
+        Op::Ton | Op::Tof | Op::Tonr => Some(Code::TimerNeverStarted),
+        Op::Ctu | Op::Ctd | Op::Ctud => Some(Code::CounterNeverCounts),
+        _ => None,
+    });
+    warnings.collect()
 }
 
 impl Check<'_> {
@@ -85,14 +97,16 @@ impl Check<'_> {
                 self.assigned_twice(address, accesses, diagnostics);
                 self.pin(address, accesses, diagnostics);
             }
-            Address::Bit { area: Area::I, .. } => self.pin(address, accesses, diagnostics),
+            Address::Bit { area: Area::I, .. }
+            | Address::Byte { area: Area::I | Area::Q, .. }
+            | Address::Word { area: Area::I | Area::Q, .. } => self.pin(address, accesses, diagnostics),
             _ => {}
         }
     }
 
     fn timer(&self, number: u8, accesses: &[Access], diagnostics: &mut Vec<Diagnostic>) {
         let name = format!("T{number}");
-        let starts = |access: &&Access| started_kind(self.op(access)).is_some() && access.operand == 0;
+        let starts = |access: &&Access| TimerKind::started_by(self.op(access)).is_some() && access.operand == 0;
         self.one_kind(&name, "a timer", accesses, starts, Code::TimerTwoKinds, diagnostics);
         let help = format!("start it with TON, TOF or TONR, for example `TON {name}, 10`");
         self.never_started(&name, "started", help, accesses, starts, Code::TimerNeverStarted, diagnostics);
@@ -148,7 +162,8 @@ impl Check<'_> {
         diagnostics: &mut Vec<Diagnostic>,
     ) {
         let first_read = accesses.iter().find(|access| access.reads);
-        let is_started = accesses.iter().any(|access| starts(&access));
+        // An instruction whose operands were wrong may have been the one.
+        let is_started = accesses.iter().any(|access| starts(&access)) || self.unknown.contains(&code);
         if let (Some(read), false) = (first_read, is_started) {
             let message = format!("{name} is read here, but never {verb}");
             diagnostics.push(Diagnostic::new(code, self.span(read), message).help(help));
@@ -169,12 +184,18 @@ impl Check<'_> {
     }
 
     fn pin(&self, address: Address, accesses: &[Access], diagnostics: &mut Vec<Diagnostic>) {
-        let Address::Bit { area, byte, bit } = address else { return };
+        let (area, byte, bit) = match address {
+            Address::Bit { area, byte, bit } => (area, byte, bit),
+            Address::Byte { area, byte } | Address::Word { area, byte } => (area, byte, 0),
+            _ => return,
+        };
         let (count, direction, effect) = match area {
             Area::I => (DIGITAL_INPUTS, "inputs", "it always reads 0"),
             _ => (DIGITAL_OUTPUTS, "outputs", "nothing is switched by it"),
         };
-        if let (Some(first), true) = (accesses.first(), byte > 0 || bit >= count) {
+        // Writing an input is an error already.
+        let first = accesses.iter().find(|access| area == Area::Q || !access.writes);
+        if let (Some(first), true) = (first, byte > 0 || bit >= count) {
             let name = area.name();
             let message = format!("{address} has no pin on the Uno: {effect}");
             diagnostics.push(

@@ -33,14 +33,15 @@ pub trait ProgramMemory {
     }
 }
 
-impl ProgramMemory for &[u8] {
+/// Slices and vectors of the host.
+impl<T: AsRef<[u8]>> ProgramMemory for T {
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn len(&self) -> u16 {
-        u16::try_from(<[u8]>::len(self)).unwrap_or(u16::MAX)
+        u16::try_from(self.as_ref().len()).unwrap_or(u16::MAX)
     }
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn byte(&self, offset: u16) -> u8 {
-        self.get(usize::from(offset)).copied().unwrap_or(0xFF)
+        self.as_ref().get(usize::from(offset)).copied().unwrap_or(0xFF)
     }
 }
 

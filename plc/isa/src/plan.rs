@@ -8,6 +8,7 @@ use crate::image::{COUNTER_LEN, Header, LABEL_LEN, ProgramMemory, TIMER_LEN, V_R
 use crate::layout::*;
 use crate::operand::Bit;
 use crate::settings::Retained;
+use crate::table::Op;
 
 /// How a program starts a timer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -23,6 +24,16 @@ pub enum TimerKind {
 }
 
 impl TimerKind {
+    /// How an instruction starts a timer, if it does.
+    pub const fn started_by(op: Op) -> Option<TimerKind> {
+        match op {
+            Op::Ton => Some(TimerKind::OnDelay),
+            Op::Tof => Some(TimerKind::OffDelay),
+            Op::Tonr => Some(TimerKind::RetentiveOnDelay),
+            _ => None,
+        }
+    }
+
     /// The code in the image.
     pub const fn code(self) -> u8 {
         match self {
@@ -280,7 +291,7 @@ impl<P: ProgramMemory> Plan<P> {
 }
 
 impl Region {
-    /// Whether an instruction may write `len` bytes here.
+    /// Whether an instruction may write here. How much, [`holds_value`](Self::holds_value) and the room say.
     pub fn is_writable(self) -> bool {
         match self {
             Region::Byte { area, byte, .. } => byte >= area.first_writable(),

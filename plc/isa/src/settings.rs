@@ -70,12 +70,6 @@ impl Retained {
     }
 
     pub(crate) fn area_of_code(code: u8) -> Option<Area> {
-        match code {
-            0 => Some(Area::V),
-            1 => Some(Area::M),
-            2 => Some(Area::T),
-            3 => Some(Area::C),
-            _ => None,
-        }
+        Self::AREAS.get(usize::from(code)).copied()
     }
 }

@@ -194,7 +194,7 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
             (Kind::Count, Operand::Constant(count)) => count >= 1,
             (Kind::Level, Operand::Number(level)) => level < STACK_LEVELS,
             (Kind::TimerSlot, Operand::Number(slot)) => {
-                u16::from(slot) < plan.header.timers && kind_started_by(op) == Some(plan.timer(slot).kind)
+                u16::from(slot) < plan.header.timers && TimerKind::started_by(op) == Some(plan.timer(slot).kind)
             }
             (Kind::CounterSlot, Operand::Number(slot)) => u16::from(slot) < plan.header.counters,
             (Kind::TimerNumber | Kind::CounterNumber, Operand::Number(number)) => u16::from(number) + count <= 256,
@@ -248,15 +248,6 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
             }
             _ => Ok(()),
         }
-    }
-}
-
-fn kind_started_by(op: Op) -> Option<TimerKind> {
-    match op {
-        Op::Ton => Some(TimerKind::OnDelay),
-        Op::Tof => Some(TimerKind::OffDelay),
-        Op::Tonr => Some(TimerKind::RetentiveOnDelay),
-        _ => None,
     }
 }
 

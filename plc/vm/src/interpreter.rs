@@ -27,6 +27,9 @@ pub enum Exit {
     Undefined(u16),
 }
 
+/// Bytes of a jump or of NEXT, about.
+const JUMP_LEN: u16 = 3;
+
 /// The state of one program execution.
 pub(crate) struct Interpreter<'a, P, E> {
     pub program: &'a Program<P>,
@@ -128,7 +131,8 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
 
     /// Goes to an offset; back over code only as long as the watchdog allows.
     fn go_to(&mut self, target: u16, here: u16) -> Flow<Exit> {
-        if target <= here && self.environment.is_overdue(here - target) {
+        // What was executed: from the target to the jump, and the jump.
+        if target <= here && self.environment.is_overdue((here - target).saturating_add(JUMP_LEN)) {
             return Flow::Exit(Exit::Watchdog(here));
         }
         Flow::Jump(target)

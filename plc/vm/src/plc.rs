@@ -13,13 +13,13 @@ use crate::special::{self, SystemBits};
 use crate::timer;
 
 /// Bytes of the input and output process images.
-pub const IMAGE_BYTES: usize = 16;
+const IMAGE_BYTES: usize = 16;
 
 /// What the inputs are at the start of a scan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Inputs {
     /// IB0 to IB15, as logical values. Points that do not exist are 0.
-    pub digital: [u8; IMAGE_BYTES],
+    pub digital: [u8; 16],
     /// AIW0, AIW2, ...: 0..=32000.
     pub scaled: [u16; ANALOG_INPUTS as usize],
     /// Ain0, Ain1, ...: 0..=1023.
@@ -187,7 +187,10 @@ impl<P: ProgramMemory> Plc<P> {
     /// Output byte `byte` as logical values: the process image in RUN, all off otherwise.
     pub fn outputs(&self, memory: &Memory, byte: u8) -> u8 {
         match self.mode {
-            Mode::Run if usize::from(byte) < IMAGE_BYTES => memory.byte(Q_START + u16::from(byte)),
+            // Between the change to RUN and the end of the first scan the image is that of an earlier RUN.
+            Mode::Run if self.scans != Scans::None && usize::from(byte) < IMAGE_BYTES => {
+                memory.byte(Q_START + u16::from(byte))
+            }
             _ => 0,
         }
     }

@@ -1,7 +1,7 @@
 //! The host machine: the reference interpreter with virtual time. What the board does, without a board.
 
 use awl_asm::Address;
-use plc_isa::{AnalogInput, Area, Bit, ImageError, Plan, ProgramMemory, counter_bit, timer_bit};
+use plc_isa::{AnalogInput, Area, Bit, ImageError, Plan, counter_bit, timer_bit};
 use plc_vm::{Environment, Fault, Inputs, Memory, Plc};
 
 use crate::machine::{Machine, MachineError, Mode};
@@ -12,22 +12,6 @@ use crate::operand::Operand;
 const LOOPED_BYTES_PER_MS: u64 = 2_000;
 /// However often a program executes WDR, a scan ends after this time.
 const SCAN_MS_MAX: u64 = 60_000;
-
-/// An image that the machine owns.
-#[derive(Debug)]
-struct OwnedImage(Vec<u8>);
-
-impl ProgramMemory for OwnedImage {
-    #[inline(always)]
-    fn len(&self) -> u16 {
-        u16::try_from(self.0.len()).unwrap_or(u16::MAX)
-    }
-
-    #[inline(always)]
-    fn byte(&self, offset: u16) -> u8 {
-        self.0.get(usize::from(offset)).copied().unwrap_or(0xFF)
-    }
-}
 
 /// Virtual time, which stands still while a scan runs. Only loops cost watchdog time.
 #[derive(Debug)]
@@ -40,6 +24,12 @@ struct VirtualTime {
     scan_bytes: u64,
 }
 
+impl VirtualTime {
+    fn is_at_ceiling(&self) -> bool {
+        self.scan_bytes > SCAN_MS_MAX * LOOPED_BYTES_PER_MS
+    }
+}
+
 impl Environment for VirtualTime {
     fn now_ms(&mut self) -> u32 {
         self.now_ms
@@ -48,7 +38,7 @@ impl Environment for VirtualTime {
     fn is_overdue(&mut self, bytes: u16) -> bool {
         self.looped_bytes += u64::from(bytes);
         self.scan_bytes += u64::from(bytes);
-        self.looped_bytes > self.looped_bytes_max || self.scan_bytes > SCAN_MS_MAX * LOOPED_BYTES_PER_MS
+        self.looped_bytes > self.looped_bytes_max || self.is_at_ceiling()
     }
 
     fn retrigger_watchdog(&mut self) {
@@ -61,7 +51,7 @@ pub type PlaceOf = Box<dyn Fn(u16) -> String>;
 
 /// A PLC on the host.
 pub struct Host {
-    plc: Plc<OwnedImage>,
+    plc: Plc<Vec<u8>>,
     memory: Memory,
     inputs: Inputs,
     time: VirtualTime,
@@ -80,7 +70,7 @@ impl Host {
             clock_start_ms: 0,
             place_of,
         };
-        if host.plc.load(&mut host.memory, OwnedImage(image)).is_ok() {
+        if host.plc.load(&mut host.memory, image).is_ok() {
             host.plc.run();
         }
         if let Some(plan) = host.plan() {
@@ -109,7 +99,7 @@ impl Host {
         &self.memory
     }
 
-    fn plan(&self) -> Option<&Plan<OwnedImage>> {
+    fn plan(&self) -> Option<&Plan<Vec<u8>>> {
         self.plc.program().map(|program| program.plan())
     }
 
@@ -250,7 +240,9 @@ impl Machine for Host {
                 format!("bad image: {} (offset {at:#06x})", fault.message())
             }
             Fault::Watchdog { at } => {
-                let limit_ms = self.plan().map_or(0, |plan| plan.header.settings.watchdog_ms);
+                let limit_ms = self.plan().map_or(0, |plan| u64::from(plan.header.settings.watchdog_ms));
+                // WDR may have put the end off until it could be put off no longer.
+                let limit_ms = if self.time.is_at_ceiling() { SCAN_MS_MAX } else { limit_ms };
                 format!("watchdog: the scan took longer than {limit_ms} ms; the program was {}", self.place(at))
             }
             Fault::UndefinedInstruction { at } => format!("there is no instruction {}", self.place(at)),
