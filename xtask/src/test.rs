@@ -7,9 +7,12 @@ use anyhow::{Context, Result};
 use crate::process::{self, cargo};
 use crate::{avr, bench, docs, rules};
 
+/// A name and what it checks.
+type Stage = (&'static str, fn() -> Result<()>);
+
 /// Runs everything.
 pub fn run(host_only: bool) -> Result<()> {
-    let stages: [(&str, fn() -> Result<()>); 7] = [
+    let stages: [Stage; 7] = [
         ("format", || process::run(cargo().args(["fmt", "--all", "--check"]))),
         ("rules of the repository", rules::check),
         ("generated pages", || docs::run(true)),
