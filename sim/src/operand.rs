@@ -100,7 +100,12 @@ fn address(text: &str, symbols: &Symbols) -> Result<Address, OperandError> {
     }
     Address::parse(text).map_err(|error| match error {
         AddressError::NotAnAddress => OperandError {
-            message: format!("{text} is neither an address nor a symbol of the program"),
+            message: match symbols.is_empty() {
+                true => {
+                    format!("{text} is no address, and the program has no symbols (an image carries none: --symbols)")
+                }
+                false => format!("{text} is neither an address nor a symbol of the program"),
+            },
             suggestion: symbols.nearest(name).map(str::to_string),
         },
         AddressError::NotSupported(message) => OperandError { message, suggestion: None },

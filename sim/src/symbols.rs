@@ -27,6 +27,11 @@ impl Symbols {
         Symbols::default()
     }
 
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
     /// Adds a symbol. A name that is there already keeps its first meaning.
     pub fn add(&mut self, name: impl Into<String>, address: Address, comment: impl Into<String>) {
         self.list.push(Symbol { name: name.into(), address, comment: comment.into() });

@@ -1,13 +1,12 @@
 //! The demo: the sorting station runs its AWL program on six pieces of mixed heights.
 
-use std::fs::{self, File};
-use std::io::{BufWriter, Write};
-use std::path::Path;
+use std::fs;
 
 use anyhow::{Context, Error, Result, ensure};
+use awl_asm::files::write_whole_with;
 use awl_sim::open::{Opened, Target, open_machine};
 use awl_sim::plant::parse_spec;
-use awl_sim::run::{Job, Length, run as run_machine};
+use awl_sim::run::{Job, Length, Outcome, run as run_machine};
 use awl_sim::scenario::Scenario;
 use awl_sim::trace::{Signal, svg};
 
@@ -18,6 +17,7 @@ const PROGRAM: &str = "examples/station1.awl";
 const PLANT: &str = "station1 pieces=normal,small,normal,large,small,normal noise=3 seed=7";
 const GOOD: i64 = 3;
 const REJECTED: i64 = 3;
+const TITLE: &str = "station1.awl";
 const RUN_MS: u64 = 64_000;
 const DIAGRAM: &str = "target/demo/station1.svg";
 
@@ -37,8 +37,8 @@ const SIGNALS: [&str; 12] = [
     "Height",
 ];
 
-/// Runs the station against its model and judges what was sorted.
-pub fn run() -> Result<()> {
+/// Runs the station against its model.
+fn simulate() -> Result<Outcome> {
     let Opened { mut machine, symbols, .. } = open_machine(&root().join(PROGRAM), &[], Target::Host)?;
     let spec = parse_spec(PLANT).map_err(|problems| Error::msg(format!("{problems:?}")))?;
     let signals: Result<Vec<Signal>, _> = SIGNALS.iter().map(|name| Signal::parse(name, &symbols)).collect();
@@ -50,15 +50,28 @@ pub fn run() -> Result<()> {
         progress: None,
     };
 
+    Ok(run_machine(&mut *machine, &Scenario::default(), job)?)
+}
+
+/// The timing diagram of the demo, for the README.
+pub fn diagram() -> Result<Vec<u8>> {
+    let mut text = Vec::new();
+    svg::write(&simulate()?.trace, TITLE, &mut text)?;
+    Ok(text)
+}
+
+/// Shows a run and judges what was sorted.
+pub fn run() -> Result<()> {
     println!("A sorting station: {PROGRAM} against a model of the machine, scan by scan.");
     println!("Pieces of about 207 counts are good and go to ramp 2, all others to ramp 1.\n");
-    let outcome = run_machine(&mut *machine, &Scenario::default(), job)?;
+    let outcome = simulate()?;
     let report = outcome.plant.context("the run has no plant")?;
     for event in &report.events {
         println!("{:>5}.{:03} s  {}", event.time_ms / 1000, event.time_ms % 1000, event.text);
     }
     let diagram = root().join(DIAGRAM);
-    write_diagram(&diagram, |out| svg::write(&outcome.trace, "station1.awl", out))?;
+    fs::create_dir_all(diagram.parent().unwrap_or(&diagram))?;
+    write_whole_with(&diagram, |out| svg::write(&outcome.trace, TITLE, out))?;
 
     let count = |name: &str| report.count(name).unwrap_or(-1);
     let (good, rejected, collisions) = (count("good"), count("rejected"), count("collisions"));
@@ -71,12 +84,4 @@ pub fn run() -> Result<()> {
         "the station should have sorted {GOOD} good and {REJECTED} rejected pieces without a collision"
     );
     Ok(())
-}
-
-fn write_diagram(path: &Path, write: impl Fn(&mut dyn Write) -> std::io::Result<()>) -> Result<()> {
-    let folder = path.parent().unwrap_or(Path::new("."));
-    fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
-    let file = File::create(path).with_context(|| format!("cannot write {}", path.display()))?;
-    let mut out = BufWriter::new(file);
-    write(&mut out).and_then(|()| out.flush()).with_context(|| format!("cannot write {}", path.display()))
 }

@@ -1,4 +1,4 @@
-//! docs/instructions.md, generated from the instruction table.
+//! Generated documentation: docs/instructions.md from the instruction table, and the README's diagram from the demo.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -6,19 +6,22 @@ use std::fs;
 use anyhow::{Context, Result, bail};
 use plc_isa::{Form, Group, INSTRUCTIONS, Instruction, Kind, PowerFlow};
 
+use crate::demo;
 use crate::process::root;
 
-const FILE: &str = "docs/instructions.md";
-
-/// Writes the page, or only compares it.
+/// Writes the generated files, or only compares them.
 pub fn run(check: bool) -> Result<()> {
-    let (path, page) = (root().join(FILE), page());
+    generated("docs/instructions.md", page().as_bytes(), check)?;
+    generated("docs/station1.svg", &demo::diagram()?, check)
+}
+
+fn generated(file: &str, contents: &[u8], check: bool) -> Result<()> {
+    let path = root().join(file);
     if !check {
-        return fs::write(&path, page).with_context(|| format!("cannot write {FILE}"));
+        return fs::write(&path, contents).with_context(|| format!("cannot write {file}"));
     }
-    let old = fs::read_to_string(&path).with_context(|| format!("cannot read {FILE}"))?;
-    if old != page {
-        bail!("{FILE} is not what the instruction table says: run `cargo xtask docs`");
+    if fs::read(&path).with_context(|| format!("cannot read {file}"))? != contents {
+        bail!("{file} is not what the program says: run `cargo xtask docs`");
     }
     Ok(())
 }

@@ -34,7 +34,7 @@ enum Task {
     },
     /// Measures interpreter and assembler and compares them with their budgets.
     Bench,
-    /// Writes docs/instructions.md from the instruction table.
+    /// Writes the generated files in docs.
     Docs {
         /// Only compare, and fail if it would change.
         #[arg(long)]
