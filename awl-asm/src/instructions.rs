@@ -2,6 +2,7 @@
 
 use plc_isa::{Instruction, Relation};
 
+use crate::address::Address;
 use crate::ast::{self, Operand, Span, Statement, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lexer::{Ahead, Cut};
@@ -94,6 +95,21 @@ impl Parser<'_> {
             return Diagnostic::new(Code::Syntax, word, format!("{text}: an instruction begins with its mnemonic"));
         }
         let mut diagnostic = Diagnostic::new(Code::UnknownMnemonic, word, format!("{text}: no such instruction"));
+        if let Ok(address) = Address::parse(text) {
+            diagnostic.help.push(format!("an instruction begins with its mnemonic, such as `= {address}`"));
+            return diagnostic;
+        }
+        if ["MEND", "BE", "BEA"].iter().any(|end| text.eq_ignore_ascii_case(end)) {
+            diagnostic.help.push("not needed: a program ends with its last line".to_owned());
+            return diagnostic;
+        }
+        if self
+            .text
+            .get(..word.start as usize)
+            .is_some_and(|before| before.trim_end_matches([' ', '\t']).ends_with(';'))
+        {
+            diagnostic.help.push("a comment begins with //".to_owned());
+        }
         if text.ends_with(':') {
             diagnostic.help.push("a label is an instruction of its own, such as LBL 1".to_owned());
         }

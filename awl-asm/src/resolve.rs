@@ -152,8 +152,9 @@ impl Resolver<'_> {
             }
             Err(AddressError::NotAnAddress) if !text.contains(|c: char| c.is_alphanumeric()) => {
                 let message = format!("{text}: neither an address nor a constant nor a symbol");
-                let diagnostic = Diagnostic::new(Code::Syntax, span, message);
-                Err(Box::new(if text.starts_with('=') { diagnostic.help(ONE_A_LINE) } else { diagnostic }))
+                let mut diagnostic = Diagnostic::new(Code::Syntax, span, message);
+                diagnostic.help.extend(sign_hint(text).map(str::to_owned));
+                Err(Box::new(diagnostic))
             }
             Err(AddressError::NotAnAddress) => Err(self.unknown_symbol(span, text, false)),
         }
@@ -168,14 +169,40 @@ impl Resolver<'_> {
             Some(near) => Some(near.to_owned()),
             None => nearby_address(name),
         };
-        if !is_quoted && (confused(name).is_some() || meaning(name).is_some()) {
-            diagnostic.help.push(ONE_A_LINE.to_owned());
+        if !is_quoted {
+            diagnostic.suggestion = diagnostic.suggestion.or_else(|| label_number(name));
+            diagnostic.help.extend(word_hint(name).map(str::to_owned));
         }
         Box::new(diagnostic)
     }
 }
 
 const ONE_A_LINE: &str = "one instruction stands on a line";
+
+/// What was probably meant by a sign where an operand should be.
+fn sign_hint(text: &str) -> Option<&'static str> {
+    match text {
+        "=" | ":=" | "==" => Some(ONE_A_LINE),
+        "<" | ">" | "<=" | ">=" | "<>" => Some("words are compared by LDW> MW0, 5 and its like"),
+        _ if text.starts_with(['#', '-', '–', '—']) => Some("a comment begins with //"),
+        _ => None,
+    }
+}
+
+/// What was probably meant by a word where an operand should be.
+fn word_hint(name: &str) -> Option<&'static str> {
+    if name.eq_ignore_ascii_case("NOT") {
+        return Some("LDN, AN and ON take the inverted bit");
+    }
+    (confused(name).is_some() || meaning(name).is_some()).then_some(ONE_A_LINE)
+}
+
+/// Labels have numbers, not names: LBL1 is 1.
+fn label_number(name: &str) -> Option<String> {
+    let (letters, digits) = name.split_at_checked(3)?;
+    let is_number = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    (letters.eq_ignore_ascii_case("LBL") && is_number).then(|| digits.to_owned())
+}
 
 /// Whether a symbol of this name can be written without quotes.
 fn is_bare_name(name: &str) -> bool {
