@@ -23,7 +23,7 @@ pub mod render;
 mod resolve;
 pub mod select;
 pub mod source;
-mod suggest;
+pub mod suggest;
 pub mod symbols;
 
 pub use address::Address;

@@ -62,6 +62,11 @@ impl Suggester {
     }
 }
 
+/// The nearest of a few candidates, if one is near enough; letter case does not matter.
+pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+    Suggester::default().nearest(word, candidates.into_iter())
+}
+
 /// The address that a text is a misspelling of: `IO.0`, `I0.O`, `M1.`, `I0:0`, `%I0.0`, `Il.0`.
 pub(crate) fn nearby_address(text: &str) -> Option<String> {
     if text.len() > 12 {

@@ -2,7 +2,7 @@
 
 use awl_asm::Address;
 
-use crate::problem::nearest;
+use awl_asm::suggest::nearest;
 
 /// A named address.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use super::{OptionError, Options, PLANTS, Plant, PlantKind};
-use crate::problem::{Problem, nearest};
+use crate::problem::Problem;
+use awl_asm::suggest::nearest;
 
 /// A known plant with options that it takes.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -6,8 +6,9 @@ use super::value::{parse_value, parse_values};
 use super::{Context, Expectation, SCAN_MS, Scenario, Setting};
 use crate::operand::Operand;
 use crate::plant::{self, Signals};
-use crate::problem::{Problem, Problems, nearest};
+use crate::problem::{Problem, Problems};
 use crate::time::{format_time, parse_time};
+use awl_asm::suggest::nearest;
 
 const STATEMENTS: [&str; 4] = ["scan", "at", "run", "plant"];
 
