@@ -121,6 +121,14 @@ mod tests {
     }
 
     #[test]
+    fn one_of_a_few_words() {
+        let known = ["plant", "run", "scan"];
+        assert_eq!(nearest("plnt", known), Some("plant"));
+        assert_eq!(nearest("RUN", known), Some("run"));
+        assert_eq!(nearest("motor", known), None);
+    }
+
+    #[test]
     fn the_budget_ends() {
         let suggester = Suggester { comparisons_left: Cell::new(3), ..Suggester::default() };
         assert!((0..5).map(|_| suggester.nearest("MOVX", ["MOVW"].into_iter())).filter(Option::is_some).count() == 3);

@@ -108,13 +108,4 @@ error: unknown word
 ";
         assert_eq!(problems.render(false), expected);
     }
-
-    #[test]
-    fn nearest_is_near() {
-        let known = ["scan", "at", "run", "plant"];
-        assert_eq!(nearest("plnt", known), Some("plant"));
-        assert_eq!(nearest("RUN", known), Some("run"));
-        assert_eq!(nearest("x", known), None);
-        assert_eq!(nearest("measure", known), None);
-    }
 }
