@@ -23,6 +23,7 @@ pub fn stack(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
         warned: false,
         loads: Vec::new(),
         taken: 0,
+        copies: 0,
     };
     let mut depths = Vec::with_capacity(code.len());
     let mut statement = 0;
@@ -58,6 +59,8 @@ struct Follow<'a> {
     loads: Vec<Span>,
     /// How many of them an output has taken up.
     taken: usize,
+    /// How many of them LPS made.
+    copies: usize,
 }
 
 impl Follow<'_> {
@@ -83,8 +86,12 @@ impl Follow<'_> {
         self.check_needs(selected, instruction, needs);
         self.at_start = None;
         self.after_output = !matches!(instruction.group, Group::Contact | Group::Compare | Group::Stack);
-        if self.after_output {
-            self.taken = self.taken.max(usize::from(needs));
+        match selected.op {
+            // A copy is as good as used, and so is what is read where it stands.
+            Op::Lps => self.copies += 1,
+            Op::Lds | Op::Lrd => self.taken = self.taken.max(usize::from(needs) + 1),
+            _ if self.after_output => self.taken = self.taken.max(usize::from(needs)),
+            _ => {}
         }
         self.apply(selected, instruction);
         self.total
@@ -93,7 +100,7 @@ impl Follow<'_> {
     /// What the outputs of a rung have not taken up was loaded in vain.
     fn end_of_rung(&mut self) {
         // After an overflow there is more to say than this.
-        let unused = if self.warned { 0 } else { self.loads.len().saturating_sub(self.taken) };
+        let unused = if self.warned { 0 } else { self.loads.len().saturating_sub(self.taken + self.copies) };
         if let Some(&span) = self.loads[..unused].last() {
             self.diagnostics.push(
                 Diagnostic::new(Code::UnusedValue, span, "the value that is loaded here is not used")
@@ -101,7 +108,7 @@ impl Follow<'_> {
             );
         }
         self.loads.clear();
-        self.taken = 0;
+        (self.taken, self.copies) = (0, 0);
     }
 
     fn check_needs(&mut self, selected: &Selected, instruction: &Instruction, needs: u8) {
