@@ -1,7 +1,8 @@
 //! Turns a checked program into an image: header, tables, code, checksum. Finds no faults but size.
 
 use plc_isa::{
-    CRC_LEN, Crc32, Encoded, Header, NAME_LEN_MAX, Op, Operand, SLOT_LEN, TimerResolution, timer_resolution,
+    CRC_LEN, Crc32, Encoded, Header, Kind, LABEL_LEN, NAME_LEN_MAX, Op, Operand, SLOT_LEN, TimerResolution,
+    timer_resolution,
 };
 
 use crate::address::Address;
@@ -49,7 +50,7 @@ pub fn encode(
     image.extend(demand.timers.iter().flat_map(|(&number, kind)| [number, kind.code()]));
     image.extend_from_slice(&demand.counters);
     let labels_at = image.len();
-    image.resize(labels_at + 2 * usize::from(header.labels), 0);
+    image.resize(labels_at + usize::from(LABEL_LEN * header.labels), 0);
     image.extend(program.retained.iter().flat_map(|retained| retained.range.to_bytes()));
 
     let code_at = image.len();
@@ -191,16 +192,18 @@ impl<'a> Encoder<'a> {
         self.push(Op::MainEnd, &[]);
         for (selected, line) in self.code.iter().zip(&self.lines) {
             if let (Op::Lbl, Argument::Number(label)) = (selected.op, selected.arguments[0]) {
-                let entry = labels_at + 2 * usize::from(self.label_indices[usize::from(label)]);
-                self.image[entry..entry + 2].copy_from_slice(&code_offset(line).to_le_bytes());
+                let index = u16::from(self.label_indices[usize::from(label)]);
+                let entry = labels_at + usize::from(LABEL_LEN * index);
+                self.image[entry..entry + usize::from(LABEL_LEN)].copy_from_slice(&code_offset(line).to_le_bytes());
             }
         }
         for &(start, end) in &self.control.loops {
             let (start, end) = (self.lines[start], self.lines[end]);
             let behind_next = (end.at + u32::from(end.len)) as u16;
             // The offset is the last operand of FOR.
-            let place = start.at as usize + usize::from(start.len) - 2;
-            self.image[place..place + 2].copy_from_slice(&behind_next.to_le_bytes());
+            let offset_len = usize::from(Kind::LoopEnd.stored_len());
+            let place = start.at as usize + usize::from(start.len) - offset_len;
+            self.image[place..place + offset_len].copy_from_slice(&behind_next.to_le_bytes());
         }
     }
 }

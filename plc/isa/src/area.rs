@@ -23,9 +23,6 @@ pub enum Area {
     C,
 }
 
-/// Every area, in the order of the manual.
-pub const AREAS: [Area; 8] = [Area::I, Area::Q, Area::V, Area::M, Area::Sm, Area::S, Area::T, Area::C];
-
 impl Area {
     /// The letters an address of this area starts with.
     pub const fn name(self) -> &'static str {

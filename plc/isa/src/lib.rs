@@ -17,11 +17,11 @@ mod stack;
 mod table;
 mod verify;
 
-pub use area::{AREAS, AnalogInput, Area, TimerFamily, TimerResolution, timer_family, timer_resolution};
+pub use area::{AnalogInput, Area, TimerFamily, TimerResolution, timer_family, timer_resolution};
 pub use crc::Crc32;
 pub use decode::{DecodeError, Decoded, decode};
 pub use image::{
-    CRC_LEN, FORMAT_VERSION, HEADER_LEN, Header, ImageError, ImageFault, MAGIC, NAME_LEN_MAX, ProgramMemory,
+    CRC_LEN, FORMAT_VERSION, HEADER_LEN, Header, ImageError, ImageFault, LABEL_LEN, MAGIC, NAME_LEN_MAX, ProgramMemory,
 };
 pub use layout::*;
 pub use operand::{Bit, ByteSource, Kind, Operand, OperandKind, OperandReader, Relation, WordSource, kinds};

@@ -39,11 +39,6 @@ impl Memory {
         &self.bytes
     }
 
-    /// All bytes, for a test or a host tool that knows what it writes.
-    pub fn bytes_mut(&mut self) -> &mut [u8; DATA_LEN] {
-        &mut self.bytes
-    }
-
     /// The byte at an address.
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn byte(&self, address: u16) -> u8 {

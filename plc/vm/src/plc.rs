@@ -194,12 +194,6 @@ impl<P: ProgramMemory> Plc<P> {
             _ => 0,
         }
     }
-
-    /// Puts the controller into STOP with a fault that the caller found.
-    pub fn halt(&mut self, fault: Fault) {
-        self.mode = Mode::Stop;
-        self.fault = Some(fault);
-    }
 }
 
 const SCAN_CLOCK: plc_isa::Bit = plc_isa::Bit { address: plc_isa::SM_START, bit: 6 };
