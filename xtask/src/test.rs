@@ -12,12 +12,17 @@ type Stage = (&'static str, fn() -> Result<()>);
 
 /// Runs everything.
 pub fn run(host_only: bool) -> Result<()> {
-    let stages: [Stage; 7] = [
+    let stages: [Stage; 8] = [
         ("format", || process::run(cargo().args(["fmt", "--all", "--check"]))),
         ("rules of the repository", rules::check),
         ("generated pages", || docs::run(true)),
         ("lints", || {
             process::run(cargo().args(["clippy", "--quiet", "--workspace", "--all-targets", "--", "-D", "warnings"]))
+        }),
+        ("documentation", || {
+            process::run(
+                cargo().args(["doc", "--quiet", "--no-deps", "--workspace"]).env("RUSTDOCFLAGS", "-D warnings"),
+            )
         }),
         ("tests", || process::run(cargo().args(["test", "--quiet", "--workspace"]))),
         ("budgets", bench::gate),

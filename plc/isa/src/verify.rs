@@ -138,6 +138,8 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
         let header = self.plan.header;
         let mut at = header.code_at();
         loop {
+            // Behind the code stands the checksum, which is not to be read as an instruction.
+            ensure(at < header.code_end(), ImageFault::Truncated, at)?;
             let decoded = decode(&self.plan.memory, at).map_err(|error| ImageError { fault: fault_of(error), at })?;
             let next = at + decoded.len;
             ensure(next <= header.code_end(), ImageFault::Truncated, at)?;

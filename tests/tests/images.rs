@@ -1,0 +1,157 @@
+//! The loader's check: for every fault an image that has it, right in all else, and the fault is named.
+
+use awl_asm::assemble::assemble;
+use awl_asm::source::Source;
+use plc_isa::{CRC_LEN, Crc32, HEADER_LEN, Header, ImageFault, verify};
+
+/// A program that has something in every table.
+const PROGRAM: &str = "\
+//# name \"tables\"
+//# retain VB0-VB1, C3
+NETWORK 1
+LD     I0.0
+LDN    V20.1
+ALD
+=      Q0.0
+NETWORK 2
+LD     SM0.0
+TON    T37, 10
+TON    T40, VW0
+MOVW   VW0, VW30
+S      M3.0, 9
+NETWORK 3
+LD     I0.1
+EU
+LD     I0.2
+CTU    C3, 5
+LD     I0.3
+LD     I0.4
+CTU    C7, 5
+NETWORK 4
+LD     I0.5
+JMP    1
+LD     SM0.0
+FOR    MW10, 1, 3
+INCW   MW12
+NEXT
+LBL    1
+LD     M0.0
+JMP    2
+LBL    2
+LD     M0.0
+=      Q0.1
+";
+
+fn image() -> (Vec<u8>, Header) {
+    let assembly = assemble(&Source::new("images", PROGRAM).unwrap(), Vec::new());
+    let image = assembly.image.unwrap_or_else(|| panic!("{:?}", assembly.diagnostics));
+    let header = Header::read(&image).unwrap();
+    (image, header)
+}
+
+fn sign(image: &mut [u8]) {
+    let end = image.len() - usize::from(CRC_LEN);
+    let crc = Crc32::of(&image[..end]);
+    image[end..].copy_from_slice(&crc.to_le_bytes());
+}
+
+/// What the check says about an image with these bytes at this offset.
+fn fault_with(at: u16, bytes: &[u8]) -> Option<ImageFault> {
+    let (mut image, _) = image();
+    let at = usize::from(at);
+    image[at..at + bytes.len()].copy_from_slice(bytes);
+    sign(&mut image);
+    verify(image).err().map(|error| error.fault)
+}
+
+/// Offset of the first of these bytes in the code.
+fn code_offset(bytes: &[u8]) -> u16 {
+    let (image, header) = image();
+    let code = &image[usize::from(header.code_at())..usize::from(header.code_end())];
+    let at = code.windows(bytes.len()).position(|window| window == bytes).expect("the code has these bytes");
+    header.code_at() + at as u16
+}
+
+#[test]
+fn the_image_itself_is_sound() {
+    let (image, header) = image();
+    assert!(verify(image).is_ok());
+    assert_eq!((header.v_ranges, header.timers, header.counters, header.labels), (3, 2, 2, 2));
+    assert_eq!((header.edges, header.retained), (1, 2));
+}
+
+#[test]
+fn faults_of_the_header() {
+    assert_eq!(fault_with(0, b"X"), Some(ImageFault::Magic));
+    assert_eq!(fault_with(4, &[2]), Some(ImageFault::Version));
+    assert_eq!(fault_with(5, &[1]), Some(ImageFault::Flags));
+    assert_eq!(fault_with(31, &[1]), Some(ImageFault::Flags));
+    assert_eq!(fault_with(8, &[0xFF, 0xFF]), Some(ImageFault::Length), "code longer than the image");
+    assert_eq!(fault_with(18, &[0xFF, 0xFF]), Some(ImageFault::Length), "more timers than bytes");
+    assert_eq!(fault_with(10, &[1]), Some(ImageFault::Plan), "another arena than the tables need");
+    assert_eq!(fault_with(12, &[0x01, 0x01]), Some(ImageFault::Plan), "257 edges");
+    assert_eq!(fault_with(22, &[0, 0]), Some(ImageFault::Settings), "no watchdog");
+    assert_eq!(fault_with(26, &[0x40]), Some(ImageFault::Settings), "pull-up of I0.6");
+    assert_eq!(fault_with(HEADER_LEN, &[7]), Some(ImageFault::Name));
+
+    let (image, _) = image();
+    let fault = |image: &[u8]| verify(image).map(|_| ()).map_err(|error| error.fault);
+    assert_eq!(fault(&image[..20]), Err(ImageFault::Length));
+    assert_eq!(fault(&image[..image.len() - 1]), Err(ImageFault::Length));
+    assert_eq!(fault(&[]), Err(ImageFault::Length));
+    let mut flipped = image.clone();
+    flipped[40] ^= 1;
+    assert_eq!(fault(&flipped), Err(ImageFault::Crc));
+}
+
+#[test]
+fn faults_of_the_tables() {
+    let (_, header) = image();
+    assert_eq!(fault_with(header.v_ranges_at() + 4, &[1, 0]), Some(ImageFault::VRanges), "overlaps the first");
+    assert_eq!(fault_with(header.v_ranges_at() + 8, &[0xFF, 0x27, 2, 0]), Some(ImageFault::VRanges), "VB10240");
+    assert_eq!(fault_with(header.timers_at() + 2, &[37]), Some(ImageFault::Timers), "T37 twice");
+    assert_eq!(fault_with(header.timers_at() + 1, &[2]), Some(ImageFault::Timers), "T37 by TONR");
+    assert_eq!(fault_with(header.timers_at() + 1, &[9]), Some(ImageFault::Timers), "an unknown kind");
+    assert_eq!(fault_with(header.counters_at(), &[7, 3]), Some(ImageFault::Counters), "descending");
+    assert_eq!(fault_with(header.retained_at(), &[4]), Some(ImageFault::Retained), "an unknown area");
+    assert_eq!(fault_with(header.retained_at() + 1, &[100]), Some(ImageFault::Retained), "VB100 is not planned");
+    assert_eq!(fault_with(header.retained_at() + 5, &[2, 37, 0]), Some(ImageFault::Retained), "T37 is no TONR");
+    let first_label = header.labels_at();
+    assert_eq!(fault_with(first_label, &(header.code_at()).to_le_bytes()), Some(ImageFault::Label));
+}
+
+#[test]
+fn faults_of_the_code() {
+    let (_, header) = image();
+    let start = header.code_at();
+    assert_eq!(fault_with(start, &[0xFF]), Some(ImageFault::UndefinedToken));
+    assert_eq!(fault_with(start, &[0xFE, 0xFF]), Some(ImageFault::UndefinedToken), "behind the prefix");
+    assert_eq!(fault_with(header.code_end() - 1, &[0x66]), Some(ImageFault::Truncated), "no end");
+    assert_eq!(fault_with(start, &[0x77]), Some(ImageFault::Truncated), "code behind the end");
+    assert_eq!(fault_with(start, &[0x00, 0xC0]), Some(ImageFault::Operand), "LD of local memory");
+    assert_eq!(fault_with(start, &[0x10]), Some(ImageFault::StackUnderflow), "A without a value");
+    assert_eq!(fault_with(code_offset(&[0x30, 0x10]), &[0x30, 0x00]), Some(ImageFault::ReadOnly), "= I0.0");
+    assert_eq!(fault_with(code_offset(&[0x30, 0x10]), &[0x30, 0x40]), Some(ImageFault::ReadOnly), "= SM0.0");
+    // MOVW between words that the plan does not have, and across the end of an area.
+    let moved = code_offset(&[0x7A]);
+    assert_eq!(fault_with(moved + 1, &[0x00, 0x05]), Some(ImageFault::Operand), "behind the plan");
+    assert_eq!(fault_with(moved + 3, &[0x3F, 0x01]), Some(ImageFault::Operand), "MW31 ends in SMB0");
+    assert_eq!(fault_with(moved + 3, &[0x00, 0x02]), Some(ImageFault::ReadOnly), "AIW0");
+    assert_eq!(fault_with(moved + 3, &[0x18, 0x02]), Some(ImageFault::Operand), "reserved memory");
+    // S M3.0, 9 as far as M32.0.
+    let set = code_offset(&[0x4F]);
+    assert_eq!(fault_with(set + 3, &[255]), Some(ImageFault::Operand), "bits behind M31.7");
+    assert_eq!(fault_with(set + 3, &[0]), Some(ImageFault::Operand), "a count of 0");
+    assert_eq!(fault_with(code_offset(&[0x91]) + 1, &[2]), Some(ImageFault::Operand), "a timer slot too many");
+    assert_eq!(fault_with(code_offset(&[0x91]), &[0x93]), Some(ImageFault::Operand), "TOF on a slot of TON");
+    assert_eq!(fault_with(code_offset(&[0x99]) + 1, &[2]), Some(ImageFault::Operand), "a counter slot too many");
+    assert_eq!(fault_with(code_offset(&[0x61]) + 1, &[1]), Some(ImageFault::Operand), "an edge too many");
+    assert_eq!(fault_with(code_offset(&[0x70, 0x00]) + 1, &[2]), Some(ImageFault::Operand), "a label too many");
+    assert_eq!(fault_with(code_offset(&[0x71, 0x01]), &[0x63]), Some(ImageFault::Label), "NOP where a label is listed");
+    let for_at = code_offset(&[0x72]);
+    assert_eq!(fault_with(for_at + 3, &[2]), Some(ImageFault::Malformed), "an unknown mode of INIT");
+    assert_eq!(fault_with(for_at + 9, &start.to_le_bytes()), Some(ImageFault::Loop), "FOR leads elsewhere");
+    let next_at = code_offset(&[0x73]);
+    assert_eq!(fault_with(next_at + 1, &start.to_le_bytes()), Some(ImageFault::Loop), "NEXT of no FOR");
+    assert_eq!(fault_with(next_at, &[0x63, 0, 0x60]), Some(ImageFault::Loop), "FOR without NEXT");
+}
