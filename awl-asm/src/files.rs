@@ -1,4 +1,4 @@
-//! Output files: written whole or not at all, and never over what a program was made from.
+//! Files of the command lines: texts read in any encoding, outputs written whole or not at all and never over inputs.
 
 use std::ffi::OsString;
 use std::fs::{self, File};
@@ -6,6 +6,18 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+
+use crate::source::Source;
+
+/// Reads a file as bytes.
+pub fn read(path: &Path) -> Result<Vec<u8>> {
+    fs::read(path).with_context(|| format!("cannot read {}", path.display()))
+}
+
+/// Reads a text: a program, a symbol table, a scenario.
+pub fn read_source(path: &Path) -> Result<Source> {
+    Ok(Source::from_bytes(path.display().to_string(), &read(path)?)?)
+}
 
 /// Writes a file by way of a temporary one beside it, so that a failure leaves the old file as it was.
 pub fn write_whole(path: &Path, contents: &[u8]) -> Result<()> {

@@ -9,7 +9,7 @@ use awl_asm::assemble::{Assembly, assemble};
 use awl_asm::ast::Symbol;
 use awl_asm::diagnostic::{Code, Diagnostic, Severity};
 use awl_asm::disassemble::disassemble;
-use awl_asm::files::{ensure_distinct, write_whole};
+use awl_asm::files::{ensure_distinct, read, read_source, write_whole};
 use awl_asm::hex::intel_hex;
 use awl_asm::listing::listing;
 use awl_asm::map::map;
@@ -128,14 +128,6 @@ fn disassemble_file(path: &Path, output: Option<&Path>) -> Result<bool> {
             Ok(false)
         }
     }
-}
-
-fn read(path: &Path) -> Result<Vec<u8>> {
-    std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))
-}
-
-fn read_source(path: &Path) -> Result<Source> {
-    Ok(Source::from_bytes(path.display().to_string(), &read(path)?)?)
 }
 
 fn assemble_file(path: &Path, arguments: &Arguments) -> Result<bool> {

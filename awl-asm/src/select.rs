@@ -165,6 +165,7 @@ enum Class {
 }
 
 fn class_of(kind: Kind) -> Class {
+    let (least, most) = kind.range().map_or((0, 0), |(least, most)| (i64::from(least), i64::from(most)));
     match kind {
         Kind::PageBit | Kind::PageBitOut | Kind::PageBitReset | Kind::FarBit | Kind::FarBitOut | Kind::FarBitReset => {
             Class::Bit
@@ -173,14 +174,10 @@ fn class_of(kind: Kind) -> Class {
         Kind::Word | Kind::WordOut => Class::Word,
         Kind::AnyByte => Class::AnyByte,
         Kind::AnyInt => Class::AnyInt,
-        Kind::ByteConst => Class::Constant(0, 255),
-        Kind::WordConst => Class::Constant(-32768, 65535),
-        Kind::IntConst => Class::Constant(-32768, 32767),
-        Kind::One | Kind::Count => Class::Constant(1, 255),
+        Kind::ByteConst | Kind::WordConst | Kind::IntConst | Kind::One | Kind::Count => Class::Constant(least, most),
         Kind::TimerSlot | Kind::TimerNumber => Class::Timer,
         Kind::CounterSlot | Kind::CounterNumber => Class::Counter,
-        Kind::Level => Class::Number(8),
-        Kind::Number | Kind::LabelIndex | Kind::LabelNumber => Class::Number(255),
+        Kind::Level | Kind::Number | Kind::LabelIndex | Kind::LabelNumber => Class::Number(most),
         Kind::Edge | Kind::LoopEnd | Kind::LoopStart | Kind::Relation | Kind::Here => Class::NotWritten,
     }
 }

@@ -3,12 +3,14 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use awl_asm::Address;
 use awl_asm::assemble::{Assembly, assemble};
 use awl_asm::ast::{self, Value};
 use awl_asm::diagnostic::{Diagnostic, Severity};
 use awl_asm::disassemble::{disassemble, instructions};
+use awl_asm::encode::Line;
+use awl_asm::files::{read, read_source};
 use awl_asm::render::human;
 use awl_asm::source::Source;
 use plc_isa::{Area, MAGIC, verify};
@@ -79,14 +81,10 @@ pub fn open_machine(program: &Path, symbol_files: &[PathBuf], target: Target) ->
     }
 }
 
-fn read(path: &Path) -> Result<Vec<u8>> {
-    std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))
-}
-
 fn load_symbols(files: &[PathBuf], shown: &mut Shown) -> Result<Vec<ast::Symbol>> {
     let mut symbols = Vec::new();
     for path in files {
-        let table = Source::from_bytes(path.display().to_string(), &read(path)?)?;
+        let table = read_source(path)?;
         let (list, diagnostics) = awl_asm::symbols::load(&table);
         shown.add(&table, &diagnostics);
         symbols.extend(list);
@@ -151,18 +149,13 @@ impl Shown {
 
 /// Offsets of the image as `file:line`.
 fn places(source: &Source, assembly: &Assembly) -> PlaceOf {
-    let mut lines = Vec::new();
-    for (line, selected) in assembly.lines.iter().zip(&assembly.code) {
-        if let Some(ast::Statement::Instruction(instruction)) =
-            assembly.program.statements.get(selected.statement as usize)
-        {
-            let (row, _) = source.position(instruction.span.start as usize);
-            lines.push((line.at..line.at + u32::from(line.len), format!("{}:{row}", source.name)));
-        }
-    }
+    let row = |selected| source.position(assembly.span_of(selected).start as usize).0;
+    let lines: Vec<_> = assembly.lines.iter().copied().zip(assembly.code.iter().map(row)).collect();
+    let name = source.name.clone();
     Box::new(move |at| {
-        let found = lines.iter().find(|(range, _)| range.contains(&u32::from(at)));
-        found.map_or_else(String::new, |(_, place)| place.clone())
+        let is_there = |line: &Line| (line.at..line.at + u32::from(line.len)).contains(&u32::from(at));
+        let found = lines.iter().find(|(line, _)| is_there(line));
+        found.map_or_else(String::new, |(_, row)| format!("{name}:{row}"))
     })
 }
 

@@ -10,6 +10,7 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail, ensure};
 use awl_asm::assemble::{Assembly, assemble};
 use awl_asm::diagnostic::{Code, Severity};
+use awl_asm::files::read_source;
 use awl_asm::source::Source;
 use plc_isa::{LogicStack, M_START};
 use plc_vm::{Environment, Inputs, Memory, Mode, Plc};
@@ -264,8 +265,7 @@ fn density() -> Result<Figure> {
     for entry in fs::read_dir(root().join("examples"))? {
         let path = entry?.path();
         if path.extension().is_some_and(|extension| extension == "awl") {
-            let source = Source::from_bytes(path.display().to_string(), &fs::read(&path)?)?;
-            let assembly = assemble(&source, Vec::new());
+            let assembly = assemble(&read_source(&path)?, Vec::new());
             ensure!(assembly.image.is_some(), "{} has errors", path.display());
             bytes += assembly.lines.iter().map(|line| u32::from(line.len)).sum::<u32>();
             instructions += assembly.lines.len();

@@ -81,7 +81,7 @@ fn row(instruction: &Instruction, text: &mut String) {
 fn operands(instruction: &Instruction) -> String {
     let mut parts = Vec::new();
     for (index, name) in instruction.operand_names.iter().enumerate() {
-        let mut accepted: Vec<&str> = Vec::new();
+        let mut accepted: Vec<String> = Vec::new();
         // Wide forms are general: they accept what the short forms accept.
         let short = instruction.forms.iter().filter(|form| !form.wide);
         for words in short.filter_map(|form| kind_at(form, index)).filter_map(words) {
@@ -100,22 +100,19 @@ fn kind_at(form: &Form, index: usize) -> Option<Kind> {
     form.kinds.get(index).copied()
 }
 
-fn words(kind: Kind) -> Option<&'static str> {
+fn words(kind: Kind) -> Option<String> {
+    let range = |kind: Kind| kind.range().map(|(least, most)| format!("{least} to {most}"));
     Some(match kind {
-        Kind::PageBit | Kind::PageBitOut | Kind::FarBit | Kind::FarBitOut => "bit",
-        Kind::PageBitReset | Kind::FarBitReset => "bit",
-        Kind::Byte | Kind::ByteOut => "byte",
-        Kind::Word | Kind::WordOut => "word",
-        Kind::ByteConst => "0 to 255",
-        Kind::WordConst => "-32768 to 65535",
-        Kind::IntConst => "-32768 to 32767",
-        Kind::Count => "1 to 255",
-        Kind::TimerSlot | Kind::TimerNumber => "T0 to T255",
-        Kind::CounterSlot | Kind::CounterNumber => "C0 to C255",
-        Kind::Level => "0 to 8",
-        Kind::Number | Kind::LabelIndex | Kind::LabelNumber => "0 to 255",
-        Kind::AnyInt => "word or -32768 to 32767",
-        Kind::AnyByte => "byte or 0 to 255",
-        Kind::One | Kind::Edge | Kind::LoopEnd | Kind::LoopStart | Kind::Relation | Kind::Here => return None,
+        Kind::PageBit | Kind::PageBitOut | Kind::FarBit | Kind::FarBitOut => "bit".into(),
+        Kind::PageBitReset | Kind::FarBitReset => "bit".into(),
+        Kind::Byte | Kind::ByteOut => "byte".into(),
+        Kind::Word | Kind::WordOut => "word".into(),
+        Kind::AnyInt => format!("word or {}", range(Kind::IntConst)?),
+        Kind::AnyByte => format!("byte or {}", range(Kind::ByteConst)?),
+        Kind::TimerSlot | Kind::TimerNumber => "T0 to T255".into(),
+        Kind::CounterSlot | Kind::CounterNumber => "C0 to C255".into(),
+        // The count that a short form leaves out stands in another form.
+        Kind::One => return None,
+        other => return range(other),
     })
 }

@@ -328,6 +328,19 @@ impl Kind {
         )
     }
 
+    /// The constants or numbers that AWL can write here: least and most, decimal. `None` for addresses, and for
+    /// timers and counters, which have a letter.
+    pub const fn range(self) -> Option<(i32, i32)> {
+        match self {
+            Kind::ByteConst | Kind::Number | Kind::LabelIndex | Kind::LabelNumber => Some((0, 255)),
+            Kind::WordConst => Some((i16::MIN as i32, u16::MAX as i32)),
+            Kind::IntConst => Some((i16::MIN as i32, i16::MAX as i32)),
+            Kind::One | Kind::Count => Some((1, 255)),
+            Kind::Level => Some((0, crate::stack::STACK_LEVELS as i32 - 1)),
+            _ => None,
+        }
+    }
+
     /// Whether this kind can store the operand. Legality in a program is not decided here.
     pub fn accepts(self, operand: Operand) -> bool {
         match (self, operand) {

@@ -217,9 +217,7 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
     fn reset_timers(&mut self, first: u8, n: ByteSource) -> Flow<Exit> {
         if self.stack.top() {
             let count = self.numbers(first, n);
-            for number in (first..=u8::MAX).take(usize::from(count)) {
-                self.memory.set_bit(plc_isa::timer_bit(number), false);
-            }
+            range::write(self.memory, self.program.plan(), plc_isa::timer_bit(first), count, false);
             for slot in self.program.plan().timers().filter(|slot| is_in(slot.number, first, count)) {
                 Timer { memory: self.memory, slot }.reset();
             }
@@ -230,9 +228,7 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
     fn reset_counters(&mut self, first: u8, n: ByteSource) -> Flow<Exit> {
         if self.stack.top() {
             let count = self.numbers(first, n);
-            for number in (first..=u8::MAX).take(usize::from(count)) {
-                self.memory.set_bit(plc_isa::counter_bit(number), false);
-            }
+            range::write(self.memory, self.program.plan(), plc_isa::counter_bit(first), count, false);
             for slot in self.program.plan().counters().filter(|slot| is_in(slot.number, first, count)) {
                 counter::reset(self.memory, slot);
             }

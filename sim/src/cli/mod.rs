@@ -8,9 +8,8 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use anyhow::{Context as _, Error, Result};
-use awl_asm::files::ensure_distinct;
-use awl_asm::source::Source;
+use anyhow::{Error, Result};
+use awl_asm::files::{ensure_distinct, read_source};
 use awl_sim::machine::{Machine, MachineError};
 use awl_sim::open::{Opened, ProgramErrors, open_machine};
 use awl_sim::operand::Operand;
@@ -96,9 +95,8 @@ fn read_scenario(
 ) -> Result<Scenario> {
     let Some(path) = &args.scenario else { return Ok(Scenario::default()) };
     let origin = path.display().to_string();
-    let bytes = std::fs::read(path).with_context(|| format!("cannot read {origin}"))?;
     // The same encodings as for programs.
-    let text = Source::from_bytes(&*origin, &bytes)?.text;
+    let text = read_source(path)?.text;
     let mut has_operand = |operand| access(machine, operand);
     Ok(Scenario::parse(&origin, &text, Context { symbols, plant, has_operand: &mut has_operand })?)
 }
