@@ -1,4 +1,5 @@
-//! Random valid programs: the interpreter against the naive evaluator, after every scan; and the way there and back.
+//! Random valid programs: both ways of the interpreter against the naive evaluator, after every scan; and the way
+//! there and back.
 //!
 //! `RANDOM_PROGRAMS=100000 cargo test --release --package tests --test random_programs` runs longer,
 //! `RANDOM_SEED` starts elsewhere. A failure names its seed.
@@ -14,13 +15,15 @@ use tests::naive::{self, Naive};
 use tests::random::{random_inputs, random_program, random_step_ms};
 
 /// Time stands still within a scan. A program that loops for longer than this has no end.
-struct Time {
+struct Time<const COMPACT: bool> {
     now_ms: u32,
     looped_bytes: u64,
     executed: u64,
 }
 
-impl Environment for Time {
+impl<const COMPACT: bool> Environment for Time<COMPACT> {
+    const COMPACT: bool = COMPACT;
+
     fn now_ms(&mut self) -> u32 {
         self.now_ms
     }
@@ -77,7 +80,8 @@ fn compare(seed: u64, text: &str, image: &[u8], program: awl_asm::ast::Program, 
     let mut naive = Naive::new(program);
     // Near the wrap of the clock as often as not.
     let start_ms = if rng.bool() { u32::MAX - rng.u32(..2_000) } else { rng.u32(..) };
-    let mut time = Time { now_ms: start_ms, looped_bytes: 0, executed: 0 };
+    let mut time = Time::<false> { now_ms: start_ms, looped_bytes: 0, executed: 0 };
+    let (mut compact, mut compact_memory) = (plc.clone(), memory.clone());
     let mut inputs = naive::Inputs::default();
     let scans = rng.u64(3..40);
     for scan in 0..scans {
@@ -86,10 +90,15 @@ fn compare(seed: u64, text: &str, image: &[u8], program: awl_asm::ast::Program, 
         let vm_inputs = plc_vm::Inputs { digital: inputs.digital, scaled: inputs.aiw, raw: inputs.ain };
         if plc.mode() == Mode::Stop && rng.bool() {
             plc.run();
+            compact.run();
             naive.start();
         }
         let ran = plc.mode() == Mode::Run;
         plc.scan(&mut memory, &vm_inputs, &mut time);
+        let mut compact_time = Time::<true> { now_ms: time.now_ms, looped_bytes: 0, executed: 0 };
+        compact.scan(&mut compact_memory, &vm_inputs, &mut compact_time);
+        let same = memory == compact_memory && (plc.mode(), plc.fault()) == (compact.mode(), compact.fault());
+        assert!(same, "seed {seed}, scan {scan}: the compact way differs\n{text}");
         naive.scan(time.now_ms, &inputs);
         let plan = plc.program().expect("a program is loaded").plan();
         let differences = if ran { differences(&plc, &memory, plan, &naive) } else { Vec::new() };

@@ -83,11 +83,17 @@ impl Area {
 
     /// The area of a bit page address, with the byte number in it. `None` in local memory.
     pub fn of_page_address(address: u16) -> Option<(Area, u16)> {
-        [Area::I, Area::Q, Area::M, Area::Sm, Area::S, Area::T, Area::C].into_iter().find_map(|area| {
-            let start = area.page_start()?;
-            let byte = address.checked_sub(start)?;
-            (byte < area.page_len()).then_some((area, byte))
-        })
+        let area = match address {
+            I_START..Q_START => Area::I,
+            Q_START..M_START => Area::Q,
+            M_START..SM_START => Area::M,
+            SM_START..S_START => Area::Sm,
+            S_START..T_BITS_START => Area::S,
+            T_BITS_START..C_BITS_START => Area::T,
+            C_BITS_START..L_START => Area::C,
+            _ => return None,
+        };
+        Some((area, address - area.page_start()?))
     }
 }
 

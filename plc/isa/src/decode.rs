@@ -1,8 +1,9 @@
 //! A decoded instruction: what the checker, the disassembler and the listing look at. Executing is elsewhere.
 
 use crate::image::ProgramMemory;
-use crate::operand::{Kind, Operand, OperandReader, Relation};
-use crate::table::{Looked, OPERANDS_MAX, Op, StackEffect, WIDE_PREFIX, look_up, look_up_wide};
+use crate::operand::{Kind, Operand, Raw, Relation};
+use crate::table::{Op, StackEffect};
+use crate::tokens::{Entry, OPERANDS_MAX};
 
 /// Why bytes are no instruction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,73 +25,46 @@ pub struct Decoded {
     pub stack: StackEffect,
     /// Its length in bytes.
     pub len: u16,
-    operands: [(Kind, Operand); OPERANDS_MAX],
-    count: u8,
+    kinds: [Option<Kind>; OPERANDS_MAX],
+    raw: [Raw; OPERANDS_MAX],
 }
 
 /// Decodes the instruction at offset `pc` without executing it.
 pub fn decode<P: ProgramMemory>(code: &P, pc: u16) -> Result<Decoded, DecodeError> {
-    let token = code.byte(pc);
-    let (looked, operands_at) = match token {
-        WIDE_PREFIX => (look_up_wide(code.byte(pc.wrapping_add(1))), pc.wrapping_add(2)),
-        token => (look_up(token), pc.wrapping_add(1)),
-    };
-    let looked = looked.ok_or(DecodeError::UndefinedToken)?;
-    let mut reader = OperandReader::new(code, pc, operands_at, looked.in_token);
-    let mut decoded = Decoded::new(&looked);
-    let mut kinds = looked.kinds;
-    while let Some(kind) = Kind::unpacked(kinds as u8) {
-        decoded.push(kind, kind.read(&mut reader));
-        kinds >>= 8;
+    let entry = Entry::of_instruction(code, pc).ok_or(DecodeError::UndefinedToken)?;
+    let (raw, next) = entry.operands(code, pc);
+    if next > code.len() || next <= pc {
+        return Err(DecodeError::Truncated);
     }
-    decoded.finish(code, pc, reader.position())
+    let mut decoded = Decoded { op: entry.op, stack: entry.stack, len: next - pc, kinds: [None; OPERANDS_MAX], raw };
+    for (index, (place, &raw)) in decoded.kinds.iter_mut().zip(&raw).enumerate() {
+        *place = entry.kind(code, index);
+        match *place {
+            // One encoding for one instruction: modes are 0 or 1, byte constants have no high byte.
+            Some(Kind::AnyInt) if raw.tag > 1 => return Err(DecodeError::Malformed),
+            Some(Kind::AnyByte) if raw.tag > 1 || raw.tag == 0 && raw.value > 255 => {
+                return Err(DecodeError::Malformed);
+            }
+            Some(Kind::Level) => decoded.stack.needs = decoded.stack.needs.saturating_add(raw.value as u8),
+            _ => {}
+        }
+    }
+    Ok(decoded)
 }
 
 impl Decoded {
-    fn new(looked: &Looked) -> Self {
-        let operands = [(Kind::Here, Operand::Offset(0)); OPERANDS_MAX];
-        Decoded { op: looked.op, stack: looked.stack, len: 0, operands, count: 0 }
-    }
-
-    fn push(&mut self, kind: Kind, operand: Operand) {
-        if let Some(place) = self.operands.get_mut(usize::from(self.count)) {
-            *place = (kind, operand);
-            self.count += 1;
-        }
-        if let (Kind::Level, Operand::Number(level)) = (kind, operand) {
-            self.stack.needs = self.stack.needs.saturating_add(level);
-        }
-    }
-
-    fn finish<P: ProgramMemory>(mut self, code: &P, pc: u16, next: u16) -> Result<Decoded, DecodeError> {
-        if next > code.len() || next <= pc {
-            return Err(DecodeError::Truncated);
-        }
-        self.len = next - pc;
-        if !self.is_canonical(code, pc) {
-            return Err(DecodeError::Malformed);
-        }
-        Ok(self)
-    }
-
-    /// Modes of general operands are 0 or 1, byte constants in them have no high byte.
-    fn is_canonical<P: ProgramMemory>(&self, code: &P, pc: u16) -> bool {
-        let stored: u16 = self.operands().map(|(kind, _)| u16::from(kind.stored_len())).sum();
-        let mut at = pc + self.len - stored;
-        self.operands().all(|(kind, _)| {
-            let (mode, high) = (code.byte(at), code.byte(at.wrapping_add(2)));
-            at += u16::from(kind.stored_len());
-            match kind {
-                Kind::AnyInt => mode <= 1,
-                Kind::AnyByte => mode == 1 || (mode == 0 && high == 0),
-                _ => true,
-            }
-        })
-    }
-
     /// The operands with their kinds, in order.
     pub fn operands(&self) -> impl Iterator<Item = (Kind, Operand)> + '_ {
-        self.operands.iter().take(usize::from(self.count)).copied()
+        self.raw_operands().map(|(kind, raw)| (kind, kind.operand(raw)))
+    }
+
+    pub(crate) fn raw_operands(&self) -> impl Iterator<Item = (Kind, Raw)> + '_ {
+        self.kinds.iter().map_while(|&kind| kind).zip(self.raw.iter().copied())
+    }
+
+    /// The value of the operand of this kind.
+    pub(crate) fn value_of(&self, kind: Kind) -> Option<u16> {
+        self.raw_operands().find(|&(other, _)| other == kind).map(|(_, raw)| raw.value)
     }
 
     /// The comparison, if the instruction is one.

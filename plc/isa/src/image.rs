@@ -4,6 +4,7 @@
 //! Numbers are little-endian. Offsets count from the first byte of the image.
 
 use crate::settings::{Retained, Settings};
+use crate::tokens::{TOKEN_TABLE, TOKEN_TABLE_LEN};
 
 /// First bytes of every image.
 pub const MAGIC: [u8; 4] = *b"U200";
@@ -26,6 +27,12 @@ pub trait ProgramMemory {
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn word(&self, offset: u16) -> u16 {
         u16::from_le_bytes([self.byte(offset), self.byte(offset.wrapping_add(1))])
+    }
+    /// The byte at an offset of [`TOKEN_TABLE`](crate::TOKEN_TABLE), which the board keeps in flash like the program;
+    /// 0 past the end.
+    fn token_table(&self, offset: u16) -> u8 {
+        static TABLE: [u8; TOKEN_TABLE_LEN] = TOKEN_TABLE;
+        TABLE.get(usize::from(offset)).copied().unwrap_or(0)
     }
     /// Whether there is nothing to read.
     fn is_empty(&self) -> bool {
@@ -100,6 +107,30 @@ pub struct ImageError {
 }
 
 impl ImageFault {
+    /// All faults, in the order of their numbers on the board.
+    pub const ALL: [ImageFault; 20] = [
+        ImageFault::Length,
+        ImageFault::Magic,
+        ImageFault::Version,
+        ImageFault::Flags,
+        ImageFault::Crc,
+        ImageFault::Name,
+        ImageFault::Settings,
+        ImageFault::VRanges,
+        ImageFault::Timers,
+        ImageFault::Counters,
+        ImageFault::Retained,
+        ImageFault::Plan,
+        ImageFault::UndefinedToken,
+        ImageFault::Truncated,
+        ImageFault::Malformed,
+        ImageFault::Operand,
+        ImageFault::ReadOnly,
+        ImageFault::StackUnderflow,
+        ImageFault::Label,
+        ImageFault::Loop,
+    ];
+
     /// The fault in words.
     pub const fn message(self) -> &'static str {
         match self {

@@ -15,6 +15,7 @@ mod plan;
 mod settings;
 mod stack;
 mod table;
+mod tokens;
 mod verify;
 
 pub use area::{AnalogInput, Area, TimerFamily, TimerResolution, timer_family, timer_resolution};
@@ -30,5 +31,7 @@ pub use settings::{DEFAULT_WATCHDOG_MS, Retained, Settings};
 pub use stack::{LogicStack, STACK_LEVELS};
 pub use table::{
     Encoded, Execute, Flow, Form, Group, INSTRUCTIONS, Instruction, Op, PowerFlow, StackEffect, WIDE_PREFIX, execute,
+    execute_compact,
 };
+pub use tokens::{TOKEN_TABLE, TOKEN_TABLE_LEN};
 pub use verify::{LOOPS_MAX, Program, verify};

@@ -115,6 +115,97 @@ pub enum Operand {
     Offset(u16),
 }
 
+/// An operand of any kind as it was read, in three bytes: what handles operands without knowing their kinds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Raw {
+    /// The bit's number, the relation, or the mode of a source.
+    pub tag: u8,
+    /// The address, the constant or the number.
+    pub value: u16,
+}
+
+impl Raw {
+    pub const ZERO: Raw = Raw { tag: 0, value: 0 };
+}
+
+/// The values of operands, and how they are written as [`Raw`].
+pub(crate) trait OfRaw {
+    fn raw(self) -> Raw;
+    fn of_raw(raw: Raw) -> Self;
+}
+
+impl OfRaw for Bit {
+    #[inline]
+    fn raw(self) -> Raw {
+        Raw { tag: self.bit, value: self.address }
+    }
+    #[inline]
+    fn of_raw(raw: Raw) -> Bit {
+        Bit { address: raw.value, bit: raw.tag }
+    }
+}
+
+impl OfRaw for u8 {
+    #[inline]
+    fn raw(self) -> Raw {
+        Raw { tag: 0, value: u16::from(self) }
+    }
+    #[inline]
+    fn of_raw(raw: Raw) -> u8 {
+        raw.value as u8
+    }
+}
+
+impl OfRaw for u16 {
+    #[inline]
+    fn raw(self) -> Raw {
+        Raw { tag: 0, value: self }
+    }
+    #[inline]
+    fn of_raw(raw: Raw) -> u16 {
+        raw.value
+    }
+}
+
+impl OfRaw for WordSource {
+    #[inline]
+    fn raw(self) -> Raw {
+        match self {
+            WordSource::Constant(value) => Raw { tag: MODE_CONSTANT, value },
+            WordSource::At(value) => Raw { tag: MODE_MEMORY, value },
+        }
+    }
+    #[inline]
+    fn of_raw(raw: Raw) -> WordSource {
+        if raw.tag == MODE_MEMORY { WordSource::At(raw.value) } else { WordSource::Constant(raw.value) }
+    }
+}
+
+impl OfRaw for ByteSource {
+    #[inline]
+    fn raw(self) -> Raw {
+        match self {
+            ByteSource::Constant(value) => Raw { tag: MODE_CONSTANT, value: u16::from(value) },
+            ByteSource::At(value) => Raw { tag: MODE_MEMORY, value },
+        }
+    }
+    #[inline]
+    fn of_raw(raw: Raw) -> ByteSource {
+        if raw.tag == MODE_MEMORY { ByteSource::At(raw.value) } else { ByteSource::Constant(raw.value as u8) }
+    }
+}
+
+impl OfRaw for Relation {
+    #[inline]
+    fn raw(self) -> Raw {
+        Raw { tag: self as u8, value: 0 }
+    }
+    #[inline]
+    fn of_raw(raw: Raw) -> Relation {
+        Relation::of_token_offset(raw.tag)
+    }
+}
+
 /// Reads the operands behind a token, in order.
 #[derive(Debug)]
 pub struct OperandReader<'a, P> {
@@ -178,19 +269,19 @@ macro_rules! operand_kinds {
             }
 
             /// The kind as a byte that is not 0.
-            pub(crate) const fn packed(self) -> u8 {
+            pub(crate) const fn number(self) -> u8 {
                 self as u8 + 1
             }
 
-            /// The kind of a byte; `None` for 0, which ends a list.
-            pub(crate) fn unpacked(byte: u8) -> Option<Kind> {
-                $( if byte == Kind::$name.packed() { return Some(Kind::$name); } )+
+            /// The kind with this number; `None` for 0, which ends a list.
+            pub(crate) fn of_number(number: u8) -> Option<Kind> {
+                $( if number == Kind::$name.number() { return Some(Kind::$name); } )+
                 None
             }
 
-            /// Reads an operand of this kind.
-            pub(crate) fn read<P: ProgramMemory>(self, reader: &mut OperandReader<'_, P>) -> Operand {
-                match self { $( Kind::$name => kinds::$name::operand(kinds::$name::read(reader)), )+ }
+            /// An operand of this kind that has been read.
+            pub(crate) fn operand(self, raw: Raw) -> Operand {
+                match self { $( Kind::$name => kinds::$name::operand(OfRaw::of_raw(raw)), )+ }
             }
         }
 
@@ -247,6 +338,7 @@ fn byte_operand(source: ByteSource) -> Operand {
     }
 }
 
+// In groups that are stored alike: the board tells them apart by comparing numbers.
 operand_kinds! {
     /// A bit of the bit page, read: bit number in the token, page byte behind it.
     PageBit, 1, Bit, |r| page_bit(r), |v| Operand::Bit(v);
@@ -260,30 +352,32 @@ operand_kinds! {
     FarBitOut, 2, Bit, |r| far_bit(r), |v| Operand::Bit(v);
     /// Any bit that a reset may write.
     FarBitReset, 2, Bit, |r| far_bit(r), |v| Operand::Bit(v);
-    /// The address of a byte that is read.
-    Byte, 2, ByteSource, |r| ByteSource::At(r.word()), |v| byte_operand(v);
-    /// The address of a byte that is written.
-    ByteOut, 2, u16, |r| r.word(), |v| Operand::Memory(v);
-    /// A byte constant.
-    ByteConst, 1, ByteSource, |r| ByteSource::Constant(r.byte()), |v| byte_operand(v);
     /// A byte, constant or address: mode byte, then a word.
     AnyByte, 3, ByteSource,
         |r| if is_memory(r) { ByteSource::At(r.word()) } else { ByteSource::Constant(r.word() as u8) },
         |v| byte_operand(v);
+    /// A signed word, constant or address: mode byte, then a word.
+    AnyInt, 3, WordSource,
+        |r| if is_memory(r) { WordSource::At(r.word()) } else { WordSource::Constant(r.word()) },
+        |v| word_operand(v);
+    /// The address of a byte that is read.
+    Byte, 2, ByteSource, |r| ByteSource::At(r.word()), |v| byte_operand(v);
     /// The address of a word that is read.
     Word, 2, WordSource, |r| WordSource::At(r.word()), |v| word_operand(v);
+    /// The address of a byte that is written.
+    ByteOut, 2, u16, |r| r.word(), |v| Operand::Memory(v);
     /// The address of a word that is written.
     WordOut, 2, u16, |r| r.word(), |v| Operand::Memory(v);
     /// A 16-bit constant: decimal -32768 to 65535.
     WordConst, 2, WordSource, |r| WordSource::Constant(r.word()), |v| word_operand(v);
     /// A signed 16-bit constant: decimal -32768 to 32767.
     IntConst, 2, WordSource, |r| WordSource::Constant(r.word()), |v| word_operand(v);
-    /// A signed word, constant or address: mode byte, then a word.
-    AnyInt, 3, WordSource,
-        |r| if is_memory(r) { WordSource::At(r.word()) } else { WordSource::Constant(r.word()) },
-        |v| word_operand(v);
-    /// The count 1: takes no room.
-    One, 0, ByteSource, |_r| ByteSource::Constant(1), |v| byte_operand(v);
+    /// Offset behind the NEXT that closes a FOR; not written in AWL.
+    LoopEnd, 2, u16, |r| r.word(), |v| Operand::Offset(v);
+    /// Offset of the FOR that a NEXT closes; not written in AWL.
+    LoopStart, 2, u16, |r| r.word(), |v| Operand::Offset(v);
+    /// A byte constant.
+    ByteConst, 1, ByteSource, |r| ByteSource::Constant(r.byte()), |v| byte_operand(v);
     /// A constant count, 1 to 255.
     Count, 1, ByteSource, |r| ByteSource::Constant(r.byte()), |v| byte_operand(v);
     /// The slot of a timer in the plan.
@@ -304,10 +398,8 @@ operand_kinds! {
     LabelIndex, 1, u8, |r| r.byte(), |v| Operand::Number(v);
     /// A label where it stands: its number, 0 to 255.
     LabelNumber, 1, u8, |r| r.byte(), |v| Operand::Number(v);
-    /// Offset behind the NEXT that closes a FOR; not written in AWL.
-    LoopEnd, 2, u16, |r| r.word(), |v| Operand::Offset(v);
-    /// Offset of the FOR that a NEXT closes; not written in AWL.
-    LoopStart, 2, u16, |r| r.word(), |v| Operand::Offset(v);
+    /// The count 1: takes no room.
+    One, 0, ByteSource, |_r| ByteSource::Constant(1), |v| byte_operand(v);
     /// The comparison in a token.
     Relation, 0, super::Relation, |r| super::Relation::of_token_offset(r.in_token), |v| Operand::Relation(v);
     /// The instruction's own offset, for an executor that must know it; takes no room.
@@ -315,6 +407,23 @@ operand_kinds! {
 }
 
 impl Kind {
+    /// Reads an operand of this kind as its type does, and takes the mode byte as it stands.
+    pub(crate) fn read_raw<P: ProgramMemory>(self, reader: &mut OperandReader<'_, P>) -> Raw {
+        match self {
+            Kind::PageBit | Kind::PageBitOut | Kind::PageBitReset => page_bit(reader).raw(),
+            Kind::FarBit | Kind::FarBitOut | Kind::FarBitReset => far_bit(reader).raw(),
+            Kind::AnyByte | Kind::AnyInt => Raw { tag: reader.byte(), value: reader.word() },
+            Kind::Byte | Kind::Word => Raw { tag: MODE_MEMORY, value: reader.word() },
+            Kind::ByteOut | Kind::WordOut | Kind::WordConst | Kind::IntConst | Kind::LoopEnd | Kind::LoopStart => {
+                Raw { tag: 0, value: reader.word() }
+            }
+            Kind::One => Raw { tag: MODE_CONSTANT, value: 1 },
+            Kind::Relation => Raw { tag: reader.in_token, value: 0 },
+            Kind::Here => Raw { tag: 0, value: reader.start },
+            _ => Raw { tag: 0, value: u16::from(reader.byte()) },
+        }
+    }
+
     /// Whether the operand stands in the AWL text, separated by commas.
     pub const fn is_written(self) -> bool {
         !matches!(self, Kind::Edge | Kind::LoopEnd | Kind::LoopStart | Kind::Here | Kind::Relation)

@@ -120,16 +120,37 @@ pub struct Plan<P> {
     pub(crate) memory: P,
     /// The header.
     pub header: Header,
-    v_len: u16,
+    // Derived once: the interpreter asks for them in every scan.
+    timers_at: u16,
+    counters_at: u16,
     labels_at: u16,
+    timers_start: u16,
+    counters_start: u16,
+    edges_start: u16,
+    end: u16,
 }
 
 impl<P: ProgramMemory> Plan<P> {
     /// The plan in the tables behind this header, taken on trust: for the assembler, which wrote them.
     pub fn trusted(memory: P, header: Header) -> Self {
-        let mut plan = Plan { memory, header, v_len: 0, labels_at: header.labels_at() };
-        plan.v_len = plan.v_ranges().fold(0, |sum, (_, len)| len.saturating_add(sum));
-        plan
+        let v_ranges_at = header.v_ranges_at();
+        // Lengths of tables that are not checked yet: nothing may overflow.
+        let v_len = (0..header.v_ranges)
+            .fold(0u16, |sum, index| sum.saturating_add(memory.word(v_ranges_at + V_RANGE_LEN * index + 2)));
+        let timers_start = ARENA_START.saturating_add(v_len);
+        let counters_start = timers_start.saturating_add(TIMER_SLOT_LEN * header.timers);
+        let edges_start = counters_start.saturating_add(COUNTER_SLOT_LEN * header.counters);
+        Plan {
+            timers_at: header.timers_at(),
+            counters_at: header.counters_at(),
+            labels_at: header.labels_at(),
+            timers_start,
+            counters_start,
+            edges_start,
+            end: edges_start.saturating_add(header.edges.div_ceil(8)),
+            memory,
+            header,
+        }
     }
 
     /// Range `index` of V memory: first byte and length.
@@ -145,36 +166,24 @@ impl<P: ProgramMemory> Plan<P> {
 
     /// Bytes of V memory in the plan.
     pub fn v_len(&self) -> u16 {
-        self.v_len
-    }
-
-    fn timers_start(&self) -> u16 {
-        ARENA_START.saturating_add(self.v_len)
-    }
-
-    fn counters_start(&self) -> u16 {
-        self.timers_start().saturating_add(TIMER_SLOT_LEN.saturating_mul(self.header.timers))
-    }
-
-    fn edges_start(&self) -> u16 {
-        self.counters_start().saturating_add(COUNTER_SLOT_LEN.saturating_mul(self.header.counters))
+        self.timers_start - ARENA_START
     }
 
     /// One past the last arena address of the plan.
     pub fn end(&self) -> u16 {
-        self.edges_start().saturating_add(self.header.edges.div_ceil(8))
+        self.end
     }
 
     /// The timer in a slot. The kind is `None` when the table is corrupt.
     pub(crate) fn timer_entry(&self, slot: u16) -> (u8, Option<TimerKind>) {
-        let at = self.header.timers_at() + TIMER_LEN * slot;
+        let at = self.timers_at + TIMER_LEN * slot;
         (self.memory.byte(at), TimerKind::of_code(self.memory.byte(at + 1)))
     }
 
     /// The timer in a slot.
     pub fn timer(&self, slot: u8) -> TimerSlot {
         let (number, kind) = self.timer_entry(u16::from(slot));
-        let address = self.timers_start() + TIMER_SLOT_LEN * u16::from(slot);
+        let address = self.timers_start + TIMER_SLOT_LEN * u16::from(slot);
         TimerSlot { number, kind: kind.unwrap_or(TimerKind::NotStarted), address }
     }
 
@@ -185,8 +194,8 @@ impl<P: ProgramMemory> Plan<P> {
 
     /// The counter in a slot.
     pub fn counter(&self, slot: u8) -> CounterSlot {
-        let at = self.header.counters_at() + COUNTER_LEN * u16::from(slot);
-        let address = self.counters_start() + COUNTER_SLOT_LEN * u16::from(slot);
+        let at = self.counters_at + COUNTER_LEN * u16::from(slot);
+        let address = self.counters_start + COUNTER_SLOT_LEN * u16::from(slot);
         CounterSlot { number: self.memory.byte(at), address }
     }
 
@@ -197,7 +206,7 @@ impl<P: ProgramMemory> Plan<P> {
 
     /// Where an edge memory lives.
     pub fn edge(&self, number: u8) -> Bit {
-        Bit { address: self.edges_start() + u16::from(number / 8), bit: number % 8 }
+        Bit { address: self.edges_start + u16::from(number / 8), bit: number % 8 }
     }
 
     /// Code offset of a label.
@@ -261,20 +270,19 @@ impl<P: ProgramMemory> Plan<P> {
         if address < ARENA_START {
             return AnalogInput::at_address(address).map(Region::Analog);
         }
-        if address < self.timers_start() {
+        if address < self.timers_start {
             return self.v_region(address - ARENA_START);
         }
-        if address < self.counters_start() {
-            let (slot, rest) =
-                ((address - self.timers_start()) / TIMER_SLOT_LEN, (address - self.timers_start()) % TIMER_SLOT_LEN);
-            return (rest == 0).then(|| Region::TimerValue(self.timer(slot as u8).number));
+        // Only the first word of a slot can be named.
+        if address < self.counters_start {
+            let offset = address - self.timers_start;
+            let is_value = offset.is_multiple_of(TIMER_SLOT_LEN);
+            return is_value.then(|| Region::TimerValue(self.timer((offset / TIMER_SLOT_LEN) as u8).number));
         }
-        if address < self.edges_start() {
-            let (slot, rest) = (
-                (address - self.counters_start()) / COUNTER_SLOT_LEN,
-                (address - self.counters_start()) % COUNTER_SLOT_LEN,
-            );
-            return (rest == 0).then(|| Region::CounterValue(self.counter(slot as u8).number));
+        if address < self.edges_start {
+            let offset = address - self.counters_start;
+            let is_value = offset.is_multiple_of(COUNTER_SLOT_LEN);
+            return is_value.then(|| Region::CounterValue(self.counter((offset / COUNTER_SLOT_LEN) as u8).number));
         }
         None
     }
@@ -298,6 +306,11 @@ impl Region {
             Region::Analog(_) => false,
             Region::TimerValue(_) | Region::CounterValue(_) => true,
         }
+    }
+
+    /// Whether the bits of `len` bytes can be addressed here.
+    pub fn holds_bits(self, len: u16) -> bool {
+        matches!(self, Region::Byte { room, .. } if room >= len)
     }
 
     /// Whether a value of `len` bytes can be addressed here.

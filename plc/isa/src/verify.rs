@@ -5,9 +5,9 @@
 
 use crate::area::{Area, TimerFamily, timer_family};
 use crate::decode::{DecodeError, Decoded, decode};
-use crate::image::{Header, ImageError, ImageFault, ProgramMemory};
+use crate::image::{COUNTER_LEN, Header, ImageError, ImageFault, ProgramMemory, TIMER_LEN};
 use crate::layout::*;
-use crate::operand::{Bit, Kind, Operand};
+use crate::operand::{Kind, Raw};
 use crate::plan::{Plan, Region, TimerKind};
 use crate::stack::STACK_LEVELS;
 use crate::table::Op;
@@ -65,8 +65,8 @@ fn check_tables<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageError> {
     ensure(header.settings.is_valid(), ImageFault::Settings, 22)?;
     check_v_ranges(plan)?;
     check_timers(plan)?;
-    let numbers = (0..header.counters).map(|slot| plan.memory.byte(header.counters_at() + slot));
-    ensure(header.counters <= 256 && is_ascending(numbers), ImageFault::Counters, header.counters_at())?;
+    let counters_ascend = is_ascending(&plan.memory, header.counters_at(), COUNTER_LEN, header.counters);
+    ensure(counters_ascend, ImageFault::Counters, header.counters_at())?;
     ensure(header.edges <= EDGES_MAX && header.labels <= 256, ImageFault::Plan, 12)?;
     ensure(plan.end() <= DATA_END && plan.end() - ARENA_START == header.arena_len, ImageFault::Plan, 10)?;
     for index in 0..u16::from(header.retained) {
@@ -75,13 +75,9 @@ fn check_tables<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageError> {
     Ok(())
 }
 
-fn is_ascending(mut numbers: impl Iterator<Item = u8>) -> bool {
-    let mut least = 0;
-    numbers.all(|number| {
-        let ascends = u16::from(number) >= least;
-        least = u16::from(number) + 1;
-        ascends
-    })
+/// Whether the bytes at `at`, `at + step`, ... are ascending; no more than 256 can be.
+fn is_ascending<P: ProgramMemory>(memory: &P, at: u16, step: u16, count: u16) -> bool {
+    (1..count).all(|index| memory.byte(at + step * (index - 1)) < memory.byte(at + step * index))
 }
 
 fn check_v_ranges<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageError> {
@@ -97,12 +93,11 @@ fn check_v_ranges<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageError> {
 
 fn check_timers<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageError> {
     let header = &plan.header;
-    let numbers = (0..header.timers).map(|slot| plan.timer_entry(slot).0);
     let kinds_fit = (0..header.timers).all(|slot| {
         let (number, kind) = plan.timer_entry(slot);
         kind.is_some_and(|kind| kind.fits(number))
     });
-    let valid = header.timers <= 256 && is_ascending(numbers) && kinds_fit;
+    let valid = kinds_fit && is_ascending(&plan.memory, header.timers_at(), TIMER_LEN, header.timers);
     ensure(valid, ImageFault::Timers, header.timers_at())
 }
 
@@ -167,67 +162,63 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
     }
 
     fn operands(&self, decoded: &Decoded, at: u16) -> Result<(), ImageError> {
-        let count = decoded.operands().find_map(|(kind, operand)| match (kind, operand) {
-            (Kind::One | Kind::Count, Operand::Constant(count)) => Some(count),
-            _ => None,
-        });
-        for (kind, operand) in decoded.operands() {
-            let valid = self.operand(decoded.op, kind, operand, count.unwrap_or(1));
-            ensure(valid, ImageFault::Operand, at)?;
-            ensure(!kind.is_output() || self.is_writable(operand), ImageFault::ReadOnly, at)?;
+        let count = decoded.value_of(Kind::Count).unwrap_or(1);
+        for (kind, raw) in decoded.raw_operands() {
+            match self.operand(decoded.op, kind, raw, count) {
+                Some(fault) => return Err(ImageError { fault, at }),
+                None => continue,
+            }
         }
         Ok(())
     }
 
-    fn operand(&self, op: Op, kind: Kind, operand: Operand, count: u16) -> bool {
+    /// What is wrong with an operand.
+    fn operand(&self, op: Op, kind: Kind, raw: Raw, count: u16) -> Option<ImageFault> {
         let plan = self.plan;
-        match (kind, operand) {
-            (_, Operand::Bit(bit)) => {
-                let counted = kind.is_output();
-                let resets = matches!(kind, Kind::PageBitReset | Kind::FarBitReset);
-                self.bits(bit, if counted { count } else { 1 }, !resets)
+        let value = raw.value;
+        let valid = match kind {
+            Kind::PageBit | Kind::FarBit => return self.memory(kind, value, 1),
+            Kind::PageBitOut | Kind::PageBitReset | Kind::FarBitOut | Kind::FarBitReset => {
+                return self.memory(kind, value, (u16::from(raw.tag) + count).div_ceil(8));
             }
-            (Kind::Byte | Kind::ByteOut | Kind::AnyByte, Operand::Memory(address)) => {
-                plan.region(address).is_some_and(|region| region.holds_value(1))
+            Kind::Byte | Kind::ByteOut => return self.memory(kind, value, 1),
+            Kind::Word | Kind::WordOut => return self.memory(kind, value, 2),
+            Kind::AnyByte | Kind::AnyInt if raw.tag == 0 => true,
+            Kind::AnyByte => return self.memory(kind, value, 1),
+            Kind::AnyInt => return self.memory(kind, value, 2),
+            Kind::Count => value >= 1,
+            Kind::Level => value < u16::from(STACK_LEVELS),
+            Kind::TimerSlot => {
+                value < plan.header.timers && TimerKind::started_by(op) == Some(plan.timer(value as u8).kind)
             }
-            (Kind::Word | Kind::WordOut | Kind::AnyInt, Operand::Memory(address)) => {
-                plan.region(address).is_some_and(|region| region.holds_value(2))
-            }
-            (Kind::Count, Operand::Constant(count)) => count >= 1,
-            (Kind::Level, Operand::Number(level)) => level < STACK_LEVELS,
-            (Kind::TimerSlot, Operand::Number(slot)) => {
-                u16::from(slot) < plan.header.timers && TimerKind::started_by(op) == Some(plan.timer(slot).kind)
-            }
-            (Kind::CounterSlot, Operand::Number(slot)) => u16::from(slot) < plan.header.counters,
-            (Kind::TimerNumber | Kind::CounterNumber, Operand::Number(number)) => u16::from(number) + count <= 256,
-            (Kind::Edge, Operand::Number(edge)) => u16::from(edge) < plan.header.edges,
-            (Kind::LabelIndex, Operand::Number(label)) => u16::from(label) < plan.header.labels,
+            Kind::CounterSlot => value < plan.header.counters,
+            Kind::TimerNumber | Kind::CounterNumber => value + count <= 256,
+            Kind::Edge => value < plan.header.edges,
+            Kind::LabelIndex => value < plan.header.labels,
             _ => true,
-        }
-    }
-
-    fn bits(&self, bit: Bit, count: u16, timers_and_counters: bool) -> bool {
-        match self.plan.region(bit.address) {
-            Some(Region::Byte { area: Area::T | Area::C, .. }) if !timers_and_counters => false,
-            Some(Region::Byte { room, .. }) => u16::from(bit.bit) + count <= room.saturating_mul(8),
-            _ => false,
-        }
-    }
-
-    fn is_writable(&self, operand: Operand) -> bool {
-        let address = match operand {
-            Operand::Bit(bit) => bit.address,
-            Operand::Memory(address) => address,
-            _ => return true,
         };
-        self.plan.region(address).is_some_and(Region::is_writable)
+        (!valid).then_some(ImageFault::Operand)
+    }
+
+    /// What is wrong with an operand that names `len` bytes of memory, or the bits in them.
+    fn memory(&self, kind: Kind, address: u16, len: u16) -> Option<ImageFault> {
+        let Some(region) = self.plan.region(address) else { return Some(ImageFault::Operand) };
+        let fits = match kind {
+            Kind::PageBit | Kind::PageBitOut | Kind::FarBit | Kind::FarBitOut => region.holds_bits(len),
+            // The reset of a timer or counter does more than to write bits.
+            Kind::PageBitReset | Kind::FarBitReset => {
+                region.holds_bits(len) && !matches!(region, Region::Byte { area: Area::T | Area::C, .. })
+            }
+            _ => region.holds_value(len),
+        };
+        match fits {
+            false => Some(ImageFault::Operand),
+            true if kind.is_output() && !region.is_writable() => Some(ImageFault::ReadOnly),
+            true => None,
+        }
     }
 
     fn control(&mut self, decoded: &Decoded, at: u16) -> Result<(), ImageError> {
-        let offset = decoded.operands().find_map(|(kind, operand)| match (kind, operand) {
-            (Kind::LoopEnd | Kind::LoopStart, Operand::Offset(offset)) => Some(offset),
-            _ => None,
-        });
         match decoded.op {
             Op::Lbl => {
                 let listed = self.next_label < self.plan.header.labels && self.plan.label(self.next_label as u8) == at;
@@ -238,14 +229,15 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
                 let Some(place) = self.loops.get_mut(self.open_loops) else {
                     return Err(ImageError { fault: ImageFault::Loop, at });
                 };
-                *place = Loop { start: at, end: offset.unwrap_or(0) };
+                *place = Loop { start: at, end: decoded.value_of(Kind::LoopEnd).unwrap_or(0) };
                 self.open_loops += 1;
                 Ok(())
             }
             Op::Next => {
                 self.open_loops = self.open_loops.wrapping_sub(1);
                 let open = self.loops.get(self.open_loops);
-                let pairs = open.is_some_and(|open| open.end == at + decoded.len && offset == Some(open.start));
+                let start = decoded.value_of(Kind::LoopStart);
+                let pairs = open.is_some_and(|open| open.end == at + decoded.len && start == Some(open.start));
                 ensure(pairs, ImageFault::Loop, at)
             }
             _ => Ok(()),

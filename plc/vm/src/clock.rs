@@ -31,6 +31,11 @@ impl Clock {
     pub fn advance(&mut self, now_ms: u32) -> u32 {
         let passed = now_ms.wrapping_sub(self.scan_start_ms);
         self.scan_start_ms = now_ms;
+        (self.ticks_10, self.ticks_100) = (0, 0);
+        // Most scans of the board take less than a millisecond.
+        if passed == 0 {
+            return 0;
+        }
         self.ticks_10 = intervals(&mut self.rest_10, passed, 10);
         self.ticks_100 = intervals(&mut self.rest_100, passed, 100);
         self.half_second ^= !intervals(&mut self.rest_500, passed, 500).is_multiple_of(2);

@@ -4,6 +4,9 @@ use plc_isa::LogicStack;
 
 /// The outside of a running program.
 pub trait Environment {
+    /// Whether the interpreter is to be small rather than fast. Both ways do the same.
+    const COMPACT: bool = cfg!(target_arch = "avr");
+
     /// The millisecond clock. Wraps after 49.7 days; only differences count.
     fn now_ms(&mut self) -> u32;
 

@@ -2,7 +2,7 @@
 
 use plc_isa::{
     Bit, ByteSource, Execute, Flow, LogicStack, OperandKind, OperandReader, Plan, Program, ProgramMemory, Relation,
-    TimerResolution, WordSource, execute, kinds, timer_resolution,
+    TimerResolution, WordSource, execute, execute_compact, kinds, timer_resolution,
 };
 
 use crate::clock::Clock;
@@ -46,7 +46,11 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
         let program = self.program;
         let mut pc = program.code_at();
         loop {
-            match execute(&mut self, program.memory(), pc) {
+            let flow = match E::COMPACT {
+                true => execute_compact(&mut self, program.memory(), pc),
+                false => execute(&mut self, program.memory(), pc),
+            };
+            match flow {
                 Flow::Jump(next) => {
                     self.environment.executed(pc, self.stack);
                     pc = next;

@@ -8,6 +8,7 @@ mod clock;
 mod counter;
 mod edge;
 mod environment;
+mod fault;
 mod interpreter;
 mod math;
 mod memory;
@@ -17,6 +18,7 @@ mod special;
 mod timer;
 
 pub use environment::Environment;
+pub use fault::Fault;
 pub use interpreter::Exit;
 pub use memory::Memory;
-pub use plc::{Fault, Inputs, Mode, Plc};
+pub use plc::{Inputs, Mode, Plc};

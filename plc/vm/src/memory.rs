@@ -40,12 +40,14 @@ impl Memory {
     }
 
     /// The byte at an address.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn byte(&self, address: u16) -> u8 {
         self.bytes.get(index(address)).copied().unwrap_or(0)
     }
 
     /// Writes a byte.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn set_byte(&mut self, address: u16, value: u8) {
         if let Some(byte) = self.bytes.get_mut(index(address)) {
@@ -54,12 +56,14 @@ impl Memory {
     }
 
     /// The word whose high byte is at an address.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn word(&self, address: u16) -> u16 {
         u16::from_be_bytes([self.byte(address), self.byte(address.wrapping_add(1))])
     }
 
     /// Writes a word.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn set_word(&mut self, address: u16, value: u16) {
         let [high, low] = value.to_be_bytes();
@@ -68,24 +72,28 @@ impl Memory {
     }
 
     /// The word as a signed number.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn int(&self, address: u16) -> i16 {
         self.word(address) as i16
     }
 
     /// Writes a signed number.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn set_int(&mut self, address: u16, value: i16) {
         self.set_word(address, value as u16);
     }
 
     /// A bit.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn bit(&self, bit: Bit) -> bool {
         self.byte(bit.address) >> (bit.bit & 7) & 1 != 0
     }
 
     /// Writes a bit.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn set_bit(&mut self, bit: Bit, value: bool) {
         let place = bit.bit & 7;

@@ -7,6 +7,7 @@ use plc_isa::{
 
 use crate::clock::Clock;
 use crate::environment::Environment;
+use crate::fault::Fault;
 use crate::interpreter::{Exit, Interpreter};
 use crate::memory::Memory;
 use crate::special::{self, SystemBits};
@@ -26,6 +27,19 @@ pub struct Inputs {
     pub raw: [u16; ANALOG_INPUTS as usize],
 }
 
+impl Inputs {
+    /// Writes them into the process image.
+    fn write(&self, memory: &mut Memory) {
+        for (address, &byte) in (I_START..).zip(&self.digital) {
+            memory.set_byte(address, byte);
+        }
+        for (channel, (&scaled, &raw)) in (0..).zip(self.scaled.iter().zip(&self.raw)) {
+            memory.set_word(AnalogInput::Scaled(channel).address(), scaled);
+            memory.set_word(AnalogInput::Raw(channel).address(), raw);
+        }
+    }
+}
+
 /// Whether the program is executed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mode {
@@ -35,25 +49,8 @@ pub enum Mode {
     Run,
 }
 
-/// Why the controller went to STOP by itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fault {
-    /// The image is not valid. The offset in the error counts from the image's first byte.
-    BadImage(ImageError),
-    /// The scan took longer than the watchdog time; the program was at this offset of the image.
-    Watchdog {
-        /// Offset of the instruction.
-        at: u16,
-    },
-    /// There was no instruction where one was expected, at this offset of the image.
-    UndefinedInstruction {
-        /// Offset of the instruction.
-        at: u16,
-    },
-}
-
 /// The controller. The program's bytes are read through `P`; data memory belongs to the caller.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Plc<P> {
     program: Option<Program<P>>,
     mode: Mode,
@@ -147,7 +144,12 @@ impl<P: ProgramMemory> Plc<P> {
     /// The first half of a scan: takes the inputs into the process image and, in RUN, executes the
     /// program. Communication and self-test follow, then the caller writes [`outputs`](Self::outputs).
     pub fn scan<E: Environment>(&mut self, memory: &mut Memory, inputs: &Inputs, environment: &mut E) {
-        write_inputs(memory, inputs);
+        inputs.write(memory);
+        self.execute(memory, environment);
+    }
+
+    /// The same for a caller that has written the inputs into the process image itself, because it has only few.
+    pub fn execute<E: Environment>(&mut self, memory: &mut Memory, environment: &mut E) {
         let Some(program) = self.program.as_ref().filter(|_| self.mode == Mode::Run) else { return };
         let now_ms = environment.now_ms();
         start_scan(&mut self.clock, &mut self.scans, memory, now_ms);
@@ -210,16 +212,5 @@ fn start_scan(clock: &mut Clock, scans: &mut Scans, memory: &mut Memory, now_ms:
     } else {
         let passed_ms = clock.advance(now_ms);
         special::write_scan_time(memory, passed_ms, *scans == Scans::Second);
-    }
-}
-
-fn write_inputs(memory: &mut Memory, inputs: &Inputs) {
-    for (address, &byte) in (I_START..).zip(&inputs.digital) {
-        memory.set_byte(address, byte);
-    }
-    for channel in 0..ANALOG_INPUTS as u8 {
-        let at = usize::from(channel);
-        memory.set_word(AnalogInput::Scaled(channel).address(), inputs.scaled[at]);
-        memory.set_word(AnalogInput::Raw(channel).address(), inputs.raw[at]);
     }
 }

@@ -24,17 +24,14 @@ pub(crate) struct SystemBits {
 impl SystemBits {
     /// Writes SMB0. SM0.0 is always on; SM0.7, the mode switch, stands at RUN: the Uno has none.
     pub fn write(self, memory: &mut Memory) {
-        let bits = [
-            true,
-            self.first_scan,
-            self.retentive_lost,
-            self.power_up,
-            self.half_minute,
-            self.half_second,
-            self.scan_clock,
-            true,
-        ];
-        let byte = bits.iter().rev().fold(0, |byte, &bit| byte << 1 | u8::from(bit));
+        let byte = 1
+            | u8::from(self.first_scan) << 1
+            | u8::from(self.retentive_lost) << 2
+            | u8::from(self.power_up) << 3
+            | u8::from(self.half_minute) << 4
+            | u8::from(self.half_second) << 5
+            | u8::from(self.scan_clock) << 6
+            | 1 << 7;
         memory.set_byte(SMB0, byte);
     }
 }

@@ -246,6 +246,10 @@ impl Machine for Host {
                 format!("watchdog: the scan took longer than {limit_ms} ms; the program was {}", self.place(at))
             }
             Fault::UndefinedInstruction { at } => format!("there is no instruction {}", self.place(at)),
+            Fault::ProgramChanged => "self-test: the program in flash has changed".to_string(),
+            Fault::StackOverflow => "self-test: the stack has grown into data memory".to_string(),
+            Fault::Hang => "the hardware watchdog: the firmware or its clock stood still".to_string(),
+            Fault::Panic => "the firmware met a state that it holds for impossible".to_string(),
         })
     }
 

@@ -1,0 +1,89 @@
+//! Faults: why the controller went to STOP by itself, in words for programs and in bytes for the board.
+
+use plc_isa::{ImageError, ImageFault};
+
+/// Why the controller went to STOP by itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fault {
+    /// The image is not valid. The offset in the error counts from the image's first byte.
+    BadImage(ImageError),
+    /// The scan took longer than the watchdog time; the program was at this offset of the image.
+    Watchdog {
+        /// Offset of the instruction.
+        at: u16,
+    },
+    /// There was no instruction where one was expected, at this offset of the image.
+    UndefinedInstruction {
+        /// Offset of the instruction.
+        at: u16,
+    },
+    /// Self-test of the board: the program in flash is no longer the one that was checked.
+    ProgramChanged,
+    /// Self-test of the board: the stack has grown into data memory.
+    StackOverflow,
+    /// The board's hardware watchdog: the firmware or its clock stood still.
+    Hang,
+    /// The firmware met a state that it holds for impossible.
+    Panic,
+}
+
+impl Fault {
+    /// No fault, as bytes.
+    pub const NONE: [u8; 4] = [0; 4];
+
+    /// Code, detail and offset, low byte first: how the board keeps and reports a fault.
+    pub fn to_bytes(self) -> [u8; 4] {
+        let (code, detail, at) = match self {
+            Fault::BadImage(ImageError { fault, at }) => (1, fault as u8, at),
+            Fault::Watchdog { at } => (2, 0, at),
+            Fault::UndefinedInstruction { at } => (3, 0, at),
+            Fault::ProgramChanged => (4, 0, 0),
+            Fault::StackOverflow => (5, 0, 0),
+            Fault::Hang => (6, 0, 0),
+            Fault::Panic => (7, 0, 0),
+        };
+        let [low, high] = at.to_le_bytes();
+        [code, detail, low, high]
+    }
+
+    /// The fault in such bytes; `None` for [`NONE`](Self::NONE) and what is no fault.
+    pub fn from_bytes([code, detail, low, high]: [u8; 4]) -> Option<Fault> {
+        let at = u16::from_le_bytes([low, high]);
+        Some(match code {
+            1 => Fault::BadImage(ImageError { fault: *ImageFault::ALL.get(usize::from(detail))?, at }),
+            2 => Fault::Watchdog { at },
+            3 => Fault::UndefinedInstruction { at },
+            4 => Fault::ProgramChanged,
+            5 => Fault::StackOverflow,
+            6 => Fault::Hang,
+            7 => Fault::Panic,
+            _ => return None,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Fault;
+    use plc_isa::{ImageError, ImageFault};
+
+    #[test]
+    fn every_fault_survives_its_bytes() {
+        let images = ImageFault::ALL.map(|fault| Fault::BadImage(ImageError { fault, at: 0x1234 }));
+        let others = [
+            Fault::Watchdog { at: 0xFEDC },
+            Fault::UndefinedInstruction { at: 7 },
+            Fault::ProgramChanged,
+            Fault::StackOverflow,
+            Fault::Hang,
+            Fault::Panic,
+        ];
+        for fault in images.into_iter().chain(others) {
+            assert_eq!(Fault::from_bytes(fault.to_bytes()), Some(fault));
+            assert_ne!(fault.to_bytes(), Fault::NONE);
+        }
+        assert_eq!(Fault::from_bytes(Fault::NONE), None);
+        assert_eq!(Fault::from_bytes([8, 0, 0, 0]), None);
+        assert_eq!(Fault::from_bytes([1, 99, 0, 0]), None);
+    }
+}
