@@ -1,4 +1,4 @@
-//! Compiles the controller's crates for avr-none: the no_std and 16-bit check.
+//! The compiler for the board: whichever has the sources of core.
 
 use std::path::Path;
 use std::process::Command;
@@ -6,31 +6,14 @@ use std::process::Command;
 use anyhow::Result;
 
 use crate::packages;
-use crate::process::{root, run};
 
-/// The crates that run on the board.
-const CRATES: [&str; 2] = ["plc-isa", "plc-vm"];
-
-/// Builds the board's crates with whichever compiler has the sources of core.
-pub fn check() -> Result<()> {
-    let mut build = match nightly_with_sources() {
-        Some(mut command) => {
-            command.arg("build");
-            command
-        }
-        None => {
-            packages::ensure_installed(packages::AVR_COMPILER)?;
-            debian_cargo()
-        }
-    };
-    build.current_dir(root()).args(["--release", "--target", "avr-none", "-Z", "build-std=core"]);
-    build.env("RUSTFLAGS", "-C target-cpu=atmega328p -D warnings");
-    // Its own folder: the two compilers must not share one.
-    build.arg("--target-dir").arg(root().join("target/avr"));
-    for name in CRATES {
-        build.args(["--package", name]);
+/// Cargo with a compiler that can build core for avr-none.
+pub fn cargo() -> Result<Command> {
+    if let Some(nightly) = nightly_with_sources() {
+        return Ok(nightly);
     }
-    run(&mut build)
+    packages::ensure_installed(packages::AVR_COMPILER)?;
+    Ok(debian_cargo())
 }
 
 /// A rustup nightly that has the component rust-src.
@@ -47,6 +30,5 @@ fn debian_cargo() -> Command {
     let mut command = Command::new("/usr/bin/cargo");
     // Debian's compiler is a release that must be told to accept what tier-3 targets need.
     command.env("RUSTC", "/usr/bin/rustc").env("RUSTC_BOOTSTRAP", "1").env_remove("RUSTUP_TOOLCHAIN");
-    command.arg("build");
     command
 }

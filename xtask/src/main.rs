@@ -5,6 +5,7 @@ mod bench;
 mod budgets;
 mod demo;
 mod docs;
+mod firmware;
 mod packages;
 mod process;
 mod rules;
@@ -34,6 +35,8 @@ enum Task {
     },
     /// Measures interpreter and assembler and compares them with their budgets.
     Bench,
+    /// Builds the firmware for the Uno: target/firmware/uno200.elf and uno200.hex.
+    Firmware,
     /// Writes the generated files in docs.
     Docs {
         /// Only compare, and fail if it would change.
@@ -47,6 +50,7 @@ fn main() -> ExitCode {
         Task::Demo => demo::run(),
         Task::Test { host_only } => test::run(host_only),
         Task::Bench => bench::run(),
+        Task::Firmware => firmware::build().map(|elf| println!("{} and .hex", elf.display())),
         Task::Docs { check } => docs::run(check),
     };
     match result {

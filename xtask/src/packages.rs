@@ -8,7 +8,11 @@ use anyhow::{Result, bail};
 use crate::process::run;
 
 /// The compiler for the board: core for avr-none is built from source.
-pub const AVR_COMPILER: &[&str] = &["rustc-web", "cargo-web", "rust-web-src", "gcc-avr", "avr-libc", "binutils-avr"];
+pub const AVR_COMPILER: &[&str] = &["rustc-web", "cargo-web", "rust-web-src"];
+/// What links the firmware and makes its hex file.
+pub const AVR_LINKER: &[&str] = &["gcc-avr", "avr-libc", "binutils-avr"];
+/// The virtual board, the bootloader of the real one, and the program that flashes both.
+pub const VIRTUAL_BOARD: &[&str] = &["simavr", "libsimavr-dev", "libelf-dev", "arduino-core-avr", "avrdude"];
 
 /// Makes sure that packages are installed.
 pub fn ensure_installed(packages: &[&str]) -> Result<()> {

@@ -5,7 +5,7 @@ use std::time::Instant;
 use anyhow::{Context, Result};
 
 use crate::process::{self, cargo};
-use crate::{avr, bench, docs, rules};
+use crate::{bench, docs, firmware, rules};
 
 /// A name and what it checks.
 type Stage = (&'static str, fn() -> Result<()>);
@@ -26,11 +26,11 @@ pub fn run(host_only: bool) -> Result<()> {
         }),
         ("tests", || process::run(cargo().args(["test", "--quiet", "--workspace"]))),
         ("budgets", bench::gate),
-        ("board compiler", avr::check),
+        ("firmware", || firmware::build().map(drop)),
     ];
     let mut left_out = "";
     for (name, stage) in stages {
-        if name == "board compiler" && host_only {
+        if name == "firmware" && host_only {
             left_out = "; left out: the build for avr-none (--host-only)";
             continue;
         }

@@ -1,5 +1,7 @@
 //! CRC-32 (IEEE 802.3, reflected), byte by byte, without a table: tables cost SRAM on the board.
 
+use crate::image::ProgramMemory;
+
 /// A CRC-32 being computed. The firmware feeds it in small slices.
 #[derive(Debug, Clone, Copy)]
 pub struct Crc32(u32);
@@ -17,6 +19,7 @@ impl Crc32 {
     }
 
     /// Takes one byte in.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     pub const fn byte(&mut self, byte: u8) {
         self.0 ^= byte as u32;
         let mut bit = 0;
@@ -35,6 +38,19 @@ impl Crc32 {
         !self.0
     }
 
+    /// Takes bytes of program memory in, from one offset to before another.
+    pub fn bytes<P: ProgramMemory>(&mut self, memory: &P, from: u16, to: u16) {
+        for offset in from..to {
+            self.byte(memory.byte(offset));
+        }
+    }
+
+    /// Whether what has been taken in ends with its own checksum, low byte first.
+    pub const fn is_complete(self) -> bool {
+        // What is left after any data followed by its checksum.
+        self.0 == 0xDEBB_20E3
+    }
+
     /// The checksum of a slice.
     pub fn of(bytes: &[u8]) -> u32 {
         let mut crc = Crc32::new();
@@ -47,7 +63,19 @@ impl Crc32 {
 
 #[cfg(test)]
 mod tests {
+    extern crate std;
     use super::Crc32;
+
+    #[test]
+    fn data_with_its_checksum_is_complete() {
+        let mut bytes = b"any data".to_vec();
+        bytes.extend(Crc32::of(&bytes).to_le_bytes());
+        let mut crc = Crc32::new();
+        crc.bytes(&bytes, 0, 12);
+        assert!(crc.is_complete());
+        crc.byte(0);
+        assert!(!crc.is_complete());
+    }
 
     #[test]
     fn check_value_of_the_standard() {

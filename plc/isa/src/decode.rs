@@ -55,16 +55,8 @@ pub fn decode<P: ProgramMemory>(code: &P, pc: u16) -> Result<Decoded, DecodeErro
 impl Decoded {
     /// The operands with their kinds, in order.
     pub fn operands(&self) -> impl Iterator<Item = (Kind, Operand)> + '_ {
-        self.raw_operands().map(|(kind, raw)| (kind, kind.operand(raw)))
-    }
-
-    pub(crate) fn raw_operands(&self) -> impl Iterator<Item = (Kind, Raw)> + '_ {
-        self.kinds.iter().map_while(|&kind| kind).zip(self.raw.iter().copied())
-    }
-
-    /// The value of the operand of this kind.
-    pub(crate) fn value_of(&self, kind: Kind) -> Option<u16> {
-        self.raw_operands().find(|&(other, _)| other == kind).map(|(_, raw)| raw.value)
+        let kinds = self.kinds.iter().map_while(|&kind| kind);
+        kinds.zip(&self.raw).map(|(kind, &raw)| (kind, kind.operand(raw)))
     }
 
     /// The comparison, if the instruction is one.

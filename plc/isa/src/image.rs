@@ -3,6 +3,7 @@
 //! Layout (docs/image.md): header, name, V ranges, timers, counters, labels, retained ranges, code, CRC.
 //! Numbers are little-endian. Offsets count from the first byte of the image.
 
+use crate::crc::Crc32;
 use crate::settings::{Retained, Settings};
 use crate::tokens::{TOKEN_TABLE, TOKEN_TABLE_LEN};
 
@@ -223,11 +224,19 @@ impl Header {
 
     /// Reads a header. Checks what must be known to read on: magic, version, length, checksum.
     pub fn read<P: ProgramMemory>(memory: &P) -> Result<Header, ImageError> {
+        Header::check(memory)?;
+        Ok(Header::fields(memory))
+    }
+
+    /// The checks alone.
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    pub(crate) fn check<P: ProgramMemory>(memory: &P) -> Result<(), ImageError> {
         let error = |fault, at| Err(ImageError { fault, at });
         if memory.len() < HEADER_LEN + CRC_LEN {
             return error(ImageFault::Length, 0);
         }
-        if (0..4).any(|i| memory.byte(i) != MAGIC[usize::from(i)]) {
+        let [a, b, c, d] = MAGIC;
+        if memory.word(0) != u16::from_le_bytes([a, b]) || memory.word(2) != u16::from_le_bytes([c, d]) {
             return error(ImageFault::Magic, 0);
         }
         if memory.byte(4) != FORMAT_VERSION {
@@ -237,31 +246,42 @@ impl Header {
         if total_len > memory.len() || !(HEADER_LEN + CRC_LEN..=crate::layout::SLOT_LEN).contains(&total_len) {
             return error(ImageFault::Length, 6);
         }
-        if !crc_matches(memory, total_len) {
+        let mut crc = Crc32::new();
+        crc.bytes(memory, 0, total_len);
+        if !crc.is_complete() {
             return error(ImageFault::Crc, total_len - CRC_LEN);
         }
         if memory.byte(5) != 0 || memory.byte(31) != 0 {
             return error(ImageFault::Flags, 5);
         }
-        Ok(Header {
+        Ok(())
+    }
+
+    /// The header, whatever it says.
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    pub(crate) fn fields<P: ProgramMemory>(memory: &P) -> Header {
+        let total_len = memory.word(6);
+        let mut words = [0; 9];
+        for (place, word) in (8..).step_by(2).zip(&mut words) {
+            *word = memory.word(place);
+        }
+        let [code_len, arena_len, edges, labels, v_ranges, timers, counters, watchdog_ms, scan_ms] = words;
+        let [pullup, invert_inputs, invert_outputs, retained, name_len] =
+            [memory.byte(26), memory.byte(27), memory.byte(28), memory.byte(29), memory.byte(30)];
+        let settings = Settings { pullup, invert_inputs, invert_outputs, watchdog_ms, scan_ms };
+        Header {
             total_len,
-            code_len: memory.word(8),
-            arena_len: memory.word(10),
-            edges: memory.word(12),
-            labels: memory.word(14),
-            v_ranges: memory.word(16),
-            timers: memory.word(18),
-            counters: memory.word(20),
-            settings: Settings {
-                watchdog_ms: memory.word(22),
-                scan_ms: memory.word(24),
-                pullup: memory.byte(26),
-                invert_inputs: memory.byte(27),
-                invert_outputs: memory.byte(28),
-            },
-            retained: memory.byte(29),
-            name_len: memory.byte(30),
-        })
+            code_len,
+            arena_len,
+            edges,
+            labels,
+            v_ranges,
+            timers,
+            counters,
+            retained,
+            name_len,
+            settings,
+        }
     }
 
     /// Offset of the V ranges.
@@ -301,21 +321,11 @@ impl Header {
 
     /// The sum of all parts equals the length, and no count is absurd: offsets cannot overflow after this.
     pub(crate) fn lengths_agree(&self) -> bool {
-        let counts = [self.v_ranges, self.timers, self.counters, self.labels, self.edges];
-        counts.iter().all(|&count| count <= 1024)
+        // Each is below 2,048 if all their bits together are.
+        self.v_ranges | self.timers | self.counters | self.labels | self.edges < 2048
             && self.code_len <= self.total_len
             && self.name_len <= NAME_LEN_MAX
             && self.retained <= Retained::RANGES_MAX
             && self.code_end() == self.total_len - CRC_LEN
     }
-}
-
-fn crc_matches<P: ProgramMemory>(memory: &P, total_len: u16) -> bool {
-    let end = total_len - CRC_LEN;
-    let mut crc = crate::crc::Crc32::new();
-    for offset in 0..end {
-        crc.byte(memory.byte(offset));
-    }
-    let stored = u32::from(memory.word(end)) | u32::from(memory.word(end + 2)) << 16;
-    crc.value() == stored
 }

@@ -64,3 +64,10 @@ pub const SLOT_LEN: u16 = SLOT_END - SLOT_START;
 pub const DIGITAL_INPUTS: u8 = 6;
 /// Digital outputs with a pin on the Uno: Q0.0-Q0.5 at D8-D13.
 pub const DIGITAL_OUTPUTS: u8 = 6;
+
+/// Bytes of EEPROM for retained values. The rest is reserved for settings of the board.
+pub const RETENTION_LEN: u16 = 992;
+/// Bytes that a saved copy takes beside the values: sequence number (2) and checksum (4).
+pub const RETENTION_OVERHEAD: u16 = 6;
+/// Most bytes that a program can retain: two copies must fit.
+pub const RETAINED_LEN_MAX: u16 = RETENTION_LEN / 2 - RETENTION_OVERHEAD;

@@ -12,6 +12,7 @@ mod image;
 mod layout;
 mod operand;
 mod plan;
+mod retention;
 mod settings;
 mod stack;
 mod table;
@@ -27,6 +28,7 @@ pub use image::{
 pub use layout::*;
 pub use operand::{Bit, ByteSource, Kind, Operand, OperandKind, OperandReader, Relation, WordSource, kinds};
 pub use plan::{CounterSlot, Plan, Region, TimerKind, TimerSlot, counter_bit, timer_bit};
+pub use retention::RetainedWalk;
 pub use settings::{DEFAULT_WATCHDOG_MS, Retained, Settings};
 pub use stack::{LogicStack, STACK_LEVELS};
 pub use table::{

@@ -129,9 +129,14 @@ impl Raw {
 }
 
 /// The values of operands, and how they are written as [`Raw`].
-pub(crate) trait OfRaw {
+pub(crate) trait OfRaw: Sized {
     fn raw(self) -> Raw;
     fn of_raw(raw: Raw) -> Self;
+    /// The same for an operand whose memory has been read: a source is a constant then.
+    #[inline]
+    fn of_value(raw: Raw) -> Self {
+        Self::of_raw(raw)
+    }
 }
 
 impl OfRaw for Bit {
@@ -179,6 +184,10 @@ impl OfRaw for WordSource {
     fn of_raw(raw: Raw) -> WordSource {
         if raw.tag == MODE_MEMORY { WordSource::At(raw.value) } else { WordSource::Constant(raw.value) }
     }
+    #[inline]
+    fn of_value(raw: Raw) -> WordSource {
+        WordSource::Constant(raw.value)
+    }
 }
 
 impl OfRaw for ByteSource {
@@ -192,6 +201,10 @@ impl OfRaw for ByteSource {
     #[inline]
     fn of_raw(raw: Raw) -> ByteSource {
         if raw.tag == MODE_MEMORY { ByteSource::At(raw.value) } else { ByteSource::Constant(raw.value as u8) }
+    }
+    #[inline]
+    fn of_value(raw: Raw) -> ByteSource {
+        ByteSource::Constant(raw.value as u8)
     }
 }
 
@@ -322,7 +335,7 @@ fn is_memory<P: ProgramMemory>(reader: &mut OperandReader<'_, P>) -> bool {
 }
 
 const MODE_CONSTANT: u8 = 0;
-const MODE_MEMORY: u8 = 1;
+pub(crate) const MODE_MEMORY: u8 = 1;
 
 fn word_operand(source: WordSource) -> Operand {
     match source {

@@ -120,42 +120,68 @@ pub struct Plan<P> {
     pub(crate) memory: P,
     /// The header.
     pub header: Header,
-    // Derived once: the interpreter asks for them in every scan.
-    timers_at: u16,
-    counters_at: u16,
-    labels_at: u16,
-    timers_start: u16,
-    counters_start: u16,
+    // Where the tables stand in the image and their memory in the arena, derived once.
+    v_ranges_at: u16,
+    pub(crate) timers_at: u16,
+    pub(crate) counters_at: u16,
+    pub(crate) labels_at: u16,
+    pub(crate) retained_at: u16,
+    code_at: u16,
+    pub(crate) timers_start: u16,
+    pub(crate) counters_start: u16,
     edges_start: u16,
     end: u16,
 }
 
 impl<P: ProgramMemory> Plan<P> {
+    /// The plan of an image whose header has been checked.
+    pub(crate) fn of(memory: P) -> Self {
+        let header = Header::fields(&memory);
+        Self::trusted(memory, header)
+    }
+
     /// The plan in the tables behind this header, taken on trust: for the assembler, which wrote them.
     pub fn trusted(memory: P, header: Header) -> Self {
         let v_ranges_at = header.v_ranges_at();
-        // Lengths of tables that are not checked yet: nothing may overflow.
-        let v_len = (0..header.v_ranges)
-            .fold(0u16, |sum, index| sum.saturating_add(memory.word(v_ranges_at + V_RANGE_LEN * index + 2)));
-        let timers_start = ARENA_START.saturating_add(v_len);
+        let timers_at = v_ranges_at + V_RANGE_LEN * header.v_ranges;
+        let counters_at = timers_at + TIMER_LEN * header.timers;
+        let labels_at = counters_at + COUNTER_LEN * header.counters;
+        let retained_at = labels_at + LABEL_LEN * header.labels;
+        let code_at = retained_at + Retained::STORED_LEN * u16::from(header.retained);
+        // Lengths that are not checked yet: nothing may overflow.
+        let mut timers_start = ARENA_START;
+        let mut at = v_ranges_at + 2;
+        while at < timers_at {
+            timers_start = timers_start.saturating_add(memory.word(at));
+            at += V_RANGE_LEN;
+        }
         let counters_start = timers_start.saturating_add(TIMER_SLOT_LEN * header.timers);
         let edges_start = counters_start.saturating_add(COUNTER_SLOT_LEN * header.counters);
+        let end = edges_start.saturating_add(header.edges.div_ceil(8));
         Plan {
-            timers_at: header.timers_at(),
-            counters_at: header.counters_at(),
-            labels_at: header.labels_at(),
+            memory,
+            header,
+            v_ranges_at,
+            timers_at,
+            counters_at,
+            labels_at,
+            retained_at,
+            code_at,
             timers_start,
             counters_start,
             edges_start,
-            end: edges_start.saturating_add(header.edges.div_ceil(8)),
-            memory,
-            header,
+            end,
         }
+    }
+
+    /// Offset of the first instruction in the image.
+    pub fn code_at(&self) -> u16 {
+        self.code_at
     }
 
     /// Range `index` of V memory: first byte and length.
     fn v_range(&self, index: u16) -> (u16, u16) {
-        let at = self.header.v_ranges_at() + V_RANGE_LEN * index;
+        let at = self.v_ranges_at + V_RANGE_LEN * index;
         (self.memory.word(at), self.memory.word(at + 2))
     }
 
@@ -193,6 +219,7 @@ impl<P: ProgramMemory> Plan<P> {
     }
 
     /// The counter in a slot.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn counter(&self, slot: u8) -> CounterSlot {
         let at = self.counters_at + COUNTER_LEN * u16::from(slot);
         let address = self.counters_start + COUNTER_SLOT_LEN * u16::from(slot);
@@ -220,7 +247,10 @@ impl<P: ProgramMemory> Plan<P> {
     }
 
     pub(crate) fn retained_entry(&self, index: u16) -> Option<Retained> {
-        let at = self.header.retained_at() + Retained::STORED_LEN * index;
+        if index >= u16::from(self.header.retained) {
+            return None;
+        }
+        let at = self.retained_at + Retained::STORED_LEN * index;
         let area = Retained::area_of_code(self.memory.byte(at))?;
         Some(Retained { area, first: self.memory.word(at + 1), count: self.memory.word(at + 3) })
     }

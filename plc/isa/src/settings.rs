@@ -21,6 +21,10 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// Of a program that asks for nothing.
+    pub const DEFAULT: Settings =
+        Settings { pullup: 0, invert_inputs: 0, invert_outputs: 0, watchdog_ms: DEFAULT_WATCHDOG_MS, scan_ms: 0 };
+
     /// Longest watchdog time and scan period, in milliseconds.
     pub const TIME_MAX_MS: u16 = 60_000;
 
@@ -37,7 +41,7 @@ impl Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { pullup: 0, invert_inputs: 0, invert_outputs: 0, watchdog_ms: DEFAULT_WATCHDOG_MS, scan_ms: 0 }
+        Self::DEFAULT
     }
 }
 

@@ -6,7 +6,7 @@
 
 use crate::image::ProgramMemory;
 use crate::operand::{
-    Bit, ByteSource, Kind, OfRaw, Operand, OperandKind, OperandReader, Raw, Relation, WordSource, kinds,
+    Bit, ByteSource, Kind, MODE_MEMORY, OfRaw, Operand, OperandKind, OperandReader, Raw, Relation, WordSource, kinds,
 };
 use crate::tokens::{Entry, OPERANDS_MAX};
 
@@ -92,13 +92,13 @@ pub struct Instruction {
 
 /// What an engine does after an instruction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Flow<X> {
+pub enum Flow {
     /// Goes on with the next instruction.
     Next,
     /// Goes on at this code offset.
     Jump(u16),
-    /// Leaves the program for this reason.
-    Exit(X),
+    /// Leaves the program. Why, the engine knows.
+    Leave,
 }
 
 macro_rules! instruction_table {
@@ -133,19 +133,21 @@ macro_rules! instruction_table {
 
         /// An engine: one method for each instruction, whatever its encoded form.
         pub trait Execute {
-            /// Why the program can be left.
-            type Exit;
             $(
                 $(#[doc = $doc])+
-                fn $method(&mut self, $( $arg: $value ),*) -> Flow<Self::Exit>;
+                fn $method(&mut self, $( $arg: $value ),*) -> Flow;
             )+
+            /// The byte at a data address.
+            fn byte_at(&self, address: u16) -> u8;
+            /// The word at a data address.
+            fn word_at(&self, address: u16) -> u16;
             /// A token that is not in the table. The loader's check keeps it out of valid images.
-            fn undefined(&mut self, here: u16) -> Flow<Self::Exit>;
+            fn undefined(&mut self) -> Flow;
         }
 
         /// Executes the instruction at offset `pc`. Never returns [`Flow::Next`]: that has become a jump.
         #[cfg_attr(not(target_arch = "avr"), inline(always))]
-        pub fn execute<E: Execute, P: ProgramMemory>(engine: &mut E, code: &P, pc: u16) -> Flow<E::Exit> {
+        pub fn execute<E: Execute, P: ProgramMemory>(engine: &mut E, code: &P, pc: u16) -> Flow {
             let token = code.byte(pc);
             match token {
                 $( $( $first..=$last => {
@@ -162,21 +164,34 @@ macro_rules! instruction_table {
                             let flow = engine.$method( $( kinds::$wide_kind::read(&mut reader) ),* );
                             go_on(flow, reader.position())
                         } )* )+
-                        _ => go_on(engine.undefined(pc), pc),
+                        _ => engine.undefined(),
                     }
                 }
-                _ => go_on(engine.undefined(pc), pc),
+                _ => engine.undefined(),
             }
         }
 
         /// The same as [`execute`] in a tenth of the room and several times the cycles: operands are read by their
-        /// kinds, as the decoder does, and there is one arm for an instruction instead of one for a form.
-        pub fn execute_compact<E: Execute, P: ProgramMemory>(engine: &mut E, code: &P, pc: u16) -> Flow<E::Exit> {
-            let Some(entry) = Entry::of_instruction(code, pc) else { return go_on(engine.undefined(pc), pc) };
-            let (raw, next) = entry.operands(code, pc);
+        /// kinds, as the decoder does, sources by their addresses, and there is one arm for an instruction instead of
+        /// one for a form.
+        pub fn execute_compact<E: Execute, P: ProgramMemory>(engine: &mut E, code: &P, pc: u16) -> Flow {
+            let Some(entry) = Entry::of_instruction(code, pc) else { return engine.undefined() };
+            let (mut raw, next) = entry.operands(code, pc);
+            for (index, operand) in raw.iter_mut().enumerate() {
+                match entry.kind(code, index) {
+                    Some(Kind::Byte | Kind::AnyByte) if operand.tag == MODE_MEMORY => {
+                        operand.value = u16::from(engine.byte_at(operand.value));
+                    }
+                    Some(Kind::Word | Kind::AnyInt) if operand.tag == MODE_MEMORY => {
+                        operand.value = engine.word_at(operand.value);
+                    }
+                    Some(_) => {}
+                    None => break,
+                }
+            }
             let mut raw = RawOperands { raw: &raw, next: 0 };
             let flow = match entry.op {
-                $( Op::$op => { $( let $arg = <$value>::of_raw(raw.take()); )* engine.$method( $( $arg ),* ) } )+
+                $( Op::$op => { $( let $arg = <$value>::of_value(raw.take()); )* engine.$method( $( $arg ),* ) } )+
             };
             go_on(flow, next)
         }
@@ -206,7 +221,7 @@ impl RawOperands<'_> {
 }
 
 #[cfg_attr(not(target_arch = "avr"), inline(always))]
-fn go_on<X>(flow: Flow<X>, next: u16) -> Flow<X> {
+fn go_on(flow: Flow, next: u16) -> Flow {
     match flow {
         Flow::Next => Flow::Jump(next),
         other => other,

@@ -4,13 +4,13 @@
 //! cannot be led outside the plan. One pass over the code, constant memory.
 
 use crate::area::{Area, TimerFamily, timer_family};
-use crate::decode::{DecodeError, Decoded, decode};
-use crate::image::{COUNTER_LEN, Header, ImageError, ImageFault, ProgramMemory, TIMER_LEN};
+use crate::image::{COUNTER_LEN, CRC_LEN, Header, ImageError, ImageFault, ProgramMemory, TIMER_LEN};
 use crate::layout::*;
 use crate::operand::{Kind, Raw};
 use crate::plan::{Plan, Region, TimerKind};
 use crate::stack::STACK_LEVELS;
 use crate::table::Op;
+use crate::tokens::{Entry, OPERANDS_MAX};
 
 /// Deepest nesting of FOR (reference 1.8).
 pub const LOOPS_MAX: usize = 8;
@@ -19,7 +19,6 @@ pub const LOOPS_MAX: usize = 8;
 #[derive(Debug, Clone, Copy)]
 pub struct Program<P> {
     plan: Plan<P>,
-    code_at: u16,
 }
 
 impl<P: ProgramMemory> Program<P> {
@@ -38,69 +37,89 @@ impl<P: ProgramMemory> Program<P> {
     /// Offset of the first instruction.
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn code_at(&self) -> u16 {
-        self.code_at
+        self.plan.code_at()
     }
 }
 
 /// Checks an image completely.
 pub fn verify<P: ProgramMemory>(memory: P) -> Result<Program<P>, ImageError> {
-    let header = Header::read(&memory)?;
-    if !header.lengths_agree() {
+    Header::check(&memory)?;
+    if !Header::fields(&memory).lengths_agree() {
         return Err(ImageError { fault: ImageFault::Length, at: 6 });
     }
-    let plan = Plan::trusted(memory, header);
-    let code_at = header.code_at();
-    check_tables(&plan)?;
-    CodeCheck { plan: &plan, loops: [Loop::default(); LOOPS_MAX], open_loops: 0, next_label: 0, depth: 0 }.run()?;
-    Ok(Program { plan, code_at })
+    let program = Program { plan: Plan::of(memory) };
+    check(&program.plan)?;
+    Ok(program)
 }
 
-fn ensure(holds: bool, fault: ImageFault, at: u16) -> Result<(), ImageError> {
-    if holds { Ok(()) } else { Err(ImageError { fault, at }) }
+/// The check of what the header leads to.
+#[cfg_attr(target_arch = "avr", inline(never))]
+fn check<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageError> {
+    check_tables(plan).map_err(|fault| ImageError { fault, at: place_of(plan, fault) })?;
+    let mut check = CodeCheck { plan, loops: [Loop::default(); LOOPS_MAX], open_loops: 0, next_label: 0, depth: 0 };
+    check.run().map_err(|(fault, at)| ImageError { fault, at })
 }
 
-fn check_tables<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageError> {
+fn ensure(holds: bool, fault: ImageFault) -> Result<(), ImageFault> {
+    if holds { Ok(()) } else { Err(fault) }
+}
+
+fn check_tables<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageFault> {
     let header = &plan.header;
-    ensure(plan.name().all(|byte| matches!(byte, 0x20..=0x7E)), ImageFault::Name, crate::image::HEADER_LEN)?;
-    ensure(header.settings.is_valid(), ImageFault::Settings, 22)?;
-    check_v_ranges(plan)?;
-    check_timers(plan)?;
-    let counters_ascend = is_ascending(&plan.memory, header.counters_at(), COUNTER_LEN, header.counters);
-    ensure(counters_ascend, ImageFault::Counters, header.counters_at())?;
-    ensure(header.edges <= EDGES_MAX && header.labels <= 256, ImageFault::Plan, 12)?;
-    ensure(plan.end() <= DATA_END && plan.end() - ARENA_START == header.arena_len, ImageFault::Plan, 10)?;
-    for index in 0..u16::from(header.retained) {
-        ensure(retained_is_valid(plan, index), ImageFault::Retained, header.retained_at())?;
-    }
-    Ok(())
+    ensure(plan.name().all(|byte| matches!(byte, 0x20..=0x7E)), ImageFault::Name)?;
+    ensure(header.settings.is_valid(), ImageFault::Settings)?;
+    ensure(v_ranges_are_valid(plan), ImageFault::VRanges)?;
+    ensure(timers_are_valid(plan), ImageFault::Timers)?;
+    ensure(is_ascending(&plan.memory, header.counters_at(), COUNTER_LEN, header.counters), ImageFault::Counters)?;
+    ensure(header.edges <= EDGES_MAX && header.labels <= 256, ImageFault::Plan)?;
+    ensure((0..u16::from(header.retained)).all(|index| retained_is_valid(plan, index)), ImageFault::Retained)?;
+    let end = plan.end();
+    ensure(end <= DATA_END && end - ARENA_START == header.arena_len, ImageFault::Plan)?;
+    // A copy of what is retained stands behind the plan.
+    let retained_len = plan.retained_len();
+    ensure(retained_len <= RETAINED_LEN_MAX && retained_len <= DATA_END - end, ImageFault::Retained)
 }
 
-/// Whether the bytes at `at`, `at + step`, ... are ascending; no more than 256 can be.
+/// Where in the image a fault of the tables is.
+fn place_of<P: ProgramMemory>(plan: &Plan<P>, fault: ImageFault) -> u16 {
+    let header = &plan.header;
+    match fault {
+        ImageFault::Name => crate::image::HEADER_LEN,
+        ImageFault::Settings => 22,
+        ImageFault::VRanges => header.v_ranges_at(),
+        ImageFault::Timers => header.timers_at(),
+        ImageFault::Counters => header.counters_at(),
+        ImageFault::Retained => header.retained_at(),
+        _ => 10,
+    }
+}
+
+#[cfg_attr(target_arch = "avr", inline(never))]
 fn is_ascending<P: ProgramMemory>(memory: &P, at: u16, step: u16, count: u16) -> bool {
     (1..count).all(|index| memory.byte(at + step * (index - 1)) < memory.byte(at + step * index))
 }
 
-fn check_v_ranges<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageError> {
+fn v_ranges_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
     let mut least = 0;
-    for (first, len) in plan.v_ranges() {
+    plan.v_ranges().all(|(first, len)| {
         let end = first.saturating_add(len);
-        ensure(first >= least && len > 0 && end <= Area::V.size(), ImageFault::VRanges, plan.header.v_ranges_at())?;
+        let valid = first >= least && len > 0 && end <= Area::V.size();
         // Adjacent ranges would be one range.
         least = end + 1;
-    }
-    Ok(())
+        valid
+    })
 }
 
-fn check_timers<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageError> {
+fn timers_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
     let header = &plan.header;
     let kinds_fit = (0..header.timers).all(|slot| {
         let (number, kind) = plan.timer_entry(slot);
         kind.is_some_and(|kind| kind.fits(number))
     });
-    let valid = kinds_fit && is_ascending(&plan.memory, header.timers_at(), TIMER_LEN, header.timers);
-    ensure(valid, ImageFault::Timers, header.timers_at())
+    kinds_fit && is_ascending(&plan.memory, header.timers_at(), TIMER_LEN, header.timers)
 }
 
+#[cfg_attr(target_arch = "avr", inline(never))]
 fn retained_is_valid<P: ProgramMemory>(plan: &Plan<P>, index: u16) -> bool {
     let Some(range) = plan.retained_entry(index) else { return false };
     let end = range.first.saturating_add(range.count);
@@ -129,80 +148,102 @@ struct CodeCheck<'a, P> {
 }
 
 impl<P: ProgramMemory> CodeCheck<'_, P> {
-    fn run(mut self) -> Result<(), ImageError> {
-        let header = self.plan.header;
-        let mut at = header.code_at();
+    /// Checks the code. Says what is wrong and where.
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    fn run(&mut self) -> Result<(), (ImageFault, u16)> {
+        let plan = self.plan;
+        let (mut at, end) = (plan.code_at(), plan.header.total_len - CRC_LEN);
         loop {
             // Behind the code stands the checksum, which is not to be read as an instruction.
-            ensure(at < header.code_end(), ImageFault::Truncated, at)?;
-            let decoded = decode(&self.plan.memory, at).map_err(|error| ImageError { fault: fault_of(error), at })?;
-            let next = at + decoded.len;
-            ensure(next <= header.code_end(), ImageFault::Truncated, at)?;
-            self.stack(&decoded, at)?;
-            self.operands(&decoded, at)?;
-            self.control(&decoded, at)?;
+            if at >= end {
+                return Err((ImageFault::Truncated, at));
+            }
+            let entry = Entry::of_instruction(&plan.memory, at).ok_or((ImageFault::UndefinedToken, at))?;
+            let (operands, next) = entry.operands(&plan.memory, at);
+            if next > end {
+                return Err((ImageFault::Truncated, at));
+            }
+            self.instruction(&entry, &operands, at, next).map_err(|fault| (fault, at))?;
             at = next;
-            if decoded.op == Op::MainEnd {
+            if entry.op == Op::MainEnd {
                 break;
             }
         }
-        ensure(at == header.code_end(), ImageFault::Truncated, at)?;
-        ensure(self.next_label == header.labels, ImageFault::Label, at)?;
-        ensure(self.open_loops == 0, ImageFault::Loop, at)
+        let fault = if at != end {
+            ImageFault::Truncated
+        } else if self.next_label != plan.header.labels {
+            ImageFault::Label
+        } else if self.open_loops != 0 {
+            ImageFault::Loop
+        } else {
+            return Ok(());
+        };
+        Err((fault, at))
     }
 
-    fn stack(&mut self, decoded: &Decoded, at: u16) -> Result<(), ImageError> {
-        ensure(self.depth >= decoded.stack.needs, ImageFault::StackUnderflow, at)?;
-        self.depth = match decoded.op {
+    fn instruction(
+        &mut self,
+        entry: &Entry,
+        operands: &[Raw; OPERANDS_MAX],
+        at: u16,
+        next: u16,
+    ) -> Result<(), ImageFault> {
+        let mut needs = entry.stack.needs;
+        // The last one first: a count stands behind what it counts.
+        let mut count = 1;
+        for (index, &raw) in operands.iter().enumerate().rev() {
+            let Some(kind) = entry.kind(&self.plan.memory, index) else { continue };
+            match kind {
+                Kind::Count => count = raw.value,
+                Kind::Level => needs = needs.saturating_add(raw.value as u8),
+                _ => {}
+            }
+            self.operand(entry.op, kind, raw, count)?;
+        }
+        ensure(self.depth >= needs, ImageFault::StackUnderflow)?;
+        self.depth = match entry.op {
             // Where control comes from two sides only the top of the stack is certain.
             Op::Lbl | Op::For | Op::Next => 1,
-            _ => self.depth.saturating_add_signed(decoded.stack.adds).min(STACK_LEVELS),
+            _ => self.depth.saturating_add_signed(entry.stack.adds).min(STACK_LEVELS),
         };
-        Ok(())
+        self.control(entry.op, operands, at, next)
     }
 
-    fn operands(&self, decoded: &Decoded, at: u16) -> Result<(), ImageError> {
-        let count = decoded.value_of(Kind::Count).unwrap_or(1);
-        for (kind, raw) in decoded.raw_operands() {
-            match self.operand(decoded.op, kind, raw, count) {
-                Some(fault) => return Err(ImageError { fault, at }),
-                None => continue,
-            }
-        }
-        Ok(())
-    }
-
-    /// What is wrong with an operand.
-    fn operand(&self, op: Op, kind: Kind, raw: Raw, count: u16) -> Option<ImageFault> {
-        let plan = self.plan;
+    fn operand(&self, op: Op, kind: Kind, raw: Raw, count: u16) -> Result<(), ImageFault> {
+        let header = &self.plan.header;
         let value = raw.value;
-        let valid = match kind {
-            Kind::PageBit | Kind::FarBit => return self.memory(kind, value, 1),
+        let holds = match kind {
+            Kind::PageBit | Kind::FarBit | Kind::Byte | Kind::ByteOut => return self.memory(kind, value, 1),
+            Kind::Word | Kind::WordOut => return self.memory(kind, value, 2),
             Kind::PageBitOut | Kind::PageBitReset | Kind::FarBitOut | Kind::FarBitReset => {
                 return self.memory(kind, value, (u16::from(raw.tag) + count).div_ceil(8));
             }
-            Kind::Byte | Kind::ByteOut => return self.memory(kind, value, 1),
-            Kind::Word | Kind::WordOut => return self.memory(kind, value, 2),
-            Kind::AnyByte | Kind::AnyInt if raw.tag == 0 => true,
-            Kind::AnyByte => return self.memory(kind, value, 1),
-            Kind::AnyInt => return self.memory(kind, value, 2),
+            Kind::AnyByte | Kind::AnyInt => {
+                let len = if kind == Kind::AnyByte { 1 } else { 2 };
+                return match raw.tag {
+                    // One encoding for one instruction: a byte has no high byte.
+                    0 => ensure(len == 2 || value <= 255, ImageFault::Malformed),
+                    1 => self.memory(kind, value, len),
+                    _ => Err(ImageFault::Malformed),
+                };
+            }
             Kind::Count => value >= 1,
             Kind::Level => value < u16::from(STACK_LEVELS),
             Kind::TimerSlot => {
-                value < plan.header.timers && TimerKind::started_by(op) == Some(plan.timer(value as u8).kind)
+                value < header.timers && TimerKind::started_by(op) == Some(self.plan.timer(value as u8).kind)
             }
-            Kind::CounterSlot => value < plan.header.counters,
+            Kind::CounterSlot => value < header.counters,
             Kind::TimerNumber | Kind::CounterNumber => value + count <= 256,
-            Kind::Edge => value < plan.header.edges,
-            Kind::LabelIndex => value < plan.header.labels,
+            Kind::Edge => value < header.edges,
+            Kind::LabelIndex => value < header.labels,
             _ => true,
         };
-        (!valid).then_some(ImageFault::Operand)
+        ensure(holds, ImageFault::Operand)
     }
 
-    /// What is wrong with an operand that names `len` bytes of memory, or the bits in them.
-    fn memory(&self, kind: Kind, address: u16, len: u16) -> Option<ImageFault> {
-        let Some(region) = self.plan.region(address) else { return Some(ImageFault::Operand) };
+    /// An operand that names `len` bytes of memory, or bits in them.
+    fn memory(&self, kind: Kind, address: u16, len: u16) -> Result<(), ImageFault> {
+        let region = self.plan.region(address).ok_or(ImageFault::Operand)?;
         let fits = match kind {
             Kind::PageBit | Kind::PageBitOut | Kind::FarBit | Kind::FarBitOut => region.holds_bits(len),
             // The reset of a timer or counter does more than to write bits.
@@ -211,44 +252,31 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
             }
             _ => region.holds_value(len),
         };
-        match fits {
-            false => Some(ImageFault::Operand),
-            true if kind.is_output() && !region.is_writable() => Some(ImageFault::ReadOnly),
-            true => None,
-        }
+        ensure(fits, ImageFault::Operand)?;
+        ensure(!kind.is_output() || region.is_writable(), ImageFault::ReadOnly)
     }
 
-    fn control(&mut self, decoded: &Decoded, at: u16) -> Result<(), ImageError> {
-        match decoded.op {
+    fn control(&mut self, op: Op, operands: &[Raw; OPERANDS_MAX], at: u16, next: u16) -> Result<(), ImageFault> {
+        match op {
             Op::Lbl => {
                 let listed = self.next_label < self.plan.header.labels && self.plan.label(self.next_label as u8) == at;
                 self.next_label += 1;
-                ensure(listed, ImageFault::Label, at)
+                ensure(listed, ImageFault::Label)
             }
             Op::For => {
-                let Some(place) = self.loops.get_mut(self.open_loops) else {
-                    return Err(ImageError { fault: ImageFault::Loop, at });
-                };
-                *place = Loop { start: at, end: decoded.value_of(Kind::LoopEnd).unwrap_or(0) };
+                let place = self.loops.get_mut(self.open_loops).ok_or(ImageFault::Loop)?;
+                let [_, _, _, end] = operands;
+                *place = Loop { start: at, end: end.value };
                 self.open_loops += 1;
                 Ok(())
             }
             Op::Next => {
                 self.open_loops = self.open_loops.wrapping_sub(1);
                 let open = self.loops.get(self.open_loops);
-                let start = decoded.value_of(Kind::LoopStart);
-                let pairs = open.is_some_and(|open| open.end == at + decoded.len && start == Some(open.start));
-                ensure(pairs, ImageFault::Loop, at)
+                let [start, ..] = operands;
+                ensure(open.is_some_and(|open| open.end == next && open.start == start.value), ImageFault::Loop)
             }
             _ => Ok(()),
         }
-    }
-}
-
-fn fault_of(error: DecodeError) -> ImageFault {
-    match error {
-        DecodeError::UndefinedToken => ImageFault::UndefinedToken,
-        DecodeError::Truncated => ImageFault::Truncated,
-        DecodeError::Malformed => ImageFault::Malformed,
     }
 }

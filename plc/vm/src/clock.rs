@@ -2,8 +2,10 @@
 //!
 //! Ticks are counted from the change to RUN, so their sum is exact however scans fall.
 
+use core::num::{NonZeroU16, NonZeroU32};
+
 /// The intervals since the last scan, and what is left over for the next.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Clock {
     scan_start_ms: u32,
     fast_ms: u32,
@@ -22,9 +24,23 @@ pub(crate) struct Clock {
 }
 
 impl Clock {
+    /// Before any time has passed.
+    pub const ZERO: Clock = Clock {
+        scan_start_ms: 0,
+        fast_ms: 0,
+        rest_10: 0,
+        rest_100: 0,
+        rest_500: 0,
+        rest_30_000: 0,
+        ticks_10: 0,
+        ticks_100: 0,
+        half_second: false,
+        half_minute: false,
+    };
+
     /// A clock whose intervals begin now.
     pub fn starting(now_ms: u32) -> Clock {
-        Clock { scan_start_ms: now_ms, fast_ms: now_ms, ..Clock::default() }
+        Clock { scan_start_ms: now_ms, fast_ms: now_ms, ..Clock::ZERO }
     }
 
     /// A scan starts. Returns the milliseconds since the last one started.
@@ -36,10 +52,10 @@ impl Clock {
         if passed == 0 {
             return 0;
         }
-        self.ticks_10 = intervals(&mut self.rest_10, passed, 10);
-        self.ticks_100 = intervals(&mut self.rest_100, passed, 100);
-        self.half_second ^= !intervals(&mut self.rest_500, passed, 500).is_multiple_of(2);
-        self.half_minute ^= !intervals(&mut self.rest_30_000, passed, 30_000).is_multiple_of(2);
+        self.ticks_10 = intervals(&mut self.rest_10, passed, const { ms(10) });
+        self.ticks_100 = intervals(&mut self.rest_100, passed, const { ms(100) });
+        self.half_second ^= !intervals(&mut self.rest_500, passed, const { ms(500) }).is_multiple_of(2);
+        self.half_minute ^= !intervals(&mut self.rest_30_000, passed, const { ms(30_000) }).is_multiple_of(2);
         passed
     }
 
@@ -54,9 +70,10 @@ impl Clock {
 /// Whole intervals in `passed` and the rest of last time. Divides only when there is one: a 32-bit
 /// division costs the board more than an empty scan. More than 65,535 intervals count as so many,
 /// which every timer's range ends before.
-fn intervals(rest: &mut u16, passed: u32, interval: u16) -> u16 {
-    let (interval, total) = (u32::from(interval), passed.saturating_add(u32::from(*rest)));
-    if total < interval {
+#[cfg_attr(target_arch = "avr", inline(never))]
+fn intervals(rest: &mut u16, passed: u32, interval: NonZeroU16) -> u16 {
+    let (interval, total) = (NonZeroU32::from(interval), passed.saturating_add(u32::from(*rest)));
+    if total < interval.get() {
         *rest = total as u16;
         return 0;
     }
@@ -64,6 +81,11 @@ fn intervals(rest: &mut u16, passed: u32, interval: u16) -> u16 {
     let count = total / interval;
     // Keep the parity for the clock bits when the count does not fit.
     u16::try_from(count).unwrap_or(u16::MAX - 1 + (count % 2) as u16)
+}
+
+/// An interval in milliseconds.
+const fn ms(interval: u16) -> NonZeroU16 {
+    NonZeroU16::new(interval).unwrap()
 }
 
 #[cfg(test)]

@@ -16,6 +16,7 @@ pub(crate) struct Counter<'m> {
 }
 
 impl Counter<'_> {
+    #[cfg_attr(target_arch = "avr", inline(never))]
     fn edge(&mut self, input: u8, now: bool) -> bool {
         let place = Bit { address: self.slot.address + 2, bit: input };
         rose(self.memory, place, now, self.first_scan)

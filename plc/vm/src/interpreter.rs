@@ -21,10 +21,10 @@ pub enum Exit {
     End,
     /// STOP was executed.
     Stop,
-    /// The watchdog time was over, at this offset.
-    Watchdog(u16),
-    /// There was no instruction at this offset. Cannot happen in a verified image.
-    Undefined(u16),
+    /// The watchdog time was over.
+    Watchdog,
+    /// There was no instruction. Cannot happen in a verified image.
+    Undefined,
 }
 
 /// Bytes of a jump or of NEXT, about.
@@ -38,11 +38,13 @@ pub(crate) struct Interpreter<'a, P, E> {
     pub clock: &'a mut Clock,
     pub first_scan: bool,
     pub stack: LogicStack,
+    /// Why the program is left, once it is.
+    pub exit: Exit,
 }
 
 impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
-    /// Executes the program once.
-    pub fn run(mut self) -> Exit {
+    /// Executes the program once. Returns why it was left, and the offset of the instruction that left it.
+    pub fn run(mut self) -> (Exit, u16) {
         let program = self.program;
         let mut pc = program.code_at();
         loop {
@@ -55,11 +57,10 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
                     self.environment.executed(pc, self.stack);
                     pc = next;
                 }
-                Flow::Exit(exit) => {
+                Flow::Leave | Flow::Next => {
                     self.environment.executed(pc, self.stack);
-                    return exit;
+                    return (self.exit, pc);
                 }
-                Flow::Next => return Exit::Undefined(pc),
             }
         }
     }
@@ -86,7 +87,7 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
         out: u16,
         compute: fn(i16, i16) -> Option<i16>,
         write: fn(&mut Memory, u16, Option<i16>),
-    ) -> Flow<Exit> {
+    ) -> Flow {
         if self.stack.top() {
             let result = compute(self.memory.int(out), self.memory.int_of(in1));
             write(self.memory, out, result);
@@ -94,7 +95,7 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
         Flow::Next
     }
 
-    fn bit_range(&mut self, bit: Bit, n: ByteSource, value: bool) -> Flow<Exit> {
+    fn bit_range(&mut self, bit: Bit, n: ByteSource, value: bool) -> Flow {
         if self.stack.top() {
             let count = self.memory.byte_of(n);
             range::write(self.memory, self.program.plan(), bit, count, value);
@@ -108,7 +109,7 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
         if u16::from(first) + u16::from(count) <= 256 { count } else { 0 }
     }
 
-    fn timer(&mut self, slot: u8, pt: WordSource) -> Flow<Exit> {
+    fn timer(&mut self, slot: u8, pt: WordSource) -> Flow {
         let slot = self.plan().timer(slot);
         let ticks = match timer_resolution(slot.number) {
             TimerResolution::Ms1 => {
@@ -133,69 +134,72 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
         Counter { memory: self.memory, slot, first_scan: self.first_scan }
     }
 
+    fn leave(&mut self, exit: Exit) -> Flow {
+        self.exit = exit;
+        Flow::Leave
+    }
+
     /// Goes to an offset; back over code only as long as the watchdog allows.
-    fn go_to(&mut self, target: u16, here: u16) -> Flow<Exit> {
+    fn go_to(&mut self, target: u16, here: u16) -> Flow {
         // What was executed: from the target to the jump, and the jump.
         if target <= here && self.environment.is_overdue((here - target).saturating_add(JUMP_LEN)) {
-            return Flow::Exit(Exit::Watchdog(here));
+            return self.leave(Exit::Watchdog);
         }
         Flow::Jump(target)
     }
 }
 
 impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
-    type Exit = Exit;
-
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn load(&mut self, bit: Bit) -> Flow<Exit> {
+    fn load(&mut self, bit: Bit) -> Flow {
         self.stack.push(self.memory.bit(bit));
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn load_not(&mut self, bit: Bit) -> Flow<Exit> {
+    fn load_not(&mut self, bit: Bit) -> Flow {
         self.stack.push(!self.memory.bit(bit));
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn and(&mut self, bit: Bit) -> Flow<Exit> {
+    fn and(&mut self, bit: Bit) -> Flow {
         self.stack.and(self.memory.bit(bit));
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn and_not(&mut self, bit: Bit) -> Flow<Exit> {
+    fn and_not(&mut self, bit: Bit) -> Flow {
         self.stack.and(!self.memory.bit(bit));
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn or(&mut self, bit: Bit) -> Flow<Exit> {
+    fn or(&mut self, bit: Bit) -> Flow {
         self.stack.or(self.memory.bit(bit));
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn or_not(&mut self, bit: Bit) -> Flow<Exit> {
+    fn or_not(&mut self, bit: Bit) -> Flow {
         self.stack.or(!self.memory.bit(bit));
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn not(&mut self) -> Flow<Exit> {
+    fn not(&mut self) -> Flow {
         self.stack.set_top(!self.stack.top());
         Flow::Next
     }
 
-    fn edge_up(&mut self, edge: u8) -> Flow<Exit> {
+    fn edge_up(&mut self, edge: u8) -> Flow {
         let place = self.plan().edge(edge);
         let rose = edge::rose(self.memory, place, self.stack.top(), self.first_scan);
         self.stack.set_top(rose);
         Flow::Next
     }
 
-    fn edge_down(&mut self, edge: u8) -> Flow<Exit> {
+    fn edge_down(&mut self, edge: u8) -> Flow {
         let place = self.plan().edge(edge);
         let fell = edge::fell(self.memory, place, self.stack.top(), self.first_scan);
         self.stack.set_top(fell);
@@ -203,22 +207,22 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn assign(&mut self, bit: Bit) -> Flow<Exit> {
+    fn assign(&mut self, bit: Bit) -> Flow {
         self.memory.set_bit(bit, self.stack.top());
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn set(&mut self, bit: Bit, n: ByteSource) -> Flow<Exit> {
+    fn set(&mut self, bit: Bit, n: ByteSource) -> Flow {
         self.bit_range(bit, n, true)
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn reset(&mut self, bit: Bit, n: ByteSource) -> Flow<Exit> {
+    fn reset(&mut self, bit: Bit, n: ByteSource) -> Flow {
         self.bit_range(bit, n, false)
     }
 
-    fn reset_timers(&mut self, first: u8, n: ByteSource) -> Flow<Exit> {
+    fn reset_timers(&mut self, first: u8, n: ByteSource) -> Flow {
         if self.stack.top() {
             let count = self.numbers(first, n);
             range::write(self.memory, self.program.plan(), plc_isa::timer_bit(first), count, false);
@@ -229,7 +233,7 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         Flow::Next
     }
 
-    fn reset_counters(&mut self, first: u8, n: ByteSource) -> Flow<Exit> {
+    fn reset_counters(&mut self, first: u8, n: ByteSource) -> Flow {
         if self.stack.top() {
             let count = self.numbers(first, n);
             range::write(self.memory, self.program.plan(), plc_isa::counter_bit(first), count, false);
@@ -241,86 +245,86 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn no_operation(&mut self, _n: u8) -> Flow<Exit> {
+    fn no_operation(&mut self, _n: u8) -> Flow {
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn and_load(&mut self) -> Flow<Exit> {
+    fn and_load(&mut self) -> Flow {
         let top = self.stack.pop();
         self.stack.and(top);
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn or_load(&mut self) -> Flow<Exit> {
+    fn or_load(&mut self) -> Flow {
         let top = self.stack.pop();
         self.stack.or(top);
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn logic_push(&mut self) -> Flow<Exit> {
+    fn logic_push(&mut self) -> Flow {
         self.stack.push(self.stack.top());
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn logic_read(&mut self) -> Flow<Exit> {
+    fn logic_read(&mut self) -> Flow {
         self.stack.set_top(self.stack.level(1));
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn logic_pop(&mut self) -> Flow<Exit> {
+    fn logic_pop(&mut self) -> Flow {
         self.stack.pop();
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn load_stack(&mut self, n: u8) -> Flow<Exit> {
+    fn load_stack(&mut self, n: u8) -> Flow {
         self.stack.push(self.stack.level(n));
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn load_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow<Exit> {
+    fn load_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow {
         self.stack.push(self.words(relation, in1, in2));
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn and_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow<Exit> {
+    fn and_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow {
         self.stack.and(self.words(relation, in1, in2));
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn or_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow<Exit> {
+    fn or_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow {
         self.stack.or(self.words(relation, in1, in2));
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn load_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow<Exit> {
+    fn load_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow {
         self.stack.push(self.bytes(relation, in1, in2));
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn and_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow<Exit> {
+    fn and_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow {
         self.stack.and(self.bytes(relation, in1, in2));
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn or_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow<Exit> {
+    fn or_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow {
         self.stack.or(self.bytes(relation, in1, in2));
         Flow::Next
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn move_byte(&mut self, input: ByteSource, out: u16) -> Flow<Exit> {
+    fn move_byte(&mut self, input: ByteSource, out: u16) -> Flow {
         if self.stack.top() {
             let value = self.memory.byte_of(input);
             self.memory.set_byte(out, value);
@@ -329,7 +333,7 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn move_word(&mut self, input: WordSource, out: u16) -> Flow<Exit> {
+    fn move_word(&mut self, input: WordSource, out: u16) -> Flow {
         if self.stack.top() {
             let value = self.memory.int_of(input);
             self.memory.set_int(out, value);
@@ -337,19 +341,19 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         Flow::Next
     }
 
-    fn add_int(&mut self, in1: WordSource, out: u16) -> Flow<Exit> {
+    fn add_int(&mut self, in1: WordSource, out: u16) -> Flow {
         self.int_box(in1, out, i16::checked_add, math::write_result)
     }
 
-    fn sub_int(&mut self, in1: WordSource, out: u16) -> Flow<Exit> {
+    fn sub_int(&mut self, in1: WordSource, out: u16) -> Flow {
         self.int_box(in1, out, i16::checked_sub, math::write_result)
     }
 
-    fn mul_int(&mut self, in1: WordSource, out: u16) -> Flow<Exit> {
+    fn mul_int(&mut self, in1: WordSource, out: u16) -> Flow {
         self.int_box(in1, out, i16::checked_mul, math::write_product)
     }
 
-    fn div_int(&mut self, in1: WordSource, out: u16) -> Flow<Exit> {
+    fn div_int(&mut self, in1: WordSource, out: u16) -> Flow {
         if self.stack.top() {
             let divisor = self.memory.int_of(in1);
             math::divide(self.memory, out, divisor);
@@ -357,7 +361,7 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         Flow::Next
     }
 
-    fn increment_word(&mut self, out: u16) -> Flow<Exit> {
+    fn increment_word(&mut self, out: u16) -> Flow {
         if self.stack.top() {
             let result = self.memory.int(out).overflowing_add(1);
             math::write_wrapped(self.memory, out, result);
@@ -365,7 +369,7 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         Flow::Next
     }
 
-    fn decrement_word(&mut self, out: u16) -> Flow<Exit> {
+    fn decrement_word(&mut self, out: u16) -> Flow {
         if self.stack.top() {
             let result = self.memory.int(out).overflowing_sub(1);
             math::write_wrapped(self.memory, out, result);
@@ -373,47 +377,47 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         Flow::Next
     }
 
-    fn on_delay(&mut self, timer: u8, pt: WordSource) -> Flow<Exit> {
+    fn on_delay(&mut self, timer: u8, pt: WordSource) -> Flow {
         self.timer(timer, pt)
     }
 
-    fn off_delay(&mut self, timer: u8, pt: WordSource) -> Flow<Exit> {
+    fn off_delay(&mut self, timer: u8, pt: WordSource) -> Flow {
         self.timer(timer, pt)
     }
 
-    fn retentive_on_delay(&mut self, timer: u8, pt: WordSource) -> Flow<Exit> {
+    fn retentive_on_delay(&mut self, timer: u8, pt: WordSource) -> Flow {
         self.timer(timer, pt)
     }
 
-    fn count_up(&mut self, counter: u8, pv: WordSource) -> Flow<Exit> {
+    fn count_up(&mut self, counter: u8, pv: WordSource) -> Flow {
         let (stack, preset) = (self.stack, self.memory.int_of(pv));
         self.counter(counter).up(stack, preset);
         Flow::Next
     }
 
-    fn count_down(&mut self, counter: u8, pv: WordSource) -> Flow<Exit> {
+    fn count_down(&mut self, counter: u8, pv: WordSource) -> Flow {
         let (stack, preset) = (self.stack, self.memory.int_of(pv));
         self.counter(counter).down(stack, preset);
         Flow::Next
     }
 
-    fn count_up_down(&mut self, counter: u8, pv: WordSource) -> Flow<Exit> {
+    fn count_up_down(&mut self, counter: u8, pv: WordSource) -> Flow {
         let (stack, preset) = (self.stack, self.memory.int_of(pv));
         self.counter(counter).up_down(stack, preset);
         Flow::Next
     }
 
-    fn for_loop(&mut self, indx: u16, init: WordSource, last: WordSource, end: u16) -> Flow<Exit> {
+    fn for_loop(&mut self, indx: u16, init: WordSource, last: WordSource, end: u16) -> Flow {
         if !self.stack.top() {
             return Flow::Jump(end);
         }
-        let init = self.memory.int_of(init);
+        let (init, last) = (self.memory.int_of(init), self.memory.int_of(last));
         self.memory.set_int(indx, init);
-        if init > self.memory.int_of(last) { Flow::Jump(end) } else { Flow::Next }
+        if init > last { Flow::Jump(end) } else { Flow::Next }
     }
 
     /// FINAL is read again after every pass: a program may change it inside the loop.
-    fn next_pass(&mut self, start: u16, here: u16) -> Flow<Exit> {
+    fn next_pass(&mut self, start: u16, here: u16) -> Flow {
         let mut reader = OperandReader::new(self.program.memory(), start, start.wrapping_add(1), 0);
         let indx = kinds::WordOut::read(&mut reader);
         let _init = kinds::AnyInt::read(&mut reader);
@@ -426,7 +430,7 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         if again { self.go_to(reader.position(), here) } else { Flow::Next }
     }
 
-    fn jump(&mut self, label: u8, here: u16) -> Flow<Exit> {
+    fn jump(&mut self, label: u8, here: u16) -> Flow {
         if !self.stack.top() {
             return Flow::Next;
         }
@@ -434,36 +438,44 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn label(&mut self, _n: u8) -> Flow<Exit> {
+    fn label(&mut self, _n: u8) -> Flow {
         Flow::Next
     }
 
-    fn end(&mut self) -> Flow<Exit> {
-        if self.stack.top() { Flow::Exit(Exit::End) } else { Flow::Next }
+    fn end(&mut self) -> Flow {
+        if self.stack.top() { self.leave(Exit::End) } else { Flow::Next }
     }
 
-    fn stop(&mut self) -> Flow<Exit> {
-        if self.stack.top() { Flow::Exit(Exit::Stop) } else { Flow::Next }
+    fn stop(&mut self) -> Flow {
+        if self.stack.top() { self.leave(Exit::Stop) } else { Flow::Next }
     }
 
-    fn watchdog_reset(&mut self) -> Flow<Exit> {
+    fn watchdog_reset(&mut self) -> Flow {
         if self.stack.top() {
             self.environment.retrigger_watchdog();
         }
         Flow::Next
     }
 
-    fn refresh_timers(&mut self) -> Flow<Exit> {
+    fn refresh_timers(&mut self) -> Flow {
         self.refresh();
         Flow::Next
     }
 
-    fn main_end(&mut self) -> Flow<Exit> {
-        Flow::Exit(Exit::End)
+    fn main_end(&mut self) -> Flow {
+        self.leave(Exit::End)
     }
 
-    fn undefined(&mut self, here: u16) -> Flow<Exit> {
-        Flow::Exit(Exit::Undefined(here))
+    fn byte_at(&self, address: u16) -> u8 {
+        self.memory.byte(address)
+    }
+
+    fn word_at(&self, address: u16) -> u16 {
+        self.memory.word(address)
+    }
+
+    fn undefined(&mut self) -> Flow {
+        self.leave(Exit::Undefined)
     }
 }
 

@@ -78,12 +78,12 @@ impl<P: ProgramMemory> Default for Plc<P> {
 
 impl<P: ProgramMemory> Plc<P> {
     /// A controller in STOP without a program, just switched on.
-    pub fn new() -> Self {
+    pub const fn new() -> Self {
         Plc {
             program: None,
             mode: Mode::Stop,
             fault: None,
-            clock: Clock::default(),
+            clock: Clock::ZERO,
             scans: Scans::None,
             powered_up: true,
             retentive_lost: false,
@@ -141,6 +141,12 @@ impl<P: ProgramMemory> Plc<P> {
         self.mode = Mode::Stop;
     }
 
+    /// RUN to STOP because of a fault that was found outside of the program. RUN clears it.
+    pub fn fail(&mut self, fault: Fault) {
+        self.mode = Mode::Stop;
+        self.fault = Some(fault);
+    }
+
     /// The first half of a scan: takes the inputs into the process image and, in RUN, executes the
     /// program. Communication and self-test follow, then the caller writes [`outputs`](Self::outputs).
     pub fn scan<E: Environment>(&mut self, memory: &mut Memory, inputs: &Inputs, environment: &mut E) {
@@ -149,6 +155,7 @@ impl<P: ProgramMemory> Plc<P> {
     }
 
     /// The same for a caller that has written the inputs into the process image itself, because it has only few.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn execute<E: Environment>(&mut self, memory: &mut Memory, environment: &mut E) {
         let Some(program) = self.program.as_ref().filter(|_| self.mode == Mode::Run) else { return };
         let now_ms = environment.now_ms();
@@ -170,18 +177,21 @@ impl<P: ProgramMemory> Plc<P> {
         timer::advance(memory, program.plan(), TimerResolution::Ms1, fast_ms);
         timer::advance(memory, program.plan(), TimerResolution::Ms10, self.clock.ticks_10);
         let clock = &mut self.clock;
-        let exit = Interpreter { program, memory, environment, clock, first_scan, stack: LogicStack::EMPTY }.run();
-        self.finish(exit);
+        let (exit, at) =
+            Interpreter { program, memory, environment, clock, first_scan, stack: LogicStack::EMPTY, exit: Exit::End }
+                .run();
+        self.finish(exit, at);
     }
 
-    fn finish(&mut self, exit: Exit) {
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    fn finish(&mut self, exit: Exit, at: u16) {
         self.powered_up = false;
         self.retentive_lost = false;
         self.fault = match exit {
             Exit::End => return,
             Exit::Stop => None,
-            Exit::Watchdog(at) => Some(Fault::Watchdog { at }),
-            Exit::Undefined(at) => Some(Fault::UndefinedInstruction { at }),
+            Exit::Watchdog => Some(Fault::Watchdog { at }),
+            Exit::Undefined => Some(Fault::UndefinedInstruction { at }),
         };
         self.mode = Mode::Stop;
     }

@@ -17,7 +17,7 @@ pub(crate) fn write<P: ProgramMemory>(memory: &mut Memory, plan: &Plan<P>, first
         // One byte at a time: the bits from `at` to the end of the byte or of the range.
         let address = first.address + at / 8;
         let next = ((at / 8 + 1) * 8).min(end);
-        let mask = MASKS_FROM[usize::from(at % 8)] & MASKS_TO[usize::from((next - 1) % 8)];
+        let mask: u8 = 0xFF << (at % 8) & 0xFF >> (7 - (next - 1) % 8);
         memory.set_byte(address, memory.byte(address) & !mask | fill & mask);
         at = next;
     }
@@ -29,6 +29,3 @@ fn fits<P: ProgramMemory>(plan: &Plan<P>, first: Bit, end: u16) -> bool {
         _ => false,
     }
 }
-
-const MASKS_FROM: [u8; 8] = [0xFF, 0xFE, 0xFC, 0xF8, 0xF0, 0xE0, 0xC0, 0x80];
-const MASKS_TO: [u8; 8] = [0x01, 0x03, 0x07, 0x0F, 0x1F, 0x3F, 0x7F, 0xFF];

@@ -38,9 +38,9 @@ impl SystemBits {
 
 /// Scan times in milliseconds: last, shortest and longest since RUN. Before there is one, all are 0.
 pub(crate) fn clear_scan_times(memory: &mut Memory) {
-    for word in [SMW22_LAST, SMW24_MIN, SMW26_MAX] {
-        memory.set_int(word, 0);
-    }
+    memory.set_int(SMW22_LAST, 0);
+    memory.set_int(SMW24_MIN, 0);
+    memory.set_int(SMW26_MAX, 0);
 }
 
 /// Enters the time from one scan start to the next; `first` when it is the first since RUN.

@@ -1,0 +1,55 @@
+//! The Uno's hardware: the only module with `unsafe`. It knows pins and registers, nothing of programs.
+#![allow(unsafe_code)]
+
+pub mod analog;
+pub mod clock;
+pub mod data;
+pub mod eeprom;
+pub mod fault_memory;
+pub mod flash;
+mod panic;
+pub mod place;
+pub mod ports;
+pub mod serial;
+pub mod stack;
+pub mod texts;
+pub mod trace;
+pub mod watchdog;
+
+use avr_device::atmega328p::Peripherals;
+use plc_vm::Memory;
+
+use eeprom::Eeprom;
+use ports::Ports;
+use serial::Serial;
+
+/// Everything there is one of.
+pub struct Board {
+    /// Digital inputs and outputs.
+    pub ports: Ports,
+    /// The serial line.
+    pub serial: Serial,
+    /// Memory that keeps without power.
+    pub eeprom: Eeprom,
+    /// The data memory of the controller.
+    pub memory: &'static mut Memory,
+}
+
+impl Board {
+    /// Sets the hardware up. Called once, at the start.
+    pub fn take() -> Board {
+        // First: after its own reset the watchdog goes on with its shortest time.
+        watchdog::stop();
+        stack::paint();
+        // SAFETY: called once, before anything else touches a peripheral; interrupts take their own registers only.
+        let peripherals = unsafe { Peripherals::steal() };
+        let ports = Ports::new(peripherals.PORTB, peripherals.PORTD);
+        analog::start();
+        clock::start(&peripherals.TC0);
+        let serial = Serial::new(&peripherals.USART0);
+        watchdog::start();
+        // SAFETY: everything that interrupts share has been set up.
+        unsafe { avr_device::interrupt::enable() };
+        Board { ports, serial, eeprom: Eeprom::new(peripherals.EEPROM), memory: data::take() }
+    }
+}

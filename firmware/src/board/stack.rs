@@ -1,0 +1,59 @@
+//! The stack: how much of it was never used, and whether it has grown too far.
+
+/// What unused stack is filled with.
+const PAINT: u8 = 0xC5;
+/// Bytes above the variables that the stack must never reach.
+const CANARY_LEN: usize = 4;
+/// One past the last byte of SRAM.
+const RAM_END: usize = 0x0900;
+
+unsafe extern "C" {
+    /// One past the last variable, by the linker.
+    static _end: u8;
+}
+
+fn first_free() -> usize {
+    &raw const _end as usize
+}
+
+/// Fills the free SRAM. At the start, when the stack is short.
+#[inline(always)]
+pub fn paint() {
+    let here = stack_pointer();
+    for address in first_free()..here {
+        // SAFETY: above the variables and below the stack there is nothing.
+        unsafe { (address as *mut u8).write_volatile(PAINT) };
+    }
+}
+
+#[inline(always)]
+fn stack_pointer() -> usize {
+    let (low, high): (u8, u8);
+    // SAFETY: reads two registers.
+    unsafe {
+        core::arch::asm!(
+            "in {low}, 0x3D",
+            "in {high}, 0x3E",
+            low = out(reg) low,
+            high = out(reg) high,
+            options(nomem, nostack, preserves_flags)
+        );
+    }
+    usize::from(u16::from_le_bytes([low, high]))
+}
+
+fn is_painted(address: usize) -> bool {
+    // SAFETY: reading SRAM has no effect.
+    unsafe { (address as *const u8).read_volatile() == PAINT }
+}
+
+/// Bytes that the stack has never used.
+pub fn free() -> u16 {
+    (first_free()..RAM_END).take_while(|&address| is_painted(address)).count() as u16
+}
+
+/// Whether the stack has kept away from the variables.
+#[inline]
+pub fn is_sound() -> bool {
+    (first_free()..first_free() + CANARY_LEN).all(is_painted)
+}

@@ -1,0 +1,72 @@
+//! The hardware watchdog: supervises firmware and tick together. Its interrupt notes the fault, then it resets.
+
+use core::cell::Cell;
+
+use avr_device::atmega328p::Peripherals;
+use avr_device::interrupt::{self, Mutex};
+use plc_vm::Fault;
+
+use super::{fault_memory, ports};
+
+/// Interrupt first, reset half a second later.
+const INTERRUPT_AND_RESET: u8 = 1 << 6 | 1 << 3;
+const RESET_ONLY: u8 = 1 << 3;
+/// 500 ms.
+const HALF_A_SECOND: u8 = 0b101;
+/// 16 ms.
+const SHORTEST: u8 = 0;
+/// WDCE and WDE: unlocks the register for four cycles.
+const UNLOCK: u8 = 1 << 4 | 1 << 3;
+
+static LAST_MS: Mutex<Cell<u8>> = Mutex::new(Cell::new(0));
+
+fn set(value: u8) {
+    interrupt::free(|_| {
+        avr_device::asm::wdr();
+        // SAFETY: the sequence of the data sheet (10.9.2); interrupts are off.
+        let peripherals = unsafe { Peripherals::steal() };
+        // A reset by the watchdog keeps it on as long as its flag stands.
+        peripherals.CPU.mcusr().reset();
+        // SAFETY: as above.
+        peripherals.WDT.wdtcsr().write(|w| unsafe { w.bits(UNLOCK) });
+        // SAFETY: as above.
+        peripherals.WDT.wdtcsr().write(|w| unsafe { w.bits(value) });
+    });
+}
+
+/// Switches it off.
+pub fn stop() {
+    set(0);
+}
+
+/// Switches it on.
+pub fn start() {
+    set(INTERRUPT_AND_RESET | HALF_A_SECOND);
+}
+
+/// The firmware is alive, at this time. A clock that stands still does not count as life.
+#[inline]
+pub fn feed(now_ms: u32) {
+    let now = now_ms as u8;
+    let has_moved = interrupt::free(|cs| LAST_MS.borrow(cs).replace(now) != now);
+    if has_moved {
+        avr_device::asm::wdr();
+    }
+}
+
+/// Waits for the reset, with everything off.
+pub fn reset() -> ! {
+    interrupt::disable();
+    ports::release_outputs_at_once();
+    set(RESET_ONLY | SHORTEST);
+    loop {
+        avr_device::asm::nop();
+    }
+}
+
+#[avr_device::interrupt(atmega328p)]
+fn WDT() {
+    ports::release_outputs_at_once();
+    fault_memory::remember(Fault::Hang.to_bytes(), true);
+    reset();
+}

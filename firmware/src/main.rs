@@ -1,0 +1,25 @@
+//! uno200: the Arduino Uno as a PLC. Start-up only; the scan is in `scan`, the hardware in `board`.
+#![no_std]
+#![no_main]
+#![feature(abi_avr_interrupt, asm_experimental_arch)]
+#![deny(unsafe_code)]
+
+mod board;
+mod communication;
+mod environment;
+mod report;
+mod retention;
+mod scan;
+mod self_test;
+
+use board::{Board, place};
+use scan::Uno;
+
+#[avr_device::entry]
+fn main() -> ! {
+    let uno = place::once(Uno::new(Board::take()));
+    uno.power_up();
+    loop {
+        uno.scan();
+    }
+}

@@ -1,0 +1,232 @@
+//! The scan: inputs, program, communication, self-test, outputs; and the way between RUN and STOP.
+
+use plc_isa::{AnalogInput, I_START, ProgramMemory, Settings};
+use plc_vm::{Fault, Memory, Mode, Plc};
+
+use crate::board::eeprom::Eeprom;
+use crate::board::flash::ProgramSlot;
+use crate::board::ports::Ports;
+use crate::board::serial::Serial;
+use crate::board::trace::{self, Mark};
+use crate::board::{Board, analog, clock, fault_memory, stack, texts, watchdog};
+use crate::communication::{Communication, Lines, Request};
+use crate::environment::ScanTime;
+use crate::report::Report;
+use crate::retention::Retention;
+use crate::self_test::SelfTest;
+
+/// Lengths of the scans since RUN in microseconds, inputs to outputs, in steps of 4.
+pub struct ScanTimes {
+    /// The shortest.
+    pub min_us: u32,
+    /// The last.
+    pub last_us: u32,
+    /// The longest.
+    pub max_us: u32,
+}
+
+impl ScanTimes {
+    const NONE: ScanTimes = ScanTimes { min_us: 0, last_us: 0, max_us: 0 };
+
+    fn enter(&mut self, us: u32) {
+        if self.max_us == 0 || us < self.min_us {
+            self.min_us = us;
+        }
+        self.max_us = self.max_us.max(us);
+        self.last_us = us;
+    }
+}
+
+/// The PLC.
+pub struct Uno {
+    ports: Ports,
+    serial: Serial,
+    eeprom: Eeprom,
+    memory: &'static mut Memory,
+    plc: Plc<ProgramSlot>,
+    settings: Settings,
+    retention: Retention,
+    communication: Communication,
+    self_test: SelfTest,
+    times: ScanTimes,
+    scan_start_ms: u32,
+    /// As bytes, like everywhere on the board.
+    fault_before_reset: [u8; 4],
+}
+
+impl Uno {
+    /// The PLC in STOP, without a program.
+    #[inline(always)]
+    pub fn new(board: Board) -> Uno {
+        Uno {
+            ports: board.ports,
+            serial: board.serial,
+            eeprom: board.eeprom,
+            memory: board.memory,
+            plc: Plc::new(),
+            settings: Settings::DEFAULT,
+            retention: Retention::none(),
+            communication: Communication::STARTING,
+            self_test: SelfTest::STARTING,
+            times: ScanTimes::NONE,
+            scan_start_ms: 0,
+            fault_before_reset: Fault::NONE,
+        }
+    }
+
+    /// Power has come: loads the program and goes to RUN, unless there is none or a fault of before forbids it.
+    pub fn power_up(&mut self) {
+        self.load();
+        let Some((fault, holds)) = fault_memory::recall() else { return self.run() };
+        self.fault_before_reset = fault;
+        if holds {
+            // Only these two hold.
+            self.plc.fail(if fault == Fault::Panic.to_bytes() { Fault::Panic } else { Fault::Hang });
+        } else {
+            self.run();
+        }
+    }
+
+    /// Loads the program in the slot, if there is one.
+    fn load(&mut self) {
+        let is_erased = (0..4).all(|offset| ProgramSlot.byte(offset) == 0xFF);
+        if is_erased {
+            return;
+        }
+        if self.plc.load(self.memory, ProgramSlot).is_err() {
+            return self.remember_fault();
+        }
+        self.self_test = SelfTest::STARTING;
+        let Some(program) = self.plc.program() else { return };
+        let plan = program.plan();
+        self.settings = plan.header.settings;
+        self.ports.set_pullups(self.settings.pullup);
+        if self.retention.restore(plan, self.memory, &self.eeprom) {
+            self.plc.retentive_data_lost();
+        }
+    }
+
+    fn run(&mut self) {
+        if matches!(self.plc.fault(), Some(Fault::BadImage(_) | Fault::ProgramChanged)) {
+            self.load();
+        }
+        if self.plc.mode() == Mode::Stop && self.plc.run() {
+            self.times = ScanTimes::NONE;
+            self.scan_start_ms = clock::now_ms().wrapping_sub(u32::from(self.settings.scan_ms));
+        }
+    }
+
+    /// One scan.
+    // On its own: inlined into `main` its frame would be too large for short addresses.
+    #[inline(never)]
+    pub fn scan(&mut self) {
+        self.wait_for_period();
+        trace::mark(Mark::ScanStart);
+        let (start_us, start_ms) = (clock::now_us(), clock::now_ms());
+        self.read_inputs();
+        let was_running = self.plc.mode() == Mode::Run;
+        self.plc.execute(self.memory, &mut ScanTime::starting(start_ms, self.settings.watchdog_ms));
+        self.communicate();
+        if let Some(fault) = self.self_test.step(self.plc.program()) {
+            self.plc.fail(fault);
+        }
+        let runs = self.plc.mode() == Mode::Run;
+        // After the change to RUN the pins wait for the end of a first scan.
+        self.write_outputs(was_running && runs);
+        if was_running && !runs {
+            self.remember_fault();
+        }
+        self.keep(was_running && !runs);
+        if was_running {
+            self.times.enter(clock::now_us().wrapping_sub(start_us));
+        }
+        let fault = self.plc.fault().filter(|_| !runs);
+        trace::write_status(runs, fault.map_or(Fault::NONE, Fault::to_bytes));
+        trace::mark(Mark::ScanEnd);
+        watchdog::feed(clock::now_ms());
+    }
+
+    /// With a fixed period: waits for the next one, and talks meanwhile. A scan that took longer starts at once.
+    fn wait_for_period(&mut self) {
+        let period_ms = u32::from(self.settings.scan_ms);
+        loop {
+            let now_ms = clock::now_ms();
+            watchdog::feed(now_ms);
+            let passed_ms = now_ms.wrapping_sub(self.scan_start_ms);
+            if self.plc.mode() == Mode::Stop || passed_ms >= period_ms {
+                // On time the period goes on from where it was due, too late it begins anew.
+                let is_late = passed_ms >= 2 * period_ms;
+                self.scan_start_ms = if is_late { now_ms } else { self.scan_start_ms.wrapping_add(period_ms) };
+                return;
+            }
+            self.communicate();
+        }
+    }
+
+    fn read_inputs(&mut self) {
+        self.memory.set_byte(I_START, self.ports.inputs() ^ self.settings.invert_inputs);
+        if analog::has_fresh() {
+            analog::take_fresh(|channel, raw| {
+                self.memory.set_word(AnalogInput::Raw(channel).address(), raw);
+                self.memory.set_word(AnalogInput::Scaled(channel).address(), AnalogInput::scale(raw));
+            });
+        }
+    }
+
+    fn write_outputs(&self, runs: bool) {
+        if runs {
+            self.ports.drive_outputs(self.plc.outputs(self.memory, 0) ^ self.settings.invert_outputs);
+        } else {
+            self.ports.release_outputs();
+        }
+    }
+
+    fn communicate(&mut self) {
+        match self.communication.receive(&mut self.serial) {
+            Some(Request::Run) => self.run(),
+            Some(Request::Stop) => self.plc.stop(),
+            None => {}
+        }
+        if let Some(line) = self.communication.next_line(&self.serial) {
+            self.write_line(line);
+        }
+    }
+
+    fn write_line(&mut self, line: Lines) {
+        let mut report = Report::on(&mut self.serial);
+        match line {
+            Lines::VERSION => report.text(texts::version()),
+            Lines::MODE => {
+                report.text(texts::mode());
+                report.text(if self.plc.mode() == Mode::Run { texts::run() } else { texts::stop() });
+            }
+            Lines::PROGRAM => report.program(self.plc.program()),
+            Lines::FAULT => {
+                report.text(texts::fault());
+                let fault = self.plc.fault().map_or(Fault::NONE, Fault::to_bytes);
+                report.fault(fault);
+                if fault == Fault::NONE && self.fault_before_reset != Fault::NONE {
+                    report.text(texts::last_fault());
+                    report.fault(self.fault_before_reset);
+                }
+            }
+            Lines::SCAN => report.scan(&self.times),
+            Lines::STACK => report.stack(stack::free()),
+            _ => report.text(texts::help()),
+        }
+        report.end();
+    }
+
+    /// Saves what is retained; `at_once` when RUN has just ended.
+    fn keep(&mut self, at_once: bool) {
+        if let Some(program) = self.plc.program() {
+            self.retention.step(program.plan(), self.memory, &self.eeprom, at_once);
+        }
+    }
+
+    fn remember_fault(&self) {
+        if let Some(fault) = self.plc.fault() {
+            fault_memory::remember(fault.to_bytes(), false);
+        }
+    }
+}
