@@ -15,8 +15,8 @@ use awl_asm::render::human;
 use awl_asm::source::Source;
 use plc_isa::{Area, MAGIC, verify};
 
-use crate::machine::Machine;
-use crate::machine::host::{Host, PlaceOf};
+use crate::machine::host::Host;
+use crate::machine::{Machine, PlaceOf};
 use crate::operand::{Operand, Width};
 use crate::symbols::Symbols;
 
@@ -63,9 +63,6 @@ impl std::error::Error for ProgramErrors {}
 /// Errors in the program come as [`ProgramErrors`], all at once. A bad image is none: it is opened, and the machine is
 /// in STOP with a fault, as a board would be.
 pub fn open_machine(program: &Path, symbol_files: &[PathBuf], target: Target) -> Result<Opened> {
-    if target != Target::Host {
-        bail!("this build has no virtual Uno yet; programs run with --on host");
-    }
     let has_ending = |ending| program.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(ending));
     if has_ending("hex") {
         bail!("{}: Intel HEX is for avrdude; awl-sim takes AWL text or a .bin image", program.display());
@@ -75,9 +72,9 @@ pub fn open_machine(program: &Path, symbol_files: &[PathBuf], target: Target) ->
     let mut shown = Shown::default();
     let symbols = load_symbols(symbol_files, &mut shown)?;
     if bytes.starts_with(&MAGIC) || has_ending("bin") {
-        open_image(name, bytes, symbols, shown)
+        open_image(name, bytes, symbols, shown, target)
     } else {
-        open_text(&Source::from_bytes(name, &bytes)?, symbols, shown)
+        open_text(&Source::from_bytes(name, &bytes)?, symbols, shown, target)
     }
 }
 
@@ -92,18 +89,18 @@ fn load_symbols(files: &[PathBuf], shown: &mut Shown) -> Result<Vec<ast::Symbol>
     Ok(symbols)
 }
 
-fn open_text(source: &Source, symbols: Vec<ast::Symbol>, mut shown: Shown) -> Result<Opened> {
+fn open_text(source: &Source, symbols: Vec<ast::Symbol>, mut shown: Shown, target: Target) -> Result<Opened> {
     let mut assembly = assemble(source, symbols);
     shown.add(source, &assembly.diagnostics);
     let Some(image) = assembly.image.take().filter(|_| !shown.has_errors) else {
         return Err(ProgramErrors(shown.text).into());
     };
     let places = places(source, &assembly);
-    Ok(opened(image, &assembly, places, shown.text))
+    opened(image, &assembly, places, shown.text, target)
 }
 
 /// The disassembly of an image tells what the program uses; of a bad image nothing is known.
-fn open_image(name: String, image: Vec<u8>, symbols: Vec<ast::Symbol>, shown: Shown) -> Result<Opened> {
+fn open_image(name: String, image: Vec<u8>, symbols: Vec<ast::Symbol>, shown: Shown, target: Target) -> Result<Opened> {
     if shown.has_errors {
         return Err(ProgramErrors(shown.text).into());
     }
@@ -113,22 +110,45 @@ fn open_image(name: String, image: Vec<u8>, symbols: Vec<ast::Symbol>, shown: Sh
         let line = lines.iter().find(|line| (line.at..line.at + line.decoded.len).contains(&at));
         line.map_or_else(String::new, |line| format!("`{}` (offset {at:#06x})", line.text))
     };
-    Ok(opened(image, &assembly, Box::new(place_of), shown.text))
+    opened(image, &assembly, Box::new(place_of), shown.text, target)
 }
 
-fn opened(image: Vec<u8>, assembly: &Assembly, place_of: PlaceOf, warnings: String) -> Opened {
+fn opened(image: Vec<u8>, assembly: &Assembly, place_of: PlaceOf, warnings: String, target: Target) -> Result<Opened> {
     let scan_ms = u64::from(assembly.program.settings.scan_ms);
-    let mut machine = Host::new(image, place_of);
+    let mut machine = machine(image, place_of, target)?;
     let mut default_signals = default_signals(assembly);
     // A timer that is only reset has a bit, but no current value.
     default_signals.retain(|&signal| machine.read(signal).is_ok());
-    Opened {
-        machine: Box::new(machine),
+    Ok(Opened {
+        machine,
         symbols: symbols_of(&assembly.program.symbols),
         default_signals,
         scan_ms: (scan_ms > 0).then_some(scan_ms),
         warnings,
+    })
+}
+
+fn machine(image: Vec<u8>, place_of: PlaceOf, target: Target) -> Result<Box<dyn Machine>> {
+    match target {
+        Target::Host => Ok(Box::new(Host::new(image, place_of))),
+        Target::Uno => uno(image, place_of),
+        Target::UnoNative => bail!("there are no translated programs yet; --on uno interprets"),
     }
+}
+
+#[cfg(feature = "simavr")]
+fn uno(image: Vec<u8>, place_of: PlaceOf) -> Result<Box<dyn Machine>> {
+    use crate::machine::uno::{Clock, Firmware, Uno};
+    let firmware = Firmware::read(&awl_asm::firmware::find("elf")?)?;
+    Ok(Box::new(Uno::new(firmware, image, Clock::FreeRunning, place_of)?))
+}
+
+#[cfg(not(feature = "simavr"))]
+fn uno(_image: Vec<u8>, _place_of: PlaceOf) -> Result<Box<dyn Machine>> {
+    bail!(
+        "this awl-sim was built without the virtual Uno; on Debian:\n  \
+         apt-get install libsimavr-dev libelf-dev\n  cargo install --path sim --features simavr"
+    )
 }
 
 /// Diagnostics as text.

@@ -132,6 +132,7 @@ impl<'a> Schedule<'a> {
                 break;
             }
             self.checked += 1;
+            machine.catch_up(expectation.at_ms);
             outcome.compare(expectation, machine.read(expectation.operand)?);
         }
         Ok(())
@@ -168,6 +169,7 @@ impl Wiring {
     }
 
     fn step(&mut self, now_ms: u64, machine: &mut (impl Machine + ?Sized)) -> Result<(), MachineError> {
+        machine.catch_up(now_ms);
         self.plant.step(now_ms, machine.pin_levels(), &mut self.inputs);
         if self.given == Some(self.inputs) {
             return Ok(());

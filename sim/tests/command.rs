@@ -23,8 +23,14 @@ impl Folder {
         folder
     }
 
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_awl-sim"));
+        command.current_dir(&self.0).args(arguments);
+        command
+    }
+
     fn sim(&self, arguments: &[&str]) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_awl-sim")).current_dir(&self.0).args(arguments).output().unwrap()
+        self.command(arguments).output().unwrap()
     }
 
     fn names(&self) -> Vec<String> {
@@ -94,7 +100,7 @@ fn what_cannot_run_is_exit_2() {
         (&["p.awl", "--for", "5"], "needs its unit"),
         (&["p.awl", "--for", "5s", "--scans", "3"], "cannot be used with"),
         (&["p.awl", "--scan-time", "0ms"], "1ms to 60s"),
-        (&["p.awl", "--on", "uno"], "no virtual Uno yet"),
+        (&["p.awl", "--on", "uno-native"], "no translated programs yet"),
         (&["p.awl", "--plant", "press"], "there is no plant press"),
         (&["p.awl", "--plant", "tank level=200"], "0 to 100"),
         (&["p.awl", "--trace", "I0.0,Q0.9"], "--trace:1:6"),
@@ -111,6 +117,30 @@ fn what_cannot_run_is_exit_2() {
     for part in ["s.scn:1:1", "did you mean `scan`?", "s.scn:2:7", "did you mean `Lamp`?"] {
         assert!(errors.contains(part), "{errors}");
     }
+}
+
+#[cfg(not(feature = "simavr"))]
+#[test]
+fn without_the_virtual_uno_it_is_said_how_to_get_it() {
+    let folder = Folder::with_files("without-uno", &[("p.awl", COPY)]);
+    let (code, output, errors) = told(&folder.sim(&["p.awl", "--on", "uno"]));
+    assert_eq!((code, &*output), (Some(2), ""), "{errors}");
+    assert!(errors.contains("cargo install --path sim --features simavr"), "{errors}");
+}
+
+#[cfg(feature = "simavr")]
+#[test]
+fn a_board_is_traced_by_its_changes() {
+    let scenario = "scan 10ms\nat 20ms I0.0 = 1\nat 50ms I0.0 = 0\nat 21ms expect Lamp = 1\nrun 100ms\n";
+    let folder = Folder::with_files("board", &[("p.awl", COPY), ("s.scn", scenario)]);
+    let arguments = ["p.awl", "--scenario", "s.scn", "--on", "uno", "--trace", "I0.0,Q0.0"];
+    let firmware = awl_asm::firmware::find("elf").unwrap_or_else(|error| panic!("{error:#}"));
+    let (code, output, errors) = told(&folder.command(&arguments).env("UNO200_FIRMWARE", firmware).output().unwrap());
+    assert_eq!((code, &*errors), (Some(0), "ran 100 ms, 1 expectation met\n"));
+    assert_eq!(output, "time_ms,scan,I0.0,Q0.0\n0,1,0,0\n20,3,1,1\n50,6,0,0\n");
+    let (code, _, errors) = told(&folder.command(&arguments).env("UNO200_FIRMWARE", "none.elf").output().unwrap());
+    assert_eq!(code, Some(2));
+    assert!(errors.contains("none.elf") && errors.contains("cargo xtask firmware"), "{errors}");
 }
 
 #[test]

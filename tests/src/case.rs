@@ -1,6 +1,7 @@
 //! Cases: AWL files that carry their scenario and its expectations in `//$` lines. Reads, assembles and runs them.
 //!
-//! `README.md` says how a case is written. What runs it is any [`Machine`].
+//! `README.md` says how a case is written. The examples are cases too, with their scenario in a file of its own. What
+//! runs a case is any [`Machine`].
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,6 +13,7 @@ use awl_asm::render::human;
 use awl_asm::source::Source;
 use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
+use awl_sim::plant::PlantSpec;
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
 use awl_sim::symbols::Symbols;
@@ -21,25 +23,15 @@ const MARK: &str = "//$ ";
 /// The statement that is not one of scenarios: it names a fault that must come.
 const FAULT: &str = "fault ";
 
-/// A machine that cases run on.
-pub struct MachineKind {
-    /// Its name in messages.
-    pub name: &'static str,
-    /// Makes one that is in RUN with this image.
-    pub start: fn(image: &[u8]) -> Box<dyn Machine>,
-}
-
-/// Every machine there is.
-pub const MACHINES: [MachineKind; 1] =
-    [MachineKind { name: "host", start: |image| Box::new(Host::new(image.to_vec(), Box::new(|_| String::new()))) }];
-
 /// A case as its file has it.
 #[derive(Debug, Clone)]
 pub struct Case {
-    /// Chapter and name, such as `timer/tof`.
-    pub name: String,
-    /// The whole file; the scenario is comments in it.
+    /// The program's file, from the root of the repository.
+    pub file: String,
+    /// The whole file; of a case the scenario is comments in it.
     pub awl: String,
+    /// The scenario's file, the same for a case.
+    pub scenario_file: String,
     /// The scenario, each statement on its line of the file.
     pub scenario: String,
     /// Parts of the faults that must come, in words.
@@ -50,11 +42,23 @@ impl Case {
     /// All cases, by name.
     pub fn all() -> Vec<Case> {
         let root = folder("cases");
-        files(&root).iter().map(|path| Case::new(name_of(&root, path), read(path))).collect()
+        files(&root).iter().map(|path| Case::new(format!("tests/cases/{}", name_of(&root, path)), read(path))).collect()
+    }
+
+    /// The examples with their scenarios.
+    pub fn examples() -> Vec<Case> {
+        let root = folder("../examples");
+        let example = |path: &PathBuf| {
+            let file = format!("examples/{}", name_of(&root, path));
+            let scenario_path = path.with_extension("scn");
+            let scenario_file = format!("examples/{}", name_of(&root, &scenario_path));
+            Case { file, awl: read(path), scenario_file, scenario: read(&scenario_path), faults: Vec::new() }
+        };
+        files(&root).iter().map(example).collect()
     }
 
     /// A case from its text.
-    pub fn new(name: String, awl: String) -> Case {
+    pub fn new(file: String, awl: String) -> Case {
         let (mut scenario, mut faults) = (String::new(), Vec::new());
         for line in awl.lines() {
             if let Some(statement) = line.trim_start().strip_prefix(MARK) {
@@ -66,12 +70,12 @@ impl Case {
             }
             scenario.push('\n');
         }
-        Case { name, awl, scenario, faults }
+        Case { scenario_file: file.clone(), file, awl, scenario, faults }
     }
 
     /// Assembles the case. Errors come as the assembler shows them; warnings are none of ours.
     pub fn prepare(self) -> Result<Prepared, String> {
-        let source = Source::new(format!("tests/cases/{}.awl", self.name), &*self.awl).map_err(|e| e.to_string())?;
+        let source = Source::new(&*self.file, &*self.awl).map_err(|e| e.to_string())?;
         let assembly = assemble(&source, Vec::new());
         let errors = assembly.diagnostics.iter().filter(|diagnostic| diagnostic.severity() == Severity::Error);
         let text: String = errors.map(|diagnostic| human(&source, diagnostic, false)).collect();
@@ -105,10 +109,10 @@ impl Prepared {
         Case::all().into_iter().map(prepare).collect()
     }
 
-    /// Runs an image, usually the case's own, and returns everything that is not as the case wants it.
-    pub fn failures(&self, kind: &MachineKind, image: &[u8]) -> Vec<String> {
-        let mut machine = (kind.start)(image);
-        let scenario = match self.scenario(&mut *machine) {
+    /// Runs a machine that has the case's program, or one to be judged by it, and returns everything that is not as the
+    /// case wants it.
+    pub fn failures(&self, machine: &mut dyn Machine) -> Vec<String> {
+        let scenario = match self.scenario(machine) {
             Ok(scenario) => scenario,
             Err(problems) => return vec![problems],
         };
@@ -119,23 +123,21 @@ impl Prepared {
             0 => 1,
             ms => u64::from(ms),
         });
-        let job = Job { scan_ms, length: Length::Scenario, signals: Vec::new(), plant: None, progress: None };
-        match run(&mut *machine, &scenario, job) {
+        let plant = match scenario.plant.as_ref().map(PlantSpec::build).transpose() {
+            Ok(plant) => plant,
+            Err(error) => return vec![format!("{}: {}", self.place(1), error.message)],
+        };
+        let job = Job { scan_ms, length: Length::Scenario, signals: Vec::new(), plant, progress: None };
+        match run(machine, &scenario, job) {
             Ok(outcome) => self.judge(&outcome),
             Err(error) => vec![format!("{}: {error}", self.place(1))],
         }
     }
 
     fn scenario(&self, machine: &mut dyn Machine) -> Result<Scenario, String> {
-        let origin = format!("tests/cases/{}.awl", self.case.name);
         let mut has_operand = |operand| machine.read(operand).map(|_| ());
         let context = Context { symbols: &self.symbols, plant: None, has_operand: &mut has_operand };
-        let scenario =
-            Scenario::parse(&origin, &self.case.scenario, context).map_err(|problems| problems.to_string())?;
-        match scenario.plant {
-            Some(_) => Err(format!("{origin}: a case has no plant")),
-            None => Ok(scenario),
-        }
+        Scenario::parse(&self.case.scenario_file, &self.case.scenario, context).map_err(|problems| problems.to_string())
     }
 
     fn judge(&self, outcome: &Outcome) -> Vec<String> {
@@ -151,8 +153,13 @@ impl Prepared {
     }
 
     fn place(&self, line: usize) -> String {
-        format!("tests/cases/{}.awl:{line}", self.case.name)
+        format!("{}:{line}", self.case.scenario_file)
     }
+}
+
+/// The host machine with this image, in RUN.
+pub fn host(image: &[u8]) -> Host {
+    Host::new(image.to_vec(), Box::new(|_| String::new()))
 }
 
 fn symbols_of(assembly: &Assembly) -> Symbols {
@@ -197,6 +204,6 @@ pub fn files(folder: &Path) -> Vec<PathBuf> {
 }
 
 fn name_of(root: &Path, path: &Path) -> String {
-    let name = path.strip_prefix(root).unwrap_or(path).with_extension("");
+    let name = path.strip_prefix(root).unwrap_or(path);
     name.to_string_lossy().replace('\\', "/")
 }

@@ -5,7 +5,7 @@
 //! relation of a comparison and each other relation. What the loader refuses needs no case.
 
 use plc_isa::{Relation, verify};
-use tests::case::{MACHINES, Prepared};
+use tests::case::{Prepared, host};
 use tests::forms::{Row, places, rows, with_tokens};
 
 /// What became of a mutation.
@@ -27,7 +27,7 @@ fn fate(cases: &[&Prepared], exchange: impl Fn(&Row, u8) -> Option<u8>) -> Fate 
         if verify(&image[..]).is_err() {
             continue;
         }
-        if !case.failures(&MACHINES[0], &image).is_empty() {
+        if !case.failures(&mut host(&image)).is_empty() {
             return Fate::Killed;
         }
         fate = Fate::Survived;

@@ -91,7 +91,7 @@ impl From<On> for Target {
 /// Formats of a trace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// Comma separated values, a row per scan
+    /// Comma separated values, a row per scan; of a board a row per change
     Csv,
     /// Aligned columns, a row per change
     Table,

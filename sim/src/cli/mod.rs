@@ -21,7 +21,7 @@ use awl_sim::symbols::Symbols;
 use awl_sim::trace::Signal;
 use clap::Parser;
 
-use args::Args;
+use args::{Args, On};
 
 /// Exit code for usage, file and program errors.
 const CANNOT_RUN: u8 = 2;
@@ -70,7 +70,7 @@ fn simulate(args: &Args) -> Result<u8> {
     let outcome = run_with_progress(&mut *machine, &scenario, job)?;
     // What was found out is told even if the trace cannot be written.
     let written = output::write(args, &outcome.trace);
-    report::print(&scenario.origin, spec.as_ref().map(|spec| spec.name), &outcome);
+    report::print(&scenario.origin, spec.as_ref().map(|spec| spec.name), &outcome, args.on == On::Host);
     written?;
     Ok(outcome.exit_code())
 }

@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use awl_asm::files::write_whole_with;
 use awl_sim::trace::{Trace, csv, svg, table, vcd};
 
-use super::args::{Args, Format};
+use super::args::{Args, Format, On};
 
 /// Writes what `args` ask for, if anything.
 pub fn write(args: &Args, trace: &Trace) -> Result<()> {
@@ -16,10 +16,12 @@ pub fn write(args: &Args, trace: &Trace) -> Result<()> {
         return Ok(());
     }
     let format = args.format.unwrap_or_else(|| format_of(args.output.as_deref()));
+    // A board runs more scans than anybody looks at.
+    let rows = if args.on == On::Host { csv::Rows::EveryScan } else { csv::Rows::Changes };
     let title = args.program.file_name().unwrap_or_default().to_string_lossy();
     match &args.output {
-        Some(path) => write_whole_with(path, |out| write_as(format, trace, &title, out)),
-        None => match write_as(format, trace, &title, &mut BufWriter::new(io::stdout().lock())) {
+        Some(path) => write_whole_with(path, |out| write_as(format, rows, trace, &title, out)),
+        None => match write_as(format, rows, trace, &title, &mut BufWriter::new(io::stdout().lock())) {
             // Whoever reads has seen enough.
             Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
             result => result.context("cannot write the trace"),
@@ -36,9 +38,9 @@ fn format_of(path: Option<&Path>) -> Format {
     }
 }
 
-fn write_as(format: Format, trace: &Trace, title: &str, out: &mut dyn Write) -> io::Result<()> {
+fn write_as(format: Format, rows: csv::Rows, trace: &Trace, title: &str, out: &mut dyn Write) -> io::Result<()> {
     match format {
-        Format::Csv => csv::write(trace, csv::Rows::EveryScan, out)?,
+        Format::Csv => csv::write(trace, rows, out)?,
         Format::Table => table::write(trace, out)?,
         Format::Vcd => vcd::write(trace, out)?,
         Format::Svg => svg::write(trace, title, out)?,

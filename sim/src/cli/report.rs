@@ -8,8 +8,9 @@ use awl_sim::time::format_time;
 /// Most events of a plant's timeline that are shown.
 const EVENTS_SHOWN: usize = 100;
 
-/// Prints everything there is to know. `origin` is the scenario's file, empty without one.
-pub fn print(origin: &str, plant_name: Option<&str>, outcome: &Outcome) {
+/// Prints everything there is to know. `origin` is the scenario's file, empty without one; `counts_scans`: whether the
+/// scans of the run are those of the machine.
+pub fn print(origin: &str, plant_name: Option<&str>, outcome: &Outcome, counts_scans: bool) {
     if let (Some(name), Some(report)) = (plant_name, &outcome.plant) {
         print_plant(name, report);
     }
@@ -29,12 +30,15 @@ pub fn print(origin: &str, plant_name: Option<&str>, outcome: &Outcome) {
         (None, Some(stop_ms)) => eprintln!("note: the PLC is in STOP since {}", format_time(stop_ms)),
         (None, None) => {}
     }
-    eprintln!("{}", summary(outcome));
+    eprintln!("{}", summary(outcome, counts_scans));
 }
 
-fn summary(outcome: &Outcome) -> String {
+fn summary(outcome: &Outcome, counts_scans: bool) -> String {
     let duration = seconds(outcome.scans * outcome.scan_ms);
-    let mut text = format!("ran {} ({duration})", plural_u64(outcome.scans, "scan"));
+    let mut text = match counts_scans {
+        true => format!("ran {} ({duration})", plural_u64(outcome.scans, "scan")),
+        false => format!("ran {duration}"),
+    };
     let failed = outcome.failures.len();
     if outcome.met + failed > 0 {
         text += &format!(", {} met", plural(outcome.met, "expectation"));
@@ -80,8 +84,9 @@ mod tests {
     #[test]
     fn summary_in_words() {
         let outcome = Outcome { scans: 5000, scan_ms: 1, met: 4, ..Outcome::default() };
-        assert_eq!(summary(&outcome), "ran 5000 scans (5 s), 4 expectations met");
+        assert_eq!(summary(&outcome, true), "ran 5000 scans (5 s), 4 expectations met");
+        assert_eq!(summary(&outcome, false), "ran 5 s, 4 expectations met");
         let outcome = Outcome { scans: 1, scan_ms: 1250, ..Outcome::default() };
-        assert_eq!(summary(&outcome), "ran 1 scan (1.25 s)");
+        assert_eq!(summary(&outcome, true), "ran 1 scan (1.25 s)");
     }
 }

@@ -30,6 +30,8 @@ pub(crate) struct Fake {
     pub(crate) memory: Memory,
     program: Program,
     pub(crate) scans: Vec<u64>,
+    /// Times that were caught up with, and scans: as they came.
+    pub(crate) calls: Vec<String>,
     pub(crate) invert_outputs: u8,
     pub(crate) fault_at_ms: Option<u64>,
     faulted: bool,
@@ -46,6 +48,7 @@ impl Fake {
             memory: Memory::default(),
             program,
             scans: Vec::new(),
+            calls: Vec::new(),
             invert_outputs: 0,
             fault_at_ms: None,
             faulted: false,
@@ -75,10 +78,15 @@ impl Machine for Fake {
 
     fn scan(&mut self, now_ms: u64) {
         self.scans.push(now_ms);
+        self.calls.push(format!("scan {now_ms}"));
         self.faulted |= self.fault_at_ms.is_some_and(|at| now_ms >= at);
         if !self.faulted {
             (self.program)(now_ms, &mut self.memory);
         }
+    }
+
+    fn catch_up(&mut self, until_ms: u64) {
+        self.calls.push(format!("until {until_ms}"));
     }
 
     fn mode(&self) -> Mode {

@@ -6,7 +6,14 @@ use crate::operand::Operand;
 
 #[cfg(test)]
 pub(crate) mod fake;
+mod fault;
 pub mod host;
+mod points;
+#[cfg(feature = "simavr")]
+pub mod uno;
+
+/// Says where an offset of the image is in the source; empty when that is not known.
+pub type PlaceOf = Box<dyn Fn(u16) -> String>;
 
 /// Whether the program is executed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,8 +39,9 @@ impl std::error::Error for MachineError {}
 
 /// A PLC that can be run scan by scan. Times are in milliseconds since the start of the first scan.
 ///
-/// Whether an operand can be accessed depends on the program alone, never on time: an operand that could be read once
-/// can be read and written after every scan. The driver relies on it and tries all operands before the first scan.
+/// Whether an operand can be read depends on the program alone, never on time: an operand that could be read once can be
+/// read after every scan. The driver relies on it and tries all operands before the first scan. What can be read can be
+/// written, except inputs that a board has no pin for: they are always 0 there.
 pub trait Machine {
     /// Sets an operand.
     ///
@@ -48,7 +56,18 @@ pub trait Machine {
     fn read(&mut self, operand: Operand) -> Result<i32, MachineError>;
 
     /// Runs one scan that starts at `now_ms`. Times never decrease.
+    ///
+    /// A machine with a clock of its own runs on to this time before; only then it takes what was written since the last
+    /// call.
     fn scan(&mut self, now_ms: u64);
+
+    /// Runs all scans that start before this time: what is read then is what the last of them left. Times never decrease,
+    /// also between this and [`scan`](Machine::scan).
+    ///
+    /// Only a machine with a clock of its own runs scans that nobody asked for.
+    fn catch_up(&mut self, until_ms: u64) {
+        let _ = until_ms;
+    }
 
     /// RUN or STOP after the last scan. Cheap: it is asked after every scan.
     fn mode(&self) -> Mode;

@@ -170,6 +170,18 @@ fn a_plant_steps_before_every_scan_and_drives_its_signals_only() {
 }
 
 #[test]
+fn a_clock_of_its_own_goes_on_before_somebody_looks() {
+    let mut machine = copier();
+    let text = "at 0ms expect MW0 = 0\nat 3ms expect MW0 = 1\nat 10ms expect MW0 = 1\nat 12ms expect MW0 = 2";
+    run(&mut machine, &scenario(text), job(10, Length::Scenario)).unwrap();
+    assert_eq!(machine.calls, ["until 0", "scan 0", "until 3", "until 10", "scan 10", "until 12"]);
+    let mut machine = copier();
+    let job = Job { plant: Some(Box::new(Mirror::default())), ..job(10, Length::Scans(2)) };
+    run(&mut machine, &scenario(""), job).unwrap();
+    assert_eq!(machine.calls, ["until 0", "scan 0", "until 10", "scan 10"]);
+}
+
+#[test]
 fn progress_is_told_now_and_then() {
     let mut calls = Vec::new();
     let mut progress = |done, total| calls.push((done, total));

@@ -1,0 +1,145 @@
+//! Operands as they are seen from outside, the same for every machine: which bytes hold a value, and where they are.
+
+use awl_asm::Address;
+use plc_isa::{AnalogInput, Area, Bit, Plan, counter_bit, timer_bit};
+use plc_vm::Inputs;
+
+use super::MachineError;
+use crate::operand::Operand;
+
+/// A machine's side: its bytes, by data address.
+pub(super) trait Points {
+    /// The plan of the program, if there is a valid one.
+    fn plan(&self) -> Option<&Plan<Vec<u8>>>;
+
+    /// The inputs as they were set, as logical values.
+    fn inputs(&self) -> &Inputs;
+
+    /// The same, to be set.
+    fn inputs_mut(&mut self) -> &mut Inputs;
+
+    /// A byte as it is outside: I and Q are the physical points. Not asked for analog inputs.
+    fn byte(&self, address: u16) -> u8;
+
+    /// Sets the bits of `mask` in a byte as it is outside.
+    fn set(&mut self, address: u16, mask: u8, value: u8) -> Result<(), MachineError>;
+}
+
+/// Where a value is.
+enum Place {
+    Bit(Bit),
+    Byte(u16),
+    /// High byte and low byte: V bytes are planned one by one.
+    Word(u16, u16),
+}
+
+impl Place {
+    /// Where the operand is; `None` where the program has no memory for it.
+    fn of(operand: Operand, plan: Option<&Plan<Vec<u8>>>) -> Option<Place> {
+        let byte_address = |area: Area, byte: u16| match area.page_start() {
+            Some(start) => Some(start + byte),
+            None => plan?.v_address(byte),
+        };
+        Some(match operand {
+            Operand::TimerCurrent(number) => Place::word(plan?.timer_slot(number)?.address),
+            Operand::CounterCurrent(number) => Place::word(plan?.counter_slot(number)?.address),
+            Operand::At(Address::Bit { area, byte, bit }) => {
+                Place::Bit(Bit { address: byte_address(area, byte)?, bit })
+            }
+            Operand::At(Address::Byte { area, byte }) => Place::Byte(byte_address(area, byte)?),
+            Operand::At(Address::Word { area, byte }) => {
+                Place::Word(byte_address(area, byte)?, byte_address(area, byte + 1)?)
+            }
+            Operand::At(Address::Timer(number)) => Place::Bit(timer_bit(number)),
+            Operand::At(Address::Counter(number)) => Place::Bit(counter_bit(number)),
+            Operand::At(Address::Analog(input)) => Place::word(input.address()),
+        })
+    }
+
+    fn word(address: u16) -> Place {
+        Place::Word(address, address + 1)
+    }
+}
+
+/// The value of an operand; words signed.
+pub(super) fn read(points: &impl Points, operand: Operand) -> Result<i32, MachineError> {
+    if let Operand::At(Address::Analog(input)) = operand {
+        return Ok(i32::from(analog(points.inputs(), input)));
+    }
+    let place = Place::of(operand, points.plan()).ok_or_else(|| not_used(operand))?;
+    Ok(match place {
+        Place::Bit(Bit { address, bit }) => i32::from(points.byte(address) >> bit & 1),
+        Place::Byte(address) => i32::from(points.byte(address)),
+        Place::Word(high, low) => i32::from(i16::from_be_bytes([points.byte(high), points.byte(low)])),
+    })
+}
+
+/// Sets an operand.
+pub(super) fn write(points: &mut impl Points, operand: Operand, value: i32) -> Result<(), MachineError> {
+    if let Operand::At(Address::Analog(input)) = operand {
+        set_analog(points.inputs_mut(), input, value as u16);
+        return Ok(());
+    }
+    match Place::of(operand, points.plan()).ok_or_else(|| not_used(operand))? {
+        Place::Bit(Bit { address, bit }) => points.set(address, 1 << bit, u8::from(value != 0) << bit),
+        Place::Byte(address) => points.set(address, 0xFF, value as u8),
+        Place::Word(high_address, low_address) => {
+            let [high, low] = (value as u16).to_be_bytes();
+            points.set(high_address, 0xFF, high)?;
+            points.set(low_address, 0xFF, low)
+        }
+    }
+}
+
+/// Drives the pin of an input: the program sees the other level where it inverts it.
+pub(super) fn drive_pin(points: &mut impl Points, input: u8, high: bool) {
+    let (bit, inverted) = (input & 7, points.plan().map_or(0, |plan| plan.header.settings.invert_inputs));
+    let logical = u8::from(high) << bit ^ inverted & 1 << bit;
+    let [byte, ..] = &mut points.inputs_mut().digital;
+    *byte = replaced(*byte, 1 << bit, logical);
+}
+
+/// A byte with the bits of `mask` replaced.
+pub(super) fn replaced(old: u8, mask: u8, value: u8) -> u8 {
+    old & !mask | value & mask
+}
+
+/// The number of an input byte, for an address of the inputs' process image.
+pub(super) fn input_byte(address: u16) -> Option<usize> {
+    match Area::of_page_address(address)? {
+        (Area::I, byte) => Some(usize::from(byte)),
+        _ => None,
+    }
+}
+
+/// The number of an output byte, for an address of the outputs' process image.
+pub(super) fn output_byte(address: u16) -> Option<u8> {
+    match Area::of_page_address(address)? {
+        (Area::Q, byte) => Some(byte as u8),
+        _ => None,
+    }
+}
+
+fn analog(inputs: &Inputs, input: AnalogInput) -> u16 {
+    let (values, channel) = match input {
+        AnalogInput::Raw(channel) => (&inputs.raw, channel),
+        AnalogInput::Scaled(channel) => (&inputs.scaled, channel),
+    };
+    values.get(usize::from(channel)).copied().unwrap_or(0)
+}
+
+/// An input in one of its scales gives the other, rounded.
+fn set_analog(inputs: &mut Inputs, input: AnalogInput, value: u16) {
+    let (channel, raw, scaled) = match input {
+        AnalogInput::Raw(channel) => (channel, value, AnalogInput::scale(value)),
+        AnalogInput::Scaled(channel) => (channel, AnalogInput::unscale(value), value),
+    };
+    let channel = usize::from(channel);
+    if let (Some(raw_place), Some(scaled_place)) = (inputs.raw.get_mut(channel), inputs.scaled.get_mut(channel)) {
+        (*raw_place, *scaled_place) = (raw, scaled);
+    }
+}
+
+fn not_used(operand: Operand) -> MachineError {
+    MachineError(format!("the program does not use {}", operand.address()))
+}

@@ -1,0 +1,44 @@
+//! The board's own clock. Time 0 is the start of its first scan; what comes before is not counted.
+
+use super::board::{Broken, MS, SCAN_END, SCAN_START};
+use super::{At, Uno};
+
+/// Longest time from mark to mark: the longest scan, the longest period, the slowest start after a reset.
+const PAUSE_MAX: u64 = 2 * 60_000 * MS;
+
+impl Uno {
+    /// Runs all scans that start before `now_ms`, takes what was written since, and runs those that start within this
+    /// millisecond.
+    pub(super) fn scan_free(&mut self, now_ms: u64) {
+        if self.at == At::Off {
+            self.drive_inputs();
+            let started = self.board.power_up();
+            self.arrive(At::ScanStart, started);
+            self.first_scan = self.board.avr().cycles();
+            self.scan_start = self.first_scan;
+        }
+        self.run_free(now_ms);
+        if self.at == At::ScanStart {
+            self.drive_inputs();
+            self.write_memory();
+        }
+        self.run_free(now_ms + 1);
+    }
+
+    /// Runs all scans that start before this time.
+    pub(super) fn run_free(&mut self, until_ms: u64) {
+        while self.at == At::ScanStart && self.scan_start - self.first_scan < until_ms * MS {
+            let scanned = self.one_free_scan();
+            self.arrive(At::ScanStart, scanned);
+        }
+    }
+
+    /// From the start of a scan to that of the next.
+    fn one_free_scan(&mut self) -> Result<(), Broken> {
+        self.board.run_to(SCAN_END, PAUSE_MAX)?;
+        self.scan_cycles = self.board.avr().cycles() - self.scan_start;
+        self.board.run_to(SCAN_START, PAUSE_MAX)?;
+        self.scan_start = self.board.avr().cycles();
+        Ok(())
+    }
+}

@@ -1,0 +1,275 @@
+//! The Uno: the firmware as it is shipped, in a simulated board, with a program in its slot.
+//!
+//! Inputs are levels at pins and voltages, outputs are read at the pins; everything else is read and written in the
+//! board's memory, at the addresses of the program's plan.
+
+mod board;
+mod firmware;
+mod free_running;
+mod lock_step;
+
+use anyhow::Result;
+use plc_isa::{DIGITAL_INPUTS, Plan, Program, Settings, verify};
+use plc_vm::{Fault, Inputs};
+use simavr::Avr;
+
+use super::points::{self, Points, input_byte, output_byte, replaced};
+use super::{Machine, MachineError, Mode, PlaceOf, fault};
+use crate::operand::Operand;
+use board::{Board, Broken};
+pub use firmware::Firmware;
+
+/// Inputs I0.0 to I0.5 have a pin.
+const INPUT_PINS: u8 = (1 << DIGITAL_INPUTS) - 1;
+/// Outputs Q0.0 to Q0.5 too.
+const OUTPUT_PINS: u8 = INPUT_PINS;
+
+/// Whose time it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Clock {
+    /// The harness holds the clock of the board and gives it the time of each scan: a call of [`Machine::scan`] is one
+    /// scan of the firmware, which can be compared with any other machine byte by byte. Inputs without a pin and
+    /// analog values between two steps of the converter can be set; the harness writes them to memory.
+    LockStep,
+    /// The board runs by its own clock, scan after scan, as fast as it is.
+    FreeRunning,
+}
+
+/// Where the firmware is stopped.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum At {
+    /// Without power: inputs that are set now are there before the first scan.
+    Off,
+    /// Before it reads the inputs of a scan.
+    ScanStart,
+    /// After it wrote the outputs.
+    ScanEnd,
+    /// Nowhere: what happened.
+    Broken(Broken),
+}
+
+/// A write to memory that waits for the next scan.
+#[derive(Debug, Clone, Copy)]
+struct Write {
+    address: u16,
+    mask: u8,
+    value: u8,
+}
+
+/// A PLC on a simulated Uno.
+pub struct Uno {
+    board: Board,
+    clock: Clock,
+    at: At,
+    program: Option<Program<Vec<u8>>>,
+    place_of: PlaceOf,
+    inputs: Inputs,
+    writes: Vec<Write>,
+    /// Cycle in which the last scan started, and how many it took.
+    scan_start: u64,
+    scan_cycles: u64,
+    /// Lock-step: the clock's time at 0 ms, and how long a scan may take while it stands still.
+    clock_start_ms: u32,
+    held_cycles_max: u64,
+    /// Free running: the cycle in which the first scan started.
+    first_scan: u64,
+}
+
+impl Uno {
+    /// A board with this program, without power: that comes with the first scan, so that inputs which are set before
+    /// are there from the start. A bad image leaves it in STOP with a fault.
+    pub fn new(firmware: Firmware, image: Vec<u8>, clock: Clock, place_of: PlaceOf) -> Result<Uno> {
+        let mut uno = Uno {
+            board: Board::new(firmware)?,
+            clock,
+            at: At::Off,
+            program: None,
+            place_of,
+            inputs: Inputs::default(),
+            writes: Vec::new(),
+            scan_start: 0,
+            scan_cycles: 0,
+            clock_start_ms: 0,
+            held_cycles_max: lock_step::HELD_CYCLES_MAX,
+            first_scan: 0,
+        };
+        uno.load(image);
+        Ok(uno)
+    }
+
+    /// Another program in the same board, as new as the first: nothing of before is left.
+    pub fn load(&mut self, image: Vec<u8>) {
+        self.board.insert(&image);
+        self.program = verify(image).ok();
+        self.at = At::Off;
+        self.inputs = Inputs::default();
+        self.writes.clear();
+        (self.scan_start, self.scan_cycles) = (0, 0);
+        (self.clock_start_ms, self.held_cycles_max) = (0, lock_step::HELD_CYCLES_MAX);
+    }
+
+    /// The data memory of the PLC, for comparisons with other machines.
+    pub fn memory(&self) -> &[u8] {
+        self.board.memory()
+    }
+
+    /// The fault that stopped the PLC.
+    pub fn fault_kind(&self) -> Option<Fault> {
+        self.board.fault()
+    }
+
+    /// What is wrong with the board itself, not with its program, so that no scan can be run any more.
+    pub fn broken(&self) -> Option<&str> {
+        match &self.at {
+            At::Broken(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// Cycles of the last scan, from before the inputs to behind the outputs.
+    pub fn scan_cycles(&self) -> u64 {
+        self.scan_cycles
+    }
+
+    /// Bytes of SRAM that neither variables nor the stack have used since power came.
+    pub fn unused_stack(&self) -> usize {
+        self.board.unused_stack()
+    }
+
+    /// The chip.
+    pub fn avr(&self) -> &Avr {
+        self.board.avr()
+    }
+
+    /// The chip, to do to it what no machine can.
+    pub fn avr_mut(&mut self) -> &mut Avr {
+        self.board.avr_mut()
+    }
+
+    /// Notes where the board has come to, or what happened on the way.
+    fn arrive(&mut self, at: At, result: Result<(), Broken>) {
+        self.at = match result {
+            Ok(()) => at,
+            Err(broken) => At::Broken(broken),
+        };
+    }
+
+    fn settings(&self) -> Settings {
+        self.plan().map_or_else(Settings::default, |plan| plan.header.settings)
+    }
+
+    /// The pin levels of outputs that are off.
+    fn off_levels(&self) -> u8 {
+        self.settings().invert_outputs
+    }
+
+    /// What the pins give for IB0.
+    fn input_pins(&self) -> u8 {
+        self.inputs.digital[0] & INPUT_PINS
+    }
+
+    /// Makes pins and voltages those of the inputs.
+    fn drive_inputs(&mut self) {
+        self.board.drive_inputs(self.input_pins() ^ self.settings().invert_inputs);
+        self.board.set_voltages(&self.inputs);
+    }
+
+    /// Does what waited for the next scan.
+    fn write_memory(&mut self) {
+        for Write { address, mask, value } in std::mem::take(&mut self.writes) {
+            let byte = replaced(self.board.byte(address), mask, value);
+            self.board.write(address, &[byte]);
+        }
+    }
+
+    /// A byte of outputs: pins where there are some, else the process image while it is in force.
+    fn output_byte(&self, address: u16, byte: u8) -> u8 {
+        let image = if self.mode() == Mode::Run { self.board.byte(address) } else { 0 };
+        match byte {
+            0 => replaced(image, OUTPUT_PINS, self.board.outputs(self.off_levels()) ^ self.off_levels()),
+            _ => image,
+        }
+    }
+}
+
+impl Points for Uno {
+    fn plan(&self) -> Option<&Plan<Vec<u8>>> {
+        self.program.as_ref().map(Program::plan)
+    }
+
+    fn inputs(&self) -> &Inputs {
+        &self.inputs
+    }
+
+    fn inputs_mut(&mut self) -> &mut Inputs {
+        &mut self.inputs
+    }
+
+    fn byte(&self, address: u16) -> u8 {
+        match (input_byte(address), output_byte(address)) {
+            (Some(byte), _) => self.inputs.digital[byte],
+            (_, Some(byte)) => self.output_byte(address, byte),
+            _ => self.board.byte(address),
+        }
+    }
+
+    fn set(&mut self, address: u16, mask: u8, value: u8) -> Result<(), MachineError> {
+        let Some(byte) = input_byte(address) else {
+            self.writes.push(Write { address, mask, value });
+            return Ok(());
+        };
+        let pins = if byte == 0 { INPUT_PINS } else { 0 };
+        if value & mask & !pins != 0 && self.clock == Clock::FreeRunning {
+            let bit = (value & mask & !pins).trailing_zeros();
+            return Err(MachineError(format!("I{byte}.{bit} has no pin on the Uno, which has I0.0 to I0.5")));
+        }
+        self.inputs.digital[byte] = replaced(self.inputs.digital[byte], mask, value);
+        Ok(())
+    }
+}
+
+impl Machine for Uno {
+    fn write(&mut self, operand: Operand, value: i32) -> Result<(), MachineError> {
+        points::write(self, operand, value)
+    }
+
+    fn read(&mut self, operand: Operand) -> Result<i32, MachineError> {
+        points::read(self, operand)
+    }
+
+    fn scan(&mut self, now_ms: u64) {
+        match self.clock {
+            Clock::LockStep => self.scan_held(now_ms),
+            Clock::FreeRunning => self.scan_free(now_ms),
+        }
+    }
+
+    fn catch_up(&mut self, until_ms: u64) {
+        if self.clock == Clock::FreeRunning {
+            self.run_free(until_ms);
+        }
+    }
+
+    fn mode(&self) -> Mode {
+        match self.board.runs() && self.broken().is_none() {
+            true => Mode::Run,
+            false => Mode::Stop,
+        }
+    }
+
+    fn fault(&self) -> Option<String> {
+        if let Some(text) = self.broken() {
+            return Some(text.to_string());
+        }
+        let limit_ms = u64::from(self.settings().watchdog_ms);
+        self.board.fault().map(|kind| fault::text(kind, limit_ms, &self.place_of))
+    }
+
+    fn pin_levels(&mut self) -> u8 {
+        self.board.outputs(self.off_levels())
+    }
+
+    fn drive_pin(&mut self, input: u8, high: bool) {
+        points::drive_pin(self, input, high);
+    }
+}

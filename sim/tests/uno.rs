@@ -1,0 +1,260 @@
+//! The virtual Uno: pins, its own clock, the held clock, faults, the stack. Needs the firmware.
+#![cfg(feature = "simavr")]
+
+use std::fs;
+use std::path::Path;
+
+use awl_asm::assemble::assemble;
+use awl_asm::source::Source;
+use awl_sim::machine::uno::{Clock, Firmware, Uno};
+use awl_sim::machine::{Machine, Mode};
+use awl_sim::open::{Opened, Target, open_machine};
+use awl_sim::operand::Operand;
+use awl_sim::run::{Job, Length, Outcome, run};
+use awl_sim::scenario::{Context, Scenario};
+use awl_sim::symbols::Symbols;
+use plc_vm::Fault;
+use simavr::Pin;
+
+/// The pin of I0.0 and that of Q0.0.
+const FIRST_INPUT: u8 = 2;
+const FIRST_OUTPUT: u8 = 8;
+
+fn image(text: &str) -> Vec<u8> {
+    let assembly = assemble(&Source::new("test.awl", text).unwrap(), Vec::new());
+    assembly.image.unwrap_or_else(|| panic!("{:?}", assembly.diagnostics))
+}
+
+fn board(image: Vec<u8>, clock: Clock) -> Uno {
+    let path = awl_asm::firmware::find("elf").unwrap_or_else(|error| panic!("{error:#}"));
+    Uno::new(Firmware::read(&path).unwrap(), image, clock, Box::new(|at| format!("byte {at}"))).unwrap()
+}
+
+fn uno(text: &str, clock: Clock) -> Uno {
+    board(image(text), clock)
+}
+
+fn operand(name: &str) -> Operand {
+    Operand::parse(name, &Symbols::new()).unwrap()
+}
+
+fn read(uno: &mut Uno, name: &str) -> i32 {
+    uno.read(operand(name)).unwrap()
+}
+
+/// Runs a scenario on a board with its own clock, looking at it every millisecond.
+fn outcome(uno: &mut Uno, text: &str) -> Outcome {
+    let symbols = Symbols::new();
+    let context = Context { symbols: &symbols, plant: None, has_operand: &mut |_| Ok(()) };
+    let scenario = Scenario::parse("t.scn", text, context).unwrap_or_else(|problems| panic!("{problems}"));
+    let job = Job { scan_ms: 1, length: Length::Scenario, signals: Vec::new(), plant: None, progress: None };
+    run(uno, &scenario, job).unwrap()
+}
+
+/// The same; everything must be as expected.
+fn assert_holds(program: &str, scenario: &str) {
+    let outcome = outcome(&mut uno(program, Clock::FreeRunning), scenario);
+    assert!(outcome.failures.is_empty() && outcome.fault.is_none(), "{outcome:#?}");
+    assert!(outcome.met > 0 && outcome.unreached_expectations == 0);
+}
+
+#[test]
+fn pins_are_what_the_program_sees_and_sets() {
+    let text = "//# invert I0.1, Q0.1\n//# pullup I0.2\nLD I0.0\n= Q0.0\nLD I0.1\n= Q0.1\nLD I0.2\n= Q0.2\n";
+    let mut uno = uno(text, Clock::LockStep);
+    let pins = |uno: &Uno| [0, 1, 2].map(|output| uno.avr().level(Pin::of_uno(FIRST_OUTPUT + output)));
+    assert_eq!((uno.mode(), uno.pin_levels()), (Mode::Stop, 0b10), "no power: everything is off");
+    uno.scan(0);
+    assert_eq!((uno.mode(), uno.pin_levels(), pins(&uno)), (Mode::Run, 0b10, [false, true, false]));
+    for input in 0..3 {
+        uno.write(operand(&format!("I0.{input}")), 1).unwrap();
+    }
+    uno.scan(1);
+    assert_eq!((read(&mut uno, "QB0"), uno.pin_levels(), pins(&uno)), (0b111, 0b101, [true, false, true]));
+    assert!(!uno.avr().level(Pin::of_uno(FIRST_INPUT + 1)), "the inverted input is low");
+    assert!(uno.avr().has_pull_up(Pin::of_uno(FIRST_INPUT + 2)));
+    // The same by levels: the pull-up does not win.
+    uno.drive_pin(1, true);
+    uno.drive_pin(2, false);
+    uno.scan(2);
+    assert_eq!((read(&mut uno, "QB0"), read(&mut uno, "I0.1"), uno.pin_levels()), (0b001, 0, 0b011));
+}
+
+#[test]
+fn outputs_are_released_outside_of_run() {
+    let mut uno = uno("//# invert Q0.1\nLD SM0.0\n= Q0.0\n= Q0.1\nLD I0.0\nSTOP\n", Clock::LockStep);
+    let is_driven = |uno: &Uno| uno.avr().is_output(Pin::of_uno(FIRST_OUTPUT));
+    uno.scan(0);
+    assert_eq!((is_driven(&uno), uno.pin_levels(), read(&mut uno, "QB0")), (true, 0b01, 0b11));
+    uno.write(operand("I0.0"), 1).unwrap();
+    uno.scan(1);
+    assert_eq!((uno.mode(), uno.fault()), (Mode::Stop, None));
+    assert_eq!((is_driven(&uno), uno.pin_levels(), read(&mut uno, "QB0")), (false, 0b10, 0));
+}
+
+#[test]
+fn the_board_keeps_time_by_its_own_clock() {
+    let program = "LD I0.0\nTON T37, 10\nLD T37\n= Q0.0\nLD SM0.0\nINCW VW0\n";
+    // The tick of 100 ms falls anywhere, and a scan is over in less than 2 ms.
+    let scenario = "at 50ms I0.0 = 1\nat 949ms expect Q0.0 = 0\nat 1053ms expect Q0.0 = 1, T37.cv = 10, VW0 = 500..30000\n\
+                    at 2s I0.0 = 0\nat 2002ms expect Q0.0 = 0";
+    assert_holds(program, scenario);
+}
+
+#[test]
+fn what_is_set_for_time_0_is_there_in_the_first_scan() {
+    let program = "LDN SM0.1\nJMP 1\nLD SM0.0\nMOVW Ain0, VW0\nMOVW Ain1, VW2\nMOVW Ain2, VW4\nMOVW Ain3, VW6\n\
+                   MOVW Ain4, VW8\nMOVW Ain5, VW10\nLD I0.3\n= Q0.3\nLBL 1\n";
+    let scenario = "at 0ms I0.3 = 1, MW4 = 77, Ain0 = 1023, Ain1 = 11, Ain2 = 222, Ain3 = 512, Ain4 = 513, Ain5 = 1022\n\
+                    at 3ms expect Q0.3 = 1, MW4 = 77\n\
+                    at 3ms expect VW0 = 1023, VW2 = 11, VW4 = 222, VW6 = 512, VW8 = 513, VW10 = 1022";
+    assert_holds(program, scenario);
+}
+
+#[test]
+fn a_fixed_period_is_kept() {
+    let program = "//# scan 20ms\nLD SM0.0\nINCW VW0\n";
+    assert_holds(
+        program,
+        "at 1ms expect VW0 = 1\nat 19ms expect VW0 = 1\nat 990ms expect VW0 = 50\nat 1010ms expect VW0 = 51",
+    );
+    // With a held clock nothing else can start the next scan.
+    let mut uno = uno(program, Clock::LockStep);
+    uno.scan(0);
+    uno.scan(20);
+    assert_eq!((read(&mut uno, "VW0"), uno.broken()), (2, None));
+    uno.scan(21);
+    assert!(uno.broken().is_some_and(|text| text.contains("longer period")), "{:?}", uno.broken());
+    assert_eq!((uno.mode(), uno.fault().as_deref()), (Mode::Stop, uno.broken()));
+}
+
+#[test]
+fn inputs_without_a_pin_are_0_and_cannot_be_set() {
+    let mut uno = uno("LD I1.0\n= Q0.0\n", Clock::FreeRunning);
+    for (name, value, part) in
+        [("I1.0", 1, "I1.0 has no pin"), ("IB0", 0x40, "I0.6 has no pin"), ("IW0", 0x0180, "I1.7")]
+    {
+        assert_eq!(read(&mut uno, name), 0);
+        let error = uno.write(operand(name), value).unwrap_err().to_string();
+        assert!(error.contains(part), "{error}");
+    }
+    for (name, value) in [("I1.0", 0), ("IB0", 0x3F), ("IB15", 0)] {
+        uno.write(operand(name), value).unwrap();
+    }
+    assert_eq!(uno.write(operand("VW0"), 1).unwrap_err().to_string(), "the program does not use VW0");
+}
+
+#[test]
+fn an_endless_scan_ends_with_the_held_clock_too() {
+    let mut uno = uno("LD SM0.0\n= Q0.0\nLD I0.0\nINCW MW0\nLBL 1\nLD I0.0\nJMP 1\n", Clock::LockStep);
+    uno.hold_clock_for(1_000_000);
+    uno.scan(0);
+    assert_eq!((uno.mode(), uno.pin_levels()), (Mode::Run, 1));
+    uno.write(operand("I0.0"), 1).unwrap();
+    uno.scan(1);
+    assert!(matches!(uno.fault_kind(), Some(Fault::Watchdog { .. })), "{:?}", uno.fault());
+    let text = uno.fault().unwrap();
+    assert!(text.starts_with("watchdog: the scan took longer than 500 ms; the program was at byte "), "{text}");
+    assert_eq!((uno.mode(), uno.pin_levels(), read(&mut uno, "MW0")), (Mode::Stop, 0, 1));
+    uno.write(operand("I0.0"), 0).unwrap();
+    uno.scan(2);
+    assert_eq!((uno.mode(), read(&mut uno, "I0.0"), uno.broken()), (Mode::Stop, 0, None));
+}
+
+#[test]
+fn a_clock_that_stands_still_is_a_fault() {
+    let mut uno = uno("LD SM0.0\n= Q0.0\n", Clock::FreeRunning);
+    uno.scan(0);
+    uno.catch_up(100);
+    assert_eq!((uno.mode(), uno.pin_levels()), (Mode::Run, 1));
+    // The interrupt of the tick, off.
+    uno.avr_mut().data_mut()[0x6E] = 0;
+    uno.catch_up(2_000);
+    assert_eq!((uno.mode(), uno.pin_levels(), uno.fault_kind()), (Mode::Stop, 0, Some(Fault::Hang)));
+}
+
+#[test]
+fn bad_images_and_none() {
+    let mut bad = image("LD I0.0\n= Q0.0\n");
+    bad[40] ^= 1;
+    for clock in [Clock::LockStep, Clock::FreeRunning] {
+        let mut uno = board(bad.clone(), clock);
+        uno.scan(0);
+        assert_eq!((uno.mode(), uno.pin_levels()), (Mode::Stop, 0));
+        assert!(uno.fault().is_some_and(|text| text.contains("bad image")), "{:?}", uno.fault());
+        uno.load(Vec::new());
+        uno.scan(0);
+        assert_eq!((uno.mode(), uno.fault()), (Mode::Stop, None), "an erased slot is no fault");
+    }
+}
+
+#[test]
+fn many_programs_in_one_board_leave_nothing_to_the_next() {
+    let set_all = image("LD SM0.0\nMOVW -1, MW0\nMOVW -1, VW0\nS Q0.0, 6\nS S0.0, 255\n//# retain VB0-VB1\n");
+    let nothing = image("LD I0.0\n= V0.0\n");
+    let mut uno = board(Vec::new(), Clock::LockStep);
+    let mut lengths = Vec::new();
+    for _ in 0..20 {
+        uno.load(set_all.clone());
+        (0..5).for_each(|scan| uno.scan(scan));
+        assert_eq!((uno.pin_levels(), read(&mut uno, "MW0")), (0x3F, -1));
+        uno.load(nothing.clone());
+        assert_eq!((uno.mode(), uno.pin_levels(), read(&mut uno, "MW0")), (Mode::Stop, 0, 0), "no power");
+        uno.scan(0);
+        assert_eq!((uno.mode(), uno.pin_levels(), read(&mut uno, "VB0")), (Mode::Run, 0, 0));
+        assert_eq!(["MW0", "SB0", "SB31"].map(|name| read(&mut uno, name)), [0; 3]);
+        lengths.push(uno.scan_cycles());
+    }
+    assert!(lengths[0] > 0 && lengths.iter().all(|length| *length == lengths[0]), "{lengths:?}");
+}
+
+#[test]
+fn the_held_clock_wraps() {
+    let mut uno = uno("LD SM0.0\nTON T32, 10000\n", Clock::LockStep);
+    uno.start_clock_at(u32::MAX - 10);
+    for now_ms in [0, 5, 10, 11, 12, 40] {
+        uno.scan(now_ms);
+        // It starts in the first scan.
+        assert_eq!(i64::from(read(&mut uno, "T32.cv")), now_ms as i64, "{now_ms}");
+    }
+}
+
+#[test]
+fn the_stack_is_measured() {
+    let mut uno = uno("LD I0.0\n= Q0.0\n", Clock::LockStep);
+    uno.scan(0);
+    let unused = uno.unused_stack();
+    assert!((1..0x300).contains(&unused), "{unused}");
+    uno.avr_mut().data_mut()[0x0600..0x0900].fill(0);
+    assert_eq!(uno.unused_stack(), 0);
+}
+
+/// Examples whose scans the interpreter does not finish within the millisecond in which their scenario looks again.
+const TOO_SLOW: [&str; 1] = ["maximum"];
+
+#[test]
+fn examples_do_what_they_shall_on_a_board_with_its_own_clock() {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
+    let mut count = 0;
+    for path in fs::read_dir(examples).unwrap().map(|entry| entry.unwrap().path()) {
+        let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
+        if path.extension().is_none_or(|extension| extension != "awl") || TOO_SLOW.contains(&&*stem) {
+            continue;
+        }
+        count += 1;
+        let Opened { mut machine, symbols, scan_ms, .. } = open_machine(&path, &[], Target::Uno).unwrap();
+        let text = fs::read_to_string(path.with_extension("scn")).unwrap();
+        let mut has_operand = |operand| machine.read(operand).map(|_| ());
+        let context = Context { symbols: &symbols, plant: None, has_operand: &mut has_operand };
+        let scenario = Scenario::parse(&stem, &text, context).unwrap_or_else(|problems| panic!("{problems}"));
+        let plant = scenario.plant.as_ref().map(|spec| spec.build().unwrap());
+        // Of the tank, which runs for ten minutes, only the beginning.
+        let length = Length::For(scenario.run_ms.map_or(10_000, |ms| ms.min(40_000)));
+        let scan_ms = scenario.scan_ms.or(scan_ms).unwrap_or(1);
+        let outcome =
+            run(&mut *machine, &scenario, Job { scan_ms, length, signals: Vec::new(), plant, progress: None }).unwrap();
+        assert!(outcome.failures.is_empty() && outcome.fault.is_none(), "{stem}: {:#?}", outcome.failures);
+        assert!(outcome.met >= 2, "{stem}: {}", outcome.met);
+    }
+    assert_eq!(count, 6);
+}

@@ -1,0 +1,176 @@
+//! Host and board side by side: the same inputs and times for both, and everything compared after every scan.
+
+use awl_asm::firmware;
+use awl_sim::machine::host::Host;
+use awl_sim::machine::uno::{Clock, Firmware, Uno};
+use awl_sim::machine::{Machine, MachineError, Mode};
+use awl_sim::operand::Operand;
+use plc_isa::{Area, DATA_START, DIGITAL_OUTPUTS};
+use plc_vm::Fault;
+
+use crate::case::host;
+
+/// Pins of the outputs.
+const OUTPUT_PINS: u8 = (1 << DIGITAL_OUTPUTS) - 1;
+/// How long a scan runs that the host has already seen to be endless: 100 ms of the board.
+const ENDLESS_CYCLES: u64 = 1_600_000;
+/// How long any other may run: ten minutes. The host charges loops less than the board takes for them.
+const LONG_CYCLES: u64 = 10 * 60 * 16_000_000;
+
+/// A board in lock-step, for many programs.
+///
+/// # Panics
+/// Without the firmware: nothing is left out silently.
+pub fn board() -> Uno {
+    let path = firmware::find("elf").unwrap_or_else(|error| panic!("{error:#}"));
+    let firmware = Firmware::read(&path).unwrap_or_else(|error| panic!("{error:#}"));
+    Uno::new(firmware, Vec::new(), Clock::LockStep, Box::new(|_| String::new()))
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A host and a board with the same program. As a machine it is the host; the board must be the same.
+pub struct Pair<'a> {
+    host: Host,
+    uno: &'a mut Uno,
+    scans: u64,
+    difference: Option<String>,
+}
+
+impl<'a> Pair<'a> {
+    /// Both with this image, their clocks beginning at this time.
+    pub fn new(uno: &'a mut Uno, image: &[u8], clock_ms: u32) -> Pair<'a> {
+        let mut host = host(image);
+        host.start_clock_at(clock_ms);
+        uno.load(image.to_vec());
+        uno.start_clock_at(clock_ms);
+        uno.hold_clock_for(LONG_CYCLES);
+        Pair { host, uno, scans: 0, difference: None }
+    }
+
+    /// The first difference between the two, if there was one.
+    pub fn difference(&self) -> Option<&str> {
+        self.difference.as_deref()
+    }
+
+    fn must_be(&mut self, what: impl FnOnce() -> String, board: &str, host: &str) {
+        if board != host && self.difference.is_none() {
+            self.difference = Some(format!("after scan {}: {} is {board}, should be {host}", self.scans, what()));
+        }
+    }
+
+    fn compare(&mut self) {
+        let broken = self.uno.broken().unwrap_or_default().to_string();
+        self.must_be(|| "what is wrong with the board".to_string(), &broken, "");
+        let faults = [self.uno.fault_kind(), self.host.fault_kind()].map(described);
+        self.must_be(|| "the fault".to_string(), &faults[0], &faults[1]);
+        let modes = [self.uno.mode(), self.host.mode()].map(|mode| format!("{mode:?}"));
+        self.must_be(|| "the mode".to_string(), &modes[0], &modes[1]);
+        let pins = [self.uno.pin_levels(), self.host.pin_levels()].map(|pins| format!("{:06b}", pins & OUTPUT_PINS));
+        self.must_be(|| "the level of the outputs".to_string(), &pins[0], &pins[1]);
+        // How far an endless loop came is a matter of speed.
+        if !matches!(self.host.fault_kind(), Some(Fault::Watchdog { .. })) {
+            self.compare_memory();
+        }
+    }
+
+    fn compare_memory(&mut self) {
+        let bytes = self.uno.memory().iter().zip(self.host.memory().bytes());
+        let different = (DATA_START..).zip(bytes).find(|(_, (board, host))| board != host);
+        if let Some((address, (&board, &host))) = different {
+            self.must_be(|| name(address), &board.to_string(), &host.to_string());
+        }
+    }
+}
+
+/// A fault without the place at which the watchdog came: that is a matter of speed too.
+fn described(fault: Option<Fault>) -> String {
+    match fault {
+        Some(Fault::Watchdog { .. }) => "Watchdog".to_string(),
+        fault => format!("{fault:?}"),
+    }
+}
+
+fn name(address: u16) -> String {
+    match Area::of_page_address(address) {
+        Some((area, byte)) => format!("the byte at {address:#06x} ({}B{byte})", area.name()),
+        None => format!("the byte at {address:#06x}"),
+    }
+}
+
+impl Machine for Pair<'_> {
+    fn write(&mut self, operand: Operand, value: i32) -> Result<(), MachineError> {
+        self.host.write(operand, value)?;
+        self.uno.write(operand, value)
+    }
+
+    fn read(&mut self, operand: Operand) -> Result<i32, MachineError> {
+        let host = self.host.read(operand)?;
+        let board = self.uno.read(operand)?;
+        self.must_be(|| operand.to_string(), &board.to_string(), &host.to_string());
+        Ok(host)
+    }
+
+    fn scan(&mut self, now_ms: u64) {
+        self.host.scan(now_ms);
+        if matches!(self.host.fault_kind(), Some(Fault::Watchdog { .. })) {
+            self.uno.hold_clock_for(ENDLESS_CYCLES);
+        }
+        self.uno.scan(now_ms);
+        self.scans += 1;
+        self.compare();
+    }
+
+    fn mode(&self) -> Mode {
+        self.host.mode()
+    }
+
+    fn fault(&self) -> Option<String> {
+        self.host.fault()
+    }
+
+    fn pin_levels(&mut self) -> u8 {
+        self.host.pin_levels()
+    }
+
+    fn drive_pin(&mut self, input: u8, high: bool) {
+        self.host.drive_pin(input, high);
+        self.uno.drive_pin(input, high);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! The comparison must see what is different: here the board has another program than the host.
+
+    use awl_asm::assemble::assemble;
+    use awl_asm::source::Source;
+
+    use super::*;
+
+    fn image(text: &str) -> Vec<u8> {
+        assemble(&Source::new("t.awl", text).unwrap(), Vec::new()).image.unwrap()
+    }
+
+    #[test]
+    fn every_kind_of_difference_is_seen() {
+        let mut uno = board();
+        let same = "LD SM0.0\n= Q0.0\n";
+        let others = [
+            ("LD SM0.0\n= Q0.0\n= M0.7\n", "the byte at 0x0120 (MB0) is 128, should be 0"),
+            ("LD SM0.0\n= Q0.0\n= V0.0\n", "the byte at 0x0240 is 1, should be 0"),
+            ("//# invert Q0.1\nLD SM0.0\n= Q0.0\n", "the level of the outputs is 000011, should be 000001"),
+            ("LD SM0.0\n= Q0.0\nSTOP\n", "the mode is Stop, should be Run"),
+        ];
+        for (other, difference) in others {
+            let mut pair = Pair::new(&mut uno, &image(same), 0);
+            pair.uno.load(image(other));
+            pair.scan(0);
+            let found = pair.difference().unwrap_or_default();
+            assert_eq!(found, format!("after scan 1: {difference}"));
+        }
+        let mut pair = Pair::new(&mut uno, &image(same), 0);
+        pair.uno.load(b"U200 is no image".to_vec());
+        pair.scan(0);
+        assert!(pair.difference().is_some_and(|found| found.contains("the fault is Some(BadImage")));
+    }
+}
