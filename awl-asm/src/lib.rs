@@ -10,6 +10,8 @@ mod directives;
 pub mod disassemble;
 pub mod encode;
 pub mod files;
+pub mod firmware;
+pub mod flash;
 pub mod hex;
 mod instructions;
 mod lexer;

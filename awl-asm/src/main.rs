@@ -10,17 +10,18 @@ use awl_asm::ast::Symbol;
 use awl_asm::diagnostic::{Code, Diagnostic, Severity};
 use awl_asm::disassemble::disassemble;
 use awl_asm::files::{ensure_distinct, read, read_source, write_whole};
+use awl_asm::flash::flash;
 use awl_asm::hex::intel_hex;
 use awl_asm::listing::listing;
 use awl_asm::map::map;
 use awl_asm::source::Source;
-use awl_asm::{render, symbols};
+use awl_asm::{firmware, render, symbols};
 use clap::{Parser, ValueEnum};
 use plc_isa::{ARENA_LEN, SLOT_LEN};
 
 /// Assembles S7-200 AWL (STL) into a program image.
 ///
-/// Exit status: 0 good, 1 errors in the program, 2 usage or file errors.
+/// Exit status: 0 good, 1 errors in the program, 2 everything else: usage, files, the board.
 #[derive(Parser)]
 #[command(name = "awl-asm", version)]
 struct Arguments {
@@ -52,12 +53,22 @@ struct Arguments {
     #[arg(long)]
     check: bool,
 
+    /// Writes the program to the Uno at this serial port, such as /dev/ttyACM0 or COM3. Needs avrdude. Without -o no
+    /// file is written.
+    #[arg(long, value_name = "PORT", conflicts_with = "check")]
+    flash: Option<String>,
+
+    /// With --flash: writes the firmware first, as a new board needs it. Default: the one that `cargo xtask firmware`
+    /// made.
+    #[arg(long, value_name = "FILE.hex", num_args = 0..=1, requires = "flash", value_parser = hex_file)]
+    with_firmware: Option<Option<PathBuf>>,
+
     /// Turns an image back into AWL.
-    #[arg(long, value_name = "IMAGE", conflicts_with_all = ["program", "explain", "check", "listing", "map"])]
+    #[arg(long, value_name = "IMAGE", conflicts_with_all = ["program", "explain", "check", "listing", "map", "flash"])]
     disassemble: Option<PathBuf>,
 
     /// Explains an error or warning, such as E0012.
-    #[arg(long, value_name = "CODE", conflicts_with = "program")]
+    #[arg(long, value_name = "CODE", conflicts_with_all = ["program", "flash"])]
     explain: Option<String>,
 }
 
@@ -71,8 +82,8 @@ enum MessageFormat {
 
 /// Errors in the program: reported already.
 const PROGRAM_ERRORS: u8 = 1;
-/// Usage and file errors.
-const USAGE_ERRORS: u8 = 2;
+/// Usage, files, the board.
+const OTHER_ERRORS: u8 = 2;
 
 fn main() -> ExitCode {
     match run(&Arguments::parse()) {
@@ -80,8 +91,18 @@ fn main() -> ExitCode {
         Ok(false) => ExitCode::from(PROGRAM_ERRORS),
         Err(error) => {
             anstream::eprintln!("error: {error:#}");
-            ExitCode::from(USAGE_ERRORS)
+            ExitCode::from(OTHER_ERRORS)
         }
+    }
+}
+
+/// The firmware's file by its extension: a program that was meant to be assembled is not swallowed as its value.
+fn hex_file(name: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(name);
+    if has_extension(&path, "hex") {
+        Ok(path)
+    } else {
+        Err("the firmware is a .hex file; name the program before".into())
     }
 }
 
@@ -131,12 +152,15 @@ fn disassemble_file(path: &Path, output: Option<&Path>) -> Result<bool> {
 }
 
 fn assemble_file(path: &Path, arguments: &Arguments) -> Result<bool> {
-    let output = arguments.output.clone().unwrap_or_else(|| path.with_extension("bin"));
-    let inputs: Vec<&Path> = [path].into_iter().chain(arguments.symbols.iter().map(PathBuf::as_path)).collect();
-    let outputs = [Some(&output), arguments.listing.as_ref(), arguments.map.as_ref()];
-    let outputs: Vec<&Path> = outputs.into_iter().flatten().map(PathBuf::as_path).collect();
+    let output = match (&arguments.output, &arguments.flash) {
+        (None, None) => Some(path.with_extension("bin")),
+        (output, _) => output.clone(),
+    };
+    let firmware = find_firmware(arguments)?;
+    let inputs = [path].into_iter().chain(arguments.symbols.iter().map(PathBuf::as_path)).chain(firmware.as_deref());
+    let outputs = [output.as_deref(), arguments.listing.as_deref(), arguments.map.as_deref()];
     if !arguments.check {
-        ensure_distinct(&inputs, &outputs)?;
+        ensure_distinct(&inputs.collect::<Vec<_>>(), &outputs.into_iter().flatten().collect::<Vec<_>>())?;
     }
     let source = read_source(path)?;
     let mut report = Report { format: arguments.message_format, errors: 0, warnings: 0 };
@@ -155,11 +179,29 @@ fn assemble_file(path: &Path, arguments: &Arguments) -> Result<bool> {
     if let Some(path) = &arguments.map {
         write_whole(path, map(&source, &assembly).as_bytes())?;
     }
-    write_image(&output, image)?;
+    if let Some(output) = &output {
+        write_image(output, image)?;
+    }
+    if let Some(port) = &arguments.flash {
+        flash(port, firmware.as_deref(), image, source.stem(), std::io::stderr().is_terminal())?;
+    }
     if arguments.message_format == MessageFormat::Human {
-        eprintln!("{}", summary(&output, image, &assembly));
+        let written = output.iter().map(|path| path.display().to_string()).chain(arguments.flash.clone());
+        eprintln!("{}", summary(&written.collect::<Vec<_>>().join(", "), image, &assembly));
     }
     Ok(true)
+}
+
+/// The firmware's file, if it is to be written: known to be good before anything is done.
+fn find_firmware(arguments: &Arguments) -> Result<Option<PathBuf>> {
+    let Some(named) = &arguments.with_firmware else { return Ok(None) };
+    let path = named.clone().map_or_else(|| firmware::find("hex"), Ok)?;
+    firmware::check_hex(&path)?;
+    Ok(Some(path))
+}
+
+fn has_extension(path: &Path, wanted: &str) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
 }
 
 fn load_symbols(paths: &[PathBuf], report: &mut Report) -> Result<Vec<Symbol>> {
@@ -174,14 +216,12 @@ fn load_symbols(paths: &[PathBuf], report: &mut Report) -> Result<Vec<Symbol>> {
 }
 
 fn write_image(path: &Path, image: &[u8]) -> Result<()> {
-    let is_hex = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("hex"));
-    if is_hex { write_whole(path, intel_hex(image)?.as_bytes()) } else { write_whole(path, image) }
+    if has_extension(path, "hex") { write_whole(path, intel_hex(image)?.as_bytes()) } else { write_whole(path, image) }
 }
 
-fn summary(output: &Path, image: &[u8], assembly: &Assembly) -> String {
+fn summary(written: &str, image: &[u8], assembly: &Assembly) -> String {
     format!(
-        "{}: {} instructions, {} of {SLOT_LEN} bytes; data {} of {ARENA_LEN} bytes",
-        output.display(),
+        "{written}: {} instructions, {} of {SLOT_LEN} bytes; data {} of {ARENA_LEN} bytes",
         assembly.code.len(),
         image.len(),
         assembly.demand.arena_len(),

@@ -1,0 +1,296 @@
+//! The way to the board with the real avrdude: to an Uno with its bootloader, and to boards that are none.
+
+#![cfg(feature = "uno")]
+
+use std::fs::{self, OpenOptions};
+use std::io::Read;
+use std::os::unix::fs::OpenOptionsExt;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::LazyLock;
+use std::thread;
+use std::time::Duration;
+
+use awl_asm::assemble::assemble;
+use awl_asm::firmware;
+use awl_asm::source::Source;
+use plc_isa::{SLOT_LEN, SLOT_START};
+use simavr::{Avr, Pin};
+use tempfile::TempDir;
+use tests::flash_responder::{Flaw, Responder};
+use virtual_uno::VirtualUno;
+
+/// The output follows the input.
+const FOLLOW: &str = "//# name follow\nLD I0.0\n= Q0.0\n";
+/// It does the contrary, after a few networks that make it another length.
+const INVERT: &str = "//# name invert\nLD SM0.0\nMOVW 17, VW0\nMOVW VW0, VW2\nLDN I0.0\n= Q0.0\n";
+
+/// I0.0 and Q0.0 on the board.
+const INPUT: u8 = 2;
+const OUTPUT: u8 = 8;
+
+/// From the end of avrdude to the first scan: the bootloader's 16 ms watchdog, and the firmware's check of the program.
+const START_MS: u32 = 300;
+/// The same for a program that fills the slot.
+const START_LONGEST_MS: u32 = 2_000;
+/// Long enough for some scans.
+const SCANS_MS: u32 = 20;
+/// The same for a program that fills the slot.
+const SCANS_LONGEST_MS: u32 = 600;
+/// The bootloader waits a second for avrdude before it starts the firmware, and flashes its lamp before that.
+const BOOTLOADER_MS: u32 = 1_800;
+
+/// The real command, as users have it. The tests' crate has no command of its own, so cargo is asked for it.
+static AWL_ASM: LazyLock<PathBuf> = LazyLock::new(|| {
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().expect("tmp is in the target folder");
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args(["build", "--quiet", "--package", "awl-asm", "--target-dir"]).arg(target);
+    assert!(cargo.status().expect("cargo starts").success());
+    target.join("debug/awl-asm")
+});
+
+/// A folder with the two programs.
+fn folder() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("follow.awl"), FOLLOW).unwrap();
+    fs::write(folder.path().join("invert.awl"), INVERT).unwrap();
+    folder
+}
+
+fn awl_asm(folder: &TempDir, arguments: &[&str]) -> Command {
+    let mut command = Command::new(&*AWL_ASM);
+    command.current_dir(folder).args(arguments).env(firmware::VARIABLE, firmware_file());
+    command
+}
+
+fn firmware_file() -> PathBuf {
+    firmware::find("hex").expect("`cargo xtask test` builds the firmware first")
+}
+
+/// Runs a command while the board does `step` over and over. Returns exit code and standard error.
+fn run(mut command: Command, mut step: impl FnMut()) -> (Option<i32>, String) {
+    let mut child = command.stdin(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the command starts");
+    while child.try_wait().unwrap().is_none() {
+        step();
+    }
+    let output = child.wait_with_output().unwrap();
+    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+}
+
+/// For a step that takes no time by itself.
+fn wait() {
+    thread::sleep(Duration::from_millis(1));
+}
+
+fn run_beside(uno: &mut VirtualUno, command: Command) -> (Option<i32>, String) {
+    run(command, || uno.step().unwrap())
+}
+
+fn pass(uno: &mut VirtualUno, milliseconds: u32) {
+    for _ in 0..milliseconds {
+        uno.step().unwrap();
+    }
+}
+
+/// A board from the factory with a switch at every input, all off.
+fn board() -> VirtualUno {
+    let mut uno = VirtualUno::new().unwrap();
+    for pin in 2..=7 {
+        uno.avr_mut().drive(Pin::of_uno(pin), false);
+    }
+    uno
+}
+
+/// What the output does when the input is 0, 1 and 0 again.
+fn behaviour(uno: &mut VirtualUno) -> [bool; 3] {
+    behaviour_after(uno, SCANS_MS)
+}
+
+fn behaviour_after(uno: &mut VirtualUno, milliseconds: u32) -> [bool; 3] {
+    [false, true, false].map(|input| {
+        uno.avr_mut().drive(Pin::of_uno(INPUT), input);
+        pass(uno, milliseconds);
+        is_on(uno.avr())
+    })
+}
+
+/// A lamp at the output, to ground.
+fn is_on(avr: &Avr) -> bool {
+    avr.is_output(Pin::of_uno(OUTPUT)) && avr.level(Pin::of_uno(OUTPUT))
+}
+
+/// What the board says to a terminal that is opened, which resets it.
+fn banner(uno: &mut VirtualUno) -> String {
+    let nonblocking = rustix::fs::OFlags::NONBLOCK.bits().cast_signed();
+    let mut terminal = OpenOptions::new().read(true).write(true).custom_flags(nonblocking).open(uno.port()).unwrap();
+    pass(uno, BOOTLOADER_MS);
+    let mut text = [0; 4096];
+    let len = terminal.read(&mut text).expect("something was said");
+    String::from_utf8(text[..len].to_vec()).unwrap()
+}
+
+fn image(program: &str) -> Vec<u8> {
+    assemble(&Source::new("p.awl", program).unwrap(), Vec::new()).image.expect("a program without errors")
+}
+
+/// The program slot up to the end of this program.
+fn slot_has(avr: &Avr, program: &str) -> bool {
+    let image = image(program);
+    avr.flash()[usize::from(SLOT_START)..].starts_with(&image)
+}
+
+fn firmware_flash(avr: &Avr) -> Vec<u8> {
+    avr.flash()[..usize::from(SLOT_START)].to_vec()
+}
+
+/// The same flash with the firmware put in by other means than avrdude.
+fn expected_firmware_flash() -> Vec<u8> {
+    let mut avr = Avr::new();
+    avr.load_hex(&fs::read_to_string(firmware_file()).unwrap()).unwrap();
+    firmware_flash(&avr)
+}
+
+#[test]
+fn one_step_for_a_new_board_and_then_for_another_program() {
+    let (folder, mut uno) = (folder(), board());
+    let port = uno.port().display().to_string();
+
+    let first = awl_asm(&folder, &["follow.awl", "--flash", &port, "--with-firmware"]);
+    let (code, errors) = run_beside(&mut uno, first);
+    assert_eq!((code, errors.starts_with(&format!("{port}: 2 instructions"))), (Some(0), true), "{errors}");
+    let firmware = firmware_flash(uno.avr());
+    assert!(firmware == expected_firmware_flash() && slot_has(uno.avr(), FOLLOW));
+    pass(&mut uno, START_MS);
+    assert_eq!(behaviour(&mut uno), [false, true, false]);
+    let said = banner(&mut uno);
+    assert!(["uno200", "mode RUN", "program follow", "fault none"].iter().all(|words| said.contains(words)), "{said}");
+
+    let (code, errors) = run_beside(&mut uno, awl_asm(&folder, &["invert.awl", "--flash", &port]));
+    assert_eq!(code, Some(0), "{errors}");
+    assert!(firmware == firmware_flash(uno.avr()), "the firmware is another one");
+    assert!(slot_has(uno.avr(), INVERT));
+    pass(&mut uno, START_MS);
+    assert_eq!(behaviour(&mut uno), [true, false, true]);
+    let said = banner(&mut uno);
+    assert!(said.contains("program invert"), "{said}");
+
+    let written: Vec<String> = fs::read_dir(&folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .filter(|name| !name.ends_with(".awl"))
+        .collect();
+    assert!(written.is_empty(), "files beside the programs: {written:?}");
+}
+
+/// The commands for avrdude that the documentation names, each once.
+fn documented_commands() -> Vec<&'static str> {
+    let pages = [include_str!("../../docs/flashing.md"), include_str!("../../README.md")];
+    let lines = pages.iter().flat_map(|page| page.lines());
+    let mut commands = Vec::new();
+    for line in lines.filter(|line| line.starts_with("avrdude -c arduino -p m328p -P /dev/ttyACM0 -b 115200")) {
+        // A remark behind the command.
+        let command = line.split('#').next().unwrap_or(line).trim();
+        if !commands.contains(&command) {
+            commands.push(command);
+        }
+    }
+    commands
+}
+
+#[test]
+fn the_documented_avrdude_commands() {
+    let (folder, mut uno) = (folder(), board());
+    let commands = documented_commands();
+    assert_eq!(commands.len(), 2, "{commands:?}");
+    fs::copy(firmware_file(), folder.path().join("uno200.hex")).unwrap();
+    assert_eq!(run(awl_asm(&folder, &["follow.awl", "-o", "prog.hex"]), wait).0, Some(0));
+
+    for (command, has_program) in commands.into_iter().zip([false, true]) {
+        let command = command.replace("/dev/ttyACM0", &uno.port().display().to_string());
+        let mut words = command.split_whitespace();
+        let mut avrdude = Command::new(words.next().expect("a command has a name"));
+        avrdude.args(words).current_dir(&folder);
+        let (code, errors) = run_beside(&mut uno, avrdude);
+        assert_eq!((code, errors.contains("of flash verified")), (Some(0), true), "{errors}");
+        assert!(firmware_flash(uno.avr()) == expected_firmware_flash());
+        pass(&mut uno, START_MS);
+        let expected = if has_program { [false, true, false] } else { [false; 3] };
+        assert_eq!(behaviour(&mut uno), expected, "after {command}");
+        let mode = if has_program { "mode RUN" } else { "mode STOP" };
+        let said = banner(&mut uno);
+        assert!(said.contains(mode) && said.contains("fault none"), "{said}");
+    }
+    assert!(slot_has(uno.avr(), FOLLOW));
+}
+
+#[test]
+fn a_program_with_errors_never_resets_the_board() {
+    let (folder, mut uno) = (folder(), board());
+    uno.load(&firmware_file()).unwrap();
+    uno.avr_mut().write_flash(SLOT_START.into(), &image(INVERT)).unwrap();
+    pass(&mut uno, START_MS);
+    assert_eq!(behaviour(&mut uno), [true, false, true]);
+    let before = uno.avr().flash().to_vec();
+    fs::write(folder.path().join("bad.awl"), "LD I0.9\n= Q0.0\n").unwrap();
+    let bad = awl_asm(&folder, &["bad.awl", "--flash", &uno.port().display().to_string(), "--with-firmware"]);
+    let mut was_always_on = true;
+    let (code, errors) = run(bad, || {
+        uno.step().unwrap();
+        was_always_on &= is_on(uno.avr());
+    });
+    assert_eq!((code, errors.contains("error[E0005]")), (Some(1), true), "{errors}");
+    assert!(was_always_on, "the program was interrupted");
+    assert!(uno.avr().flash() == before);
+}
+
+#[test]
+fn the_longest_program_fills_the_slot_and_nothing_more() {
+    let (folder, mut uno) = (folder(), board());
+    uno.load(&firmware_file()).unwrap();
+    let bootloader = uno.avr().flash()[usize::from(SLOT_START) + usize::from(SLOT_LEN)..].to_vec();
+    let mut longest = String::from("//# name longest\nLD I0.0\n= Q0.0\n");
+    while image(&longest).len() < usize::from(SLOT_LEN) - 200 {
+        longest.push_str(&"LD I0.1\nA M0.0\n= M0.1\n".repeat(20));
+    }
+    fs::write(folder.path().join("longest.awl"), &longest).unwrap();
+    let command = awl_asm(&folder, &["longest.awl", "--flash", &uno.port().display().to_string()]);
+    let (code, errors) = run_beside(&mut uno, command);
+    assert_eq!(code, Some(0), "{errors}");
+    assert!(slot_has(uno.avr(), &longest) && uno.avr().flash().ends_with(&bootloader));
+    assert!(firmware_flash(uno.avr()) == expected_firmware_flash());
+    pass(&mut uno, START_LONGEST_MS);
+    assert_eq!(behaviour_after(&mut uno, SCANS_LONGEST_MS), [false, true, false]);
+}
+
+/// Exit code and messages of `--flash` to a board with a flaw.
+fn flash_to(flaw: Flaw) -> (Option<i32>, String) {
+    let (folder, mut board) = (folder(), Responder::new(flaw).unwrap());
+    let command = awl_asm(&folder, &["follow.awl", "--flash", &board.port().display().to_string()]);
+    run(command, || {
+        board.step().unwrap();
+        wait();
+    })
+}
+
+#[test]
+fn boards_that_are_none_get_their_explanation() {
+    for (flaw, words, help) in [
+        (Flaw::NoBootloader, "no bootloader answers at", "press the reset button"),
+        (Flaw::OtherChip, "has another chip than an Uno: ATmega168", "ATmega328P at 16 MHz"),
+        (Flaw::WrongBytes, "holds something else than was written, first at 0x6000", "another cable"),
+    ] {
+        let (code, errors) = flash_to(flaw);
+        let is_explained = errors.starts_with("error: ") && errors.contains(words) && errors.contains(help);
+        assert_eq!((code, is_explained), (Some(2), true), "{flaw:?}: {errors}");
+        assert!(errors.contains("avrdude's last lines:\n  "), "{flaw:?}: {errors}");
+    }
+}
+
+#[test]
+fn a_port_that_is_none_gets_its_explanation() {
+    let folder = folder();
+    let (code, errors) = run(awl_asm(&folder, &["follow.awl", "--flash", "/dev/no-such-port"]), wait);
+    assert_eq!((code, errors.starts_with("error: there is no port /dev/no-such-port")), (Some(2), true), "{errors}");
+    let (code, errors) = run(awl_asm(&folder, &["follow.awl", "--flash", "follow.awl"]), wait);
+    assert_eq!((code, errors.starts_with("error: follow.awl is no serial port")), (Some(2), true), "{errors}");
+}
