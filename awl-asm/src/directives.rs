@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::suggest::{Suggester, nearby_address};
 use crate::symbols::{SymbolTable, check_name, read_value};
 
-const WORDS: [&str; 7] = ["pullup", "invert", "retain", "watchdog", "scan", "name", "symbol"];
+const WORDS: [&str; 8] = ["pullup", "invert", "retain", "watchdog", "scan", "filter", "name", "symbol"];
 
 /// Whether a comment is a setting, whatever stands before it.
 pub(crate) fn is_setting(comment: &str) -> bool {
@@ -23,6 +23,7 @@ type Outcome<T> = Result<T, Box<Diagnostic>>;
 pub(crate) struct Directives {
     watchdog: Option<Span>,
     scan: Option<Span>,
+    filter: Option<Span>,
     name: Option<Span>,
 }
 
@@ -121,6 +122,11 @@ impl Directives {
                 let ms = time(word, values, 0)?;
                 once(&mut self.scan, line, word)?;
                 program.settings.scan_ms = ms;
+            }
+            () if is("filter") => {
+                let power = filter(values)?;
+                once(&mut self.filter, line, word)?;
+                program.settings.filter = power;
             }
             () if is("name") => {
                 let name = name(word, values)?;
@@ -350,6 +356,13 @@ fn time(word: Piece<'_>, value: Piece<'_>, min: u32) -> Outcome<u16> {
         Ok(time) if ms >= min && time <= max => Ok(time),
         _ => Err(value.error(format!("the time for {} is {min} to {max} ms", word.text.to_ascii_lowercase()))),
     }
+}
+
+/// The number of samples, as a power of two.
+fn filter(value: Piece<'_>) -> Outcome<u8> {
+    let samples = value.text.parse::<u32>().ok();
+    let power = (0..=Settings::FILTER_MAX).find(|&power| samples == Some(1 << power));
+    power.ok_or_else(|| value.error("a filter has 1, 2, 4, 8, 16, 32 or 64 samples"))
 }
 
 fn name(word: Piece<'_>, value: Piece<'_>) -> Outcome<String> {

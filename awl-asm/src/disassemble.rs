@@ -134,6 +134,9 @@ fn settings<P: ProgramMemory>(program: &Program<P>, text: &mut String) {
     if settings.scan_ms != 0 {
         let _ = writeln!(text, "//# scan {}ms", settings.scan_ms);
     }
+    if settings.filter != 0 {
+        let _ = writeln!(text, "//# filter {}", 1u32 << settings.filter);
+    }
     // A line each: their order and number are part of the image.
     for range in plan.retained() {
         let _ = writeln!(text, "//# retain {}", retained_text(range));

@@ -5,12 +5,12 @@ use super::*;
 #[test]
 fn settings() {
     let program = good_program(
-        "//# pullup I0.0-I0.2, I0.5\n  //#invert I0.3, Q0.0 - Q0.4 // relays\n//# WATCHDOG 2 s\n//# scan 10ms\n\
+        "//# pullup I0.0-I0.2, I0.5\n  //#invert I0.3, Q0.0 - Q0.4 // relays\n//# WATCHDOG 2 s\n//# scan 10ms\n//# filter 16\n\
          //# name \"Station 1\"\n//################\n//#1 is a comment\n//#\n// # pullup x\nLD I0.0 //# foo",
     );
     let settings = program.settings;
     assert_eq!((settings.pullup, settings.invert_inputs, settings.invert_outputs), (0b100111, 0b1000, 0b11111));
-    assert_eq!((settings.watchdog_ms, settings.scan_ms), (2000, 10));
+    assert_eq!((settings.watchdog_ms, settings.scan_ms, settings.filter), (2000, 10, 4));
     assert_eq!(program.name.as_deref(), Some("Station 1"));
     assert_eq!(good_program("//# name Station 1 // x").name.as_deref(), Some("Station 1"));
     assert_eq!(good_program("//# scan 0ms").settings.scan_ms, 0);

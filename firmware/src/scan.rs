@@ -50,6 +50,8 @@ pub struct Uno {
     self_test: SelfTest,
     times: ScanTimes,
     scan_start_ms: u32,
+    /// Whether the last scan ended in RUN.
+    is_running: bool,
     /// As bytes, like everywhere on the board.
     fault_before_reset: [u8; 4],
 }
@@ -70,12 +72,14 @@ impl Uno {
             self_test: SelfTest::STARTING,
             times: ScanTimes::NONE,
             scan_start_ms: 0,
+            is_running: false,
             fault_before_reset: Fault::NONE,
         }
     }
 
     /// Power has come: loads the program and goes to RUN, unless there is none or a fault of before forbids it.
     pub fn power_up(&mut self) {
+        analog::wait_for_all();
         self.load();
         let Some((fault, holds)) = fault_memory::recall() else { return self.run() };
         self.fault_before_reset = fault;
@@ -93,7 +97,12 @@ impl Uno {
         if is_erased {
             return;
         }
-        if self.plc.load(self.memory, ProgramSlot).is_err() {
+        // A long program takes longer than the watchdog waits. Outputs are off.
+        watchdog::stop();
+        let loaded = self.plc.load(self.memory, ProgramSlot);
+        watchdog::start();
+        if let Err(error) = loaded {
+            self.plc.fail(Fault::BadImage(error));
             return self.remember_fault();
         }
         self.self_test = SelfTest::STARTING;
@@ -101,19 +110,26 @@ impl Uno {
         let plan = program.plan();
         self.settings = plan.header.settings;
         self.ports.set_pullups(self.settings.pullup);
+        analog::set_filter(self.settings.filter);
         if self.retention.restore(plan, self.memory, &self.eeprom) {
             self.plc.retentive_data_lost();
         }
     }
 
     fn run(&mut self) {
-        if matches!(self.plc.fault(), Some(Fault::BadImage(_) | Fault::ProgramChanged)) {
+        if self.is_program_in_doubt() {
             self.load();
         }
-        if self.plc.mode() == Mode::Stop && self.plc.run() {
+        if self.plc.mode() == Mode::Stop && !self.is_program_in_doubt() && self.plc.run() {
             self.times = ScanTimes::NONE;
             self.scan_start_ms = clock::now_ms().wrapping_sub(u32::from(self.settings.scan_ms));
         }
+    }
+
+    /// Whether what is in flash may not be the program that was checked, which may still be in force.
+    fn is_program_in_doubt(&self) -> bool {
+        let fault = self.plc.fault();
+        matches!(fault, Some(Fault::BadImage(_) | Fault::ProgramChanged | Fault::UndefinedInstruction { .. }))
     }
 
     /// One scan.
@@ -124,7 +140,7 @@ impl Uno {
         trace::mark(Mark::ScanStart);
         let (start_us, start_ms) = (clock::now_us(), clock::now_ms());
         self.read_inputs();
-        let was_running = self.plc.mode() == Mode::Run;
+        let executes = self.plc.mode() == Mode::Run;
         self.plc.execute(self.memory, &mut ScanTime::starting(start_ms, self.settings.watchdog_ms));
         self.communicate();
         if let Some(fault) = self.self_test.step(self.plc.program()) {
@@ -132,12 +148,14 @@ impl Uno {
         }
         let runs = self.plc.mode() == Mode::Run;
         // After the change to RUN the pins wait for the end of a first scan.
-        self.write_outputs(was_running && runs);
-        if was_running && !runs {
+        self.write_outputs(executes && runs);
+        let has_stopped = (self.is_running || executes) && !runs;
+        self.is_running = runs;
+        if has_stopped {
             self.remember_fault();
         }
-        self.keep(was_running && !runs);
-        if was_running {
+        self.keep(has_stopped);
+        if executes {
             self.times.enter(clock::now_us().wrapping_sub(start_us));
         }
         let fault = self.plc.fault().filter(|_| !runs);

@@ -85,7 +85,7 @@ fn faults_of_the_header() {
     assert_eq!(fault_with(0, b"X"), Some(ImageFault::Magic));
     assert_eq!(fault_with(4, &[2]), Some(ImageFault::Version));
     assert_eq!(fault_with(5, &[1]), Some(ImageFault::Flags));
-    assert_eq!(fault_with(31, &[1]), Some(ImageFault::Flags));
+    assert_eq!(fault_with(31, &[7]), Some(ImageFault::Settings));
     assert_eq!(fault_with(8, &[0xFF, 0xFF]), Some(ImageFault::Length), "code longer than the image");
     assert_eq!(fault_with(18, &[0xFF, 0xFF]), Some(ImageFault::Length), "more timers than bytes");
     assert_eq!(fault_with(10, &[1]), Some(ImageFault::Plan), "another arena than the tables need");

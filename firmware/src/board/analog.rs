@@ -7,6 +7,7 @@ use avr_device::interrupt::{self, CriticalSection, Mutex};
 use plc_isa::ANALOG_INPUTS;
 
 const CHANNELS: usize = ANALOG_INPUTS as usize;
+const ALL_CHANNELS: u8 = (1 << CHANNELS) - 1;
 /// Supply voltage as reference.
 const REFERENCE_AVCC: u8 = 1 << 6;
 
@@ -16,6 +17,9 @@ static UNO200_ANALOG: Mutex<[Cell<u16>; CHANNELS]> = Mutex::new([const { Cell::n
 /// A bit for each input with a value that has not been taken yet.
 #[unsafe(no_mangle)]
 static UNO200_ANALOG_FRESH: Mutex<Cell<u8>> = Mutex::new(Cell::new(0));
+/// The sum that smooths each input, and how many samples it holds, as a power of two.
+static SUMS: Mutex<[Cell<u16>; CHANNELS]> = Mutex::new([const { Cell::new(0) }; CHANNELS]);
+static FILTER: Mutex<Cell<u8>> = Mutex::new(Cell::new(0));
 static CHANNEL: Mutex<Cell<u8>> = Mutex::new(Cell::new(0));
 
 /// Switches the converter on.
@@ -37,8 +41,11 @@ pub fn take_and_start_next(cs: CriticalSection<'_>) {
     // SAFETY: after `start` only this interrupt uses the converter.
     let adc = unsafe { Peripherals::steal() }.ADC;
     let channel = CHANNEL.borrow(cs).get();
-    if let Some(value) = UNO200_ANALOG.borrow(cs).get(usize::from(channel)) {
-        value.set(adc.adc().read().bits());
+    let (values, sums, filter) = (UNO200_ANALOG.borrow(cs), SUMS.borrow(cs), FILTER.borrow(cs).get());
+    if let (Some(value), Some(sum)) = (values.get(usize::from(channel)), sums.get(usize::from(channel))) {
+        // A sample replaces its share of the sum; 64 samples of 10 bits are 16 bits.
+        sum.set(sum.get() - (sum.get() >> filter) + adc.adc().read().bits());
+        value.set(sum.get() >> filter);
     }
     let fresh = UNO200_ANALOG_FRESH.borrow(cs);
     fresh.set(fresh.get() | 1 << channel);
@@ -47,6 +54,21 @@ pub fn take_and_start_next(cs: CriticalSection<'_>) {
     // SAFETY: as in `start`; the channel is 0 to 5.
     adc.admux().write(|w| unsafe { w.bits(REFERENCE_AVCC | next) });
     adc.adcsra().modify(|_, w| w.adsc().set_bit());
+}
+
+/// Waits until every input has been converted once, 7 ms: for the start, so that the first scan sees no zeros.
+pub fn wait_for_all() {
+    while interrupt::free(|cs| UNO200_ANALOG_FRESH.borrow(cs).get()) != ALL_CHANNELS {}
+}
+
+/// Smooths over 2 to the power of `filter` samples from now on, beginning with the values of now.
+pub fn set_filter(filter: u8) {
+    interrupt::free(|cs| {
+        FILTER.borrow(cs).set(filter);
+        for (sum, value) in SUMS.borrow(cs).iter().zip(UNO200_ANALOG.borrow(cs)) {
+            sum.set(value.get() << filter);
+        }
+    });
 }
 
 /// Hands out the raw counts of every input that has a new value.

@@ -3,7 +3,7 @@
 use crate::image::ProgramMemory;
 use crate::operand::{Kind, Operand, Raw, Relation};
 use crate::table::{Op, StackEffect};
-use crate::tokens::{Entry, OPERANDS_MAX};
+use crate::tokens::{Fetched, OPERANDS_MAX};
 
 /// Why bytes are no instruction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,14 +31,18 @@ pub struct Decoded {
 
 /// Decodes the instruction at offset `pc` without executing it.
 pub fn decode<P: ProgramMemory>(code: &P, pc: u16) -> Result<Decoded, DecodeError> {
-    let entry = Entry::of_instruction(code, pc).ok_or(DecodeError::UndefinedToken)?;
-    let (raw, next) = entry.operands(code, pc);
+    let mut fetched = Fetched::nothing();
+    if !fetched.fetch(code, pc) {
+        return Err(DecodeError::UndefinedToken);
+    }
+    let (next, raw) = (fetched.next, fetched.operands);
     if next > code.len() || next <= pc {
         return Err(DecodeError::Truncated);
     }
-    let mut decoded = Decoded { op: entry.op, stack: entry.stack, len: next - pc, kinds: [None; OPERANDS_MAX], raw };
+    let mut decoded =
+        Decoded { op: fetched.op, stack: fetched.stack, len: next - pc, kinds: [None; OPERANDS_MAX], raw };
     for (index, (place, &raw)) in decoded.kinds.iter_mut().zip(&raw).enumerate() {
-        *place = entry.kind(code, index);
+        *place = fetched.kind(code, index);
         match *place {
             // One encoding for one instruction: modes are 0 or 1, byte constants have no high byte.
             Some(Kind::AnyInt) if raw.tag > 1 => return Err(DecodeError::Malformed),

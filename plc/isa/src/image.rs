@@ -217,7 +217,14 @@ impl Header {
             place.copy_from_slice(&word.to_le_bytes());
         }
         let settings = &self.settings;
-        let tail = [settings.pullup, settings.invert_inputs, settings.invert_outputs, self.retained, self.name_len, 0];
+        let tail = [
+            settings.pullup,
+            settings.invert_inputs,
+            settings.invert_outputs,
+            self.retained,
+            self.name_len,
+            settings.filter,
+        ];
         bytes[26..].copy_from_slice(&tail);
         bytes
     }
@@ -251,7 +258,7 @@ impl Header {
         if !crc.is_complete() {
             return error(ImageFault::Crc, total_len - CRC_LEN);
         }
-        if memory.byte(5) != 0 || memory.byte(31) != 0 {
+        if memory.byte(5) != 0 {
             return error(ImageFault::Flags, 5);
         }
         Ok(())
@@ -266,9 +273,12 @@ impl Header {
             *word = memory.word(place);
         }
         let [code_len, arena_len, edges, labels, v_ranges, timers, counters, watchdog_ms, scan_ms] = words;
-        let [pullup, invert_inputs, invert_outputs, retained, name_len] =
-            [memory.byte(26), memory.byte(27), memory.byte(28), memory.byte(29), memory.byte(30)];
-        let settings = Settings { pullup, invert_inputs, invert_outputs, watchdog_ms, scan_ms };
+        let mut bytes = [0; 6];
+        for (place, byte) in (26..).zip(&mut bytes) {
+            *byte = memory.byte(place);
+        }
+        let [pullup, invert_inputs, invert_outputs, retained, name_len, filter] = bytes;
+        let settings = Settings { pullup, invert_inputs, invert_outputs, watchdog_ms, scan_ms, filter };
         Header {
             total_len,
             code_len,

@@ -18,21 +18,33 @@ pub struct Settings {
     pub watchdog_ms: u16,
     /// Fixed time from scan start to scan start in milliseconds; 0: the next scan starts at once.
     pub scan_ms: u16,
+    /// Analog inputs are smoothed over 2 to the power of this many samples, 0..=6; 0: not at all.
+    pub filter: u8,
 }
 
 impl Settings {
     /// Of a program that asks for nothing.
-    pub const DEFAULT: Settings =
-        Settings { pullup: 0, invert_inputs: 0, invert_outputs: 0, watchdog_ms: DEFAULT_WATCHDOG_MS, scan_ms: 0 };
+    pub const DEFAULT: Settings = Settings {
+        pullup: 0,
+        invert_inputs: 0,
+        invert_outputs: 0,
+        watchdog_ms: DEFAULT_WATCHDOG_MS,
+        scan_ms: 0,
+        filter: 0,
+    };
 
     /// Longest watchdog time and scan period, in milliseconds.
     pub const TIME_MAX_MS: u16 = 60_000;
+
+    /// Strongest filter: 64 samples, which is what 16 bits hold of 10-bit counts.
+    pub const FILTER_MAX: u8 = 6;
 
     pub(crate) fn is_valid(&self) -> bool {
         let inputs = (1 << crate::layout::DIGITAL_INPUTS) - 1;
         let outputs = (1 << crate::layout::DIGITAL_OUTPUTS) - 1;
         (1..=Self::TIME_MAX_MS).contains(&self.watchdog_ms)
             && self.scan_ms <= Self::TIME_MAX_MS
+            && self.filter <= Self::FILTER_MAX
             && self.pullup & !inputs == 0
             && self.invert_inputs & !inputs == 0
             && self.invert_outputs & !outputs == 0

@@ -8,7 +8,7 @@ use crate::image::ProgramMemory;
 use crate::operand::{
     Bit, ByteSource, Kind, MODE_MEMORY, OfRaw, Operand, OperandKind, OperandReader, Raw, Relation, WordSource, kinds,
 };
-use crate::tokens::{Entry, OPERANDS_MAX};
+use crate::tokens::{Fetched, OPERANDS_MAX};
 
 /// The token that announces a second token byte.
 pub const WIDE_PREFIX: u8 = 0xFE;
@@ -175,25 +175,27 @@ macro_rules! instruction_table {
         /// kinds, as the decoder does, sources by their addresses, and there is one arm for an instruction instead of
         /// one for a form.
         pub fn execute_compact<E: Execute, P: ProgramMemory>(engine: &mut E, code: &P, pc: u16) -> Flow {
-            let Some(entry) = Entry::of_instruction(code, pc) else { return engine.undefined() };
-            let (mut raw, next) = entry.operands(code, pc);
-            for (index, operand) in raw.iter_mut().enumerate() {
-                match entry.kind(code, index) {
-                    Some(Kind::Byte | Kind::AnyByte) if operand.tag == MODE_MEMORY => {
-                        operand.value = u16::from(engine.byte_at(operand.value));
-                    }
-                    Some(Kind::Word | Kind::AnyInt) if operand.tag == MODE_MEMORY => {
-                        operand.value = engine.word_at(operand.value);
-                    }
-                    Some(_) => {}
-                    None => break,
+            let mut fetched = Fetched::nothing();
+            if !fetched.fetch(code, pc) {
+                return engine.undefined();
+            }
+            for index in 0..OPERANDS_MAX {
+                let kind = fetched.kind(code, index);
+                let (Some(kind), Some(operand)) = (kind, fetched.operands.get_mut(index)) else { break };
+                if operand.tag != MODE_MEMORY {
+                    continue;
+                }
+                match kind {
+                    Kind::Byte | Kind::AnyByte => operand.value = u16::from(engine.byte_at(operand.value)),
+                    Kind::Word | Kind::AnyInt => operand.value = engine.word_at(operand.value),
+                    _ => {}
                 }
             }
-            let mut raw = RawOperands { raw: &raw, next: 0 };
-            let flow = match entry.op {
+            let mut raw = RawOperands { raw: &fetched.operands, next: 0 };
+            let flow = match fetched.op {
                 $( Op::$op => { $( let $arg = <$value>::of_value(raw.take()); )* engine.$method( $( $arg ),* ) } )+
             };
-            go_on(flow, next)
+            go_on(flow, fetched.next)
         }
 
         impl Op {

@@ -73,55 +73,67 @@ const fn with_entry(
     table
 }
 
-/// What a token says about its instruction.
+/// An instruction as it stands in the code: what its token says, and its operands. Filled in place, because on the
+/// board every copy costs more than what is copied.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Entry {
+pub(crate) struct Fetched {
     pub op: Op,
     pub stack: StackEffect,
-    /// The token's distance from the first one of its form.
-    in_token: u8,
-    /// Bytes of the token: 1, or 2 behind the prefix.
-    token_len: u8,
+    /// The operands, as many as there are kinds.
+    pub operands: [Raw; OPERANDS_MAX],
+    /// Offset of the first byte behind the instruction.
+    pub next: u16,
     /// Where the numbers of the operands' kinds stand in the table; 0 ends them.
     kinds_at: u16,
 }
 
-impl Entry {
-    /// The entry of the instruction at `pc`; `None` for a token that is not in the table.
-    pub fn of_instruction<P: ProgramMemory>(code: &P, pc: u16) -> Option<Entry> {
-        let (mut token, mut token_len, mut index_at) = (code.byte(pc), 1, 0);
+impl Fetched {
+    /// Nothing yet. No constant: the board would keep it in SRAM to copy it from there.
+    #[inline(always)]
+    pub fn nothing() -> Fetched {
+        Fetched {
+            op: Op::MainEnd,
+            stack: StackEffect { needs: 0, adds: 0 },
+            operands: [Raw::ZERO; OPERANDS_MAX],
+            next: 0,
+            kinds_at: 0,
+        }
+    }
+
+    /// Fetches the instruction at `pc`. Returns whether its token is in the table.
+    pub fn fetch<P: ProgramMemory>(&mut self, code: &P, pc: u16) -> bool {
+        let (mut token, mut operands_at, mut index_at) = (code.byte(pc), pc.wrapping_add(1), 0);
         if token == WIDE_PREFIX {
-            (token, token_len, index_at) = (code.byte(pc.wrapping_add(1)), 2, 256);
+            (token, operands_at, index_at) = (code.byte(operands_at), pc.wrapping_add(2), 256);
             if usize::from(token) >= WIDE_TOKENS {
-                return None;
+                return false;
             }
         }
-        let entry = code.token_table(index_at + u16::from(token)).checked_sub(1)?;
-        let at = ENTRIES_AT as u16 + u16::from(entry) * ENTRY_LEN as u16;
+        let entry = code.token_table(index_at + u16::from(token));
+        if entry == 0 {
+            return false;
+        }
+        let at = ENTRIES_AT as u16 + u16::from(entry - 1) * ENTRY_LEN as u16;
+        let Some(op) = Op::of_number(code.token_table(at + 1)) else { return false };
+        self.op = op;
+        self.stack = StackEffect { needs: code.token_table(at + 2), adds: code.token_table(at + 3) as i8 };
+        self.kinds_at = at + 4;
         let in_token = token.wrapping_sub(code.token_table(at));
-        let op = Op::of_number(code.token_table(at + 1))?;
-        let stack = StackEffect { needs: code.token_table(at + 2), adds: code.token_table(at + 3) as i8 };
-        Some(Entry { op, stack, in_token, token_len, kinds_at: at + 4 })
+        let mut reader = OperandReader::new(code, pc, operands_at, in_token);
+        for index in 0..OPERANDS_MAX {
+            let (Some(kind), Some(operand)) = (self.kind(code, index), self.operands.get_mut(index)) else { break };
+            *operand = kind.read_raw(&mut reader);
+        }
+        self.next = reader.position();
+        true
     }
 
     /// The kind of operand `index`, if there are so many.
+    #[inline]
     pub fn kind<P: ProgramMemory>(&self, code: &P, index: usize) -> Option<Kind> {
         if index >= OPERANDS_MAX {
             return None;
         }
         Kind::of_number(code.token_table(self.kinds_at + index as u16))
-    }
-
-    /// The operands of the instruction at `pc`, and the offset behind it.
-    pub fn operands<P: ProgramMemory>(&self, code: &P, pc: u16) -> ([Raw; OPERANDS_MAX], u16) {
-        let mut reader = OperandReader::new(code, pc, pc.wrapping_add(u16::from(self.token_len)), self.in_token);
-        let mut operands = [Raw::ZERO; OPERANDS_MAX];
-        for (index, operand) in operands.iter_mut().enumerate() {
-            match self.kind(code, index) {
-                Some(kind) => *operand = kind.read_raw(&mut reader),
-                None => break,
-            }
-        }
-        (operands, reader.position())
     }
 }

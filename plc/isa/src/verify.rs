@@ -10,7 +10,7 @@ use crate::operand::{Kind, Raw};
 use crate::plan::{Plan, Region, TimerKind};
 use crate::stack::STACK_LEVELS;
 use crate::table::Op;
-use crate::tokens::{Entry, OPERANDS_MAX};
+use crate::tokens::Fetched;
 
 /// Deepest nesting of FOR (reference 1.8).
 pub const LOOPS_MAX: usize = 8;
@@ -153,19 +153,21 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
     fn run(&mut self) -> Result<(), (ImageFault, u16)> {
         let plan = self.plan;
         let (mut at, end) = (plan.code_at(), plan.header.total_len - CRC_LEN);
+        let mut fetched = Fetched::nothing();
         loop {
             // Behind the code stands the checksum, which is not to be read as an instruction.
             if at >= end {
                 return Err((ImageFault::Truncated, at));
             }
-            let entry = Entry::of_instruction(&plan.memory, at).ok_or((ImageFault::UndefinedToken, at))?;
-            let (operands, next) = entry.operands(&plan.memory, at);
-            if next > end {
+            if !fetched.fetch(&plan.memory, at) {
+                return Err((ImageFault::UndefinedToken, at));
+            }
+            if fetched.next > end {
                 return Err((ImageFault::Truncated, at));
             }
-            self.instruction(&entry, &operands, at, next).map_err(|fault| (fault, at))?;
-            at = next;
-            if entry.op == Op::MainEnd {
+            self.instruction(&fetched, at).map_err(|fault| (fault, at))?;
+            at = fetched.next;
+            if fetched.op == Op::MainEnd {
                 break;
             }
         }
@@ -181,32 +183,26 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
         Err((fault, at))
     }
 
-    fn instruction(
-        &mut self,
-        entry: &Entry,
-        operands: &[Raw; OPERANDS_MAX],
-        at: u16,
-        next: u16,
-    ) -> Result<(), ImageFault> {
-        let mut needs = entry.stack.needs;
+    fn instruction(&mut self, fetched: &Fetched, at: u16) -> Result<(), ImageFault> {
+        let mut needs = fetched.stack.needs;
         // The last one first: a count stands behind what it counts.
         let mut count = 1;
-        for (index, &raw) in operands.iter().enumerate().rev() {
-            let Some(kind) = entry.kind(&self.plan.memory, index) else { continue };
+        for (index, &raw) in fetched.operands.iter().enumerate().rev() {
+            let Some(kind) = fetched.kind(&self.plan.memory, index) else { continue };
             match kind {
                 Kind::Count => count = raw.value,
                 Kind::Level => needs = needs.saturating_add(raw.value as u8),
                 _ => {}
             }
-            self.operand(entry.op, kind, raw, count)?;
+            self.operand(fetched.op, kind, raw, count)?;
         }
         ensure(self.depth >= needs, ImageFault::StackUnderflow)?;
-        self.depth = match entry.op {
+        self.depth = match fetched.op {
             // Where control comes from two sides only the top of the stack is certain.
             Op::Lbl | Op::For | Op::Next => 1,
-            _ => self.depth.saturating_add_signed(entry.stack.adds).min(STACK_LEVELS),
+            _ => self.depth.saturating_add_signed(fetched.stack.adds).min(STACK_LEVELS),
         };
-        self.control(entry.op, operands, at, next)
+        self.control(fetched, at)
     }
 
     fn operand(&self, op: Op, kind: Kind, raw: Raw, count: u16) -> Result<(), ImageFault> {
@@ -256,8 +252,8 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
         ensure(!kind.is_output() || region.is_writable(), ImageFault::ReadOnly)
     }
 
-    fn control(&mut self, op: Op, operands: &[Raw; OPERANDS_MAX], at: u16, next: u16) -> Result<(), ImageFault> {
-        match op {
+    fn control(&mut self, fetched: &Fetched, at: u16) -> Result<(), ImageFault> {
+        match fetched.op {
             Op::Lbl => {
                 let listed = self.next_label < self.plan.header.labels && self.plan.label(self.next_label as u8) == at;
                 self.next_label += 1;
@@ -265,7 +261,7 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
             }
             Op::For => {
                 let place = self.loops.get_mut(self.open_loops).ok_or(ImageFault::Loop)?;
-                let [_, _, _, end] = operands;
+                let [_, _, _, end] = fetched.operands;
                 *place = Loop { start: at, end: end.value };
                 self.open_loops += 1;
                 Ok(())
@@ -273,8 +269,8 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
             Op::Next => {
                 self.open_loops = self.open_loops.wrapping_sub(1);
                 let open = self.loops.get(self.open_loops);
-                let [start, ..] = operands;
-                ensure(open.is_some_and(|open| open.end == next && open.start == start.value), ImageFault::Loop)
+                let [start, ..] = fetched.operands;
+                ensure(open.is_some_and(|open| open.end == fetched.next && open.start == start.value), ImageFault::Loop)
             }
             _ => Ok(()),
         }
