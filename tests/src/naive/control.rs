@@ -79,8 +79,9 @@ impl Naive {
 
     fn enter_loop(&mut self, at: usize, instruction: &Instruction) -> Go {
         let [indx, init, last] = &instruction.operands[..] else { panic!("FOR has three operands") };
-        self.write_word_operand(indx, self.word_operand(init));
-        if self.word_operand(indx) > self.word_operand(last) {
+        let (init, last) = (self.word_operand(init), self.word_operand(last));
+        self.write_word_operand(indx, init);
+        if init > last {
             return Go::To(self.matching_next(at) + 1);
         }
         Go::Next
