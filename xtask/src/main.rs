@@ -1,7 +1,8 @@
-//! Tasks of the repository: `cargo xtask demo`, `test`, `bench`, `docs`. Nothing here is shipped.
+//! Tasks of the repository: `cargo xtask demo`, `test`, `firmware`, `board` and so on. Nothing here is shipped.
 
 mod avr;
 mod bench;
+mod board;
 mod budgets;
 mod demo;
 mod docs;
@@ -9,6 +10,7 @@ mod firmware;
 mod packages;
 mod process;
 mod rules;
+mod size;
 mod test;
 
 use std::process::ExitCode;
@@ -27,9 +29,9 @@ struct Arguments {
 enum Task {
     /// A sorting station runs its AWL program: timeline, counts, timing diagram.
     Demo,
-    /// Everything that must hold: format, lints, rules, tests, the board's compiler.
+    /// Everything that must hold: format, lints, rules, tests on host and virtual board, budgets.
     Test {
-        /// Leave out what needs the AVR toolchain; the last line says so.
+        /// Leave out what needs the AVR toolchain or the virtual board; the last line says so.
         #[arg(long)]
         host_only: bool,
     },
@@ -37,6 +39,14 @@ enum Task {
     Bench,
     /// Builds the firmware for the Uno: target/firmware/uno200.elf and uno200.hex.
     Firmware,
+    /// Flash, SRAM and stack of the firmware, compared with their budgets.
+    Size,
+    /// Starts a virtual Uno on a pseudo-terminal and prints its port.
+    Board {
+        /// It has the firmware already.
+        #[arg(long)]
+        with_firmware: bool,
+    },
     /// Writes the generated files in docs.
     Docs {
         /// Only compare, and fail if it would change.
@@ -51,6 +61,8 @@ fn main() -> ExitCode {
         Task::Test { host_only } => test::run(host_only),
         Task::Bench => bench::run(),
         Task::Firmware => firmware::build().map(|elf| println!("{} and .hex", elf.display())),
+        Task::Size => size::run(),
+        Task::Board { with_firmware } => board::start(with_firmware),
         Task::Docs { check } => docs::run(check),
     };
     match result {

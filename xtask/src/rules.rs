@@ -19,12 +19,18 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("awl-asm", &["plc-isa"]),
     ("simavr", &[]),
     ("awl-sim", &["plc-isa", "plc-vm", "awl-asm", "simavr"]),
-    ("tests", &["plc-isa", "plc-vm", "awl-asm", "awl-sim"]),
+    ("virtual-uno", &["simavr"]),
+    ("tests", &["plc-isa", "plc-vm", "awl-asm", "awl-sim", "simavr", "virtual-uno"]),
     ("xtask", &["plc-isa", "plc-vm", "awl-asm", "awl-sim"]),
 ];
 
-/// The one manifest with lints of its own: a C library needs unsafe code, in one module and explained.
-const OWN_LINTS: &str = "sim/simavr/Cargo.toml";
+/// Manifests with lints of their own: hardware and a C library need unsafe code.
+const OWN_LINTS: [&str; 2] = ["sim/simavr/Cargo.toml", "firmware/Cargo.toml"];
+
+/// Where unsafe code may be.
+const UNSAFE_ALLOWED: [&str; 3] = ["firmware/src/board/", "firmware/src/engine/", "sim/simavr/src/ffi"];
+/// Within how many lines above it the reason must stand.
+const SAFETY_LINES: usize = 6;
 
 /// Checks all rules and names every breach.
 pub fn check() -> Result<()> {
@@ -76,10 +82,30 @@ fn file_breaches(file: &str, text: &str) -> Vec<String> {
         if text.contains(concat!("#[", "ignore")) {
             breaches.push(format!("{file}: an ignored test is no test"));
         }
+        breaches.extend(unsafe_breaches(file, text));
     }
-    let is_member = file.ends_with("Cargo.toml") && file.contains('/') && file != OWN_LINTS;
+    let is_member = file.ends_with("Cargo.toml") && file.contains('/') && !OWN_LINTS.contains(&file);
     if is_member && !text.contains("[lints]\nworkspace = true") {
         breaches.push(format!("{file}: does not take the workspace's lints"));
+    }
+    breaches
+}
+
+/// Unsafe code stands in few places, each with the reason why it is sound.
+fn unsafe_breaches(file: &str, text: &str) -> Vec<String> {
+    let lines: Vec<&str> = text.lines().collect();
+    let code = |line: &str| line.split("//").next().unwrap_or_default().to_string();
+    let begins_unsafe = |line: &str| {
+        [concat!("un", "safe {"), concat!("un", "safe impl")].iter().any(|words| code(line).contains(words))
+    };
+    let mut breaches = Vec::new();
+    for (index, _) in lines.iter().enumerate().filter(|(_, line)| begins_unsafe(line)) {
+        if !UNSAFE_ALLOWED.iter().any(|place| file.starts_with(place)) {
+            breaches.push(format!("{file}:{}: unsafe code is not allowed here", index + 1));
+        }
+        if !lines[index.saturating_sub(SAFETY_LINES)..index].iter().any(|line| line.contains("SAFETY:")) {
+            breaches.push(format!("{file}:{}: no SAFETY line says why this is sound", index + 1));
+        }
     }
     breaches
 }
