@@ -143,7 +143,9 @@ impl Uno {
         let executes = self.plc.mode() == Mode::Run;
         self.plc.execute(self.memory, &mut ScanTime::starting(start_ms, self.settings.watchdog_ms));
         self.communicate();
-        if let Some(fault) = self.self_test.step(self.plc.program()) {
+        let found = self.self_test.step(self.plc.program());
+        // What is in flash is known to be bad then, and the first fault says how.
+        if let Some(fault) = found.filter(|_| !self.is_program_in_doubt()) {
             self.plc.fail(fault);
         }
         let runs = self.plc.mode() == Mode::Run;

@@ -1,8 +1,14 @@
 //! What the tests of all machines share: cases, a naive evaluator of AWL, random programs, broken texts.
 
+#[cfg(feature = "uno")]
+pub mod bench_board;
 pub mod case;
 pub mod effort;
+#[cfg(feature = "uno")]
+pub mod flash_responder;
 pub mod forms;
+#[cfg(feature = "uno")]
+pub mod lockstep;
 pub mod mutate;
 pub mod naive;
 pub mod random;

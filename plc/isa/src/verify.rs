@@ -105,7 +105,7 @@ fn v_ranges_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
         let end = first.saturating_add(len);
         let valid = first >= least && len > 0 && end <= Area::V.size();
         // Adjacent ranges would be one range.
-        least = end + 1;
+        least = end.saturating_add(1);
         valid
     })
 }
