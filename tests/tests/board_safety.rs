@@ -1,0 +1,375 @@
+//! What the shipped firmware promises about safety, on a simulated Uno: whatever is wrong, the outputs are released.
+//!
+//! Serial line and settings have files of their own; what the program's instructions do is a matter of `lockstep`.
+#![cfg(feature = "uno")]
+
+use awl_asm::assemble::assemble;
+use awl_asm::source::Source;
+use fastrand::Rng;
+use plc_isa::{CRC_LEN, DATA_END, DATA_START, HEADER_LEN, M_START, MAGIC, SLOT_LEN, SM_START};
+use plc_vm::Fault;
+use simavr::Reset;
+use tests::bench_board::{BenchBoard, MS, example, image};
+
+/// All outputs on, in every scan.
+const ALL_ON: &str = "//# name on\nLD SM0.0\n= Q0.0\n= Q0.1\n= Q0.2\n= Q0.3\n= Q0.4\n= Q0.5\n";
+
+/// Asserts that a bad image does not run for so many scans, and that the fault says so.
+fn assert_refused(board: &mut BenchBoard, scans: usize, what: &str) {
+    for _ in 0..scans {
+        assert!(board.is_released(), "{what}: outputs driven");
+        board.scan();
+        assert!(!board.runs(), "{what}: RUN");
+    }
+    assert!(board.is_released(), "{what}: outputs driven");
+    assert!(matches!(board.fault(), Some(Fault::BadImage(_))), "{what}: {:?}", board.fault());
+}
+
+#[test]
+fn a_program_with_any_byte_changed_never_runs() {
+    let mut board = BenchBoard::new();
+    for name in ["station1", "motor", "traffic_light"] {
+        let image = example(name);
+        board.insert(&image);
+        board.power_up();
+        board.scans(2);
+        assert!(board.runs() && board.outputs().is_some(), "{name}: {:?}", board.fault());
+        for (at, &byte) in image.iter().enumerate() {
+            for flip in [0xFF, 1 << (at % 8)] {
+                board.slot()[at] = byte ^ flip;
+                board.power_up();
+                assert_refused(&mut board, 100, &format!("{name}, byte {at} ^ {flip:#04x}"));
+            }
+            board.slot()[at] = byte;
+        }
+    }
+}
+
+/// From the end of the watchdog time to the released outputs: the scan's start may be up to a millisecond after the
+/// tick that counts as its start, the program looks at the clock once a pass, the rest of the scan follows.
+const WATCHDOG_TOLERANCE_MS: u64 = 1;
+
+/// Loops as long as I0.0 is on, and has all outputs on before.
+fn endless(settings: &str, wdr: &str) -> String {
+    format!("{settings}{ALL_ON}LBL 1\nLD SM0.0\n{wdr}\nLD I0.0\nJMP 1\n")
+}
+
+/// The place of the last instruction in the image: the jump back.
+fn place_of_jump(program: &str) -> u32 {
+    let assembly = assemble(&Source::new("bench", program).expect("a source"), Vec::new());
+    assembly.lines.last().expect("there are instructions").at
+}
+
+/// Milliseconds until the watchdog ends a scan of this program.
+fn time_of_watchdog(program: &str, ms_max: u64) -> f64 {
+    let mut board = BenchBoard::running(program);
+    assert_eq!(board.outputs(), Some(0x3F));
+    board.drive_inputs(1);
+    board.to_scan_start();
+    let cycles = board.run_until(100, ms_max * MS, |board| board.is_released());
+    let end = board.scan();
+    assert!(end.cycles() - cycles < MS / 2, "the outputs are released with the end of the scan");
+    let Some(Fault::Watchdog { at }) = board.fault() else { panic!("{:?}", board.fault()) };
+    assert_eq!((board.runs(), u32::from(at)), (false, place_of_jump(program)));
+    assert_run_starts_again(&mut board);
+    cycles as f64 / MS as f64
+}
+
+/// RUN brings the same fault again as long as the loop is endless, and goes on when it is not.
+fn assert_run_starts_again(board: &mut BenchBoard) {
+    board.drive_inputs(0);
+    let said = board.ask(b"status\r");
+    assert!(said.contains("mode STOP") && said.contains("fault watchdog at 0x"), "{said}");
+    assert!(board.is_released());
+    let said = board.ask(b"run\r");
+    assert!(said.contains("mode RUN") && board.runs() && board.outputs() == Some(0x3F), "{said}");
+    assert_eq!(board.fault(), None);
+}
+
+fn assert_time(found_ms: f64, wanted_ms: u64) {
+    let tolerance = WATCHDOG_TOLERANCE_MS as f64;
+    println!("watchdog of {wanted_ms} ms: outputs released after {found_ms:.3} ms");
+    assert!((found_ms - wanted_ms as f64).abs() <= tolerance, "{found_ms} ms instead of {wanted_ms} ms");
+}
+
+#[test]
+fn an_endless_loop_ends_after_the_watchdog_time() {
+    assert_time(time_of_watchdog(&endless("", ""), 1_000), 500);
+    assert_time(time_of_watchdog(&endless("//# watchdog 50ms\n", ""), 1_000), 50);
+}
+
+#[test]
+fn wdr_puts_the_watchdog_off_but_not_for_ever() {
+    assert_time(time_of_watchdog(&endless("//# watchdog 50ms\n", "WDR"), 61_000), 60_000);
+}
+
+#[test]
+fn a_division_by_zero_is_told_and_the_program_goes_on() {
+    let program = "LD SM0.0\nMOVW 7, MW0\n/I MW2, MW0\n= Q0.1\nLD SM1.3\n= Q0.0\nLD SM0.0\nINCW MW4\n";
+    let mut board = BenchBoard::running(program);
+    for scan in 1..100 {
+        assert_eq!(board.byte(SM_START + 1) >> 3, 1, "SM1.3, which INCW leaves alone");
+        assert_eq!((board.outputs(), board.word(M_START), board.word(M_START + 4)), (Some(3), 7, scan));
+        board.scan();
+        assert!(board.runs());
+    }
+}
+
+/// As long as the slot allows: loops eight deep with counters and timers inside, nine levels of the logic stack, and
+/// instructions of every chapter, retained values too.
+fn longest_program() -> String {
+    let mut program = "//# name longest-possible-program\n//# retain VB0-VB99, C0-C9\nLD SM0.0\n".to_string();
+    (0..8).for_each(|level| program += &format!("FOR VW{}, 1, 1\n", 2 * level));
+    program += "LD I0.0\nLD I0.1\nLD I0.2\nCTUD C0, 2\nLD SM0.0\nTON T32, 100\nTOF T33, 10\nTONR T5, VW20\n";
+    (0..9).for_each(|level| program += &format!("LD M0.{}\n", level % 8));
+    program += "ALD\nOLD\n= Q0.0\n";
+    program += &"NEXT\n".repeat(8);
+    let rest = "LD SM0.0\nMOVW AIW0, VW30\n/I 7, VW30\n*I VW30, VW32\nS M2.0, 9\nR C3, 2\nLDW>= VW30, VW32\nEU\n\
+        = Q0.1\nLD I0.3\nLD I0.4\nCTU C4, VW30\nLD I0.5\nTON T37, 20\n";
+    // Each repetition takes the same place.
+    let bytes = |program: &str| image(program).len();
+    let (once, twice) = (bytes(&(program.clone() + rest)), bytes(&(program.clone() + rest + rest)));
+    program += &rest.repeat((usize::from(SLOT_LEN) - once) / (twice - once) + 1);
+    let left = usize::from(SLOT_LEN) - bytes(&program);
+    program + &"= M9.0\n".repeat(left / 2)
+}
+
+/// Bytes between stack and variables that must stay unused.
+const STACK_SPARE_MIN: usize = 128;
+
+#[test]
+fn the_stack_keeps_away_from_the_variables() {
+    let (mut board, image) = (BenchBoard::new(), image(&longest_program()));
+    assert!(image.len() + 4 > usize::from(SLOT_LEN), "{} bytes are not the longest program", image.len());
+    board.insert(&image);
+    let start = board.avr.cycles();
+    board.power_up();
+    let start_ms = (board.avr.cycles() - start) / MS;
+    for inputs in [0x00, 0x3F, 0x15, 0x2A] {
+        board.drive_inputs(inputs);
+        for command in [&b"status\r"[..], b"version\r", b"what?\r", b"stop\r", b"status\r", b"run\r", b"\xFF\xFE\r"] {
+            board.ask(command);
+        }
+        assert!(board.runs(), "{:?}", board.fault());
+    }
+    let (unused, said) = (board.unused_stack(), board.ask(b"status\r"));
+    println!("{} bytes of program: start {start_ms} ms, {unused} bytes of stack never used\n{said}", image.len());
+    assert!(said.contains(&format!("stack free {unused}\r\n")), "{said}");
+    assert!(unused >= STACK_SPARE_MIN, "only {unused} bytes between stack and variables");
+}
+
+/// Counts first scans and scans, and fills memory.
+const COUNT_STARTS: &str = "//# name starts\nLD SM0.1\nINCW MW0\nLD SM0.3\nINCW MW4\nLD SM0.0\nINCW MW2\nMOVW -1, VW0\n\
+    MOVW -1, VW90\nS M10.0, 100\nTON T37, 1\nLD SM0.6\nLD SM0.0\nLD SM0.1\nCTUD C0, 5\nLD SM0.0\nS Q0.0, 6\n";
+
+#[test]
+fn a_reset_at_any_time_releases_the_outputs_and_starts_anew() {
+    let (mut board, mut rng) = (BenchBoard::running(COUNT_STARTS), Rng::with_seed(1));
+    let after_power_up = board.avr.data()[usize::from(DATA_START)..usize::from(DATA_END)].to_vec();
+    for round in 0..300 {
+        board.scans(2);
+        assert_eq!(board.outputs(), Some(0x3F), "round {round}");
+        board.avr.run_for(rng.u64(..10_000));
+        // Whatever the program has left.
+        let left = [rng.u8(..); (DATA_END - DATA_START) as usize];
+        board.write(DATA_START, &left);
+        board.avr.reset(Reset::External);
+        // Until the outputs are written at the end of the first scan, which is where a scan is called ended.
+        while board.outputs().is_none() {
+            assert!(!board.drives(), "round {round}: outputs driven before the end of the first scan");
+            board.run_on(8);
+        }
+        let found = &board.avr.data()[usize::from(DATA_START)..usize::from(DATA_END)];
+        assert_eq!(found, after_power_up, "round {round}: something is left in memory");
+        assert_eq!([0, 2, 4].map(|byte| board.word(M_START + byte)), [1, 1, 1], "round {round}: no first scan");
+        board.scan();
+        assert_eq!((board.runs(), board.fault()), (true, None), "round {round}");
+    }
+}
+
+/// Longest time from a hang to released outputs: the hardware watchdog counts 65,536 cycles of its 128 kHz, which are
+/// exact in simavr, and some of the firmware's.
+const HANG_MS_MAX: u64 = 513;
+/// From there to the reset. The firmware asks for 2,048 cycles, 16 ms, which simavr takes for its next period only.
+const HANG_TO_RESET_MS_MAX: u64 = 513;
+
+/// The board hangs from now on until `mend` has been called. It must release its outputs, reset itself, and stay in
+/// STOP until somebody says RUN.
+fn assert_hang_is_caught(board: &mut BenchBoard, mend: impl FnOnce(&mut BenchBoard)) {
+    let released = board.run_until(100, HANG_MS_MAX * MS, |board| board.is_released());
+    // What it does in there is wait for its reset.
+    board.avr.run_for(MS);
+    mend(board);
+    // It writes zeros over the status as it starts.
+    let (status, start) = (board.stack_limit(), board.avr.cycles());
+    board.write(status, &[0]);
+    board.run_until(100, HANG_TO_RESET_MS_MAX * MS, |board| board.byte(status) != 0);
+    let reset = board.avr.cycles() - start + MS;
+    println!("outputs released {} ms after the hang, reset {} ms later", released / MS, reset / MS);
+    for _ in 0..100 {
+        board.scan();
+        assert_eq!((board.runs(), board.fault()), (false, Some(Fault::Hang)));
+        assert!(board.is_released());
+    }
+    board.scans_for(30);
+    let said = board.heard();
+    assert!(said.contains("mode STOP\r\n") && said.contains("fault hang\r\n"), "{said}");
+    let said = board.ask(b"run\r");
+    assert!(said.contains("mode RUN") && board.runs() && board.outputs() == Some(0x3F), "{said}");
+    board.avr.reset(Reset::External);
+    board.scans_for(30);
+    let said = board.heard();
+    assert!(said.contains("mode RUN\r\n") && said.contains("fault none, before the reset hang\r\n"), "{said}");
+    assert_eq!((board.runs(), board.fault(), board.outputs()), (true, None, Some(0x3F)));
+}
+
+/// Enables the interrupt that counts the milliseconds: register and bit.
+const TICK_INTERRUPT: (u16, u8) = (0x6E, 1 << 1);
+
+#[test]
+fn a_clock_that_stands_still_is_caught() {
+    let mut board = BenchBoard::running(ALL_ON);
+    board.scans_for(200);
+    let (register, bit) = TICK_INTERRUPT;
+    let value = board.byte(register) & !bit;
+    board.write(register, &[value]);
+    assert_hang_is_caught(&mut board, |_| {});
+}
+
+#[test]
+fn a_firmware_that_hangs_is_caught() {
+    let mut board = BenchBoard::running(ALL_ON);
+    board.scans_for(200);
+    board.to_scan_start();
+    // A jump to itself, with interrupts and the clock going on.
+    let place = board.avr.pc() as usize..board.avr.pc() as usize + 2;
+    let instruction = board.avr.flash()[place.clone()].to_vec();
+    board.avr.flash_mut()[place.clone()].copy_from_slice(&[0xFF, 0xCF]);
+    assert_hang_is_caught(&mut board, |board| board.avr.flash_mut()[place].copy_from_slice(&instruction));
+}
+
+/// Scans until a changed byte has certainly been seen: the checksum takes a byte a scan and a scan for the comparison.
+/// The byte may have been passed just before, so that this pass and the next one are needed.
+fn scans_of_two_passes(len: usize) -> usize {
+    2 * (len + 1)
+}
+
+#[test]
+fn a_program_that_changes_in_flash_is_seen_in_time() {
+    let (mut board, image) = (BenchBoard::new(), image(ALL_ON));
+    let scans_max = scans_of_two_passes(image.len());
+    board.insert(&image);
+    board.power_up();
+    let mut longest = 0;
+    // Of bytes that do not matter for its execution: the name, and the checksum itself.
+    let (name, crc) = (usize::from(HEADER_LEN), image.len() - usize::from(CRC_LEN)..image.len());
+    for (round, at) in [name, name + 1].into_iter().chain(crc).enumerate() {
+        board.scans(7 + round * image.len() / 6);
+        assert!(board.runs());
+        board.slot()[at] ^= 1;
+        let scans = (1..=scans_max).find(|_| {
+            assert_eq!(board.outputs(), Some(0x3F));
+            board.scan();
+            !board.runs()
+        });
+        longest = longest.max(scans.expect("the change is seen"));
+        assert_eq!((board.fault(), board.is_released()), (Some(Fault::ProgramChanged), true));
+        let said = board.ask(b"RUN\r");
+        assert!(said.contains("mode STOP") && board.is_released(), "byte {at}: {said}");
+        assert_refused(&mut board, scans_max, "RUN with the changed program");
+        board.slot()[at] ^= 1;
+        let said = board.ask(b"RUN\r");
+        assert!(said.contains("mode RUN") && board.outputs() == Some(0x3F), "{said}");
+    }
+    println!("{} bytes: seen after at most {longest} scans, {scans_max} are allowed", image.len());
+}
+
+#[test]
+fn a_program_erased_under_way_does_not_start_again() {
+    let mut board = BenchBoard::running(ALL_ON);
+    board.slot().fill(0xFF);
+    board.scans(scans_of_two_passes(image(ALL_ON).len()));
+    assert!(!board.runs() && board.fault().is_some() && board.is_released());
+    let said = board.ask(b"run\r");
+    assert!(said.contains("mode STOP") && !board.runs() && board.is_released(), "{said}");
+}
+
+/// Whatever a changed instruction does until the checksum sees it, the PLC comes to STOP and the firmware lives on.
+#[test]
+fn any_change_while_running_ends_in_stop() {
+    let image = example("motor");
+    let mut board = BenchBoard::new();
+    for at in 0..image.len() {
+        board.insert(&image);
+        board.power_up();
+        board.scans(2);
+        assert!(board.runs());
+        board.slot()[at] ^= 0xFF;
+        board.scans(scans_of_two_passes(image.len()));
+        assert!(!board.runs() && board.is_released(), "byte {at}");
+        let fault = board.fault();
+        let is_seen = matches!(fault, Some(Fault::ProgramChanged | Fault::UndefinedInstruction { .. }));
+        assert!(is_seen, "byte {at}: {fault:?}");
+        assert!(board.ask(b"status\r").contains("mode STOP"), "byte {at}");
+    }
+}
+
+#[test]
+fn a_stack_that_reaches_the_variables_stops_the_plc() {
+    let mut board = BenchBoard::running(ALL_ON);
+    for offset in 0..4 {
+        board.scans(100);
+        assert_eq!(board.outputs(), Some(0x3F));
+        let canary = board.stack_limit() + offset;
+        board.write(canary, &[0]);
+        board.scan();
+        assert_eq!((board.runs(), board.fault(), board.is_released()), (false, Some(Fault::StackOverflow), true));
+        board.say(b"run\r");
+        for _ in 0..50 {
+            board.scan();
+            assert!(board.is_released() && !board.runs(), "RUN with a broken stack");
+        }
+        assert_eq!(board.fault(), Some(Fault::StackOverflow));
+        board.reset();
+        board.scan();
+        assert_eq!((board.runs(), board.fault()), (true, None), "after a reset");
+    }
+}
+
+#[test]
+fn without_a_program_the_board_waits() {
+    let mut board = BenchBoard::new();
+    board.power_up();
+    for _ in 0..1_000 {
+        board.scan();
+        assert_eq!((board.runs(), board.fault(), board.is_released()), (false, None, true));
+    }
+    for command in [&b"status\r"[..], b"run\r\rstatus\r"] {
+        let said = board.ask(command);
+        let is_right = ["mode STOP\r\n", "program none\r\n", "fault none\r\n"].iter().all(|line| said.contains(line));
+        assert!(is_right && board.is_released(), "{said}");
+    }
+}
+
+#[test]
+fn garbage_in_the_slot_never_runs() {
+    let (mut board, mut rng) = (BenchBoard::new(), Rng::with_seed(1));
+    let motor = example("motor");
+    for round in 0..200 {
+        let mut slot = [0; SLOT_LEN as usize];
+        rng.fill(&mut slot);
+        match round % 4 {
+            1 => slot[..MAGIC.len()].copy_from_slice(&MAGIC),
+            2 => slot[..usize::from(HEADER_LEN)].copy_from_slice(&motor[..usize::from(HEADER_LEN)]),
+            3 => slot[..motor.len() - 1].copy_from_slice(&motor[..motor.len() - 1]),
+            _ => {}
+        }
+        assert_ne!(slot[..motor.len()], motor);
+        board.insert(&slot);
+        board.power_up();
+        assert_refused(&mut board, 20, &format!("round {round}"));
+        let said = board.ask(b"run\r");
+        assert!(said.contains("mode STOP"), "round {round}: {said}");
+        assert_refused(&mut board, 20, &format!("round {round}, RUN"));
+    }
+}
