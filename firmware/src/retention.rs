@@ -10,20 +10,25 @@ use plc_vm::Memory;
 use crate::board::clock;
 use crate::board::eeprom::Eeprom;
 
-/// Saves of one byte that the EEPROM is good for, spread over ten years, in milliseconds for a single copy.
-const TEN_YEARS_MS_PER_COPY: u32 = 3_155_760;
+/// Ten years for each of the 100,000 times that a byte of the EEPROM can be written: between two writes of one copy.
+const COPY_INTERVAL_MS: u32 = 3_155_760;
 /// However many copies there are, changes are saved no more often.
 const INTERVAL_MIN_MS: u32 = 60_000;
-/// Values compared, or bytes looked at before one is written, in a scan.
+/// Bytes compared, or looked at before one is written, in a scan.
 const BYTES_PER_SCAN: u8 = 4;
+/// Bytes of a sequence number, which begins a copy.
+const SEQUENCE_LEN: u16 = 2;
 
-/// What is being done.
+/// What is being done, a little in every scan.
 #[derive(Clone, Copy)]
-enum State {
+enum Phase {
+    /// Nothing valid was found. What others have left is erased, so that none of it is ever taken for the last copy.
+    /// The first copy waits for the end of a scan, which has seen that values were lost.
+    Erasing,
     /// Looks for values that differ from the last copy.
-    Comparing { walk: RetainedWalk, place: u16 },
-    /// Writes the snapshot; so many bytes of the copy are done.
-    Writing { offset: u16, crc: Crc32 },
+    Comparing,
+    /// Writes the snapshot.
+    Writing,
 }
 
 /// The retained values of a program.
@@ -32,17 +37,21 @@ pub struct Retention {
     len: u16,
     /// Checksum of what the values are: begins the checksum of every copy.
     identity: Crc32,
-    /// Copies in the ring.
-    copies: u16,
-    /// The copy that is or was written last.
+    /// Where the copy begins that is or was written last.
     copy: u16,
     /// Its sequence number.
     sequence: u16,
     saved_ms: u32,
     interval_ms: u32,
-    /// RUN has ended: changes are saved without delay.
-    is_urgent: bool,
-    state: State,
+    phase: Phase,
+    /// Bytes that the phase is done with.
+    done: u16,
+    /// How far the comparison has come.
+    walk: RetainedWalk,
+    /// Checksum of what is written of the copy.
+    crc: Crc32,
+    /// A scan has been executed since the values were lost.
+    has_run: bool,
 }
 
 impl Retention {
@@ -52,13 +61,15 @@ impl Retention {
         Retention {
             len: 0,
             identity: Crc32::new(),
-            copies: 0,
             copy: 0,
             sequence: 0,
             saved_ms: 0,
             interval_ms: 0,
-            is_urgent: false,
-            state: State::Comparing { walk: RetainedWalk::START, place: 0 },
+            phase: Phase::Comparing,
+            done: 0,
+            walk: RetainedWalk::START,
+            crc: Crc32::new(),
+            has_run: false,
         }
     }
 
@@ -70,23 +81,18 @@ impl Retention {
             return false;
         }
         self.identity = plan.retained_identity();
-        self.copies = RETENTION_LEN.checked_div(self.copy_len()).unwrap_or(0);
-        let interval_ms = TEN_YEARS_MS_PER_COPY.checked_div(u32::from(self.copies)).unwrap_or(0);
-        self.interval_ms = interval_ms.max(INTERVAL_MIN_MS);
-        // The first change is saved at once.
-        self.saved_ms = clock::now_ms().wrapping_sub(self.interval_ms);
         // A write that a reset has interrupted goes on.
         while !eeprom.is_ready() {}
         let is_lost = !self.find_last(eeprom);
-        if !is_lost {
-            self.read_back(plan, memory, eeprom);
-        }
-        self.take_snapshot(plan, memory);
-        self.is_urgent = false;
-        self.state = State::Comparing { walk: RetainedWalk::START, place: plan.end() };
+        // The first change is saved at once.
+        self.saved_ms = clock::now_ms().wrapping_sub(self.interval_ms);
+        self.has_run = false;
         if is_lost {
-            // The next power-up finds a copy even if nothing changes until then.
-            self.begin(plan, memory);
+            self.enter(Phase::Erasing);
+        } else {
+            self.read_back(plan, memory, eeprom);
+            self.take_snapshot(plan, memory);
+            self.enter(Phase::Comparing);
         }
         is_lost
     }
@@ -95,136 +101,143 @@ impl Retention {
         self.len + RETENTION_OVERHEAD
     }
 
-    fn address(&self, offset: u16) -> u16 {
-        self.copy * self.copy_len() + offset
-    }
-
-    /// Looks for the newest complete copy.
+    /// Looks for the newest complete copy. The number of copies there can be gives the time between two.
     fn find_last(&mut self, eeprom: &Eeprom) -> bool {
-        let mut newest = None;
-        for copy in 0..self.copies {
-            self.copy = copy;
-            let Some(sequence) = self.complete(eeprom) else { continue };
-            // Sequence numbers wrap; all in the ring lie close together.
-            if newest.is_none_or(|(_, other): (u16, u16)| (sequence.wrapping_sub(other) as i16) > 0) {
-                newest = Some((copy, sequence));
+        let (mut copies, mut found) = (0, false);
+        (self.copy, self.sequence) = (0, 0);
+        let (mut at, len) = (0, self.copy_len());
+        while at + len <= RETENTION_LEN {
+            let mut crc = self.identity;
+            for address in at..at + len {
+                crc.byte(eeprom.read(address));
             }
+            let sequence = u16::from_le_bytes([eeprom.read(at), eeprom.read(at + 1)]);
+            // Sequence numbers wrap; all in the ring lie close together.
+            let is_newer = !found || sequence.wrapping_sub(self.sequence) as i16 > 0;
+            if crc.is_complete() && is_newer {
+                (self.copy, self.sequence, found) = (at, sequence, true);
+            }
+            at += len;
+            copies += 1;
         }
-        (self.copy, self.sequence) = newest.unwrap_or((0, 0));
-        newest.is_some()
-    }
-
-    /// The sequence number of the current copy, if its checksum is right.
-    fn complete(&self, eeprom: &Eeprom) -> Option<u16> {
-        let mut crc = self.identity;
-        for offset in 0..self.copy_len() {
-            crc.byte(eeprom.read(self.address(offset)));
-        }
-        crc.is_complete().then(|| u16::from_le_bytes([eeprom.read(self.address(0)), eeprom.read(self.address(1))]))
+        self.interval_ms = COPY_INTERVAL_MS.checked_div(copies).unwrap_or(0).max(INTERVAL_MIN_MS);
+        found
     }
 
     fn read_back<P: ProgramMemory>(&self, plan: &Plan<P>, memory: &mut Memory, eeprom: &Eeprom) {
-        let (mut walk, mut offset) = (RetainedWalk::START, 2);
-        while let Some(address) = walk.next(plan) {
-            memory.set_byte(address, eeprom.read(self.address(offset)));
-            offset += 1;
+        let (mut walk, mut from) = (RetainedWalk::START, self.copy + SEQUENCE_LEN);
+        while let Some((address, len)) = walk.next(plan, u16::MAX) {
+            for to in address..address + len {
+                memory.set_byte(to, eeprom.read(from));
+                from += 1;
+            }
         }
     }
 
     /// The values of this moment, behind the program's memory.
+    #[inline(never)]
     fn take_snapshot<P: ProgramMemory>(&self, plan: &Plan<P>, memory: &mut Memory) {
         let (mut walk, mut place) = (RetainedWalk::START, plan.end());
-        while let Some(address) = walk.next(plan) {
-            memory.set_byte(place, memory.byte(address));
-            place += 1;
+        while let Some((address, len)) = walk.next(plan, u16::MAX) {
+            memory.copy_up(address, place, len);
+            place += len;
         }
     }
 
-    /// A little work in every scan. `at_once`: RUN has ended, changes are saved without delay.
+    fn enter(&mut self, phase: Phase) {
+        self.phase = phase;
+        self.done = 0;
+        self.walk = RetainedWalk::START;
+        self.crc = self.identity;
+    }
+
+    /// A little work after a scan, in which the program `was_executed` or not. Out of RUN changes are saved at once.
     #[inline(never)]
-    pub fn step<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory, eeprom: &Eeprom, at_once: bool) {
-        if self.len == 0 {
-            return;
-        }
-        if at_once {
-            self.is_urgent = true;
-        }
-        match self.state {
-            // Values compared before the end of RUN may have changed since.
-            State::Comparing { .. } if at_once => self.compare(plan, memory, RetainedWalk::START, plan.end()),
-            State::Comparing { walk, place } => {
-                let waited_ms = clock::now_ms().wrapping_sub(self.saved_ms);
-                if self.is_urgent || waited_ms >= self.interval_ms {
-                    self.compare(plan, memory, walk, place);
-                }
-            }
-            State::Writing { offset, crc } if eeprom.is_ready() => self.write(plan, memory, eeprom, offset, crc),
-            State::Writing { .. } => {}
-        }
-    }
-
-    fn compare<P: ProgramMemory>(
+    pub fn step<P: ProgramMemory>(
         &mut self,
         plan: &Plan<P>,
         memory: &mut Memory,
-        mut walk: RetainedWalk,
-        mut place: u16,
+        eeprom: &Eeprom,
+        was_executed: bool,
+        runs: bool,
     ) {
-        for _ in 0..BYTES_PER_SCAN {
-            let Some(address) = walk.next(plan) else {
-                self.is_urgent = false;
-                self.state = State::Comparing { walk: RetainedWalk::START, place: plan.end() };
-                return;
-            };
-            if memory.byte(address) != memory.byte(place) {
+        if self.len == 0 {
+            return;
+        }
+        self.has_run |= was_executed;
+        match self.phase {
+            Phase::Comparing => {
+                let waited_ms = clock::now_ms().wrapping_sub(self.saved_ms);
+                if !runs || waited_ms >= self.interval_ms {
+                    self.compare(plan, memory);
+                }
+            }
+            _ if !eeprom.is_ready() => {}
+            Phase::Erasing => self.erase(plan, memory, eeprom),
+            Phase::Writing => self.write(plan, memory, eeprom),
+        }
+    }
+
+    fn compare<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory) {
+        let Some((address, len)) = self.walk.next(plan, u16::from(BYTES_PER_SCAN)) else {
+            return self.enter(Phase::Comparing);
+        };
+        for offset in 0..len {
+            if memory.byte(address + offset) != memory.byte(plan.end() + self.done) {
                 return self.begin(plan, memory);
             }
-            place += 1;
+            self.done += 1;
         }
-        self.state = State::Comparing { walk, place };
+    }
+
+    fn erase<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory, eeprom: &Eeprom) {
+        for _ in 0..BYTES_PER_SCAN {
+            if self.done == RETENTION_LEN {
+                if self.has_run {
+                    self.begin(plan, memory);
+                }
+                return;
+            }
+            self.done += 1;
+            if eeprom.update(self.done - 1, 0xFF) {
+                return;
+            }
+        }
     }
 
     /// Begins the next copy.
     #[inline(never)]
     fn begin<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory) {
         self.take_snapshot(plan, memory);
-        self.copy = if self.copy + 1 < self.copies { self.copy + 1 } else { 0 };
+        self.copy += self.copy_len();
+        if self.copy + self.copy_len() > RETENTION_LEN {
+            self.copy = 0;
+        }
         self.sequence = self.sequence.wrapping_add(1);
         self.saved_ms = clock::now_ms();
-        self.state = State::Writing { offset: 0, crc: self.identity };
+        self.enter(Phase::Writing);
     }
 
     /// Goes on with the copy: over bytes that are right already up to one that is written.
-    fn write<P: ProgramMemory>(
-        &mut self,
-        plan: &Plan<P>,
-        memory: &Memory,
-        eeprom: &Eeprom,
-        mut offset: u16,
-        mut crc: Crc32,
-    ) {
-        let values_end = 2 + self.len;
+    fn write<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &Memory, eeprom: &Eeprom) {
+        let values_end = SEQUENCE_LEN + self.len;
         for _ in 0..BYTES_PER_SCAN {
-            if offset == self.copy_len() {
-                self.state = State::Comparing { walk: RetainedWalk::START, place: plan.end() };
-                return;
+            if self.done == self.copy_len() {
+                return self.enter(Phase::Comparing);
             }
-            let byte = match offset {
+            let byte = match self.done {
                 0 => self.sequence as u8,
                 1 => (self.sequence >> 8) as u8,
-                _ if offset < values_end => memory.byte(plan.end() + offset - 2),
-                _ => (crc.value() >> (8 * (offset - values_end))) as u8,
+                done if done < values_end => memory.byte(plan.end() + done - SEQUENCE_LEN),
+                done => self.crc.value().to_le_bytes().get(usize::from(done - values_end)).copied().unwrap_or(0),
             };
-            if offset < values_end {
-                crc.byte(byte);
+            if self.done < values_end {
+                self.crc.byte(byte);
             }
-            let address = self.address(offset);
-            offset += 1;
-            if eeprom.read(address) != byte {
-                eeprom.start_write(address, byte);
-                break;
+            self.done += 1;
+            if eeprom.update(self.copy + self.done - 1, byte) {
+                return;
             }
         }
-        self.state = State::Writing { offset, crc };
     }
 }

@@ -1,6 +1,6 @@
 //! The scan: inputs, program, communication, self-test, outputs; and the way between RUN and STOP.
 
-use plc_isa::{AnalogInput, I_START, ProgramMemory, Settings};
+use plc_isa::{AnalogInput, CRC_LEN, I_START, ProgramMemory, Settings};
 use plc_vm::{Fault, Memory, Mode, Plc};
 
 use crate::board::eeprom::Eeprom;
@@ -50,8 +50,8 @@ pub struct Uno {
     self_test: SelfTest,
     times: ScanTimes,
     scan_start_ms: u32,
-    /// Whether the last scan ended in RUN.
-    is_running: bool,
+    /// RUN was asked for: the next scan is its first. Within a scan RUN can end, but not begin.
+    is_run_requested: bool,
     /// As bytes, like everywhere on the board.
     fault_before_reset: [u8; 4],
 }
@@ -72,17 +72,21 @@ impl Uno {
             self_test: SelfTest::STARTING,
             times: ScanTimes::NONE,
             scan_start_ms: 0,
-            is_running: false,
+            is_run_requested: false,
             fault_before_reset: Fault::NONE,
         }
     }
 
     /// Power has come: loads the program and goes to RUN, unless there is none or a fault of before forbids it.
     pub fn power_up(&mut self) {
+        // Before loading, which may have a fault of its own to remember.
+        let (fault, holds) = fault_memory::recall().unwrap_or((Fault::NONE, false));
+        self.fault_before_reset = fault;
         analog::wait_for_all();
         self.load();
-        let Some((fault, holds)) = fault_memory::recall() else { return self.run() };
-        self.fault_before_reset = fault;
+        if self.plc.fault().is_some() {
+            return;
+        }
         if holds {
             // Only these two hold.
             self.plc.fail(if fault == Fault::Panic.to_bytes() { Fault::Panic } else { Fault::Hang });
@@ -137,26 +141,24 @@ impl Uno {
     #[inline(never)]
     pub fn scan(&mut self) {
         self.wait_for_period();
+        if self.is_run_requested {
+            self.is_run_requested = false;
+            self.run();
+        }
         trace::mark(Mark::ScanStart);
         let (start_us, start_ms) = (clock::now_us(), clock::now_ms());
         self.read_inputs();
         let executes = self.plc.mode() == Mode::Run;
-        self.plc.execute(self.memory, &mut ScanTime::starting(start_ms, self.settings.watchdog_ms));
+        let fault = self.plc.fault();
+        self.execute(start_ms);
         self.communicate();
-        let found = self.self_test.step(self.plc.program());
-        // What is in flash is known to be bad then, and the first fault says how.
-        if let Some(fault) = found.filter(|_| !self.is_program_in_doubt()) {
-            self.plc.fail(fault);
-        }
+        self.test();
         let runs = self.plc.mode() == Mode::Run;
-        // After the change to RUN the pins wait for the end of a first scan.
-        self.write_outputs(executes && runs);
-        let has_stopped = (self.is_running || executes) && !runs;
-        self.is_running = runs;
-        if has_stopped {
+        self.write_outputs(runs);
+        if self.plc.fault() != fault {
             self.remember_fault();
         }
-        self.keep(has_stopped);
+        self.keep(executes, runs);
         if executes {
             self.times.enter(clock::now_us().wrapping_sub(start_us));
         }
@@ -164,6 +166,25 @@ impl Uno {
         trace::write_status(runs, fault.map_or(Fault::NONE, Fault::to_bytes));
         trace::mark(Mark::ScanEnd);
         watchdog::feed(clock::now_ms());
+    }
+
+    fn execute(&mut self, start_ms: u32) {
+        let mut time = ScanTime::starting(start_ms, self.settings.watchdog_ms);
+        self.plc.execute(self.memory, &mut time);
+        let Some(program) = self.plc.program().filter(|_| self.plc.mode() == Mode::Run) else { return };
+        // Only loops are watched while they run: what else took so long came to the end of the program.
+        if time.is_over(clock::now_ms()) {
+            let at = program.plan().header.total_len - CRC_LEN - 1;
+            self.plc.fail(Fault::Watchdog { at });
+        }
+    }
+
+    fn test(&mut self) {
+        let found = self.self_test.step(self.plc.program());
+        // What is in flash is known to be bad when the program is in doubt, and the first fault says how.
+        if let Some(fault) = found.filter(|_| !self.is_program_in_doubt()) {
+            self.plc.fail(fault);
+        }
     }
 
     /// With a fixed period: waits for the next one, and talks meanwhile. A scan that took longer starts at once.
@@ -203,9 +224,13 @@ impl Uno {
 
     fn communicate(&mut self) {
         match self.communication.receive(&mut self.serial) {
-            Some(Request::Run) => self.run(),
+            Some(Request::Run) => self.is_run_requested = true,
             Some(Request::Stop) => self.plc.stop(),
             None => {}
+        }
+        // The answer to `run` is what has become of it.
+        if self.is_run_requested {
+            return;
         }
         if let Some(line) = self.communication.next_line(&self.serial) {
             self.write_line(line);
@@ -237,10 +262,10 @@ impl Uno {
         report.end();
     }
 
-    /// Saves what is retained; `at_once` when RUN has just ended.
-    fn keep(&mut self, at_once: bool) {
-        if let Some(program) = self.plc.program() {
-            self.retention.step(program.plan(), self.memory, &self.eeprom, at_once);
+    /// Saves what is retained. A program that is in doubt is not asked what that is.
+    fn keep(&mut self, was_executed: bool, runs: bool) {
+        if let Some(program) = self.plc.program().filter(|_| !self.is_program_in_doubt()) {
+            self.retention.step(program.plan(), self.memory, &self.eeprom, was_executed, runs);
         }
     }
 

@@ -26,14 +26,18 @@ impl Eeprom {
         self.registers.eedr().read().bits()
     }
 
-    /// Starts to write a byte. Only when ready.
-    pub fn start_write(&self, address: u16, byte: u8) {
-        self.registers.eear().write(|w| w.set(address));
+    /// Starts to write a byte, unless it is there already. Only when ready. Returns whether a write is under way.
+    pub fn update(&self, address: u16, byte: u8) -> bool {
+        // This selects the address for the write, too.
+        if self.read(address) == byte {
+            return false;
+        }
         self.registers.eedr().write(|w| w.set(byte));
         // The second bit must follow the first within four cycles.
         interrupt::free(|_| {
             self.registers.eecr().write(|w| w.eempe().set_bit());
             self.registers.eecr().write(|w| w.eempe().set_bit().eepe().set_bit());
         });
+        true
     }
 }

@@ -16,12 +16,17 @@ pub mod texts;
 pub mod trace;
 pub mod watchdog;
 
+use core::cell::Cell;
+
 use avr_device::atmega328p::Peripherals;
+use avr_device::interrupt::{self, Mutex};
 use plc_vm::Memory;
 
 use eeprom::Eeprom;
 use ports::Ports;
 use serial::Serial;
+
+static TAKEN: Mutex<Cell<bool>> = Mutex::new(Cell::new(false));
 
 /// Everything there is one of.
 pub struct Board {
@@ -36,12 +41,15 @@ pub struct Board {
 }
 
 impl Board {
-    /// Sets the hardware up. Called once, at the start.
+    /// Sets the hardware up. At the start; a second time there is nothing to take, and the board resets.
     pub fn take() -> Board {
+        if interrupt::free(|cs| TAKEN.borrow(cs).replace(true)) {
+            watchdog::reset();
+        }
         // First: after its own reset the watchdog goes on with its shortest time.
         watchdog::stop();
         stack::paint();
-        // SAFETY: called once, before anything else touches a peripheral; interrupts take their own registers only.
+        // SAFETY: comes here once, before anything else touches a peripheral; interrupts take their own registers only.
         let peripherals = unsafe { Peripherals::steal() };
         let ports = Ports::new(peripherals.PORTB, peripherals.PORTD);
         analog::start();
@@ -49,7 +57,7 @@ impl Board {
         let serial = Serial::new(&peripherals.USART0);
         watchdog::start();
         // SAFETY: everything that interrupts share has been set up.
-        unsafe { avr_device::interrupt::enable() };
+        unsafe { interrupt::enable() };
         Board { ports, serial, eeprom: Eeprom::new(peripherals.EEPROM), memory: data::take() }
     }
 }

@@ -4,8 +4,11 @@ use crate::area::Area;
 use crate::crc::Crc32;
 use crate::image::{COUNTER_LEN, ProgramMemory, TIMER_LEN};
 use crate::layout::{COUNTER_SLOT_LEN, TIMER_SLOT_LEN};
-use crate::plan::Plan;
+use crate::plan::{Plan, Region};
 use crate::settings::Retained;
+
+/// Bytes of a current value.
+const VALUE_LEN: u16 = 2;
 
 /// A walk over the retained bytes of a plan, in the order of the ranges. Current values of timers and counters are
 /// retained where the program uses them.
@@ -17,52 +20,51 @@ pub struct RetainedWalk {
     address: u16,
     /// Bytes to come in this range.
     left: u16,
-    /// From one value to the next; 1 for single bytes.
-    stride: u16,
+    /// Bytes between two values; 0 in areas of bytes.
+    gap: u16,
 }
 
 impl RetainedWalk {
     /// Before the first byte.
-    pub const START: RetainedWalk = RetainedWalk { ranges: 0, address: 0, left: 0, stride: 1 };
+    pub const START: RetainedWalk = RetainedWalk { ranges: 0, address: 0, left: 0, gap: 0 };
 
-    /// The data address of the next byte; `None` at the end.
-    pub fn next<P: ProgramMemory>(&mut self, plan: &Plan<P>) -> Option<u16> {
-        while self.left == 0 {
+    /// The next bytes that lie side by side, at most `len_max`, which is at least 2: address and length. `None` at the
+    /// end. The length is 0 where the program uses nothing of a range, so that no call takes long.
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    pub fn next<P: ProgramMemory>(&mut self, plan: &Plan<P>, len_max: u16) -> Option<(u16, u16)> {
+        if self.left == 0 {
             let range = plan.retained_entry(u16::from(self.ranges))?;
             self.ranges += 1;
             self.enter(plan, range);
         }
-        let address = self.address;
-        self.left -= 1;
-        // Values have two bytes: after the second one to the next slot.
-        let is_last_byte = self.stride == 1 || self.left.is_multiple_of(2);
-        self.address += if is_last_byte && self.stride > 1 { self.stride - 1 } else { 1 };
-        Some(address)
+        let len_max = if self.gap == 0 { len_max } else { VALUE_LEN };
+        let (address, len) = (self.address, self.left.min(len_max));
+        self.left -= len;
+        self.address += len + self.gap;
+        Some((address, len))
     }
 
     fn enter<P: ProgramMemory>(&mut self, plan: &Plan<P>, range: Retained) {
-        let (table_at, entry_len, count) = match range.area {
-            Area::T => (plan.timers_at, TIMER_LEN, plan.header.timers),
-            Area::C => (plan.counters_at, COUNTER_LEN, plan.header.counters),
+        let (mut at, entry_len, count, start, slot_len) = match range.area {
+            Area::T => (plan.timers_at, TIMER_LEN, plan.header.timers, plan.timers_start, TIMER_SLOT_LEN),
+            Area::C => (plan.counters_at, COUNTER_LEN, plan.header.counters, plan.counters_start, COUNTER_SLOT_LEN),
             area => {
-                (self.stride, self.left) = (1, range.count);
+                (self.gap, self.left) = (0, range.count);
                 self.address = plan.byte_address(area, range.first).unwrap_or(0);
                 return;
             }
         };
-        (self.stride, self.address) = match range.area {
-            Area::T => (TIMER_SLOT_LEN, plan.timers_start),
-            _ => (COUNTER_SLOT_LEN, plan.counters_start),
-        };
+        (self.gap, self.address) = (slot_len - VALUE_LEN, start);
         // Slots ascend with their numbers: those of the range lie side by side.
-        let mut at = table_at;
         for _ in 0..count {
             let number = u16::from(plan.memory.byte(at));
             at += entry_len;
             if number < range.first {
-                self.address += self.stride;
+                self.address += slot_len;
             } else if number - range.first < range.count {
-                self.left += 2;
+                self.left += VALUE_LEN;
+            } else {
+                break;
             }
         }
     }
@@ -71,21 +73,24 @@ impl RetainedWalk {
 impl<P: ProgramMemory> Plan<P> {
     /// Bytes that are retained.
     pub fn retained_len(&self) -> u16 {
-        let (mut walk, mut len) = (RetainedWalk::START, 0u16);
-        while walk.next(self).is_some() {
-            len = len.saturating_add(1);
+        let (mut walk, mut sum) = (RetainedWalk::START, 0u16);
+        while let Some((_, len)) = walk.next(self, u16::MAX) {
+            sum = sum.saturating_add(len);
         }
-        len
+        sum
     }
 
-    /// A checksum of what the retained bytes are. Values saved under another one belong to something else. Timers and
-    /// counters take part only where any are retained: others may come and go.
+    /// A checksum of what the retained bytes are: the ranges, and which timers and counters in them the program uses.
+    /// Values that were saved under another one belong to something else.
     pub fn retained_identity(&self) -> Crc32 {
         let mut crc = Crc32::new();
         crc.bytes(&self.memory, self.retained_at, self.code_at());
-        let has_numbers = self.retained().any(|range| matches!(range.area, Area::T | Area::C));
-        if has_numbers {
-            crc.bytes(&self.memory, self.timers_at, self.labels_at);
+        let mut walk = RetainedWalk::START;
+        while let Some((address, len)) = walk.next(self, u16::MAX) {
+            let region = self.region(address).filter(|_| len > 0);
+            if let Some(Region::TimerValue(number) | Region::CounterValue(number)) = region {
+                crc.byte(number);
+            }
         }
         crc
     }

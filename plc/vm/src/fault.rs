@@ -19,7 +19,7 @@ pub enum Fault {
     },
     /// Self-test of the board: the program in flash is no longer the one that was checked.
     ProgramChanged,
-    /// Self-test of the board: the stack has grown into data memory.
+    /// Self-test of the board: the stack has grown into the firmware's variables.
     StackOverflow,
     /// The board's hardware watchdog: the firmware or its clock stood still.
     Hang,

@@ -55,6 +55,15 @@ impl Memory {
         }
     }
 
+    /// Copies bytes to an address behind them.
+    pub fn copy_up(&mut self, from: u16, to: u16, len: u16) {
+        let Some((below, above)) = self.bytes.split_at_mut_checked(index(to)) else { return };
+        let source = below.get(index(from)..).unwrap_or(&[]);
+        for (to, &from) in above.iter_mut().zip(source).take(usize::from(len)) {
+            *to = from;
+        }
+    }
+
     /// The word whose high byte is at an address.
     #[cfg_attr(target_arch = "avr", inline(never))]
     #[cfg_attr(not(target_arch = "avr"), inline(always))]

@@ -14,7 +14,7 @@ pub(super) fn text(fault: Fault, limit_ms: u64, place_of: &PlaceOf) -> String {
         }
         Fault::UndefinedInstruction { at } => format!("there is no instruction {}", place(at, place_of)),
         Fault::ProgramChanged => "self-test: the program in flash has changed".to_string(),
-        Fault::StackOverflow => "self-test: the stack has grown into data memory".to_string(),
+        Fault::StackOverflow => "self-test: the stack has grown into the firmware's variables".to_string(),
         Fault::Hang => "the hardware watchdog: the firmware or its clock stood still".to_string(),
         Fault::Panic => "the firmware met a state that it holds for impossible".to_string(),
     }
