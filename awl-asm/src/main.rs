@@ -224,7 +224,7 @@ fn summary(written: &str, image: &[u8], assembly: &Assembly) -> String {
         "{written}: {} instructions, {} of {SLOT_LEN} bytes; data {} of {ARENA_LEN} bytes",
         assembly.code.len(),
         image.len(),
-        assembly.demand.arena_len(),
+        assembly.demand.together_len(),
     )
 }
 

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use plc_isa::{
-    ARENA_LEN, Area, Bit, COUNTER_SLOT_LEN, Header, Op, Operand, Plan, TIMER_SLOT_LEN, TimerKind, counter_bit,
-    timer_bit,
+    ARENA_LEN, Area, Bit, COUNTER_SLOT_LEN, Header, Op, Operand, Plan, RETAINED_LEN_MAX, Retained, TIMER_SLOT_LEN,
+    TimerKind, counter_bit, timer_bit,
 };
 
 use crate::address::Address;
@@ -24,6 +24,8 @@ pub struct Demand {
     pub counters: Vec<u8>,
     /// Edge instructions.
     pub edges: usize,
+    /// Bytes that are retained. A copy of them stands behind the plan while it is saved.
+    pub retained_len: usize,
 }
 
 impl Demand {
@@ -47,9 +49,24 @@ impl Demand {
         self.edges.div_ceil(8)
     }
 
-    /// Bytes of the arena.
+    /// Bytes of the plan.
     pub fn arena_len(&self) -> usize {
         self.v_len() + self.timers_len() + self.counters_len() + self.edges_len()
+    }
+
+    /// Bytes of the arena that the program takes: the plan and the copy of what is retained.
+    pub fn together_len(&self) -> usize {
+        self.arena_len() + self.retained_len
+    }
+
+    /// Bytes of a range that are retained: of timers and counters the current values of those that are used.
+    fn retained_by(&self, range: Retained) -> usize {
+        let is_in = |number: u8| u16::from(number).checked_sub(range.first).is_some_and(|offset| offset < range.count);
+        match range.area {
+            Area::T => 2 * self.timers.keys().filter(|&&number| is_in(number)).count(),
+            Area::C => 2 * self.counters.iter().filter(|&&number| is_in(number)).count(),
+            _ => usize::from(range.count),
+        }
     }
 
     /// The plan in lines for people.
@@ -65,7 +82,8 @@ impl Demand {
             format!("timers     {:>5} bytes  {} x {TIMER_SLOT_LEN}", self.timers_len(), self.timers.len()),
             format!("counters   {:>5} bytes  {} x {COUNTER_SLOT_LEN}", self.counters_len(), self.counters.len()),
             format!("edges      {:>5} bytes  {}, a bit each", self.edges_len(), self.edges),
-            format!("together   {:>5} of {ARENA_LEN} bytes", self.arena_len()),
+            format!("retained   {:>5} bytes  a copy of what is retained", self.retained_len),
+            format!("together   {:>5} of {ARENA_LEN} bytes", self.together_len()),
         ]
     }
 }
@@ -89,15 +107,31 @@ pub fn demand(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagno
             diagnostics.push(Diagnostic::new(Code::TooMany, span_of(program, selected), message));
         }
     }
-    let (full_at, demand) = collect.finish();
-    if let Some(span) = full_at {
-        let message =
-            format!("the program needs {} bytes of data memory, the board has {ARENA_LEN}", demand.arena_len());
+    let (full_at, mut demand) = collect.finish();
+    let place = add_retained(program, &mut demand);
+    let message = if demand.together_len() > usize::from(ARENA_LEN) {
+        format!("the program needs {} bytes of data memory, the board has {ARENA_LEN}", demand.together_len())
+    } else {
+        format!("the program retains {} bytes, the board can keep {RETAINED_LEN_MAX}", demand.retained_len)
+    };
+    if let Some(span) = full_at.or(place) {
         let mut diagnostic = Diagnostic::new(Code::DataTooLarge, span, message).label("from here on it does not fit");
         diagnostic.help = demand.describe();
         diagnostics.push(diagnostic);
     }
     demand
+}
+
+/// Adds up what is retained. Returns the first range with which it does not fit, into the arena or the EEPROM.
+fn add_retained(program: &Program, demand: &mut Demand) -> Option<Span> {
+    let mut full_at = None;
+    for retained in &program.retained {
+        demand.retained_len += demand.retained_by(retained.range);
+        let fits =
+            demand.together_len() <= usize::from(ARENA_LEN) && demand.retained_len <= usize::from(RETAINED_LEN_MAX);
+        full_at = full_at.or((!fits).then_some(retained.span));
+    }
+    full_at
 }
 
 struct Collect {

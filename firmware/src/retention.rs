@@ -180,6 +180,11 @@ impl Retention {
 
     fn compare<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory) {
         let Some((address, len)) = self.walk.next(plan, u16::from(BYTES_PER_SCAN)) else {
+            // Nothing has changed: the wait stays over, also when the clock wraps.
+            let now_ms = clock::now_ms();
+            if now_ms.wrapping_sub(self.saved_ms) >= self.interval_ms {
+                self.saved_ms = now_ms.wrapping_sub(self.interval_ms);
+            }
             return self.enter(Phase::Comparing);
         };
         for offset in 0..len {

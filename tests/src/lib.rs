@@ -11,4 +11,7 @@ pub mod forms;
 pub mod lockstep;
 pub mod mutate;
 pub mod naive;
+#[cfg(feature = "uno")]
+pub mod power;
 pub mod random;
+pub mod retained;

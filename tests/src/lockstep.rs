@@ -5,7 +5,7 @@ use awl_sim::machine::host::Host;
 use awl_sim::machine::uno::{Clock, Firmware, Uno};
 use awl_sim::machine::{Machine, MachineError, Mode};
 use awl_sim::operand::Operand;
-use plc_isa::{Area, DATA_START, DIGITAL_OUTPUTS};
+use plc_isa::{Area, DATA_END, DATA_START, DIGITAL_OUTPUTS, Plan};
 use plc_vm::Fault;
 
 use crate::case::host;
@@ -32,6 +32,8 @@ pub fn board() -> Uno {
 pub struct Pair<'a> {
     host: Host,
     uno: &'a mut Uno,
+    /// One past the last data address that is compared: behind its plan the board keeps a copy of what is retained.
+    compared_end: u16,
     scans: u64,
     difference: Option<String>,
 }
@@ -44,7 +46,9 @@ impl<'a> Pair<'a> {
         uno.load(image.to_vec());
         uno.start_clock_at(clock_ms);
         uno.hold_clock_for(LONG_CYCLES);
-        Pair { host, uno, scans: 0, difference: None }
+        let end_of = |plan: &Plan<&[u8]>| if plan.header.retained == 0 { DATA_END } else { plan.end() };
+        let compared_end = plc_isa::verify(image).map_or(DATA_END, |program| end_of(program.plan()));
+        Pair { host, uno, compared_end, scans: 0, difference: None }
     }
 
     /// The first difference between the two, if there was one.
@@ -74,7 +78,8 @@ impl<'a> Pair<'a> {
     }
 
     fn compare_memory(&mut self) {
-        let bytes = self.uno.memory().iter().zip(self.host.memory().bytes());
+        let len = usize::from(self.compared_end - DATA_START);
+        let bytes = self.uno.memory().iter().zip(self.host.memory().bytes()).take(len);
         let different = (DATA_START..).zip(bytes).find(|(_, (board, host))| board != host);
         if let Some((address, (&board, &host))) = different {
             self.must_be(|| name(address), &board.to_string(), &host.to_string());

@@ -120,6 +120,22 @@ impl Avr {
         self.chip.eeprom_write(0, &vec![0xFF; self.chip.eeprom_len()]);
     }
 
+    /// Address of the EEPROM byte that the program is just writing, which takes 3.4 ms. It has its new value already;
+    /// a real one has none yet that could be relied on.
+    pub fn eeprom_writing(&self) -> Option<u16> {
+        u16::try_from(self.chip.eeprom_writing()).ok().filter(|&at| usize::from(at) < self.chip.eeprom_len())
+    }
+
+    /// How often the program has written each byte of the EEPROM.
+    pub fn eeprom_writes(&self) -> Vec<u32> {
+        (0..self.chip.eeprom_len() as u16).map(|at| self.chip.eeprom_writes(at)).collect()
+    }
+
+    /// Whether the program has ever used the EEPROM or its address while a byte was being written.
+    pub fn eeprom_is_misused(&self) -> bool {
+        self.chip.eeprom_is_misused()
+    }
+
     /// Resets the chip. Bytes on their way from or to the UART are lost; the cycle counter goes on.
     pub fn reset(&mut self, cause: Reset) {
         self.chip.reset(match cause {

@@ -31,6 +31,9 @@ unsafe extern "C" {
     fn shim_uart_waiting(shim: *mut Shim) -> usize;
     fn shim_uart_received(shim: *mut Shim) -> usize;
     fn shim_uart_take(shim: *mut Shim, to: *mut u8);
+    fn shim_eeprom_is_misused(shim: *mut Shim) -> i32;
+    fn shim_eeprom_writing(shim: *mut Shim) -> u32;
+    fn shim_eeprom_writes(shim: *mut Shim, at: u16) -> u32;
     fn shim_eeprom_len(shim: *mut Shim) -> usize;
     fn shim_eeprom_read(shim: *mut Shim, offset: u16, to: *mut u8, len: u32);
     fn shim_eeprom_write(shim: *mut Shim, offset: u16, from: *const u8, len: u32);
@@ -170,6 +173,19 @@ impl Chip {
             unsafe { shim_uart_take(self.0.as_ptr(), bytes.as_mut_ptr()) }
         }
         bytes
+    }
+
+    pub(crate) fn eeprom_is_misused(&self) -> bool {
+        call!(self.shim_eeprom_is_misused()) != 0
+    }
+
+    /// Outside the EEPROM if no byte is being written.
+    pub(crate) fn eeprom_writing(&self) -> u32 {
+        call!(self.shim_eeprom_writing())
+    }
+
+    pub(crate) fn eeprom_writes(&self, at: u16) -> u32 {
+        call!(self.shim_eeprom_writes(at))
     }
 
     pub(crate) fn eeprom_len(&self) -> usize {

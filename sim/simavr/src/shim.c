@@ -16,6 +16,12 @@
 
 enum {
 	MARK_REGISTER = 0x3e, /* GPIOR0 */
+	EEPROM_CONTROL = 0x3f, /* EECR; EEDR and the two bytes of EEAR follow */
+	EEPROM_READ = 1 << 0,
+	EEPROM_WRITE = 1 << 1,
+	EEPROM_ENABLE = 1 << 2,
+	EEPROM_WRITE_US = 3400,
+	EEPROM_LEN = 1024,
 	RESET_FLAGS = 0x54,   /* MCUSR */
 	RESET_BY_WATCHDOG = 1 << 3,
 	/* simavr does not wrap addresses as the chip does: with room for all 16 bits none leads out. */
@@ -43,6 +49,9 @@ struct shim {
 	uint8_t driven[PORTS], levels[PORTS];
 	struct bytes to_uart, from_uart;
 	int uart_is_full;
+	/* Address of the byte that is being written, or EEPROM_LEN; how often each was; whether it was disturbed. */
+	uint32_t eeprom_writing, eeprom_writes[EEPROM_LEN];
+	int eeprom_is_misused;
 };
 
 static int append(struct bytes *bytes, const uint8_t *more, size_t len)
@@ -70,6 +79,39 @@ static void on_mark(avr_t *avr, avr_io_addr_t address, uint8_t value, void *para
 	shim->marked = 1;
 	/* Ends the batch with this instruction. */
 	avr->run_cycle_count = 1;
+}
+
+static uint32_t eeprom_address(avr_t *avr)
+{
+	return avr->data[EEPROM_CONTROL + 2] | (avr->data[EEPROM_CONTROL + 3] & 3) << 8;
+}
+
+static avr_cycle_count_t on_eeprom_written(avr_t *avr, avr_cycle_count_t when, void *param)
+{
+	struct shim *shim = param;
+	(void)when;
+	if (shim->eeprom_writing != eeprom_address(avr))
+		shim->eeprom_is_misused = 1;
+	avr->data[EEPROM_CONTROL] &= ~EEPROM_WRITE;
+	shim->eeprom_writing = EEPROM_LEN;
+	return 0;
+}
+
+/* simavr writes in no time. A chip is busy for a while, and must then be left alone. Called after simavr's own. */
+static void on_eeprom_control(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
+{
+	struct shim *shim = param;
+	uint8_t *control = avr->data + address;
+	if (shim->eeprom_writing < EEPROM_LEN) {
+		if (value & (EEPROM_READ | EEPROM_ENABLE))
+			shim->eeprom_is_misused = 1;
+		*control |= EEPROM_WRITE;
+	} else if (value & EEPROM_WRITE && value & EEPROM_ENABLE && !(*control & EEPROM_ENABLE)) {
+		shim->eeprom_writing = eeprom_address(avr);
+		shim->eeprom_writes[shim->eeprom_writing]++;
+		*control |= EEPROM_WRITE;
+		avr_cycle_timer_register_usec(avr, EEPROM_WRITE_US, on_eeprom_written, shim);
+	}
 }
 
 static void no_sleep(avr_t *avr, avr_cycle_count_t cycles)
@@ -192,6 +234,7 @@ static void on_reset(avr_t *avr)
 	drive_again(shim);
 	/* Until the receiver is switched on. */
 	shim->uart_is_full = 1;
+	shim->eeprom_writing = EEPROM_LEN;
 	shim->to_uart.len = shim->to_uart.taken = 0;
 }
 
@@ -229,6 +272,8 @@ struct shim *shim_new(void)
 		return NULL;
 	}
 	avr_register_io_write(avr, MARK_REGISTER, on_mark, shim);
+	avr_register_io_write(avr, EEPROM_CONTROL, on_eeprom_control, shim);
+	shim->eeprom_writing = EEPROM_LEN;
 	connect_uart(shim);
 	return shim;
 }
@@ -310,6 +355,9 @@ static void eeprom(struct shim *shim, uint32_t request, uint8_t *bytes, uint16_t
 	avr_ioctl(shim->avr, request, &range);
 }
 
+int shim_eeprom_is_misused(struct shim *shim) { return shim->eeprom_is_misused; }
+uint32_t shim_eeprom_writing(struct shim *shim) { return shim->eeprom_writing; }
+uint32_t shim_eeprom_writes(struct shim *shim, uint16_t at) { return shim->eeprom_writes[at % EEPROM_LEN]; }
 size_t shim_eeprom_len(struct shim *shim) { return shim->avr->e2end + 1; }
 
 void shim_eeprom_read(struct shim *shim, uint16_t offset, uint8_t *to, uint32_t len)

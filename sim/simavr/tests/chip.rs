@@ -307,3 +307,29 @@ fn a_bootloader_can_be_where_the_chip_starts() {
     assert_eq!(avr.pc(), 0);
     assert!(avr.write_flash(0x7FFF, &[1, 2]).is_err());
 }
+
+/// Sets a bit of an I/O register.
+fn sbi(address: u8, bit: u16) -> u16 {
+    0x9A00 | u16::from(address) << 3 | bit
+}
+
+#[test]
+fn a_byte_of_the_eeprom_takes_its_time() {
+    const EECR: u8 = 0x1F;
+    const EEDR: u8 = 0x20;
+    const EEARL: u8 = 0x21;
+    let write = [ldi(16, 5), out(EEARL, 16), ldi(16, 0xAB), out(EEDR, 16), sbi(EECR, 2), sbi(EECR, 1)];
+    let mut avr = running(&[&write[..], &[rjmp(-1)]].concat());
+    assert_eq!(avr.eeprom_writing(), None);
+    avr.run_for(100);
+    assert_eq!((avr.eeprom_writing(), avr.data()[0x3F] & 2, avr.eeprom()[5]), (Some(5), 2, 0xAB));
+    avr.run_for(54_400 - 200);
+    assert_eq!(avr.eeprom_writing(), Some(5));
+    avr.run_for(300);
+    assert_eq!((avr.eeprom_writing(), avr.data()[0x3F] & 2, avr.eeprom_is_misused()), (None, 0, false));
+    assert_eq!((avr.eeprom_writes()[5], avr.eeprom_writes().iter().sum()), (1, 1));
+
+    let mut avr = running(&[&write[..], &write, &[rjmp(-1)]].concat());
+    avr.run_for(100);
+    assert!(avr.eeprom_is_misused(), "a second write before the first is done");
+}

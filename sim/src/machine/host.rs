@@ -68,6 +68,10 @@ impl Host {
             place_of,
         };
         if host.plc.load(&mut host.memory, image).is_ok() {
+            // Nothing is kept here, so each start is that of a new board.
+            if host.plan().is_some_and(|plan| plan.retained_len() > 0) {
+                host.plc.retentive_data_lost();
+            }
             host.plc.run();
         }
         host.time.looped_bytes_max = host.watchdog_ms() * LOOPED_BYTES_PER_MS;
