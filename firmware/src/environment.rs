@@ -1,12 +1,9 @@
 //! Time and supervision of a running program, by the tick.
 
 use plc_isa::LogicStack;
-use plc_vm::Environment;
+use plc_vm::{Environment, SCAN_MS_MAX};
 
 use crate::board::{clock, watchdog};
-
-/// However often a program executes WDR, a scan ends after this time.
-const SCAN_MS_MAX: u32 = 60_000;
 
 /// The time of one scan.
 pub struct ScanTime {

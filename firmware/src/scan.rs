@@ -5,7 +5,7 @@ use plc_vm::{Fault, Memory, Mode, Plc};
 
 use crate::board::eeprom::Eeprom;
 use crate::board::flash::ProgramSlot;
-use crate::board::ports::Ports;
+use crate::board::ports::{self, Ports};
 use crate::board::serial::Serial;
 use crate::board::trace::{self, Mark};
 use crate::board::{Board, analog, clock, fault_memory, stack, texts, watchdog};
@@ -162,8 +162,7 @@ impl Uno {
         if executes {
             self.times.enter(clock::now_us().wrapping_sub(start_us));
         }
-        let fault = self.plc.fault().filter(|_| !runs);
-        trace::write_status(runs, fault.map_or(Fault::NONE, Fault::to_bytes));
+        trace::write_status(runs, self.fault_bytes());
         trace::mark(Mark::ScanEnd);
         watchdog::feed(clock::now_ms());
     }
@@ -218,7 +217,7 @@ impl Uno {
         if runs {
             self.ports.drive_outputs(self.plc.outputs(self.memory, 0) ^ self.settings.invert_outputs);
         } else {
-            self.ports.release_outputs();
+            ports::release_outputs();
         }
     }
 
@@ -238,6 +237,7 @@ impl Uno {
     }
 
     fn write_line(&mut self, line: Lines) {
+        let fault = self.fault_bytes();
         let mut report = Report::on(&mut self.serial);
         match line {
             Lines::VERSION => report.text(texts::version()),
@@ -248,7 +248,6 @@ impl Uno {
             Lines::PROGRAM => report.program(self.plc.program()),
             Lines::FAULT => {
                 report.text(texts::fault());
-                let fault = self.plc.fault().map_or(Fault::NONE, Fault::to_bytes);
                 report.fault(fault);
                 if fault == Fault::NONE && self.fault_before_reset != Fault::NONE {
                     report.text(texts::last_fault());
@@ -267,6 +266,11 @@ impl Uno {
         if let Some(program) = self.plc.program().filter(|_| !self.is_program_in_doubt()) {
             self.retention.step(program.plan(), self.memory, &self.eeprom, was_executed, runs);
         }
+    }
+
+    /// The fault in force; none in RUN, which clears it.
+    fn fault_bytes(&self) -> [u8; 4] {
+        self.plc.fault().map_or(Fault::NONE, Fault::to_bytes)
     }
 
     fn remember_fault(&self) {

@@ -20,7 +20,7 @@ use core::cell::Cell;
 
 use avr_device::atmega328p::Peripherals;
 use avr_device::interrupt::{self, Mutex};
-use plc_vm::Memory;
+use plc_vm::{Fault, Memory};
 
 use eeprom::Eeprom;
 use ports::Ports;
@@ -44,7 +44,7 @@ impl Board {
     /// Sets the hardware up. At the start; a second time there is nothing to take, and the board resets.
     pub fn take() -> Board {
         if interrupt::free(|cs| TAKEN.borrow(cs).replace(true)) {
-            watchdog::reset();
+            watchdog::reset(Fault::Panic);
         }
         // First: after its own reset the watchdog goes on with its shortest time.
         watchdog::stop();

@@ -4,12 +4,9 @@ use core::panic::PanicInfo;
 
 use plc_vm::Fault;
 
-use super::{fault_memory, watchdog};
+use super::watchdog;
 
 #[panic_handler]
 fn panic(_: &PanicInfo<'_>) -> ! {
-    avr_device::interrupt::disable();
-    super::ports::release_outputs_at_once();
-    fault_memory::remember(Fault::Panic.to_bytes(), true);
-    watchdog::reset()
+    watchdog::reset(Fault::Panic)
 }

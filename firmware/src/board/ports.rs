@@ -16,9 +16,8 @@ pub struct Ports {
 impl Ports {
     /// The ports as they are after a reset: everything is an input.
     pub fn new(outputs: PORTB, inputs: PORTD) -> Ports {
-        let ports = Ports { outputs, inputs };
-        ports.release_outputs();
-        ports
+        release_outputs();
+        Ports { outputs, inputs }
     }
 
     /// Levels of the input pins, I0.0 in bit 0.
@@ -44,17 +43,11 @@ impl Ports {
         // SAFETY: as above.
         self.outputs.ddrb().write(|w| unsafe { w.bits(POINTS) });
     }
-
-    /// Lets the output pins go: they drive nothing.
-    pub fn release_outputs(&self) {
-        self.outputs.ddrb().reset();
-        self.outputs.portb().reset();
-    }
 }
 
-/// Lets the output pins go from wherever something has gone wrong.
-pub fn release_outputs_at_once() {
-    // SAFETY: interrupts are off or never return; releasing pins is right at any time.
+/// Lets the output pins go: they drive nothing. From anywhere, also where something has gone wrong.
+pub fn release_outputs() {
+    // SAFETY: interrupts that come here never return; releasing pins is right at any time.
     let outputs = unsafe { Peripherals::steal() }.PORTB;
     outputs.ddrb().reset();
     outputs.portb().reset();

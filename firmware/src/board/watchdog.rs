@@ -54,10 +54,11 @@ pub fn feed(now_ms: u32) {
     }
 }
 
-/// Waits for the reset, with everything off.
-pub fn reset() -> ! {
+/// Outputs off; notes what has happened, holds the board in STOP after the reset, and waits for it.
+pub fn reset(fault: Fault) -> ! {
     interrupt::disable();
-    ports::release_outputs_at_once();
+    ports::release_outputs();
+    fault_memory::remember(fault.to_bytes(), true);
     set(RESET_ONLY | SHORTEST);
     loop {
         avr_device::asm::nop();
@@ -66,7 +67,5 @@ pub fn reset() -> ! {
 
 #[avr_device::interrupt(atmega328p)]
 fn WDT() {
-    ports::release_outputs_at_once();
-    fault_memory::remember(Fault::Hang.to_bytes(), true);
-    reset();
+    reset(Fault::Hang)
 }

@@ -44,11 +44,7 @@ pub fn decode<P: ProgramMemory>(code: &P, pc: u16) -> Result<Decoded, DecodeErro
     for (index, (place, &raw)) in decoded.kinds.iter_mut().zip(&raw).enumerate() {
         *place = fetched.kind(code, index);
         match *place {
-            // One encoding for one instruction: modes are 0 or 1, byte constants have no high byte.
-            Some(Kind::AnyInt) if raw.tag > 1 => return Err(DecodeError::Malformed),
-            Some(Kind::AnyByte) if raw.tag > 1 || raw.tag == 0 && raw.value > 255 => {
-                return Err(DecodeError::Malformed);
-            }
+            Some(kind) if !kind.is_canonical(raw) => return Err(DecodeError::Malformed),
             Some(Kind::Level) => decoded.stack.needs = decoded.stack.needs.saturating_add(raw.value as u8),
             _ => {}
         }

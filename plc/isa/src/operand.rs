@@ -437,6 +437,15 @@ impl Kind {
         }
     }
 
+    /// Whether the operand is stored in the one way there is for it: a mode is 0 or 1, a byte has no high byte.
+    pub(crate) fn is_canonical(self, raw: Raw) -> bool {
+        match self {
+            Kind::AnyByte if raw.tag == MODE_CONSTANT => raw.value <= 255,
+            Kind::AnyByte | Kind::AnyInt => raw.tag <= MODE_MEMORY,
+            _ => true,
+        }
+    }
+
     /// Whether the operand stands in the AWL text, separated by commas.
     pub const fn is_written(self) -> bool {
         !matches!(self, Kind::Edge | Kind::LoopEnd | Kind::LoopStart | Kind::Here | Kind::Relation)

@@ -121,7 +121,7 @@ pub struct Plan<P> {
     /// The header.
     pub header: Header,
     // Where the tables stand in the image and their memory in the arena, derived once.
-    v_ranges_at: u16,
+    pub(crate) v_ranges_at: u16,
     pub(crate) timers_at: u16,
     pub(crate) counters_at: u16,
     pub(crate) labels_at: u16,
@@ -142,12 +142,7 @@ impl<P: ProgramMemory> Plan<P> {
 
     /// The plan in the tables behind this header, taken on trust: for the assembler, which wrote them.
     pub fn trusted(memory: P, header: Header) -> Self {
-        let v_ranges_at = header.v_ranges_at();
-        let timers_at = v_ranges_at + V_RANGE_LEN * header.v_ranges;
-        let counters_at = timers_at + TIMER_LEN * header.timers;
-        let labels_at = counters_at + COUNTER_LEN * header.counters;
-        let retained_at = labels_at + LABEL_LEN * header.labels;
-        let code_at = retained_at + Retained::STORED_LEN * u16::from(header.retained);
+        let (v_ranges_at, timers_at) = (header.v_ranges_at(), header.timers_at());
         // Lengths that are not checked yet: nothing may overflow.
         let mut timers_start = ARENA_START;
         let mut at = v_ranges_at + 2;
@@ -163,10 +158,10 @@ impl<P: ProgramMemory> Plan<P> {
             header,
             v_ranges_at,
             timers_at,
-            counters_at,
-            labels_at,
-            retained_at,
-            code_at,
+            counters_at: header.counters_at(),
+            labels_at: header.labels_at(),
+            retained_at: header.retained_at(),
+            code_at: header.code_at(),
             timers_start,
             counters_start,
             edges_start,

@@ -6,7 +6,7 @@
 use crate::area::{Area, TimerFamily, timer_family};
 use crate::image::{COUNTER_LEN, CRC_LEN, Header, ImageError, ImageFault, ProgramMemory, TIMER_LEN};
 use crate::layout::*;
-use crate::operand::{Kind, Raw};
+use crate::operand::{Kind, MODE_MEMORY, Raw};
 use crate::plan::{Plan, Region, TimerKind};
 use crate::stack::STACK_LEVELS;
 use crate::table::Op;
@@ -70,7 +70,7 @@ fn check_tables<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageFault> {
     ensure(header.settings.is_valid(), ImageFault::Settings)?;
     ensure(v_ranges_are_valid(plan), ImageFault::VRanges)?;
     ensure(timers_are_valid(plan), ImageFault::Timers)?;
-    ensure(is_ascending(&plan.memory, header.counters_at(), COUNTER_LEN, header.counters), ImageFault::Counters)?;
+    ensure(is_ascending(&plan.memory, plan.counters_at, COUNTER_LEN, header.counters), ImageFault::Counters)?;
     ensure(header.edges <= EDGES_MAX && header.labels <= 256, ImageFault::Plan)?;
     ensure((0..u16::from(header.retained)).all(|index| retained_is_valid(plan, index)), ImageFault::Retained)?;
     let end = plan.end();
@@ -82,18 +82,18 @@ fn check_tables<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageFault> {
 
 /// Where in the image a fault of the tables is.
 fn place_of<P: ProgramMemory>(plan: &Plan<P>, fault: ImageFault) -> u16 {
-    let header = &plan.header;
     match fault {
         ImageFault::Name => crate::image::HEADER_LEN,
         ImageFault::Settings => 22,
-        ImageFault::VRanges => header.v_ranges_at(),
-        ImageFault::Timers => header.timers_at(),
-        ImageFault::Counters => header.counters_at(),
-        ImageFault::Retained => header.retained_at(),
+        ImageFault::VRanges => plan.v_ranges_at,
+        ImageFault::Timers => plan.timers_at,
+        ImageFault::Counters => plan.counters_at,
+        ImageFault::Retained => plan.retained_at,
         _ => 10,
     }
 }
 
+/// Whether the bytes at `at`, `at + step`, ... ascend; no more than 256 can.
 #[cfg_attr(target_arch = "avr", inline(never))]
 fn is_ascending<P: ProgramMemory>(memory: &P, at: u16, step: u16, count: u16) -> bool {
     (1..count).all(|index| memory.byte(at + step * (index - 1)) < memory.byte(at + step * index))
@@ -116,7 +116,7 @@ fn timers_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
         let (number, kind) = plan.timer_entry(slot);
         kind.is_some_and(|kind| kind.fits(number))
     });
-    kinds_fit && is_ascending(&plan.memory, header.timers_at(), TIMER_LEN, header.timers)
+    kinds_fit && is_ascending(&plan.memory, plan.timers_at, TIMER_LEN, header.timers)
 }
 
 #[cfg_attr(target_arch = "avr", inline(never))]
@@ -215,13 +215,9 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
                 return self.memory(kind, value, (u16::from(raw.tag) + count).div_ceil(8));
             }
             Kind::AnyByte | Kind::AnyInt => {
+                ensure(kind.is_canonical(raw), ImageFault::Malformed)?;
                 let len = if kind == Kind::AnyByte { 1 } else { 2 };
-                return match raw.tag {
-                    // One encoding for one instruction: a byte has no high byte.
-                    0 => ensure(len == 2 || value <= 255, ImageFault::Malformed),
-                    1 => self.memory(kind, value, len),
-                    _ => Err(ImageFault::Malformed),
-                };
+                return if raw.tag == MODE_MEMORY { self.memory(kind, value, len) } else { Ok(()) };
             }
             Kind::Count => value >= 1,
             Kind::Level => value < u16::from(STACK_LEVELS),

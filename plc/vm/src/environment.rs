@@ -2,6 +2,9 @@
 
 use plc_isa::LogicStack;
 
+/// However often a program executes WDR, a scan ends after this time in milliseconds.
+pub const SCAN_MS_MAX: u32 = 60_000;
+
 /// The outside of a running program.
 pub trait Environment {
     /// Whether the interpreter is to be small rather than fast. Both ways do the same.

@@ -17,7 +17,7 @@ mod range;
 mod special;
 mod timer;
 
-pub use environment::Environment;
+pub use environment::{Environment, SCAN_MS_MAX};
 pub use fault::Fault;
 pub use interpreter::Exit;
 pub use memory::Memory;

@@ -1,7 +1,7 @@
 //! The host machine: the reference interpreter with virtual time. What the board does, without a board.
 
 use plc_isa::Plan;
-use plc_vm::{Environment, Fault, Inputs, Memory, Plc};
+use plc_vm::{Environment, Fault, Inputs, Memory, Plc, SCAN_MS_MAX};
 
 use super::points::{self, Points, input_byte, output_byte, replaced};
 use super::{Machine, MachineError, Mode, PlaceOf, fault};
@@ -10,8 +10,6 @@ use crate::operand::Operand;
 /// Bytes of looped code that count as a millisecond of execution: 20 cycles of the board for an
 /// instruction of 2.5 bytes, at 16 MHz.
 const LOOPED_BYTES_PER_MS: u64 = 2_000;
-/// However often a program executes WDR, a scan ends after this time.
-const SCAN_MS_MAX: u64 = 60_000;
 
 /// Virtual time, which stands still while a scan runs. Only loops cost watchdog time.
 #[derive(Debug)]
@@ -26,7 +24,7 @@ struct VirtualTime {
 
 impl VirtualTime {
     fn is_at_ceiling(&self) -> bool {
-        self.scan_bytes > SCAN_MS_MAX * LOOPED_BYTES_PER_MS
+        self.scan_bytes > u64::from(SCAN_MS_MAX) * LOOPED_BYTES_PER_MS
     }
 }
 
@@ -163,7 +161,7 @@ impl Machine for Host {
 
     fn fault(&self) -> Option<String> {
         // WDR may have put the end off until it could be put off no longer.
-        let limit_ms = if self.time.is_at_ceiling() { SCAN_MS_MAX } else { self.watchdog_ms() };
+        let limit_ms = if self.time.is_at_ceiling() { SCAN_MS_MAX.into() } else { self.watchdog_ms() };
         self.plc.fault().map(|kind| fault::text(kind, limit_ms, &self.place_of))
     }
 

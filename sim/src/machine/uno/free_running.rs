@@ -1,10 +1,12 @@
 //! The board's own clock. Time 0 is the start of its first scan; what comes before is not counted.
 
+use plc_vm::SCAN_MS_MAX;
+
 use super::board::{Broken, MS, SCAN_END, SCAN_START};
 use super::{At, Uno};
 
 /// Longest time from mark to mark: the longest scan, the longest period, the slowest start after a reset.
-const PAUSE_MAX: u64 = 2 * 60_000 * MS;
+const PAUSE_MAX: u64 = 2 * SCAN_MS_MAX as u64 * MS;
 
 impl Uno {
     /// Runs all scans that start before `now_ms`, takes what was written since, and runs those that start within this

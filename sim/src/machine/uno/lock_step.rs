@@ -5,12 +5,11 @@
 //! jumps by the longest time that any scan may take, and the firmware's supervision ends the scan.
 
 use plc_isa::{ANALOG_INPUTS, AnalogInput, I_START};
+use plc_vm::SCAN_MS_MAX;
 
 use super::board::{Broken, MS, SCAN_END, SCAN_START};
 use super::{At, Uno};
 
-/// The firmware lets no scan take longer.
-const SCAN_MS_MAX: u32 = 60_000;
 /// As long as a scan can last at all.
 pub(super) const HELD_CYCLES_MAX: u64 = SCAN_MS_MAX as u64 * MS;
 /// Longest time between scans, and from the clock's jump to the end of the scan: both are short.
