@@ -6,6 +6,7 @@
 
 mod board;
 mod communication;
+mod engine;
 mod environment;
 mod report;
 mod retention;

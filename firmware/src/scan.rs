@@ -10,6 +10,7 @@ use crate::board::serial::Serial;
 use crate::board::trace::{self, Mark};
 use crate::board::{Board, analog, clock, fault_memory, stack, texts, watchdog};
 use crate::communication::{Communication, Lines, Request};
+use crate::engine;
 use crate::environment::ScanTime;
 use crate::report::Report;
 use crate::retention::Retention;
@@ -169,7 +170,10 @@ impl Uno {
 
     fn execute(&mut self, start_ms: u32) {
         let mut time = ScanTime::starting(start_ms, self.settings.watchdog_ms);
-        self.plc.execute(self.memory, &mut time);
+        if let Some(execution) = self.plc.begin(self.memory, &mut time) {
+            let (exit, at) = engine::run(execution);
+            self.plc.finish(exit, at);
+        }
         let Some(program) = self.plc.program().filter(|_| self.plc.mode() == Mode::Run) else { return };
         // Only loops are watched while they run: what else took so long came to the end of the program.
         if time.is_over(clock::now_ms()) {

@@ -31,15 +31,16 @@ pub enum Exit {
 const JUMP_LEN: u16 = 3;
 
 /// The state of one program execution.
-pub(crate) struct Interpreter<'a, P, E> {
-    pub program: &'a Program<P>,
-    pub memory: &'a mut Memory,
-    pub environment: &'a mut E,
-    pub clock: &'a mut Clock,
-    pub first_scan: bool,
-    pub stack: LogicStack,
+#[derive(Debug)]
+pub struct Interpreter<'a, P, E> {
+    pub(crate) program: &'a Program<P>,
+    pub(crate) memory: &'a mut Memory,
+    pub(crate) environment: &'a mut E,
+    pub(crate) clock: &'a mut Clock,
+    pub(crate) first_scan: bool,
+    pub(crate) stack: LogicStack,
     /// Why the program is left, once it is.
-    pub exit: Exit,
+    pub(crate) exit: Exit,
 }
 
 impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {

@@ -19,6 +19,6 @@ mod timer;
 
 pub use environment::{Environment, SCAN_MS_MAX};
 pub use fault::Fault;
-pub use interpreter::Exit;
+pub use interpreter::{Exit, Interpreter};
 pub use memory::Memory;
 pub use plc::{Inputs, Mode, Plc};

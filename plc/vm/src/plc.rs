@@ -155,9 +155,21 @@ impl<P: ProgramMemory> Plc<P> {
     }
 
     /// The same for a caller that has written the inputs into the process image itself, because it has only few.
-    #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn execute<E: Environment>(&mut self, memory: &mut Memory, environment: &mut E) {
-        let Some(program) = self.program.as_ref().filter(|_| self.mode == Mode::Run) else { return };
+        let Some(execution) = self.begin(memory, environment) else { return };
+        let (exit, at) = execution.run();
+        self.finish(exit, at);
+    }
+
+    /// Begins a scan: clock, special memory, timers. In RUN hands out the execution of the program, for a caller with
+    /// an engine of its own, which ends with [`finish`](Self::finish).
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    pub fn begin<'a, E: Environment>(
+        &'a mut self,
+        memory: &'a mut Memory,
+        environment: &'a mut E,
+    ) -> Option<Interpreter<'a, P, E>> {
+        let program = self.program.as_ref().filter(|_| self.mode == Mode::Run)?;
         let now_ms = environment.now_ms();
         start_scan(&mut self.clock, &mut self.scans, memory, now_ms);
         let first_scan = self.scans == Scans::First;
@@ -177,14 +189,12 @@ impl<P: ProgramMemory> Plc<P> {
         timer::advance(memory, program.plan(), TimerResolution::Ms1, fast_ms);
         timer::advance(memory, program.plan(), TimerResolution::Ms10, self.clock.ticks_10);
         let clock = &mut self.clock;
-        let (exit, at) =
-            Interpreter { program, memory, environment, clock, first_scan, stack: LogicStack::EMPTY, exit: Exit::End }
-                .run();
-        self.finish(exit, at);
+        Some(Interpreter { program, memory, environment, clock, first_scan, stack: LogicStack::EMPTY, exit: Exit::End })
     }
 
+    /// The program was left, at this offset.
     #[cfg_attr(target_arch = "avr", inline(never))]
-    fn finish(&mut self, exit: Exit, at: u16) {
+    pub fn finish(&mut self, exit: Exit, at: u16) {
         self.powered_up = false;
         self.retentive_lost = false;
         self.fault = match exit {
