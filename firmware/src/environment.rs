@@ -4,6 +4,7 @@ use plc_isa::LogicStack;
 use plc_vm::{Environment, SCAN_MS_MAX};
 
 use crate::board::{clock, watchdog};
+use crate::engine;
 
 /// The time of one scan.
 pub struct ScanTime {
@@ -28,6 +29,8 @@ impl ScanTime {
 }
 
 impl Environment for ScanTime {
+    const EXECUTED_ELSEWHERE: u128 = engine::EXECUTED;
+
     fn now_ms(&mut self) -> u32 {
         clock::now_ms()
     }

@@ -139,7 +139,7 @@ fn machine(image: Vec<u8>, place_of: PlaceOf, target: Target) -> Result<Box<dyn 
 #[cfg(feature = "simavr")]
 fn uno(image: Vec<u8>, place_of: PlaceOf) -> Result<Box<dyn Machine>> {
     use crate::machine::uno::{Clock, Firmware, Uno};
-    let firmware = Firmware::read(&awl_asm::firmware::find("elf")?)?;
+    let firmware = Firmware::find()?;
     Ok(Box::new(Uno::new(firmware, image, Clock::FreeRunning, place_of)?))
 }
 

@@ -26,8 +26,8 @@ fn image(text: &str) -> Vec<u8> {
 }
 
 fn board(image: Vec<u8>, clock: Clock) -> Uno {
-    let path = awl_asm::firmware::find("elf").unwrap_or_else(|error| panic!("{error:#}"));
-    Uno::new(Firmware::read(&path).unwrap(), image, clock, Box::new(|at| format!("byte {at}"))).unwrap()
+    let firmware = Firmware::find().unwrap_or_else(|error| panic!("{error:#}"));
+    Uno::new(firmware, image, clock, Box::new(|at| format!("byte {at}"))).unwrap()
 }
 
 fn uno(text: &str, clock: Clock) -> Uno {

@@ -1,30 +1,19 @@
 //! The shipped firmware on a simulated Uno that runs by its own clock: power, program, pins, scans, serial line. What
 //! it must do is for the tests to say; [`lockstep`](crate::lockstep) is for comparisons with the host.
 
-use std::fs;
-use std::path::Path;
+use std::ops::{Deref, DerefMut};
 
-use awl_asm::assemble::assemble;
-use awl_asm::firmware;
-use awl_asm::source::Source;
+use awl_sim::machine::uno::{Board, Broken, Firmware, Mark};
 use fastrand::Rng;
-use plc_isa::{SLOT_END, SLOT_LEN, SLOT_START};
-use plc_vm::Fault;
-use simavr::{Avr, Elf, Pin, Reset, Stopped};
+use simavr::Reset;
 
-/// Cycles in a millisecond.
-pub const MS: u64 = Avr::FREQUENCY / 1000;
+pub use crate::image::{example, example_text, image};
+pub use awl_sim::machine::uno::MS;
 
-/// SRAM, of which the PLC's data memory is the lower part.
-const SRAM: std::ops::Range<usize> = 0x0100..0x0900;
-/// What the firmware fills its unused stack with.
-const STACK_PAINT: u8 = 0xC5;
 const PORT_B: usize = 0x25;
 const DIRECTIONS_B: usize = 0x24;
 const PORT_D: usize = 0x2B;
 
-const SCAN_START: u8 = 1;
-const SCAN_END: u8 = 2;
 /// Longest time from mark to mark unless a test says otherwise: a start with the longest program, a scan until the
 /// longest usual watchdog time.
 const PAUSE_MAX: u64 = 2_000 * MS;
@@ -32,24 +21,6 @@ const PAUSE_MAX: u64 = 2_000 * MS;
 /// one begins in the first scan after it.
 const SILENCE_MS: u64 = 10;
 const SILENCE_SCANS: usize = 3;
-
-/// The image of a program.
-///
-/// # Panics
-/// If it has errors.
-pub fn image(text: &str) -> Vec<u8> {
-    let assembly = assemble(&Source::new("bench", text).expect("a source"), Vec::new());
-    assembly.image.unwrap_or_else(|| panic!("{:?}", assembly.diagnostics))
-}
-
-/// The image of an example.
-///
-/// # Panics
-/// If there is no such example.
-pub fn example(name: &str) -> Vec<u8> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples").join(name).with_extension("awl");
-    image(&fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display())))
-}
 
 /// A scan, from its mark before the inputs to that after the outputs, in cycles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,12 +40,34 @@ impl Scan {
 
 /// A board. Everything that goes wrong with the chip itself, such as a crash, is a panic.
 pub struct BenchBoard {
-    /// The chip.
-    pub avr: Avr,
-    tick: u16,
-    status: u16,
-    free: u16,
-    scan_start: u64,
+    board: Board,
+}
+
+impl Deref for BenchBoard {
+    type Target = Board;
+
+    fn deref(&self) -> &Board {
+        &self.board
+    }
+}
+
+impl DerefMut for BenchBoard {
+    fn deref_mut(&mut self) -> &mut Board {
+        &mut self.board
+    }
+}
+
+/// The firmware.
+///
+/// # Panics
+/// Without it: nothing is left out silently.
+pub fn firmware() -> Firmware {
+    Firmware::find().unwrap_or_else(|error| panic!("{error:#}"))
+}
+
+#[track_caller]
+fn sound<T>(result: Result<T, Broken>) -> T {
+    result.unwrap_or_else(|broken| panic!("{broken}"))
 }
 
 impl Default for BenchBoard {
@@ -85,19 +78,15 @@ impl Default for BenchBoard {
 
 impl BenchBoard {
     /// A board with the firmware and no program, without power.
-    ///
-    /// # Panics
-    /// Without the firmware: nothing is left out silently.
     pub fn new() -> BenchBoard {
-        let path = firmware::find("elf").unwrap_or_else(|error| panic!("{error:#}"));
-        let elf = Elf::parse(&fs::read(path).expect("the firmware can be read")).expect("the firmware is an ELF");
-        let mut avr = Avr::new();
-        avr.load_elf(&elf).expect("the firmware fits");
-        let symbol = |name| elf.data_symbol(name).unwrap_or_else(|| panic!("the firmware has no {name}"));
-        let (tick, status, free) = (symbol("UNO200_TICK"), symbol("UNO200_STATUS"), symbol("_end"));
-        let mut board = BenchBoard { avr, tick, status, free, scan_start: 0 };
+        BenchBoard::with(&firmware())
+    }
+
+    /// The same, with this firmware.
+    pub fn with(firmware: &Firmware) -> BenchBoard {
+        let mut board = Board::new(firmware).unwrap_or_else(|error| panic!("{error}"));
         board.drive_inputs(0);
-        board
+        BenchBoard { board }
     }
 
     /// A board that runs a program, after its first scan.
@@ -110,51 +99,35 @@ impl BenchBoard {
         board
     }
 
-    /// Writes the program slot.
-    pub fn insert(&mut self, bytes: &[u8]) {
-        let slot = &mut self.avr.flash_mut()[usize::from(SLOT_START)..usize::from(SLOT_END)];
-        slot.fill(0xFF);
-        slot[..bytes.len()].copy_from_slice(bytes);
-    }
-
-    /// The program slot.
-    pub fn slot(&mut self) -> &mut [u8] {
-        &mut self.avr.flash_mut()[usize::from(SLOT_START)..][..usize::from(SLOT_LEN)]
+    /// Power, with anything in SRAM, before the first instruction.
+    pub fn switch_on(&mut self, rng: &mut Rng) {
+        rng.fill(self.sram_mut());
+        self.avr.reset(Reset::PowerOn);
     }
 
     /// Power, with anything in SRAM, until the first scan starts.
     pub fn power_up(&mut self) {
         let mut rng = Rng::with_seed(self.avr.cycles());
-        rng.fill(&mut self.avr.data_mut()[SRAM]);
-        self.avr.reset(Reset::PowerOn);
-        self.run_to(SCAN_START, PAUSE_MAX);
+        self.switch_on(&mut rng);
+        self.to_scan_start();
     }
 
     /// The reset button, until the first scan starts.
     pub fn reset(&mut self) {
         self.avr.reset(Reset::External);
-        self.run_to(SCAN_START, PAUSE_MAX);
+        self.to_scan_start();
     }
 
     /// Runs until a mark, over others.
-    fn run_to(&mut self, mark: u8, cycles_max: u64) {
-        let end = self.avr.cycles() + cycles_max;
-        loop {
-            let stopped = self.avr.run_to_mark(end.saturating_sub(self.avr.cycles()));
-            if stopped == Stopped::Mark(SCAN_START) {
-                self.scan_start = self.avr.cycles();
-            }
-            match stopped {
-                Stopped::Mark(found) if found == mark => return,
-                Stopped::Mark(_) => {}
-                stopped => panic!("{stopped:?} {} ms before a mark {mark}", cycles_max / MS),
-            }
-        }
+    #[track_caller]
+    fn run_to(&mut self, mark: Mark, cycles_max: u64) {
+        sound(self.board.run_to(mark, cycles_max));
     }
 
     /// Runs to the start of the next scan.
+    #[track_caller]
     pub fn to_scan_start(&mut self) {
-        self.run_to(SCAN_START, PAUSE_MAX);
+        self.run_to(Mark::ScanStart, PAUSE_MAX);
     }
 
     /// Runs to the end of a scan: the current one, or the next.
@@ -164,8 +137,8 @@ impl BenchBoard {
 
     /// The same, of a scan that may take so many cycles.
     pub fn scan_within(&mut self, cycles_max: u64) -> Scan {
-        self.run_to(SCAN_END, cycles_max);
-        Scan { start: self.scan_start, end: self.avr.cycles() }
+        self.run_to(Mark::ScanEnd, cycles_max);
+        Scan { start: self.scan_start(), end: self.avr.cycles() }
     }
 
     /// Runs to the end of so many scans.
@@ -196,20 +169,8 @@ impl BenchBoard {
     }
 
     /// Runs for so many cycles, or to the next mark if that comes first.
-    pub fn run_on(&mut self, cycles: u64) -> Stopped {
-        let stopped = self.avr.run_to_mark(cycles);
-        assert!(!matches!(stopped, Stopped::Crash { .. }), "{stopped:?}");
-        stopped
-    }
-
-    /// Whether the firmware says that it is in RUN.
-    pub fn runs(&self) -> bool {
-        self.byte(self.status) == 1
-    }
-
-    /// The fault that the firmware tells.
-    pub fn fault(&self) -> Option<Fault> {
-        Fault::from_bytes([1, 2, 3, 4].map(|offset| self.byte(self.status + offset)))
+    pub fn run_on(&mut self, cycles: u64) {
+        sound(self.board.run(cycles));
     }
 
     /// Whether no output pin is driven, not even by a pull-up.
@@ -227,57 +188,11 @@ impl BenchBoard {
         (self.avr.data()[DIRECTIONS_B] == 0x3F).then(|| self.avr.data()[PORT_B])
     }
 
-    /// Levels of the input pins, I0.0 in bit 0.
-    pub fn drive_inputs(&mut self, levels: u8) {
-        for input in 0..6 {
-            self.avr.drive(Pin::of_uno(2 + input), levels >> input & 1 == 1);
-        }
-    }
-
     /// The pull-ups of the input pins, I0.0 in bit 0.
     pub fn pull_ups(&self) -> u8 {
-        let inputs = (0..6).filter(|&input| self.avr.has_pull_up(Pin::of_uno(2 + input)));
-        let bits = inputs.fold(0, |bits, input| bits | 1 << input);
+        let bits = self.board.pull_ups();
         assert_eq!(self.avr.data()[PORT_D] >> 2, bits, "an input pin is an output");
         bits
-    }
-
-    /// The millisecond clock.
-    pub fn tick(&self) -> u32 {
-        let at = self.tick;
-        u32::from_le_bytes([0, 1, 2, 3].map(|offset| self.byte(at + offset)))
-    }
-
-    /// Sets the millisecond clock.
-    pub fn set_tick(&mut self, ms: u32) {
-        self.write(self.tick, &ms.to_le_bytes());
-    }
-
-    /// A byte of data memory.
-    pub fn byte(&self, address: u16) -> u8 {
-        self.avr.data()[usize::from(address)]
-    }
-
-    /// A word of the PLC's data memory.
-    pub fn word(&self, address: u16) -> u16 {
-        u16::from_be_bytes([self.byte(address), self.byte(address + 1)])
-    }
-
-    /// Changes data memory behind the firmware's back.
-    pub fn write(&mut self, address: u16, bytes: &[u8]) {
-        let at = usize::from(address);
-        self.avr.data_mut()[at..at + bytes.len()].copy_from_slice(bytes);
-    }
-
-    /// Where the firmware's variables end and the free stack begins.
-    pub fn stack_limit(&self) -> u16 {
-        self.free
-    }
-
-    /// Bytes above the variables that the stack has never used since the start.
-    pub fn unused_stack(&self) -> usize {
-        let free = &self.avr.data()[usize::from(self.free)..SRAM.end];
-        free.iter().take_while(|&&byte| byte == STACK_PAINT).count()
     }
 
     /// Sends bytes to the serial line.

@@ -7,6 +7,7 @@ pub mod effort;
 #[cfg(feature = "uno")]
 pub mod flash_responder;
 pub mod forms;
+pub mod image;
 #[cfg(feature = "uno")]
 pub mod lockstep;
 pub mod mutate;

@@ -1,13 +1,13 @@
 //! Host and board side by side: the same inputs and times for both, and everything compared after every scan.
 
-use awl_asm::firmware;
 use awl_sim::machine::host::Host;
-use awl_sim::machine::uno::{Clock, Firmware, Uno};
+use awl_sim::machine::uno::{Clock, Uno};
 use awl_sim::machine::{Machine, MachineError, Mode};
 use awl_sim::operand::Operand;
 use plc_isa::{Area, DATA_END, DATA_START, DIGITAL_OUTPUTS, Plan};
 use plc_vm::Fault;
 
+use crate::bench_board::firmware;
 use crate::case::host;
 
 /// Pins of the outputs.
@@ -22,9 +22,7 @@ const LONG_CYCLES: u64 = 10 * 60 * 16_000_000;
 /// # Panics
 /// Without the firmware: nothing is left out silently.
 pub fn board() -> Uno {
-    let path = firmware::find("elf").unwrap_or_else(|error| panic!("{error:#}"));
-    let firmware = Firmware::read(&path).unwrap_or_else(|error| panic!("{error:#}"));
-    Uno::new(firmware, Vec::new(), Clock::LockStep, Box::new(|_| String::new()))
+    Uno::new(firmware(), Vec::new(), Clock::LockStep, Box::new(|_| String::new()))
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -147,14 +145,8 @@ impl Machine for Pair<'_> {
 mod tests {
     //! The comparison must see what is different: here the board has another program than the host.
 
-    use awl_asm::assemble::assemble;
-    use awl_asm::source::Source;
-
     use super::*;
-
-    fn image(text: &str) -> Vec<u8> {
-        assemble(&Source::new("t.awl", text).unwrap(), Vec::new()).image.unwrap()
-    }
+    use crate::image::image;
 
     #[test]
     fn every_kind_of_difference_is_seen() {

@@ -84,7 +84,7 @@ fn the_image_itself_is_sound() {
 fn faults_of_the_header() {
     assert_eq!(fault_with(0, b"X"), Some(ImageFault::Magic));
     assert_eq!(fault_with(4, &[2]), Some(ImageFault::Version));
-    assert_eq!(fault_with(5, &[1]), Some(ImageFault::Flags));
+    assert_eq!(fault_with(5, &[1]), Some(ImageFault::Interface), "machine code, on the host");
     assert_eq!(fault_with(31, &[7]), Some(ImageFault::Settings));
     assert_eq!(fault_with(8, &[0xFF, 0xFF]), Some(ImageFault::Length), "code longer than the image");
     assert_eq!(fault_with(18, &[0xFF, 0xFF]), Some(ImageFault::Length), "more timers than bytes");

@@ -4,6 +4,8 @@ use core::arch::asm;
 
 use plc_isa::{ProgramMemory, SLOT_LEN, SLOT_START, TOKEN_TABLE, TOKEN_TABLE_LEN};
 
+use crate::engine;
+
 #[unsafe(link_section = ".progmem.data")]
 static TOKENS: [u8; TOKEN_TABLE_LEN] = TOKEN_TABLE;
 
@@ -41,6 +43,8 @@ fn word(address: u16) -> u16 {
 pub struct ProgramSlot;
 
 impl ProgramMemory for ProgramSlot {
+    const NATIVE_INTERFACE: u8 = engine::NATIVE_INTERFACE;
+
     fn len(&self) -> u16 {
         SLOT_LEN
     }

@@ -18,8 +18,14 @@ pub const CRC_LEN: u16 = 4;
 /// Longest program name in bytes.
 pub const NAME_LEN_MAX: u8 = 24;
 
+/// Version of the firmware interface that machine code in an image is translated for (docs/image.md).
+pub const NATIVE_INTERFACE: u8 = 1;
+
 /// Where an image is read from: a slice on the host, flash on the board.
 pub trait ProgramMemory {
+    /// The firmware interface that machine code finds here; 0: none, machine code is refused.
+    const NATIVE_INTERFACE: u8 = 0;
+
     /// Bytes that can be read.
     fn len(&self) -> u16;
     /// The byte at an offset; 0xFF, an undefined token, past the end.
@@ -62,7 +68,7 @@ pub enum ImageFault {
     Magic,
     /// Written for another version.
     Version,
-    /// Flags or a reserved field that this version does not know.
+    /// A reserved field that this version does not know. None is left; the number stays taken.
     Flags,
     /// The checksum does not match.
     Crc,
@@ -96,6 +102,8 @@ pub enum ImageFault {
     Label,
     /// FOR and NEXT do not pair, or are nested too deep.
     Loop,
+    /// Machine code that cannot run here: for another firmware interface, for the board only, or without a valid entry.
+    Interface,
 }
 
 /// What is wrong with an image, and where.
@@ -109,7 +117,7 @@ pub struct ImageError {
 
 impl ImageFault {
     /// All faults, in the order of their numbers on the board.
-    pub const ALL: [ImageFault; 20] = [
+    pub const ALL: [ImageFault; 21] = [
         ImageFault::Length,
         ImageFault::Magic,
         ImageFault::Version,
@@ -130,6 +138,7 @@ impl ImageFault {
         ImageFault::StackUnderflow,
         ImageFault::Label,
         ImageFault::Loop,
+        ImageFault::Interface,
     ];
 
     /// The fault in words.
@@ -155,6 +164,7 @@ impl ImageFault {
             ImageFault::StackUnderflow => "an instruction needs more values than the logic stack holds",
             ImageFault::Label => "a jump and its label do not match",
             ImageFault::Loop => "FOR and NEXT do not match",
+            ImageFault::Interface => "the image is translated to machine code that this machine does not run",
         }
     }
 }
@@ -162,6 +172,8 @@ impl ImageFault {
 /// The header: lengths and settings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Header {
+    /// The firmware interface that the code was translated for; 0: bytecode.
+    pub interface: u8,
     /// Bytes of the whole image, checksum included.
     pub total_len: u16,
     /// Bytes of code.
@@ -195,12 +207,16 @@ pub const COUNTER_LEN: u16 = 1;
 /// Bytes of a label in the image: offset of its LBL.
 pub const LABEL_LEN: u16 = 2;
 
+/// Bytes of the entry: an offset in the image, at the start of machine code.
+pub const ENTRY_LEN: u16 = 2;
+
 impl Header {
     /// The header as bytes.
     pub fn to_bytes(&self) -> [u8; HEADER_LEN as usize] {
         let mut bytes = [0; HEADER_LEN as usize];
         bytes[..4].copy_from_slice(&MAGIC);
         bytes[4] = FORMAT_VERSION;
+        bytes[5] = self.interface;
         let words = [
             self.total_len,
             self.code_len,
@@ -258,8 +274,9 @@ impl Header {
         if !crc.is_complete() {
             return error(ImageFault::Crc, total_len - CRC_LEN);
         }
-        if memory.byte(5) != 0 {
-            return error(ImageFault::Flags, 5);
+        let interface = memory.byte(5);
+        if interface != 0 && interface != P::NATIVE_INTERFACE {
+            return error(ImageFault::Interface, 5);
         }
         Ok(())
     }
@@ -280,6 +297,7 @@ impl Header {
         let [pullup, invert_inputs, invert_outputs, retained, name_len, filter] = bytes;
         let settings = Settings { pullup, invert_inputs, invert_outputs, watchdog_ms, scan_ms, filter };
         Header {
+            interface: memory.byte(5),
             total_len,
             code_len,
             arena_len,

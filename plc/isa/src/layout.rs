@@ -60,6 +60,10 @@ pub const SLOT_END: u16 = 0x7E00;
 /// Bytes in the program slot: the longest image.
 pub const SLOT_LEN: u16 = SLOT_END - SLOT_START;
 
+/// Vectors: routines of the firmware that machine code in the slot calls. Flash address of the first; each takes an
+/// `rjmp`, two bytes. What they do is said in docs/image.md.
+pub const NATIVE_VECTORS: u16 = 0x0068;
+
 /// Digital inputs with a pin on the Uno: I0.0-I0.5 at D2-D7.
 pub const DIGITAL_INPUTS: u8 = 6;
 /// Digital outputs with a pin on the Uno: Q0.0-Q0.5 at D8-D13.

@@ -23,7 +23,8 @@ pub use area::{AnalogInput, Area, TimerFamily, TimerResolution, timer_family, ti
 pub use crc::Crc32;
 pub use decode::{DecodeError, Decoded, decode};
 pub use image::{
-    CRC_LEN, FORMAT_VERSION, HEADER_LEN, Header, ImageError, ImageFault, LABEL_LEN, MAGIC, NAME_LEN_MAX, ProgramMemory,
+    CRC_LEN, ENTRY_LEN, FORMAT_VERSION, HEADER_LEN, Header, ImageError, ImageFault, LABEL_LEN, MAGIC, NAME_LEN_MAX,
+    NATIVE_INTERFACE, ProgramMemory,
 };
 pub use layout::*;
 pub use operand::{Bit, ByteSource, Kind, Operand, OperandKind, OperandReader, Relation, WordSource, kinds};

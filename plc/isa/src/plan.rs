@@ -122,14 +122,20 @@ pub struct Plan<P> {
     pub header: Header,
     // Where the tables stand in the image and their memory in the arena, derived once.
     pub(crate) v_ranges_at: u16,
-    pub(crate) timers_at: u16,
-    pub(crate) counters_at: u16,
-    pub(crate) labels_at: u16,
+    /// Offset of the timers' table in the image.
+    pub timers_at: u16,
+    /// Offset of the counters' table.
+    pub counters_at: u16,
+    /// Offset of the labels' table.
+    pub labels_at: u16,
     pub(crate) retained_at: u16,
     code_at: u16,
-    pub(crate) timers_start: u16,
-    pub(crate) counters_start: u16,
-    edges_start: u16,
+    /// Data address of the first timer's slot.
+    pub timers_start: u16,
+    /// Data address of the first counter's slot.
+    pub counters_start: u16,
+    /// Data address of the first edge memory.
+    pub edges_start: u16,
     end: u16,
 }
 

@@ -133,6 +133,9 @@ macro_rules! instruction_table {
 
         /// An engine: one method for each instruction, whatever its encoded form.
         pub trait Execute {
+            /// Instructions that never come here, a bit each by [`Op`]: [`execute_compact`] leaves their arms out.
+            const EXECUTED_ELSEWHERE: u128 = 0;
+
             $(
                 $(#[doc = $doc])+
                 fn $method(&mut self, $( $arg: $value ),*) -> Flow;
@@ -193,10 +196,15 @@ macro_rules! instruction_table {
             }
             let mut raw = RawOperands { raw: &fetched.operands, next: 0 };
             let flow = match fetched.op {
-                $( Op::$op => { $( let $arg = <$value>::of_value(raw.take()); )* engine.$method( $( $arg ),* ) } )+
+                $(
+                    Op::$op if E::EXECUTED_ELSEWHERE >> Op::$op as u32 & 1 == 1 => engine.undefined(),
+                    Op::$op => { $( let $arg = <$value>::of_value(raw.take()); )* engine.$method( $( $arg ),* ) }
+                )+
             };
             go_on(flow, fetched.next)
         }
+
+        const _: () = assert!(INSTRUCTIONS.len() <= 128, "sets of instructions are 128 bits");
 
         impl Op {
             /// The instruction with this number in the order of the table.

@@ -4,7 +4,7 @@
 //! cannot be led outside the plan. One pass over the code, constant memory.
 
 use crate::area::{Area, TimerFamily, timer_family};
-use crate::image::{COUNTER_LEN, CRC_LEN, Header, ImageError, ImageFault, ProgramMemory, TIMER_LEN};
+use crate::image::{COUNTER_LEN, CRC_LEN, ENTRY_LEN, Header, ImageError, ImageFault, ProgramMemory, TIMER_LEN};
 use crate::layout::*;
 use crate::operand::{Kind, MODE_MEMORY, Raw};
 use crate::plan::{Plan, Region, TimerKind};
@@ -34,10 +34,16 @@ impl<P: ProgramMemory> Program<P> {
         &self.plan.memory
     }
 
-    /// Offset of the first instruction.
+    /// Offset of the first instruction of bytecode.
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn code_at(&self) -> u16 {
         self.plan.code_at()
+    }
+
+    /// Offset of the first instruction of machine code; `None` in bytecode.
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    pub fn entry(&self) -> Option<u16> {
+        is_native(&self.plan).then(|| self.memory().word(self.code_at()))
     }
 }
 
@@ -56,8 +62,24 @@ pub fn verify<P: ProgramMemory>(memory: P) -> Result<Program<P>, ImageError> {
 #[cfg_attr(target_arch = "avr", inline(never))]
 fn check<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageError> {
     check_tables(plan).map_err(|fault| ImageError { fault, at: place_of(plan, fault) })?;
+    if is_native(plan) {
+        return ensure(entry_is_valid(plan), ImageFault::Interface)
+            .map_err(|fault| ImageError { fault, at: plan.code_at() });
+    }
     let mut check = CodeCheck { plan, loops: [Loop::default(); LOOPS_MAX], open_loops: 0, next_label: 0, depth: 0 };
     check.run().map_err(|(fault, at)| ImageError { fault, at })
+}
+
+#[cfg_attr(not(target_arch = "avr"), inline(always))]
+fn is_native<P: ProgramMemory>(plan: &Plan<P>) -> bool {
+    P::NATIVE_INTERFACE != 0 && plan.header.interface != 0
+}
+
+/// Whether machine code has its entry word, and there an even offset behind the word in the code; and no labels.
+fn entry_is_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
+    let (code_at, end) = (plan.code_at(), plan.header.code_end());
+    let entry = plan.memory.word(code_at);
+    plan.header.labels == 0 && entry.is_multiple_of(2) && entry >= code_at + ENTRY_LEN && entry < end
 }
 
 fn ensure(holds: bool, fault: ImageFault) -> Result<(), ImageFault> {

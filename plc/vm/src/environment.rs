@@ -10,6 +10,9 @@ pub trait Environment {
     /// Whether the interpreter is to be small rather than fast. Both ways do the same.
     const COMPACT: bool = cfg!(target_arch = "avr");
 
+    /// Instructions that an engine of the caller's own executes ([`Execute::EXECUTED_ELSEWHERE`](plc_isa::Execute)).
+    const EXECUTED_ELSEWHERE: u128 = 0;
+
     /// The millisecond clock. Wraps after 49.7 days; only differences count.
     fn now_ms(&mut self) -> u32;
 

@@ -66,6 +66,28 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
         }
     }
 
+    /// Executes one instruction for an engine that leaves it out, with this top of the stack. Only for instructions that
+    /// do not change the stack.
+    pub fn execute_one(&mut self, pc: u16, top: bool) -> Flow {
+        self.stack.set_top(top);
+        execute_compact(self, self.program.memory(), pc)
+    }
+
+    /// The program.
+    pub fn program(&self) -> &Program<P> {
+        self.program
+    }
+
+    /// The outside of the program.
+    pub fn environment(&mut self) -> &mut E {
+        self.environment
+    }
+
+    /// Intervals of 100 ms between the starts of this scan and the last.
+    pub fn ticks_100(&self) -> u16 {
+        self.clock.ticks_100
+    }
+
     fn plan(&self) -> &Plan<P> {
         self.program.plan()
     }
@@ -151,6 +173,8 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
 }
 
 impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
+    const EXECUTED_ELSEWHERE: u128 = E::EXECUTED_ELSEWHERE;
+
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn load(&mut self, bit: Bit) -> Flow {
         self.stack.push(self.memory.bit(bit));

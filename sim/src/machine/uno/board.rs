@@ -1,142 +1,144 @@
 //! The simulated board with its firmware: power, program slot, marks, pins, clock, status. It knows no operands.
 
-use plc_isa::{ANALOG_INPUTS, DATA_END, DATA_START, DIGITAL_INPUTS, DIGITAL_OUTPUTS, I_START, SLOT_END, SLOT_START};
-use plc_vm::{Fault, Inputs};
-use simavr::{Avr, Pin, Reset, Stopped};
+use std::ops::Range;
 
-use super::firmware::Firmware;
+use plc_isa::{DATA_END, DATA_START, DIGITAL_INPUTS, DIGITAL_OUTPUTS, SLOT_END, SLOT_START};
+use plc_vm::{Fault, Inputs};
+use simavr::{Avr, LoadError, Pin, Reset, Stopped};
+
+use super::firmware::{Firmware, Places};
 
 /// Cycles in a millisecond.
-pub(super) const MS: u64 = Avr::FREQUENCY / 1000;
-
-/// The firmware is about to read the inputs of a scan.
-pub(super) const SCAN_START: u8 = 1;
-/// It has written the outputs.
-pub(super) const SCAN_END: u8 = 2;
+pub const MS: u64 = Avr::FREQUENCY / 1000;
+/// SRAM, of which the PLC's data memory is the lower part.
+pub const SRAM: Range<usize> = 0x0100..0x0900;
+/// What the firmware fills its unused stack with.
+pub const STACK_PAINT: u8 = 0xC5;
 
 /// First digital output and first digital input, as the Uno names its pins.
 const FIRST_INPUT: u8 = 2;
 const FIRST_OUTPUT: u8 = 8;
 
-/// A bit for each analog input.
-const ALL_ANALOGS: u8 = (1 << ANALOG_INPUTS) - 1;
-
-/// Start and end of SRAM.
-const SRAM: std::ops::Range<usize> = 0x0100..0x0900;
-/// What is in SRAM when power comes. The firmware paints its stack with the same, so that one count measures both.
-const PAINT: u8 = 0xC5;
-
 /// Enables the interrupt that counts the milliseconds: register and bit.
 const TICK_INTERRUPT: (usize, u8) = (0x6E, 1 << 1);
 
-/// Cycles from a look of the harness at the held clock to the next: far less than a millisecond.
-const HELD_STEP: u64 = 200;
-/// Cycles between two feedings of the hardware watchdog while the clock is held: far less than its half second.
-const HELD_LONG_STEP: u64 = 100 * MS;
-/// Steps from the mark before the inputs are read until they certainly have been.
-const STEPS_TO_INPUTS: usize = 2_000;
+/// Longest time from power to the start of the first scan.
+pub const BOOT_MAX: u64 = 5_000 * MS;
 
-/// Longest start, from power to the first scan.
-const BOOT_MAX: u64 = 5_000 * MS;
+/// A point of the scan that the firmware tells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Mark {
+    /// It is about to read the inputs.
+    ScanStart = 1,
+    /// It has written the outputs.
+    ScanEnd = 2,
+}
 
-/// Why the board does not go on, in words.
-pub(super) type Broken = String;
+/// Why the board does not go on: a sentence without full stop.
+pub type Broken = String;
 
-/// A board.
-pub(super) struct Board {
-    avr: Avr,
-    firmware: Firmware,
+/// A board with the firmware. It stays as it is between calls.
+pub struct Board {
+    /// The chip.
+    pub avr: Avr,
+    pub(super) places: Places,
+    scan_start: u64,
 }
 
 impl Board {
-    /// A board without power.
-    pub fn new(firmware: Firmware) -> Result<Board, simavr::LoadError> {
+    /// A board that has no power yet, an empty program slot, and an erased EEPROM.
+    pub fn new(firmware: &Firmware) -> Result<Board, LoadError> {
         let mut avr = Avr::new();
         avr.load_elf(&firmware.elf)?;
-        Ok(Board { avr, firmware })
+        Ok(Board { avr, places: firmware.places, scan_start: 0 })
     }
 
-    pub fn avr(&self) -> &Avr {
-        &self.avr
-    }
-
-    pub fn avr_mut(&mut self) -> &mut Avr {
-        &mut self.avr
-    }
-
-    /// Switches the board off and replaces the program; nothing is retained.
+    /// Writes the program slot, as far as it reaches; the rest of it is erased.
     pub fn insert(&mut self, image: &[u8]) {
-        let slot = &mut self.avr.flash_mut()[usize::from(SLOT_START)..usize::from(SLOT_END)];
+        let slot = self.slot();
         slot.fill(0xFF);
         let len = image.len().min(slot.len());
         slot[..len].copy_from_slice(&image[..len]);
-        self.avr.erase_eeprom();
-        // Without power there is nothing in memory, and no pin is driven.
-        self.avr.reset(Reset::PowerOn);
-        self.avr.data_mut()[SRAM].fill(0);
     }
 
-    fn power(&mut self) {
-        self.avr.data_mut()[SRAM].fill(PAINT);
+    /// The program slot.
+    pub fn slot(&mut self) -> &mut [u8] {
+        &mut self.avr.flash_mut()[usize::from(SLOT_START)..usize::from(SLOT_END)]
+    }
+
+    /// All of SRAM: a power-up leaves it as it is.
+    pub fn sram_mut(&mut self) -> &mut [u8] {
+        &mut self.avr.data_mut()[SRAM]
+    }
+
+    /// Switches the board off: no pin is driven, memory is 0, nothing is retained.
+    pub fn renew(&mut self) {
+        self.avr.erase_eeprom();
         self.avr.reset(Reset::PowerOn);
+        self.sram_mut().fill(0);
     }
 
     /// Power, until the first scan starts.
     pub fn power_up(&mut self) -> Result<(), Broken> {
-        self.power();
-        self.run_to(SCAN_START, BOOT_MAX)
+        self.avr.reset(Reset::PowerOn);
+        self.run_to(Mark::ScanStart, BOOT_MAX)
     }
 
-    /// Power, until the first scan starts, with a clock that stands still at this time. The clock's interrupt also serves
-    /// the converter; the firmware, which waits for it, gets what it would give.
-    pub fn power_up_held(&mut self, now_ms: u32, inputs: &Inputs) -> Result<(), Broken> {
-        self.power();
-        for _ in 0..BOOT_MAX / HELD_STEP {
-            self.hold_clock(now_ms);
-            self.give_analog(inputs, ALL_ANALOGS);
-            match self.avr.run_to_mark(HELD_STEP) {
-                Stopped::Limit => {}
-                Stopped::Mark(_) => return Ok(()),
-                Stopped::Crash { pc } => return Err(crashed(pc)),
+    /// Runs for so many cycles, to the next mark if that comes first. Whether it has come to one: its number.
+    pub fn run(&mut self, cycles: u64) -> Result<Option<u8>, Broken> {
+        match self.avr.run_to_mark(cycles) {
+            Stopped::Limit => Ok(None),
+            Stopped::Mark(mark) => {
+                if mark == Mark::ScanStart as u8 {
+                    self.scan_start = self.avr.cycles();
+                }
+                Ok(Some(mark))
             }
+            Stopped::Crash { pc } => Err(crashed(pc)),
         }
-        Err("the board does not start".to_string())
     }
 
-    /// Runs until a mark, over all others.
-    pub fn run_to(&mut self, mark: u8, cycles_max: u64) -> Result<(), Broken> {
+    /// Runs until a mark, over all others. It is an error if that takes longer than `cycles_max`.
+    pub fn run_to(&mut self, mark: Mark, cycles_max: u64) -> Result<(), Broken> {
         let end = self.avr.cycles() + cycles_max;
         loop {
-            match self.avr.run_to_mark(end.saturating_sub(self.avr.cycles())) {
-                Stopped::Mark(found) if found == mark => return Ok(()),
-                Stopped::Mark(_) => {}
-                Stopped::Limit => return Err(stuck(cycles_max)),
-                Stopped::Crash { pc } => return Err(crashed(pc)),
+            match self.run(end.saturating_sub(self.avr.cycles()))? {
+                Some(found) if found == mark as u8 => return Ok(()),
+                Some(_) => {}
+                None => return Err(format!("the board comes to no {mark:?} for {} ms", cycles_max / MS)),
             }
         }
     }
 
-    /// The same with the clock held, to the next mark, which must be this one. False if the time is over before.
-    pub fn run_held_to(&mut self, mark: u8, cycles_max: u64) -> Result<bool, Broken> {
-        let end = self.avr.cycles() + cycles_max;
-        while self.avr.cycles() < end {
-            // The firmware feeds its watchdog only while the clock goes on.
-            self.avr.feed_watchdog();
-            match self.avr.run_to_mark(HELD_LONG_STEP.min(end - self.avr.cycles())) {
-                Stopped::Mark(found) if found == mark => return Ok(true),
-                Stopped::Mark(_) => return Err("the board was reset in the middle of a scan".to_string()),
-                Stopped::Limit => {}
-                Stopped::Crash { pc } => return Err(crashed(pc)),
-            }
+    /// Executes one instruction, or sleeps until the next event.
+    pub fn step(&mut self) -> Result<(), Broken> {
+        match self.avr.step() {
+            Stopped::Crash { pc } => Err(crashed(pc)),
+            _ => Ok(()),
         }
-        Ok(false)
     }
 
-    /// Stops the millisecond clock and sets it.
-    pub fn hold_clock(&mut self, now_ms: u32) {
+    /// The cycle of the last [`Mark::ScanStart`].
+    pub fn scan_start(&self) -> u64 {
+        self.scan_start
+    }
+
+    /// The millisecond clock.
+    pub fn tick(&self) -> u32 {
+        let at = self.places.tick;
+        u32::from_le_bytes([0, 1, 2, 3].map(|offset| self.byte(at + offset)))
+    }
+
+    /// Sets the millisecond clock.
+    pub fn set_tick(&mut self, ms: u32) {
+        self.write(self.places.tick, &ms.to_le_bytes());
+    }
+
+    /// Switches the interrupt off that lets the millisecond clock go on, and that serves the analog inputs.
+    pub fn stop_clock(&mut self) {
         let (register, bit) = TICK_INTERRUPT;
         self.avr.data_mut()[register] &= !bit;
-        self.write(self.firmware.tick, &now_ms.to_le_bytes());
     }
 
     /// Drives the input pins with these levels, I0.0 in bit 0.
@@ -146,14 +148,24 @@ impl Board {
         }
     }
 
+    /// The pull-ups of the input pins, I0.0 in bit 0.
+    pub fn pull_ups(&self) -> u8 {
+        let has_pull_up = |input: &u8| self.avr.has_pull_up(Pin::of_uno(FIRST_INPUT + input));
+        (0..DIGITAL_INPUTS).filter(has_pull_up).fold(0, |bits, input| bits | 1 << input)
+    }
+
+    /// Which output pins are driven, Q0.0 in bit 0.
+    pub fn driven_outputs(&self) -> u8 {
+        let is_driven = |output: &u8| self.avr.is_output(Pin::of_uno(FIRST_OUTPUT + output));
+        (0..DIGITAL_OUTPUTS).filter(is_driven).fold(0, |bits, output| bits | 1 << output)
+    }
+
     /// The level of each output pin that is driven, Q0.0 in bit 0; of one that is released the level for off.
-    pub fn outputs(&self, off_levels: u8) -> u8 {
-        (0..DIGITAL_OUTPUTS).fold(0, |levels, output| {
-            let pin = Pin::of_uno(FIRST_OUTPUT + output);
-            let off = off_levels >> output & 1 == 1;
-            let level = if self.avr.is_output(pin) { self.avr.level(pin) } else { off };
-            levels | u8::from(level) << output
-        })
+    pub fn output_levels(&self, off_levels: u8) -> u8 {
+        let driven = self.driven_outputs();
+        let is_high = |output: &u8| self.avr.level(Pin::of_uno(FIRST_OUTPUT + output));
+        let levels = (0..DIGITAL_OUTPUTS).filter(is_high).fold(0, |bits, output| bits | 1 << output);
+        levels & driven | off_levels & !driven
     }
 
     /// Sets the voltages at the analog inputs.
@@ -163,44 +175,17 @@ impl Board {
         }
     }
 
-    /// Gives the next scan the analog inputs that these bits name, as if they had just been converted.
-    pub fn give_analog(&mut self, inputs: &Inputs, channels: u8) {
-        let counts: Vec<u8> = inputs.raw.iter().flat_map(|counts| counts.to_le_bytes()).collect();
-        self.write(self.firmware.analog, &counts);
-        if let Some(address) = self.firmware.analog_fresh {
-            self.write(address, &[channels]);
-        }
-    }
-
-    /// Whether the firmware takes the analog inputs one by one: only those that it was given.
-    pub fn takes_single_analogs(&self) -> bool {
-        self.firmware.analog_fresh.is_some()
-    }
-
-    /// Lets the firmware read its inputs, then writes to the process image what it cannot have read from pins.
-    ///
-    /// It stands at the start of the scan, and its pins give `from_pins` for IB0.
-    pub fn add_to_inputs(&mut self, from_pins: u8, wanted: u8) -> Result<(), Broken> {
-        // Seen to be overwritten because it is different.
-        self.write(I_START, &[!from_pins]);
-        for _ in 0..STEPS_TO_INPUTS {
-            if let Stopped::Crash { pc } = self.avr.step() {
-                return Err(crashed(pc));
-            }
-            if self.byte(I_START) == from_pins {
-                self.write(I_START, &[wanted]);
-                return Ok(());
-            }
-        }
-        Err("the firmware does not read its inputs".to_string())
-    }
-
     /// A byte of data memory.
     pub fn byte(&self, address: u16) -> u8 {
         self.avr.data()[usize::from(address)]
     }
 
-    /// Writes to data memory.
+    /// A word of the PLC's data memory.
+    pub fn word(&self, address: u16) -> u16 {
+        u16::from_be_bytes([self.byte(address), self.byte(address + 1)])
+    }
+
+    /// Changes data memory behind the firmware's back.
     pub fn write(&mut self, address: u16, bytes: &[u8]) {
         let at = usize::from(address);
         self.avr.data_mut()[at..at + bytes.len()].copy_from_slice(bytes);
@@ -213,26 +198,27 @@ impl Board {
 
     /// Whether the firmware says that it is in RUN.
     pub fn runs(&self) -> bool {
-        self.byte(self.firmware.status) == 1
+        self.byte(self.places.status) == 1
     }
 
     /// The fault that the firmware tells.
     pub fn fault(&self) -> Option<Fault> {
-        let at = self.firmware.status;
+        let at = self.places.status;
         Fault::from_bytes([1, 2, 3, 4].map(|offset| self.byte(at + offset)))
     }
 
-    /// Bytes of SRAM that nothing has touched since power came.
+    /// Where the firmware's variables end and the free stack begins.
+    pub fn stack_limit(&self) -> u16 {
+        self.places.free
+    }
+
+    /// Bytes above the variables that the stack has never used since the firmware has painted them.
     pub fn unused_stack(&self) -> usize {
-        let free = &self.avr.data()[usize::from(self.firmware.free)..SRAM.end];
-        free.iter().take_while(|&&byte| byte == PAINT).count()
+        let free = &self.avr.data()[usize::from(self.places.free)..SRAM.end];
+        free.iter().take_while(|&&byte| byte == STACK_PAINT).count()
     }
 }
 
 fn crashed(pc: u32) -> Broken {
     format!("the board crashed at {pc:#06x} of its flash")
-}
-
-fn stuck(cycles: u64) -> Broken {
-    format!("the board runs no scan for {} ms", cycles / MS)
 }

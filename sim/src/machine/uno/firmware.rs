@@ -4,24 +4,36 @@ use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
 use awl_asm::files::read;
+use awl_asm::firmware;
 use simavr::Elf;
 
 /// The firmware of the board.
 pub struct Firmware {
     pub(super) elf: Elf,
+    pub(super) places: Places,
+}
+
+/// Data addresses of the firmware's variables.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Places {
     /// The millisecond clock, four bytes, low byte first.
-    pub(super) tick: u16,
+    pub tick: u16,
     /// The analog inputs as the next scan takes them, six words, low byte first.
-    pub(super) analog: u16,
-    /// A bit for each of them that the next scan shall take; without it the firmware takes all.
-    pub(super) analog_fresh: Option<u16>,
+    pub analog: u16,
+    /// A bit for each of them that the next scan shall take.
+    pub analog_fresh: u16,
     /// Mode, and fault in four bytes.
-    pub(super) status: u16,
+    pub status: u16,
     /// One past its variables: from here on SRAM is for the stack.
-    pub(super) free: u16,
+    pub free: u16,
 }
 
 impl Firmware {
+    /// The firmware where it is built, beside the program, or where the environment says.
+    pub fn find() -> Result<Firmware> {
+        Firmware::read(&firmware::find("elf")?)
+    }
+
     /// Reads an ELF. Without the symbols that a harness needs it is an error.
     pub fn read(path: &Path) -> Result<Firmware> {
         Firmware::parse(&read(path)?).with_context(|| path.display().to_string())
@@ -29,12 +41,11 @@ impl Firmware {
 
     fn parse(bytes: &[u8]) -> Result<Firmware> {
         let elf = Elf::parse(bytes)?;
-        let names = ["UNO200_TICK", "UNO200_ANALOG", "UNO200_STATUS", "_end"];
+        let names = ["UNO200_TICK", "UNO200_ANALOG", "UNO200_ANALOG_FRESH", "UNO200_STATUS", "_end"];
         let missing: Vec<_> = names.into_iter().filter(|name| elf.data_symbol(name).is_none()).collect();
         ensure!(missing.is_empty(), "no firmware of uno200: it lacks {}", missing.join(", "));
-        let [tick, analog, status, free] = names.map(|name| elf.data_symbol(name).unwrap_or_default());
-        let analog_fresh = elf.data_symbol("UNO200_ANALOG_FRESH");
-        Ok(Firmware { elf, tick, analog, analog_fresh, status, free })
+        let [tick, analog, analog_fresh, status, free] = names.map(|name| elf.data_symbol(name).unwrap_or_default());
+        Ok(Firmware { elf, places: Places { tick, analog, analog_fresh, status, free } })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use plc_vm::SCAN_MS_MAX;
 
-use super::board::{Broken, MS, SCAN_END, SCAN_START};
+use super::board::{Broken, MS, Mark};
 use super::{At, Uno};
 
 /// Longest time from mark to mark: the longest scan, the longest period, the slowest start after a reset.
@@ -13,11 +13,10 @@ impl Uno {
     /// millisecond.
     pub(super) fn scan_free(&mut self, now_ms: u64) {
         if self.at == At::Off {
-            self.drive_inputs();
+            self.prepare_power();
             let started = self.board.power_up();
             self.arrive(At::ScanStart, started);
-            self.first_scan = self.board.avr().cycles();
-            self.scan_start = self.first_scan;
+            self.first_scan = self.board.scan_start();
         }
         self.run_free(now_ms);
         if self.at == At::ScanStart {
@@ -29,7 +28,7 @@ impl Uno {
 
     /// Runs all scans that start before this time.
     pub(super) fn run_free(&mut self, until_ms: u64) {
-        while self.at == At::ScanStart && self.scan_start - self.first_scan < until_ms * MS {
+        while self.at == At::ScanStart && self.board.scan_start() - self.first_scan < until_ms * MS {
             let scanned = self.one_free_scan();
             self.arrive(At::ScanStart, scanned);
         }
@@ -37,10 +36,8 @@ impl Uno {
 
     /// From the start of a scan to that of the next.
     fn one_free_scan(&mut self) -> Result<(), Broken> {
-        self.board.run_to(SCAN_END, PAUSE_MAX)?;
-        self.scan_cycles = self.board.avr().cycles() - self.scan_start;
-        self.board.run_to(SCAN_START, PAUSE_MAX)?;
-        self.scan_start = self.board.avr().cycles();
-        Ok(())
+        self.board.run_to(Mark::ScanEnd, PAUSE_MAX)?;
+        self.scan_cycles = self.board.avr.cycles() - self.board.scan_start();
+        self.board.run_to(Mark::ScanStart, PAUSE_MAX)
     }
 }

@@ -5,15 +5,24 @@
 //! jumps by the longest time that any scan may take, and the firmware's supervision ends the scan.
 
 use plc_isa::{ANALOG_INPUTS, AnalogInput, I_START};
-use plc_vm::SCAN_MS_MAX;
+use plc_vm::{Inputs, SCAN_MS_MAX};
+use simavr::Reset;
 
-use super::board::{Broken, MS, SCAN_END, SCAN_START};
+use super::board::{BOOT_MAX, Board, Broken, MS, Mark};
 use super::{At, Uno};
 
 /// As long as a scan can last at all.
 pub(super) const HELD_CYCLES_MAX: u64 = SCAN_MS_MAX as u64 * MS;
 /// Longest time between scans, and from the clock's jump to the end of the scan: both are short.
 const PAUSE_MAX: u64 = 1_000 * MS;
+/// Cycles from a look of the harness at the held clock to the next: far less than a millisecond.
+const HELD_STEP: u64 = 200;
+/// Cycles between two feedings of the hardware watchdog while the clock is held: far less than its half second.
+const HELD_LONG_STEP: u64 = 100 * MS;
+/// Steps from the mark before the inputs are read until they certainly have been.
+const STEPS_TO_INPUTS: usize = 2_000;
+/// A bit for each analog input.
+const ALL_ANALOGS: u8 = (1 << ANALOG_INPUTS) - 1;
 
 impl Uno {
     /// Lets the held clock begin at another value, to come near its wrap. Before the first scan.
@@ -31,7 +40,7 @@ impl Uno {
         // The board's clock has 32 bits and wraps.
         let now_ms = self.clock_start_ms.wrapping_add(now_ms as u32);
         if self.at == At::Off {
-            self.drive_inputs();
+            self.prepare_power();
             let started = self.board.power_up_held(now_ms, &self.inputs);
             self.arrive(At::ScanStart, started);
         }
@@ -43,21 +52,20 @@ impl Uno {
 
     fn one_held_scan(&mut self, now_ms: u32) -> Result<(), Broken> {
         self.board.hold_clock(now_ms);
-        if self.at == At::ScanEnd && !self.board.run_held_to(SCAN_START, PAUSE_MAX)? {
+        if self.at == At::ScanEnd && !self.board.run_held_to(Mark::ScanStart, PAUSE_MAX)? {
             return Err("the next scan is not due yet: the program sets a longer period (//# scan)".to_string());
         }
-        self.scan_start = self.board.avr().cycles();
         self.drive_inputs();
         self.write_memory();
         self.give_inputs_without_pin()?;
         self.give_analog();
-        if !self.board.run_held_to(SCAN_END, self.held_cycles_max)? {
+        if !self.board.run_held_to(Mark::ScanEnd, self.held_cycles_max)? {
             self.board.hold_clock(now_ms.wrapping_add(SCAN_MS_MAX));
-            if !self.board.run_held_to(SCAN_END, PAUSE_MAX)? {
+            if !self.board.run_held_to(Mark::ScanEnd, PAUSE_MAX)? {
                 return Err("the scan does not end, however late it is".to_string());
             }
         }
-        self.scan_cycles = self.board.avr().cycles() - self.scan_start;
+        self.scan_cycles = self.board.avr.cycles() - self.board.scan_start();
         Ok(())
     }
 
@@ -77,14 +85,71 @@ impl Uno {
         let channels = 0..usize::from(ANALOG_INPUTS);
         let steps = channels.filter(|&channel| is_step(channel)).fold(0, |bits, channel| bits | 1 << channel);
         self.board.give_analog(&self.inputs, steps);
-        if !self.board.takes_single_analogs() {
-            return;
-        }
         for channel in (0..ANALOG_INPUTS as u8).filter(|channel| steps >> channel & 1 == 0) {
             let at = usize::from(channel);
             let (raw, scaled) = (self.inputs.raw[at], self.inputs.scaled[at]);
             self.board.write(AnalogInput::Raw(channel).address(), &raw.to_be_bytes());
             self.board.write(AnalogInput::Scaled(channel).address(), &scaled.to_be_bytes());
         }
+    }
+}
+
+impl Board {
+    /// Stops the millisecond clock and sets it.
+    fn hold_clock(&mut self, now_ms: u32) {
+        self.stop_clock();
+        self.set_tick(now_ms);
+    }
+
+    /// Power, until the first scan starts, with a clock that stands still at this time. The clock's interrupt also serves
+    /// the converter; the firmware, which waits for it, gets what it would give.
+    fn power_up_held(&mut self, now_ms: u32, inputs: &Inputs) -> Result<(), Broken> {
+        self.avr.reset(Reset::PowerOn);
+        for _ in 0..BOOT_MAX / HELD_STEP {
+            self.hold_clock(now_ms);
+            self.give_analog(inputs, ALL_ANALOGS);
+            if self.run(HELD_STEP)?.is_some() {
+                return Ok(());
+            }
+        }
+        Err("the board does not start".to_string())
+    }
+
+    /// Runs to the next mark, which must be this one, with the clock held. False if the time is over before.
+    fn run_held_to(&mut self, mark: Mark, cycles_max: u64) -> Result<bool, Broken> {
+        let end = self.avr.cycles() + cycles_max;
+        while self.avr.cycles() < end {
+            // The firmware feeds its watchdog only while the clock goes on.
+            self.avr.feed_watchdog();
+            match self.run(HELD_LONG_STEP.min(end - self.avr.cycles()))? {
+                Some(found) if found == mark as u8 => return Ok(true),
+                Some(_) => return Err("the board was reset in the middle of a scan".to_string()),
+                None => {}
+            }
+        }
+        Ok(false)
+    }
+
+    /// Gives the next scan the analog inputs that these bits name, as if they had just been converted.
+    fn give_analog(&mut self, inputs: &Inputs, channels: u8) {
+        let counts: Vec<u8> = inputs.raw.iter().flat_map(|counts| counts.to_le_bytes()).collect();
+        self.write(self.places.analog, &counts);
+        self.write(self.places.analog_fresh, &[channels]);
+    }
+
+    /// Lets the firmware read its inputs, then writes to the process image what it cannot have read from pins.
+    ///
+    /// It stands at the start of the scan, and its pins give `from_pins` for IB0.
+    fn add_to_inputs(&mut self, from_pins: u8, wanted: u8) -> Result<(), Broken> {
+        // Seen to be overwritten because it is different.
+        self.write(I_START, &[!from_pins]);
+        for _ in 0..STEPS_TO_INPUTS {
+            self.step()?;
+            if self.byte(I_START) == from_pins {
+                self.write(I_START, &[wanted]);
+                return Ok(());
+            }
+        }
+        Err("the firmware does not read its inputs".to_string())
     }
 }

@@ -16,8 +16,10 @@ use simavr::Avr;
 use super::points::{self, Points, input_byte, output_byte, replaced};
 use super::{Machine, MachineError, Mode, PlaceOf, fault};
 use crate::operand::Operand;
-use board::{Board, Broken};
+pub use board::{Board, Broken, MS, Mark, SRAM};
 pub use firmware::Firmware;
+
+use board::STACK_PAINT;
 
 /// Inputs I0.0 to I0.5 have a pin.
 const INPUT_PINS: u8 = (1 << DIGITAL_INPUTS) - 1;
@@ -65,8 +67,7 @@ pub struct Uno {
     place_of: PlaceOf,
     inputs: Inputs,
     writes: Vec<Write>,
-    /// Cycle in which the last scan started, and how many it took.
-    scan_start: u64,
+    /// How many cycles the last scan took.
     scan_cycles: u64,
     /// Lock-step: the clock's time at 0 ms, and how long a scan may take while it stands still.
     clock_start_ms: u32,
@@ -80,14 +81,13 @@ impl Uno {
     /// are there from the start. A bad image leaves it in STOP with a fault.
     pub fn new(firmware: Firmware, image: Vec<u8>, clock: Clock, place_of: PlaceOf) -> Result<Uno> {
         let mut uno = Uno {
-            board: Board::new(firmware)?,
+            board: Board::new(&firmware)?,
             clock,
             at: At::Off,
             program: None,
             place_of,
             inputs: Inputs::default(),
             writes: Vec::new(),
-            scan_start: 0,
             scan_cycles: 0,
             clock_start_ms: 0,
             held_cycles_max: lock_step::HELD_CYCLES_MAX,
@@ -99,12 +99,13 @@ impl Uno {
 
     /// Another program in the same board, as new as the first: nothing of before is left.
     pub fn load(&mut self, image: Vec<u8>) {
+        self.board.renew();
         self.board.insert(&image);
         self.program = verify(image).ok();
         self.at = At::Off;
         self.inputs = Inputs::default();
         self.writes.clear();
-        (self.scan_start, self.scan_cycles) = (0, 0);
+        self.scan_cycles = 0;
         (self.clock_start_ms, self.held_cycles_max) = (0, lock_step::HELD_CYCLES_MAX);
     }
 
@@ -138,12 +139,12 @@ impl Uno {
 
     /// The chip.
     pub fn avr(&self) -> &Avr {
-        self.board.avr()
+        &self.board.avr
     }
 
     /// The chip, to do to it what no machine can.
     pub fn avr_mut(&mut self) -> &mut Avr {
-        self.board.avr_mut()
+        &mut self.board.avr
     }
 
     /// Notes where the board has come to, or what happened on the way.
@@ -174,6 +175,13 @@ impl Uno {
         self.board.set_voltages(&self.inputs);
     }
 
+    /// Does what must be done before power comes.
+    fn prepare_power(&mut self) {
+        self.drive_inputs();
+        // So that the measure of the stack covers what was before the firmware painted it.
+        self.board.sram_mut().fill(STACK_PAINT);
+    }
+
     /// Does what waited for the next scan.
     fn write_memory(&mut self) {
         for Write { address, mask, value } in std::mem::take(&mut self.writes) {
@@ -186,7 +194,7 @@ impl Uno {
     fn output_byte(&self, address: u16, byte: u8) -> u8 {
         let image = if self.mode() == Mode::Run { self.board.byte(address) } else { 0 };
         match byte {
-            0 => replaced(image, OUTPUT_PINS, self.board.outputs(self.off_levels()) ^ self.off_levels()),
+            0 => replaced(image, OUTPUT_PINS, self.board.output_levels(self.off_levels()) ^ self.off_levels()),
             _ => image,
         }
     }
@@ -266,7 +274,7 @@ impl Machine for Uno {
     }
 
     fn pin_levels(&mut self) -> u8 {
-        self.board.outputs(self.off_levels())
+        self.board.output_levels(self.off_levels())
     }
 
     fn drive_pin(&mut self, input: u8, high: bool) {

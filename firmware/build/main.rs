@@ -1,0 +1,47 @@
+//! Tells the linker where the program slot and data memory are, and puts the fast engine together. What they follow
+//! from is described in plc-isa and nowhere else.
+
+mod engine;
+
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+/// Offset of data addresses in the linker's view of an AVR.
+const DATA_SPACE: u32 = 0x80_0000;
+
+fn main() {
+    let memory = Path::new(env!("CARGO_MANIFEST_DIR")).join("../memory.x");
+    println!("cargo:rerun-if-changed={}", memory.display());
+    write_engine();
+    for argument in [
+        "-mmcu=atmega328p".to_string(),
+        // Short calls where they reach.
+        "-mrelax".to_string(),
+        format!("-Wl,--defsym=PROGRAM_SLOT_START={:#x}", plc_isa::SLOT_START),
+        format!("-Wl,--defsym=PROGRAM_SLOT_LEN={:#x}", plc_isa::SLOT_LEN),
+        format!("-Wl,--defsym=NATIVE_VECTORS={:#x}", plc_isa::NATIVE_VECTORS),
+        format!("-Wl,--defsym=TABLE_START={:#x}", engine::TABLE_START),
+        // The variables of the firmware begin behind the data memory of the controller.
+        format!("-Wl,-Tdata={:#x}", DATA_SPACE + u32::from(plc_isa::DATA_END)),
+        format!("-Wl,-T,{}", memory.display()),
+    ] {
+        println!("cargo:rustc-link-arg={argument}");
+    }
+    // Before compiler_builtins: the C library's memcpy and division are a tenth of its size.
+    println!("cargo:rustc-link-lib=dylib=gcc");
+    println!("cargo:rustc-link-lib=dylib=c");
+}
+
+/// Writes the engine's assembly and the set of instructions it executes to where the firmware includes them.
+fn write_engine() {
+    let source = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/engine").join(name);
+        println!("cargo:rerun-if-changed={}", path.display());
+        fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    };
+    let engine = engine::generate(&source("engine.s"), &source("handlers.s"));
+    let target = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    for (name, text) in [("engine.s", engine.text), ("executed.rs", format!("{:#x}", engine.executed))] {
+        fs::write(target.join(name), text).unwrap_or_else(|error| panic!("{name}: {error}"));
+    }
+}

@@ -1,0 +1,996 @@
+; The fast engine: dispatch, entry and exit, subroutines of the handlers, and the vectors for native programs.
+;
+; Token threading: each handler ends by fetching the next token and its first operand byte and jumping through a table
+; of 256 entries, so that no byte can lead outside. r26 and r27 are X, r28 and r29 are Y, r30 and r31 are Z.
+
+.equ SREG, 0x3F
+; The bit of SREG that says "less" after a comparison of signed numbers.
+.equ SIGN, 4
+.equ SYSTEM_BITS, 0x0140
+.equ FIRST_SCAN, 1
+.equ RESULT_BITS, 0x0141
+
+; ---- dispatch
+
+; Behind an instruction of more than two bytes, Z at the next one.
+.macro NEXT_Z
+    lpm r18, Z+
+    lpm r26, Z+
+    movw r28, r30
+    mov r30, r18
+    ldi r31, hi8(TABLE_START / 2)
+    ijmp
+.endm
+
+; Behind an instruction of two bytes.
+.macro NEXT
+    movw r30, r28
+    NEXT_Z
+.endm
+
+; Behind an instruction of one byte: its operand byte is the next token.
+.macro NEXT_ONE_BYTE
+    movw r30, r28
+    mov r18, r26
+    lpm r26, Z+
+    movw r28, r30
+    mov r30, r18
+    ldi r31, hi8(TABLE_START / 2)
+    ijmp
+.endm
+
+.section .progmem.gcc.engine, "ax", @progbits
+
+; ---- vectors for native programs, a word each, at the address that plc-isa names
+
+.global uno200_vectors
+uno200_vectors:
+    rjmp bytecode_vector
+    rjmp stop_vector
+    rjmp loop_vector
+    rjmp watchdog_vector
+    rjmp on_delay
+    rjmp off_delay
+    rjmp retentive_on_delay
+    rjmp count_up
+    rjmp count_down
+    rjmp count_up_down
+
+; ---- entry and exit
+
+; u8 uno200_run(u16 address): executes bytecode. Returns why it was left.
+.global uno200_run
+uno200_run:
+    push r16
+    push r17
+    push r28
+    push r29
+    movw r28, r24
+    ldi r27, 1
+    clr r16
+    clt
+    rcall next
+finish:
+    ldi r24, LEFT_AT_END
+epilogue:
+    pop r29
+    pop r28
+    pop r17
+    pop r16
+.global uno200_run_end
+uno200_run_end:
+    ret
+
+; u8 uno200_run_native(u16 word_address): executes machine code.
+.global uno200_run_native
+uno200_run_native:
+    push r2
+    push r3
+    push r4
+    push r5
+    push r6
+    push r7
+    push r8
+    push r9
+    push r10
+    push r11
+    push r12
+    push r13
+    push r14
+    push r15
+    rcall run_native
+    pop r15
+    pop r14
+    pop r13
+    pop r12
+    pop r11
+    pop r10
+    pop r9
+    pop r8
+    pop r7
+    pop r6
+    pop r5
+    pop r4
+    pop r3
+    pop r2
+.global uno200_run_native_end
+uno200_run_native_end:
+    ret
+
+run_native:
+    push r16
+    push r17
+    push r28
+    push r29
+    ldi r28, 0x00
+    ldi r29, 0x01
+    movw r30, r24
+    clt
+    icall
+    rjmp finish
+
+; Leaves the program from its outermost level with the reason in r24. Y tells the place.
+leave:
+    sts CONTEXT + LEFT_AT, r28
+    sts CONTEXT + LEFT_AT + 1, r29
+leave_here:
+    pop r0
+    pop r0
+    rjmp epilogue
+
+; ---- what native programs call
+
+bytecode_vector:
+    push r16
+    push r17
+    push r28
+    push r29
+    movw r28, r30
+    ldi r27, 1
+    rcall next
+    pop r29
+    pop r28
+    pop r17
+    pop r16
+    ret
+
+stop_vector:
+    ldi r24, LEFT_BY_STOP
+    rjmp leave_here
+
+loop_vector:
+    lds r18, UNO200_TICK
+    lds r19, CONTEXT + TICK
+    ldi r24, 0
+    cpse r18, r19
+    rjmp ask_watchdog
+    ret
+
+; The place comes as an offset in the bytecode.
+watchdog_vector:
+    subi r24, lo8(-(SLOT_START + 2))
+    sbci r25, hi8(-(SLOT_START + 2))
+    sts CONTEXT + LEFT_AT, r24
+    sts CONTEXT + LEFT_AT + 1, r25
+    ldi r24, LEFT_BY_WATCHDOG
+    rjmp leave_here
+
+; ---- comparisons that are small rather than fast
+
+; By r18, 6 for each way to combine (push, AND, OR) and 1 for each relation: IN1 in r24 and r25, IN2 in r22 and r23.
+combine:
+    clr r19
+1:  cpi r18, 6
+    brlo 2f
+    subi r18, 6
+    inc r19
+    rjmp 1b
+2:  cpi r18, 2
+    brlo 4f
+    ; > and <= are < and >= with the operands exchanged.
+    cpi r18, 3
+    breq 3f
+    cpi r18, 4
+    brne 4f
+3:  movw r20, r24
+    movw r24, r22
+    movw r22, r20
+4:  cp r24, r22
+    cpc r25, r23
+    in r20, SREG
+    ; Bit 0 of r20: equal, or less.
+    cpi r18, 2
+    brsh 5f
+    lsr r20
+    rjmp 6f
+5:  swap r20
+6:  cpi r18, 1
+    breq 7f
+    cpi r18, 4
+    brlo 8f
+7:  com r20
+8:  tst r19
+    brne 9f
+    lsl r16
+    bld r16, 0
+    bst r20, 0
+    rjmp next_z_x
+9:  dec r19
+    brne 1f
+    sbrs r20, 0
+    clt
+    rjmp next_z_x
+1:  sbrc r20, 0
+    set
+    rjmp next_z_x
+
+; Behind the prefix: r26 is the token.
+compare_any:
+    cpi r26, WIDE_COMPARISONS
+    brlo 1f
+    rjmp rest
+1:  movw r30, r28
+    push r26
+    cpi r26, WIDE_COMPARISONS / 2
+    brsh 2f
+    rcall any_int
+    movw r22, r24
+    rcall any_int
+    rjmp 3f
+2:  rcall any_byte
+    movw r22, r24
+    rcall any_byte
+3:  ; IN2 was read last.
+    movw r20, r24
+    movw r24, r22
+    movw r22, r20
+    pop r18
+    cpi r18, WIDE_COMPARISONS / 2
+    brlo 4f
+    subi r18, WIDE_COMPARISONS / 2
+4:  rjmp combine
+
+; A word, constant or in memory: mode byte and word at Z, value in r24 and r25.
+any_int:
+    lpm r20, Z+
+    lpm r24, Z+
+    lpm r25, Z+
+    sbrs r20, 0
+    ret
+    movw r26, r24
+    ld r25, X+
+    ld r24, X
+    ret
+
+any_byte:
+    lpm r20, Z+
+    lpm r24, Z+
+    lpm r25, Z+
+    sbrs r20, 0
+    ret
+    movw r26, r24
+    ld r24, X
+    clr r25
+    ret
+
+; ---- the table of handlers, at a multiple of 512 bytes
+
+.org TABLE_START - NATIVE_VECTORS
+.global uno200_table
+uno200_table:
+    ENTRIES
+
+; ---- the rest of the dispatch
+
+; Calls of Rust stand behind the table: the linker shortens them, and the table must not move.
+ask_watchdog:
+    jmp uno200_is_overdue
+
+; Passes over operand bytes that nobody reads.
+skip_3:
+    adiw r28, 3
+    rjmp next
+skip_2:
+    adiw r28, 2
+    rjmp next_x
+skip_1:
+    adiw r28, 1
+    rjmp next_x
+
+top_from_flag:
+    clt
+    breq 1f
+    set
+1:
+next_z_x:
+    ldi r27, 1
+next_z:
+    NEXT_Z
+next_x:
+    ldi r27, 1
+next:
+    NEXT
+
+next_one_byte:
+    NEXT_ONE_BYTE
+
+; Whatever has no handler: plc-vm executes it, or says that it is undefined.
+rest:
+    movw r24, r28
+    sbiw r24, 2
+    clr r22
+    bld r22, 0
+    bld r17, 0
+    call uno200_execute_rest
+    bst r17, 0
+    adiw r24, 0
+    breq 1f
+    movw r28, r24
+    rjmp next_x
+1:  ldi r24, LEFT_BY_UNDEFINED
+    rjmp leave
+
+; ---- bits
+
+; The mask of bit r20 in r18.
+mask:
+    ldi r18, 1
+    sbrc r20, 1
+    ldi r18, 4
+    sbrc r20, 0
+    lsl r18
+    sbrc r20, 2
+    swap r18
+    ret
+
+; A bit packed in a word, whose low byte is r26: mask in r19, address in X, byte in r24. Z at what follows.
+load_far_bit:
+    movw r30, r28
+    lpm r27, Z+
+far_bit:
+    ldi r19, 1
+    sbrc r26, 1
+    ldi r19, 4
+    sbrc r26, 0
+    lsl r19
+    sbrc r26, 2
+    swap r19
+    lsr r27
+    ror r26
+    lsr r27
+    ror r26
+    lsr r27
+    ror r26
+    inc r27
+    ld r24, X
+    ret
+
+; Sets r18 bits from mask r19 of the byte r24 at X on. Bytes are inverted by r21, so that resetting is setting.
+set_bits:
+    eor r24, r21
+1:  or r24, r19
+    dec r18
+    breq 2f
+    lsl r19
+    brcc 1b
+    eor r24, r21
+    st X+, r24
+    ld r24, X
+    eor r24, r21
+    ldi r19, 1
+    rjmp 1b
+2:  eor r24, r21
+    st X, r24
+    ret
+
+; R of r18 timers or counters from number r26 on; r27 is the upper byte of the first bit as far bits are packed.
+reset_numbers:
+    mov r22, r26
+    mov r23, r18
+    mov r20, r27
+    ; None when the range would pass number 255.
+    mov r24, r26
+    add r24, r18
+    brcc 1f
+    brne 6f
+1:  tst r18
+    breq 6f
+    ldi r21, 0xFF
+    rcall far_bit
+    rcall set_bits
+    ldi r21, COUNTER_SLOT_LEN
+    sbrc r20, 0
+    rjmp 2f
+    ldi r21, TIMER_SLOT_LEN
+    lds r30, CONTEXT + TIMERS_IN_FLASH
+    lds r31, CONTEXT + TIMERS_IN_FLASH + 1
+    lds r26, CONTEXT + TIMERS_START
+    lds r27, CONTEXT + TIMERS_START + 1
+    lds r24, CONTEXT + TIMERS
+    lds r25, CONTEXT + TIMERS + 1
+    rjmp 3f
+2:  lds r30, CONTEXT + COUNTERS_IN_FLASH
+    lds r31, CONTEXT + COUNTERS_IN_FLASH + 1
+    lds r26, CONTEXT + COUNTERS_START
+    lds r27, CONTEXT + COUNTERS_START + 1
+    lds r24, CONTEXT + COUNTERS
+    lds r25, CONTEXT + COUNTERS + 1
+    ; Each slot: of a timer its kind stands behind its number, and its state behind value and preset.
+3:  sbiw r24, 1
+    brcs 6f
+    lpm r19, Z+
+    sbrs r20, 0
+    adiw r30, 1
+    sub r19, r22
+    cp r19, r23
+    brsh 5f
+    st X+, r1
+    st X, r1
+    adiw r26, 3
+    sbrs r20, 0
+    st X, r1
+    sbiw r26, 4
+5:  add r26, r21
+    adc r27, r1
+    rjmp 3b
+6:  rjmp next_x
+
+; Remembers T in edge memory r26. Not zero: it was remembered before, or this is the first scan, where r19 bit 1 is set.
+remember_edge:
+    mov r20, r26
+    rcall mask
+    lsr r20
+    lsr r20
+    lsr r20
+    lds r26, CONTEXT + EDGES_START
+    lds r27, CONTEXT + EDGES_START + 1
+    add r26, r20
+    adc r27, r1
+    ld r20, X
+    mov r21, r20
+    or r21, r18
+    brts 1f
+    eor r21, r18
+1:  st X, r21
+    ldi r27, 1
+    lds r19, SYSTEM_BITS
+    and r20, r18
+    sbrc r19, FIRST_SCAN
+    or r20, r18
+    tst r20
+    ret
+
+; ---- comparisons
+
+; Flags of the word at r26 with the next bytes minus another. Z at what follows.
+compare_words_straight:
+    movw r30, r28
+    lpm r27, Z+
+    lpm r20, Z+
+    lpm r21, Z+
+    ld r25, X+
+    ld r24, X
+    movw r26, r20
+    ld r23, X+
+    ld r22, X
+    ldi r27, 1
+    cp r24, r22
+    cpc r25, r23
+    ret
+
+compare_words_swapped:
+    movw r30, r28
+    lpm r27, Z+
+    lpm r20, Z+
+    lpm r21, Z+
+    ld r25, X+
+    ld r24, X
+    movw r26, r20
+    ld r23, X+
+    ld r22, X
+    ldi r27, 1
+    cp r22, r24
+    cpc r23, r25
+    ret
+
+compare_constant_straight:
+    movw r30, r28
+    lpm r27, Z+
+    lpm r22, Z+
+    lpm r23, Z+
+    ld r25, X+
+    ld r24, X
+    ldi r27, 1
+    cp r24, r22
+    cpc r25, r23
+    ret
+
+compare_constant_swapped:
+    movw r30, r28
+    lpm r27, Z+
+    lpm r22, Z+
+    lpm r23, Z+
+    ld r25, X+
+    ld r24, X
+    ldi r27, 1
+    cp r22, r24
+    cpc r23, r25
+    ret
+
+compare_bytes:
+    movw r30, r28
+    lpm r27, Z+
+    ld r24, X
+    lpm r26, Z+
+    lpm r27, Z+
+    ld r22, X
+    rjmp 1f
+compare_byte_constant:
+    movw r30, r28
+    lpm r27, Z+
+    lpm r22, Z+
+    ld r24, X
+1:  clr r23
+    clr r25
+    rjmp combine
+
+; ---- words
+
+; IN1 of a box in r22 and r23, the value of OUT in r24 and r25, X at the low byte of OUT, Z at what follows.
+word_box:
+    movw r30, r28
+    lpm r27, Z+
+    ld r23, X+
+    ld r22, X
+    lpm r26, Z+
+    rjmp 1f
+constant_box:
+    mov r22, r26
+    movw r30, r28
+    lpm r23, Z+
+    lpm r26, Z+
+    rjmp 1f
+one_operand_box:
+    movw r30, r28
+1:  lpm r27, Z+
+    ld r25, X+
+    ld r24, X
+    ret
+
+; Writes a result, or leaves OUT as it is when it does not fit.
+write_result:
+    brvs overflow
+    st X, r24
+    st -X, r25
+    ldi r19, 0
+    rjmp write_status
+overflow:
+    ldi r18, 0xF8
+    ldi r19, 0x02
+    rjmp write_bits
+
+; Writes a result that wrapped around, or did not.
+write_wrapped:
+    st X, r24
+    st -X, r25
+    ldi r19, 0
+    brvc write_status
+    ldi r19, 0x02
+write_status:
+    ldi r18, 0xF8
+write_status_of:
+    sbrc r25, 7
+    ori r19, 0x04
+    or r24, r25
+    brne write_bits
+    ori r19, 0x01
+write_bits:
+    lds r24, RESULT_BITS
+    and r24, r18
+    or r24, r19
+    sts RESULT_BITS, r24
+    rjmp next_z_x
+
+; OUT := OUT * IN1, of 32 bits in r18 to r21.
+multiply:
+    push r27
+    clr r27
+    movw r20, r24
+    muls r21, r23
+    movw r24, r0
+    mul r20, r22
+    movw r18, r0
+    mulsu r21, r22
+    sbc r25, r27
+    add r19, r0
+    adc r24, r1
+    adc r25, r27
+    mulsu r23, r20
+    sbc r25, r27
+    add r19, r0
+    adc r24, r1
+    adc r25, r27
+    clr r1
+    pop r27
+    ; It fits when the upper half is the sign of the lower one.
+    clr r20
+    sbrc r19, 7
+    com r20
+    cp r24, r20
+    cpc r25, r20
+    brne product_overflow
+    movw r24, r18
+write_product:
+    st X, r24
+    st -X, r25
+    ldi r18, 0xF0
+    ldi r19, 0
+    rjmp write_status_of
+product_overflow:
+    ldi r18, 0xF0
+    ldi r19, 0x02
+    rjmp write_bits
+
+; OUT := OUT / IN1.
+divide:
+    ldi r18, 0xFF
+    ldi r19, 0x08
+    mov r20, r22
+    or r20, r23
+    breq write_bits
+    ; The only quotient that does not fit is that of -32768 and -1.
+    mov r20, r22
+    and r20, r23
+    com r20
+    mov r21, r25
+    subi r21, 0x80
+    or r20, r21
+    or r20, r24
+    breq product_overflow
+    bld r17, 0
+    push r30
+    push r31
+    push r26
+    push r27
+    call __divmodhi4
+    pop r27
+    pop r26
+    pop r31
+    pop r30
+    bst r17, 0
+    movw r24, r22
+    rjmp write_product
+
+; ---- timers
+
+timer_constant:
+    movw r30, r28
+    lpm r24, Z+
+    lpm r25, Z+
+    movw r28, r30
+    rjmp place_timer
+timer_word:
+    mov r20, r26
+    movw r30, r28
+    lpm r26, Z+
+    lpm r27, Z+
+    movw r28, r30
+    ld r25, X+
+    ld r24, X
+    mov r26, r20
+
+; Timer in slot r26: X slot, Z byte of its bit, r18 mask of its bit, r19 bit 0: counts in 100 ms.
+place_timer:
+    lds r30, CONTEXT + TIMERS_IN_FLASH
+    lds r31, CONTEXT + TIMERS_IN_FLASH + 1
+    add r30, r26
+    adc r31, r1
+    add r30, r26
+    adc r31, r1
+    lpm r20, Z
+    ldi r21, 5
+    mul r26, r21
+    movw r26, r0
+    clr r1
+    lds r22, CONTEXT + TIMERS_START
+    lds r23, CONTEXT + TIMERS_START + 1
+    add r26, r22
+    adc r27, r23
+    rcall mask
+    ldi r19, 1
+    cpi r20, 101
+    brsh 2f
+    mov r21, r20
+    andi r21, 31
+    breq 3f
+    cpi r21, 5
+    brsh 2f
+1:  ldi r19, 0
+2:  ldi r21, lo8(T_BITS_START)
+place_bit:
+    lsr r20
+    lsr r20
+    lsr r20
+    add r20, r21
+    mov r30, r20
+    ldi r31, 1
+    ret
+; A timer of 1 ms is brought up to date first.
+3:  bld r17, 0
+    push r18
+    push r20
+    push r24
+    push r25
+    push r26
+    push r27
+    call uno200_refresh_timers
+    pop r27
+    pop r26
+    pop r25
+    pop r24
+    pop r20
+    pop r18
+    bst r17, 0
+    rjmp 1b
+
+; TON: slot X, preset r24 and r25, byte of the bit Z, mask of the bit r18, r19 bit 0: counts in 100 ms.
+on_delay:
+    adiw r26, 2
+    st X+, r25
+    st X+, r24
+    brts 1f
+    st X, r1
+    sbiw r26, 4
+    st X+, r1
+    st X, r1
+    com r18
+    ld r20, Z
+    and r20, r18
+    st Z, r20
+    ret
+1:  ld r20, X
+    ldi r21, 1
+    st X, r21
+    sbiw r26, 4
+    clr r22
+    clr r23
+    sbrc r20, 0
+    rjmp count_on
+    adiw r26, 1
+    rjmp store_value
+
+retentive_on_delay:
+    adiw r26, 2
+    st X+, r25
+    st X+, r24
+    brts 1f
+    st X, r1
+    ret
+1:  ld r20, X
+    ldi r21, 1
+    st X, r21
+    sbiw r26, 4
+    sbrs r20, 0
+    ldi r19, 0
+count_on:
+    rcall add_ticks
+; The new value r22 and r23 at X, and the bit from the comparison with the preset.
+store_value:
+    st X, r22
+    st -X, r23
+    cp r22, r24
+    cpc r23, r25
+write_timer_bit:
+    ld r20, Z
+    brge 1f
+    or r20, r18
+    eor r20, r18
+    st Z, r20
+    ret
+1:  or r20, r18
+    st Z, r20
+    ret
+
+; The value at X, and with r19 bit 0 the time that has passed, in r22 and r23. X at its low byte.
+add_ticks:
+    ld r23, X+
+    ld r22, X
+    sbrs r19, 0
+    ret
+    lds r20, CONTEXT + TICKS_100
+    lds r21, CONTEXT + TICKS_100 + 1
+    sbrs r21, 7
+    rjmp 1f
+    ldi r20, 0xFF
+    ldi r21, 0x7F
+1:  add r22, r20
+    adc r23, r21
+    brvc 2f
+    ldi r22, 0xFF
+    ldi r23, 0x7F
+2:  ret
+
+off_delay:
+    adiw r26, 2
+    st X+, r25
+    st X+, r24
+    ld r20, X
+    brtc 1f
+    ldi r21, 2
+    st X, r21
+    sbiw r26, 4
+    st X+, r1
+    st X, r1
+    ld r20, Z
+    or r20, r18
+    st Z, r20
+    ret
+1:  ldi r21, 1
+    sbrs r20, 1
+    rjmp 2f
+    st X, r21
+    sbiw r26, 4
+    st X+, r1
+    st X, r1
+    clr r22
+    clr r23
+    rjmp 3f
+2:  sbrs r20, 0
+    ret
+    sbiw r26, 4
+    rcall add_ticks
+3:  ; The value is r22 and r23, X at its low byte.
+    cp r22, r24
+    cpc r23, r25
+    brge 4f
+    st X, r22
+    st -X, r23
+    ret
+4:  ; The time is over: the value is the preset, but not below 0.
+    sbrc r25, 7
+    clr r24
+    sbrc r25, 7
+    clr r25
+    st X, r24
+    st -X, r25
+    adiw r26, 4
+    st X, r1
+    ld r20, Z
+    or r20, r18
+    eor r20, r18
+    st Z, r20
+    ret
+
+; ---- counters
+
+counter_constant:
+    movw r30, r28
+    lpm r24, Z+
+    lpm r25, Z+
+    movw r28, r30
+    rjmp place_counter
+counter_word:
+    mov r20, r26
+    movw r30, r28
+    lpm r26, Z+
+    lpm r27, Z+
+    movw r28, r30
+    ld r25, X+
+    ld r24, X
+    mov r26, r20
+
+; Counter in slot r26: X slot, Z byte of its bit, r18 mask of its bit, r19: S1 in bit 1, S2 in bit 2.
+place_counter:
+    lds r30, CONTEXT + COUNTERS_IN_FLASH
+    lds r31, CONTEXT + COUNTERS_IN_FLASH + 1
+    add r30, r26
+    adc r31, r1
+    lpm r20, Z
+    mov r21, r26
+    lds r26, CONTEXT + COUNTERS_START
+    lds r27, CONTEXT + COUNTERS_START + 1
+    add r26, r21
+    adc r27, r1
+    lsl r21
+    rol r19
+    andi r19, 1
+    add r26, r21
+    adc r27, r19
+    mov r19, r16
+    lsl r19
+    rcall mask
+    ldi r21, lo8(C_BITS_START)
+    rjmp place_bit
+
+; Remembers S1 (or S2 and S1) in bit 0 (and 1) of the state behind X and leaves in r20 which of them rose.
+.macro REMEMBER
+    adiw r26, 2
+    ld r20, X
+    mov r22, r20
+.endm
+.macro ROSE
+    st X, r22
+    sbiw r26, 2
+    com r20
+    and r20, r22
+    lds r21, SYSTEM_BITS
+    sbrc r21, FIRST_SCAN
+    clr r20
+.endm
+
+; CTU: slot X, preset r24 and r25, byte of the bit Z, mask of the bit r18, S1 in bit 1 of r19, S0 in T.
+count_up:
+    REMEMBER
+    andi r22, 0xFE
+    sbrc r19, 1
+    ori r22, 0x01
+    ROSE
+    brts write_zero
+    ld r23, X+
+    ld r22, X
+    sbrs r20, 0
+    rjmp store_value
+    subi r22, 0xFF
+    sbci r23, 0xFF
+    brvc 1f
+    ldi r22, 0xFF
+    ldi r23, 0x7F
+1:  rjmp store_value
+; Value and bit 0.
+write_zero:
+    st X+, r1
+    st X, r1
+clear_bit:
+    com r18
+    ld r20, Z
+    and r20, r18
+    st Z, r20
+    ret
+
+count_down:
+    REMEMBER
+    andi r22, 0xFD
+    sbrc r19, 1
+    ori r22, 0x02
+    ROSE
+    brtc 1f
+    st X+, r25
+    st X, r24
+    rjmp clear_bit
+1:  ld r23, X+
+    ld r22, X
+    ; Down to 0 and no further.
+    cp r1, r22
+    cpc r1, r23
+    brge 2f
+    sbrs r20, 1
+    rjmp 2f
+    subi r22, 1
+    sbci r23, 0
+2:  st X, r22
+    st -X, r23
+    cp r1, r22
+    cpc r1, r23
+    rjmp write_timer_bit
+
+count_up_down:
+    REMEMBER
+    andi r22, 0xFC
+    sbrc r19, 2
+    ori r22, 0x01
+    sbrc r19, 1
+    ori r22, 0x02
+    ROSE
+    brts write_zero
+    ld r23, X+
+    ld r22, X
+    sbrs r20, 0
+    rjmp 1f
+    subi r22, 0xFF
+    sbci r23, 0xFF
+1:  sbrs r20, 1
+    rjmp 2f
+    subi r22, 1
+    sbci r23, 0
+2:  rjmp store_value
+

@@ -1,0 +1,189 @@
+//! The fast engine seen from Rust: what the assembly needs to know, and what it calls.
+//!
+//! The assembly is put together by the build script from `engine.s`, `handlers.s` and the instruction table.
+#![allow(unsafe_code)]
+
+use core::arch::global_asm;
+use core::mem::offset_of;
+use core::ptr;
+
+use plc_isa::{Execute, Flow, SLOT_START};
+use plc_vm::{Environment, Exit, Interpreter};
+
+use crate::board::clock;
+use crate::board::flash::ProgramSlot;
+use crate::environment::ScanTime;
+
+/// The firmware's interface to native programs.
+pub const NATIVE_INTERFACE: u8 = plc_isa::NATIVE_INTERFACE;
+
+/// Instructions that the assembly executes in all their forms.
+pub const EXECUTED: u128 = include!(concat!(env!("OUT_DIR"), "/executed.rs"));
+
+type Execution<'a> = Interpreter<'a, ProgramSlot, ScanTime>;
+
+/// What the assembly knows of the program and the scan.
+#[repr(C)]
+struct Context {
+    /// Addresses of the plan's tables in flash.
+    timers_in_flash: u16,
+    counters_in_flash: u16,
+    labels_in_flash: u16,
+    /// Data addresses of the plan's memory.
+    timers_start: u16,
+    counters_start: u16,
+    edges_start: u16,
+    /// How many timers and counters the plan has.
+    timers: u16,
+    counters: u16,
+    /// Intervals of 100 ms between the starts of this scan and the last.
+    ticks_100: u16,
+    /// Two bytes behind the start of the instruction that left the program, in flash.
+    left_at: u16,
+    /// The low byte of the clock when the watchdog was asked last.
+    tick: u8,
+}
+
+static mut CONTEXT: Context = Context {
+    timers_in_flash: 0,
+    counters_in_flash: 0,
+    labels_in_flash: 0,
+    timers_start: 0,
+    counters_start: 0,
+    edges_start: 0,
+    timers: 0,
+    counters: 0,
+    ticks_100: 0,
+    left_at: 0,
+    tick: 0,
+};
+
+/// The execution that the assembly is in.
+static mut EXECUTION: *mut Execution<'static> = ptr::null_mut();
+
+const LEFT_AT_END: u8 = 0;
+const LEFT_BY_STOP: u8 = 1;
+const LEFT_BY_WATCHDOG: u8 = 2;
+const LEFT_BY_UNDEFINED: u8 = 3;
+
+global_asm!(
+    ".equ TIMERS_IN_FLASH, {timers_in_flash}",
+    ".equ COUNTERS_IN_FLASH, {counters_in_flash}",
+    ".equ LABELS_IN_FLASH, {labels_in_flash}",
+    ".equ TIMERS_START, {timers_start}",
+    ".equ COUNTERS_START, {counters_start}",
+    ".equ EDGES_START, {edges_start}",
+    ".equ TIMERS, {timers}",
+    ".equ COUNTERS, {counters}",
+    ".equ TICKS_100, {ticks_100}",
+    ".equ LEFT_AT, {left_at}",
+    ".equ TICK, {tick}",
+    ".equ LEFT_AT_END, {at_end}",
+    ".equ LEFT_BY_STOP, {by_stop}",
+    ".equ LEFT_BY_WATCHDOG, {by_watchdog}",
+    ".equ LEFT_BY_UNDEFINED, {by_undefined}",
+    ".set CONTEXT, {context}",
+    timers_in_flash = const offset_of!(Context, timers_in_flash),
+    counters_in_flash = const offset_of!(Context, counters_in_flash),
+    labels_in_flash = const offset_of!(Context, labels_in_flash),
+    timers_start = const offset_of!(Context, timers_start),
+    counters_start = const offset_of!(Context, counters_start),
+    edges_start = const offset_of!(Context, edges_start),
+    timers = const offset_of!(Context, timers),
+    counters = const offset_of!(Context, counters),
+    ticks_100 = const offset_of!(Context, ticks_100),
+    left_at = const offset_of!(Context, left_at),
+    tick = const offset_of!(Context, tick),
+    at_end = const LEFT_AT_END,
+    by_stop = const LEFT_BY_STOP,
+    by_watchdog = const LEFT_BY_WATCHDOG,
+    by_undefined = const LEFT_BY_UNDEFINED,
+    context = sym CONTEXT,
+);
+global_asm!(include_str!(concat!(env!("OUT_DIR"), "/engine.s")), options(raw));
+
+unsafe extern "C" {
+    fn uno200_run(address: u16) -> u8;
+    fn uno200_run_native(word_address: u16) -> u8;
+}
+
+/// Executes the program. Returns why it was left, and the offset of the instruction that left it.
+#[inline(always)]
+pub fn run(mut execution: Execution<'_>) -> (Exit, u16) {
+    let (code_at, entry) = (execution.program().code_at(), execution.program().entry());
+    enter(&mut execution);
+    // SAFETY: the program has been verified; the assembly reads flash, writes to addresses of the plan, and keeps what
+    // the calling convention asks for. Machine code is trusted to do the same: its translator made it from a verified
+    // program, and its checksum and interface version are right.
+    let left = unsafe {
+        match entry {
+            Some(entry) => uno200_run_native((SLOT_START + entry) / 2),
+            None => uno200_run(SLOT_START + code_at),
+        }
+    };
+    // SAFETY: the assembly has returned; nothing else uses the context.
+    let at = unsafe { (*&raw const CONTEXT).left_at };
+    let exit = match left {
+        LEFT_AT_END => Exit::End,
+        LEFT_BY_STOP => Exit::Stop,
+        LEFT_BY_WATCHDOG => Exit::Watchdog,
+        _ => Exit::Undefined,
+    };
+    (exit, at.wrapping_sub(SLOT_START + 2))
+}
+
+/// Makes an execution the one that the assembly works for.
+#[inline(always)]
+fn enter(execution: &mut Execution<'_>) {
+    let plan = execution.program().plan();
+    // SAFETY: no interrupt uses the context or the execution, and the assembly is not running.
+    unsafe {
+        let context = &raw mut CONTEXT;
+        (*context).timers_in_flash = SLOT_START + plan.timers_at;
+        (*context).counters_in_flash = SLOT_START + plan.counters_at;
+        (*context).labels_in_flash = SLOT_START + plan.labels_at;
+        (*context).timers_start = plan.timers_start;
+        (*context).counters_start = plan.counters_start;
+        (*context).edges_start = plan.edges_start;
+        (*context).timers = plan.header.timers;
+        (*context).counters = plan.header.counters;
+        (*context).ticks_100 = execution.ticks_100();
+        EXECUTION = ptr::from_mut(execution).cast();
+    }
+}
+
+/// The execution that the assembly is in.
+#[inline(always)]
+fn execution<'a>() -> &'a mut Execution<'a> {
+    // SAFETY: called from within the assembly, which `run` has called with this execution.
+    unsafe { &mut *EXECUTION.cast() }
+}
+
+/// Executes the instruction at this address of flash. Returns the address of the next one, 0 when the program is left.
+#[unsafe(no_mangle)]
+extern "C" fn uno200_execute_rest(address: u16, top: u8) -> u16 {
+    match execution().execute_one(address.wrapping_sub(SLOT_START), top != 0) {
+        Flow::Jump(next) => SLOT_START + next,
+        Flow::Next | Flow::Leave => 0,
+    }
+}
+
+/// Brings the timers of 1 ms up to date.
+#[unsafe(no_mangle)]
+extern "C" fn uno200_refresh_timers() {
+    execution().refresh_timers();
+}
+
+/// Whether the scan takes longer than it may; not 0 if so. Asked again only when the clock has moved.
+#[unsafe(no_mangle)]
+extern "C" fn uno200_is_overdue() -> u8 {
+    // SAFETY: as in `enter`: the assembly has called and waits.
+    unsafe { (*&raw mut CONTEXT).tick = clock::now_ms() as u8 };
+    u8::from(execution().environment().is_overdue(0))
+}
+
+/// WDR.
+#[unsafe(no_mangle)]
+extern "C" fn uno200_retrigger_watchdog() {
+    execution().environment().retrigger_watchdog();
+}

@@ -1,0 +1,612 @@
+; The handlers of the fast engine, one block for each form of an instruction that has one.
+;
+; A block begins with % and the form as the instruction table writes it: instruction, kinds of its operands. The build
+; script enters it for the tokens of that form; {n} becomes the token's distance from the form's first one (bit or
+; relation). What has no block is executed by plc-vm. Subroutines stand in engine.s.
+;
+; At the start of a block: r18 token, X the address of the operand byte in the bit page, Y the address in flash behind
+; token and operand byte, T the top of the logic stack, r16 the levels below, S1 in bit 0. To keep: Y, r16, r27 = 1
+; (NEXT_X restores it), r1 = 0. Free: r0, r17 to r26, r30, r31.
+
+; ---- contacts
+
+% Ld PageBit
+    lsl r16
+    bld r16, 0
+    ld r24, X
+    bst r24, {n}
+    rjmp next
+
+% Ldn PageBit
+    lsl r16
+    bld r16, 0
+    ld r24, X
+    com r24
+    bst r24, {n}
+    rjmp next
+
+% A PageBit
+    ld r24, X
+    sbrs r24, {n}
+    clt
+    rjmp next
+
+% An PageBit
+    ld r24, X
+    sbrc r24, {n}
+    clt
+    rjmp next
+
+% O PageBit
+    ld r24, X
+    sbrc r24, {n}
+    set
+    rjmp next
+
+% On PageBit
+    ld r24, X
+    sbrs r24, {n}
+    set
+    rjmp next
+
+% Ld FarBit
+    rcall load_far_bit
+    rjmp 1f
+
+% Ldn FarBit
+    rcall load_far_bit
+    com r24
+1:  lsl r16
+    bld r16, 0
+    and r24, r19
+    rjmp top_from_flag
+
+% A FarBit
+    rcall load_far_bit
+    rjmp 1f
+
+% An FarBit
+    rcall load_far_bit
+    com r24
+1:  and r24, r19
+    brne 2f
+    clt
+2:  rjmp next_z_x
+
+% O FarBit
+    rcall load_far_bit
+    rjmp 1f
+
+% On FarBit
+    rcall load_far_bit
+    com r24
+1:  and r24, r19
+    breq 2f
+    set
+2:  rjmp next_z_x
+
+% Not
+    bld r24, 0
+    com r24
+    bst r24, 0
+    rjmp next_one_byte
+
+% Eu Edge
+    rcall remember_edge
+    breq 1f
+    clt
+1:  rjmp next
+
+% Ed Edge
+    rcall remember_edge
+    brts 1f
+    breq 2f
+    sbrs r19, 1
+    set
+    rjmp next
+1:  clt
+2:  rjmp next
+
+% Nop Number
+    rjmp next
+
+; ---- coils
+
+% Assign PageBitOut
+    ld r24, X
+    bld r24, {n}
+    st X, r24
+    rjmp next
+
+% Assign FarBitOut
+    rcall load_far_bit
+    or r24, r19
+    brts 1f
+    eor r24, r19
+1:  st X, r24
+    rjmp next_z_x
+
+% Set PageBitOut One
+    brtc 1f
+    ld r24, X
+    ori r24, 1 << {n}
+    st X, r24
+1:  rjmp next
+
+% Reset PageBitReset One
+    brtc 1f
+    ld r24, X
+    andi r24, 0xFF ^ (1 << {n})
+    st X, r24
+1:  rjmp next
+
+% Set FarBitOut Count
+    ldi r21, 0
+    brts write_range
+    rjmp skip_2
+
+% Reset FarBitReset Count
+    ldi r21, 0xFF
+    brts write_range
+    rjmp skip_2
+
+write_range:
+    rcall load_far_bit
+    lpm r18, Z+
+    rcall set_bits
+    rjmp next_z_x
+
+% ResetTimers TimerNumber Count
+    ldi r27, hi8((T_BITS_START - 0x0100) << 3)
+    brts reset_constant
+    rjmp skip_1
+
+% ResetCounters CounterNumber Count
+    ldi r27, hi8((C_BITS_START - 0x0100) << 3)
+    brts reset_constant
+    rjmp skip_1
+
+reset_constant:
+    movw r30, r28
+    lpm r18, Z+
+    movw r28, r30
+    rjmp reset_numbers
+
+% ResetTimers TimerNumber Byte
+    ldi r23, hi8((T_BITS_START - 0x0100) << 3)
+    brts reset_byte
+    rjmp skip_2
+
+% ResetCounters CounterNumber Byte
+    ldi r23, hi8((C_BITS_START - 0x0100) << 3)
+    brts reset_byte
+    rjmp skip_2
+
+reset_byte:
+    mov r22, r26
+    movw r30, r28
+    lpm r26, Z+
+    lpm r27, Z+
+    movw r28, r30
+    ld r18, X
+    movw r26, r22
+    rjmp reset_numbers
+
+; ---- logic stack
+
+% Ald
+    lsr r16
+    brcs 1f
+    clt
+1:  rjmp next_one_byte
+
+% Old
+    lsr r16
+    brcc 1f
+    set
+1:  rjmp next_one_byte
+
+% Lps
+    lsl r16
+    bld r16, 0
+    rjmp next_one_byte
+
+% Lrd
+    bst r16, 0
+    rjmp next_one_byte
+
+% Lpp
+    bst r16, 0
+    lsr r16
+    rjmp next_one_byte
+
+% Lds Level
+    mov r24, r16
+    clr r25
+    lsl r24
+    rol r25
+    bld r24, 0
+1:  subi r26, 1
+    brcs 2f
+    lsr r25
+    ror r24
+    rjmp 1b
+2:  lsl r16
+    bld r16, 0
+    bst r24, 0
+    rjmp next
+
+; ---- comparisons of words: by relation, with the flags of IN1 - IN2; of IN2 - IN1 for > and <=
+
+% Ldw Relation Word Word
+    lsl r16
+    bld r16, 0
+    rcall compare_words_{order}
+    set
+    {branch} 1f
+    clt
+1:  rjmp next_z
+
+% Aw Relation Word Word
+    rcall compare_words_{order}
+    {branch} 1f
+    clt
+1:  rjmp next_z
+
+% Ow Relation Word Word
+    rcall compare_words_{order}
+    {inverse} 1f
+    set
+1:  rjmp next_z
+
+% Ldw Relation Word IntConst
+    lsl r16
+    bld r16, 0
+    rcall compare_constant_{order}
+    set
+    {branch} 1f
+    clt
+1:  rjmp next_z
+
+% Aw Relation Word IntConst
+    rcall compare_constant_{order}
+    {branch} 1f
+    clt
+1:  rjmp next_z
+
+% Ow Relation Word IntConst
+    rcall compare_constant_{order}
+    {inverse} 1f
+    set
+1:  rjmp next_z
+
+; ---- comparisons of bytes, and of whatever stands behind the prefix: smaller rather than fast
+
+% Ldb Relation Byte Byte
+% Ab Relation Byte Byte
+% Ob Relation Byte Byte
+    subi r18, {token}
+    rjmp compare_bytes
+
+% Ldb Relation Byte ByteConst
+% Ab Relation Byte ByteConst
+% Ob Relation Byte ByteConst
+    subi r18, {token}
+    rjmp compare_byte_constant
+
+% wide Ldw Relation AnyInt AnyInt
+% wide Aw Relation AnyInt AnyInt
+% wide Ow Relation AnyInt AnyInt
+% wide Ldb Relation AnyByte AnyByte
+% wide Ab Relation AnyByte AnyByte
+% wide Ob Relation AnyByte AnyByte
+    rjmp compare_any
+
+; ---- moves
+
+% Movb Byte ByteOut
+    brtc 1f
+    movw r30, r28
+    lpm r27, Z+
+    ld r24, X
+    rjmp 2f
+1:  rjmp skip_3
+
+% Movb ByteConst ByteOut
+    brtc 1f
+    mov r24, r26
+    movw r30, r28
+2:  lpm r26, Z+
+    lpm r27, Z+
+    st X, r24
+    rjmp next_z_x
+1:  rjmp skip_2
+
+% Movw Word WordOut
+    brtc 1f
+    movw r30, r28
+    lpm r27, Z+
+    lpm r20, Z+
+    lpm r21, Z+
+    ld r25, X+
+    ld r24, X
+    movw r26, r20
+    st X+, r25
+    st X, r24
+    ldi r27, 1
+    rjmp next_z
+1:  adiw r28, 3
+    rjmp next
+
+% Movw WordConst WordOut
+    brtc 1f
+    mov r24, r26
+    movw r30, r28
+    lpm r25, Z+
+    lpm r26, Z+
+    lpm r27, Z+
+    st X+, r25
+    st X, r24
+    ldi r27, 1
+    rjmp next_z
+1:  adiw r28, 3
+    rjmp next
+
+; ---- integer arithmetic
+
+% AddInt Word WordOut
+    brts 1f
+    rjmp skip_3
+1:  rcall word_box
+2:  add r24, r22
+    adc r25, r23
+    rjmp write_result
+
+% AddInt IntConst WordOut
+    brts 1f
+    rjmp skip_3
+1:  rcall constant_box
+    rjmp 2b
+
+% SubInt Word WordOut
+    brts 1f
+    rjmp skip_3
+1:  rcall word_box
+2:  sub r24, r22
+    sbc r25, r23
+    rjmp write_result
+
+% SubInt IntConst WordOut
+    brts 1f
+    rjmp skip_3
+1:  rcall constant_box
+    rjmp 2b
+
+% Incw WordOut
+    brts 1f
+    rjmp skip_1
+1:  rcall one_operand_box
+    subi r24, 0xFF
+    sbci r25, 0xFF
+    rjmp write_wrapped
+
+% Decw WordOut
+    brts 1f
+    rjmp skip_1
+1:  rcall one_operand_box
+    subi r24, 1
+    sbci r25, 0
+    rjmp write_wrapped
+
+% MulInt Word WordOut
+    brts 1f
+    rjmp skip_3
+1:  rcall word_box
+    rjmp multiply
+
+% MulInt IntConst WordOut
+    brts 1f
+    rjmp skip_3
+1:  rcall constant_box
+    rjmp multiply
+
+% DivInt Word WordOut
+    brts 1f
+    rjmp skip_3
+1:  rcall word_box
+    rjmp divide
+
+% DivInt IntConst WordOut
+    brts 1f
+    rjmp skip_3
+1:  rcall constant_box
+    rjmp divide
+
+; ---- timers and counters
+
+% Ton TimerSlot IntConst
+    rcall timer_constant
+    rcall on_delay
+    rjmp next_x
+
+% Ton TimerSlot Word
+    rcall timer_word
+    rcall on_delay
+    rjmp next_x
+
+% Tof TimerSlot IntConst
+    rcall timer_constant
+    rcall off_delay
+    rjmp next_x
+
+% Tof TimerSlot Word
+    rcall timer_word
+    rcall off_delay
+    rjmp next_x
+
+% Tonr TimerSlot IntConst
+    rcall timer_constant
+    rcall retentive_on_delay
+    rjmp next_x
+
+% Tonr TimerSlot Word
+    rcall timer_word
+    rcall retentive_on_delay
+    rjmp next_x
+
+% Ctu CounterSlot IntConst
+    rcall counter_constant
+    rcall count_up
+    rjmp next_x
+
+% Ctu CounterSlot Word
+    rcall counter_word
+    rcall count_up
+    rjmp next_x
+
+% Ctd CounterSlot IntConst
+    rcall counter_constant
+    rcall count_down
+    rjmp next_x
+
+% Ctd CounterSlot Word
+    rcall counter_word
+    rcall count_down
+    rjmp next_x
+
+% Ctud CounterSlot IntConst
+    rcall counter_constant
+    rcall count_up_down
+    rjmp next_x
+
+% Ctud CounterSlot Word
+    rcall counter_word
+    rcall count_up_down
+    rjmp next_x
+
+; ---- program control
+
+% For WordOut AnyInt AnyInt LoopEnd
+    brts 1f
+    adiw r28, 7
+    movw r30, r28
+    rjmp go_to_end
+1:  movw r30, r28
+    mov r18, r26
+    lpm r19, Z+
+    rcall any_int
+    movw r22, r24
+    rcall any_int
+    movw r26, r18
+    st X+, r23
+    st X, r22
+    ldi r27, 1
+    cp r24, r22
+    cpc r25, r23
+    brlt go_to_end
+    adiw r30, 2
+    rjmp next_z
+go_to_end:
+    lpm r24, Z+
+    lpm r25, Z
+    movw r30, r24
+    subi r31, hi8(-(SLOT_START))
+    rjmp next_z
+
+% Next LoopStart Here
+    movw r30, r28
+    lpm r27, Z+
+    movw r22, r30
+    movw r30, r26
+    subi r31, hi8(-(SLOT_START))
+    adiw r30, 1
+    lpm r18, Z+
+    lpm r19, Z+
+    adiw r30, 3
+    rcall any_int
+    adiw r30, 2
+    movw r26, r18
+    ld r21, X+
+    ld r20, X
+    set
+    cp r20, r24
+    cpc r21, r25
+    in r0, SREG
+    subi r20, 0xFF
+    sbci r21, 0xFF
+    st X, r20
+    st -X, r21
+    ldi r27, 1
+    sbrc r0, SIGN
+    rjmp go_back
+    movw r30, r22
+    rjmp next_z
+
+% Jmp LabelIndex Here
+    brts 1f
+    rjmp next
+1:  lds r30, CONTEXT + LABELS_IN_FLASH
+    lds r31, CONTEXT + LABELS_IN_FLASH + 1
+    add r30, r26
+    adc r31, r1
+    add r30, r26
+    adc r31, r1
+    lpm r24, Z+
+    lpm r25, Z
+    movw r30, r24
+    subi r31, hi8(-(SLOT_START))
+    cp r30, r28
+    cpc r31, r29
+    brlo go_back
+    rjmp next_z
+; Goes back to Z as long as the watchdog allows.
+go_back:
+    lds r18, UNO200_TICK
+    lds r19, CONTEXT + TICK
+    cp r18, r19
+    brne 1f
+    rjmp next_z
+1:  push r30
+    push r31
+    call uno200_is_overdue
+    pop r31
+    pop r30
+    set
+    ldi r27, 1
+    tst r24
+    brne 2f
+    rjmp next_z
+2:  ldi r24, LEFT_BY_WATCHDOG
+    jmp leave
+
+% Lbl LabelNumber
+    rjmp next
+
+% End
+    brts 1f
+    rjmp next_one_byte
+1:  ret
+
+% Stop
+    brts 1f
+    rjmp next_one_byte
+1:  ldi r24, LEFT_BY_STOP
+    jmp leave
+
+% Wdr
+    sbiw r28, 1
+    brtc 1f
+    call uno200_retrigger_watchdog
+    set
+    rjmp next_x
+1:  rjmp next
+
+% Refresh
+    sbiw r28, 1
+    bld r17, 0
+    call uno200_refresh_timers
+    bst r17, 0
+    rjmp next_x
+
+% MainEnd
+    ret
