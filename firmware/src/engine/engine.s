@@ -332,17 +332,6 @@ rest:
 
 ; ---- bits
 
-; The mask of bit r20 in r18.
-mask:
-    ldi r18, 1
-    sbrc r20, 1
-    ldi r18, 4
-    sbrc r20, 0
-    lsl r18
-    sbrc r20, 2
-    swap r18
-    ret
-
 ; A bit packed in a word, whose low byte is r26: mask in r19, address in X, byte in r24. Z at what follows.
 load_far_bit:
     movw r30, r28
@@ -437,14 +426,12 @@ reset_numbers:
 
 ; Remembers T in edge memory r26. Not zero: it was remembered before, or this is the first scan, where r19 bit 1 is set.
 remember_edge:
+    ldi r21, 0
     mov r20, r26
-    rcall mask
-    lsr r20
-    lsr r20
-    lsr r20
+    rcall place_bit
     lds r26, CONTEXT + EDGES_START
     lds r27, CONTEXT + EDGES_START + 1
-    add r26, r20
+    add r26, r30
     adc r27, r1
     ld r20, X
     mov r21, r20
@@ -663,12 +650,6 @@ divide:
 
 ; ---- timers
 
-timer_constant:
-    movw r30, r28
-    lpm r24, Z+
-    lpm r25, Z+
-    movw r28, r30
-    rjmp place_timer
 timer_word:
     mov r20, r26
     movw r30, r28
@@ -678,6 +659,12 @@ timer_word:
     ld r25, X+
     ld r24, X
     mov r26, r20
+    rjmp place_timer
+timer_constant:
+    movw r30, r28
+    lpm r24, Z+
+    lpm r25, Z+
+    movw r28, r30
 
 ; Timer in slot r26: X slot, Z byte of its bit, r18 mask of its bit, r19 bit 0: counts in 100 ms.
 place_timer:
@@ -688,26 +675,34 @@ place_timer:
     add r30, r26
     adc r31, r1
     lpm r20, Z
-    ldi r21, 5
+    ldi r21, TIMER_SLOT_LEN
     mul r26, r21
     movw r26, r0
     clr r1
-    lds r22, CONTEXT + TIMERS_START
-    lds r23, CONTEXT + TIMERS_START + 1
-    add r26, r22
-    adc r27, r23
-    rcall mask
+    lds r18, CONTEXT + TIMERS_START
+    add r26, r18
+    lds r18, CONTEXT + TIMERS_START + 1
+    adc r27, r18
     ldi r19, 1
+    ldi r21, lo8(T_BITS_START)
     cpi r20, 101
-    brsh 2f
-    mov r21, r20
-    andi r21, 31
-    breq 3f
-    cpi r21, 5
-    brsh 2f
-1:  ldi r19, 0
-2:  ldi r21, lo8(T_BITS_START)
+    brsh place_bit
+    mov r18, r20
+    andi r18, 31
+    breq 1f
+    cpi r18, 5
+    brsh place_bit
+    ldi r19, 0
+
+; Bit r20 of the bytes from r21 of the bit page on: byte Z, mask r18.
 place_bit:
+    ldi r18, 1
+    sbrc r20, 1
+    ldi r18, 4
+    sbrc r20, 0
+    lsl r18
+    sbrc r20, 2
+    swap r18
     lsr r20
     lsr r20
     lsr r20
@@ -716,8 +711,7 @@ place_bit:
     ldi r31, 1
     ret
 ; A timer of 1 ms is brought up to date first.
-3:  bld r17, 0
-    push r18
+1:  bld r17, 0
     push r20
     push r24
     push r25
@@ -729,9 +723,10 @@ place_bit:
     pop r25
     pop r24
     pop r20
-    pop r18
     bst r17, 0
-    rjmp 1b
+    ldi r19, 0
+    ldi r21, lo8(T_BITS_START)
+    rjmp place_bit
 
 ; TON: slot X, preset r24 and r25, byte of the bit Z, mask of the bit r18, r19 bit 0: counts in 100 ms.
 on_delay:
@@ -863,12 +858,6 @@ off_delay:
 
 ; ---- counters
 
-counter_constant:
-    movw r30, r28
-    lpm r24, Z+
-    lpm r25, Z+
-    movw r28, r30
-    rjmp place_counter
 counter_word:
     mov r20, r26
     movw r30, r28
@@ -878,6 +867,12 @@ counter_word:
     ld r25, X+
     ld r24, X
     mov r26, r20
+    rjmp place_counter
+counter_constant:
+    movw r30, r28
+    lpm r24, Z+
+    lpm r25, Z+
+    movw r28, r30
 
 ; Counter in slot r26: X slot, Z byte of its bit, r18 mask of its bit, r19: S1 in bit 1, S2 in bit 2.
 place_counter:
@@ -886,19 +881,16 @@ place_counter:
     add r30, r26
     adc r31, r1
     lpm r20, Z
-    mov r21, r26
-    lds r26, CONTEXT + COUNTERS_START
-    lds r27, CONTEXT + COUNTERS_START + 1
-    add r26, r21
-    adc r27, r1
-    lsl r21
-    rol r19
-    andi r19, 1
-    add r26, r21
-    adc r27, r19
+    ldi r21, COUNTER_SLOT_LEN
+    mul r26, r21
+    movw r26, r0
+    clr r1
+    lds r18, CONTEXT + COUNTERS_START
+    add r26, r18
+    lds r18, CONTEXT + COUNTERS_START + 1
+    adc r27, r18
     mov r19, r16
     lsl r19
-    rcall mask
     ldi r21, lo8(C_BITS_START)
     rjmp place_bit
 

@@ -15,7 +15,7 @@
     bld r16, 0
     ld r24, X
     bst r24, {n}
-    rjmp next
+    NEXT
 
 % Ldn PageBit
     lsl r16
@@ -29,19 +29,19 @@
     ld r24, X
     sbrs r24, {n}
     clt
-    rjmp next
+    NEXT
 
 % An PageBit
     ld r24, X
     sbrc r24, {n}
     clt
-    rjmp next
+    NEXT
 
 % O PageBit
     ld r24, X
     sbrc r24, {n}
     set
-    rjmp next
+    NEXT
 
 % On PageBit
     ld r24, X
@@ -107,16 +107,13 @@
 1:  clt
 2:  rjmp next
 
-% Nop Number
-    rjmp next
-
 ; ---- coils
 
 % Assign PageBitOut
     ld r24, X
     bld r24, {n}
     st X, r24
-    rjmp next
+    NEXT
 
 % Assign FarBitOut
     rcall load_far_bit
@@ -127,18 +124,24 @@
     rjmp next_z_x
 
 % Set PageBitOut One
-    brtc 1f
+    brtc pass
     ld r24, X
     ori r24, 1 << {n}
     st X, r24
-1:  rjmp next
+    rjmp pass
+
+; In the middle, where short branches reach it from both sides.
+% Nop Number
+% Lbl LabelNumber
+pass:
+    NEXT
 
 % Reset PageBitReset One
-    brtc 1f
+    brtc pass
     ld r24, X
     andi r24, 0xFF ^ (1 << {n})
     st X, r24
-1:  rjmp next
+    rjmp pass
 
 % Set FarBitOut Count
     ldi r21, 0
@@ -578,9 +581,6 @@ go_back:
     rjmp next_z
 2:  ldi r24, LEFT_BY_WATCHDOG
     jmp leave
-
-% Lbl LabelNumber
-    rjmp next
 
 % End
     brts 1f
