@@ -125,7 +125,7 @@ fn a_run_command_does_not_hide_the_fault_that_comes_before_it() {
 
 #[test]
 fn a_program_without_loops_can_be_too_slow_too() {
-    let slow = format!("//# watchdog 5ms\n{ALL_ON}{}", "LD I0.0\n+I 1, MW0\n".repeat(500));
+    let slow = format!("//# watchdog 5ms\n{ALL_ON}{}", "LD I0.0\n/I 1, MW0\n".repeat(800));
     let mut board = BenchBoard::new();
     board.insert(&image(&slow));
     board.power_up();

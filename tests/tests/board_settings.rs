@@ -56,7 +56,7 @@ fn inputs_and_outputs_are_inverted_exactly_where_the_program_asks() {
 /// A fixed period. I0.0 and I0.1 make the scan longer than one period, and than three.
 const PERIOD_MS: u64 = 10;
 const PERIODIC: &str =
-    "//# scan 10ms\nLD I0.0\nFOR MW0, 1, 220\nNEXT\nLD I0.1\nFOR MW0, 1, 500\nNEXT\nLD SM0.0\n= Q0.0\n";
+    "//# scan 10ms\nLD I0.0\nFOR MW0, 1, 2200\nNEXT\nLD I0.1\nFOR MW0, 1, 5500\nNEXT\nLD SM0.0\n= Q0.0\n";
 
 /// Cycles from the start of each scan to that of the next.
 fn periods(scans: &[Scan]) -> Vec<u64> {

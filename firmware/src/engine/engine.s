@@ -4,6 +4,8 @@
 ; of 256 entries, so that no byte can lead outside. r26 and r27 are X, r28 and r29 are Y, r30 and r31 are Z.
 
 .equ SREG, 0x3F
+.equ STACK_LOW, 0x3D
+.equ STACK_HIGH, 0x3E
 ; The bit of SREG that says "less" after a comparison of signed numbers.
 .equ SIGN, 4
 .equ SYSTEM_BITS, 0x0140
@@ -11,6 +13,12 @@
 .equ RESULT_BITS, 0x0141
 
 ; ---- dispatch
+
+; Flash can change under a running program until the self-test has seen it: no operand may lead outside. What is read
+; stays in SRAM, what is written stays in data memory.
+.macro READABLE high
+    andi \high, 0x07
+.endm
 
 ; Behind an instruction of more than two bytes, Z at the next one.
 .macro NEXT_Z
@@ -58,13 +66,22 @@ uno200_vectors:
 
 ; ---- entry and exit
 
-; u8 uno200_run(u16 address): executes bytecode. Returns why it was left.
-.global uno200_run
-uno200_run:
+; Keeps what the caller of Rust keeps, and where the stack is then, for those who leave from within subroutines.
+.macro ENTER
     push r16
     push r17
     push r28
     push r29
+    in r18, STACK_LOW
+    in r19, STACK_HIGH
+    sts CONTEXT + STACK, r18
+    sts CONTEXT + STACK + 1, r19
+.endm
+
+; u8 uno200_run(u16 address): executes bytecode. Returns why it was left.
+.global uno200_run
+uno200_run:
+    ENTER
     movw r28, r24
     ldi r27, 1
     clr r16
@@ -118,10 +135,7 @@ uno200_run_native_end:
     ret
 
 run_native:
-    push r16
-    push r17
-    push r28
-    push r29
+    ENTER
     ldi r28, 0x00
     ldi r29, 0x01
     movw r30, r24
@@ -129,13 +143,22 @@ run_native:
     icall
     rjmp finish
 
-; Leaves the program from its outermost level with the reason in r24. Y tells the place.
+; An operand leads outside.
+outside:
+    ldi r24, LEFT_BY_UNDEFINED
+; Leaves the program from any level with the reason in r24. Y tells the place.
 leave:
     sts CONTEXT + LEFT_AT, r28
     sts CONTEXT + LEFT_AT + 1, r29
 leave_here:
-    pop r0
-    pop r0
+    lds r18, CONTEXT + STACK
+    lds r19, CONTEXT + STACK + 1
+    in r0, SREG
+    cli
+    out STACK_HIGH, r19
+    out SREG, r0
+    out STACK_LOW, r18
+    clr r1
     rjmp epilogue
 
 ; ---- what native programs call
@@ -165,15 +188,6 @@ loop_vector:
     cpse r18, r19
     rjmp ask_watchdog
     ret
-
-; The place comes as an offset in the bytecode.
-watchdog_vector:
-    subi r24, lo8(-(SLOT_START + 2))
-    sbci r25, hi8(-(SLOT_START + 2))
-    sts CONTEXT + LEFT_AT, r24
-    sts CONTEXT + LEFT_AT + 1, r25
-    ldi r24, LEFT_BY_WATCHDOG
-    rjmp leave_here
 
 ; ---- comparisons that are small rather than fast
 
@@ -258,6 +272,7 @@ any_int:
     sbrs r20, 0
     ret
     movw r26, r24
+    READABLE r27
     ld r25, X+
     ld r24, X
     ret
@@ -269,6 +284,7 @@ any_byte:
     sbrs r20, 0
     ret
     movw r26, r24
+    READABLE r27
     ld r24, X
     clr r25
     ret
@@ -282,6 +298,25 @@ uno200_table:
 
 ; ---- the rest of the dispatch
 
+; The place comes as an offset in the bytecode.
+watchdog_vector:
+    subi r24, lo8(-(SLOT_START + 2))
+    sbci r25, hi8(-(SLOT_START + 2))
+    sts CONTEXT + LEFT_AT, r24
+    sts CONTEXT + LEFT_AT + 1, r25
+    ldi r24, LEFT_BY_WATCHDOG
+    rjmp leave_here
+
+; Whether data memory at X may be written. It does not return if not.
+check_output:
+    cpi r27, hi8(DATA_START)
+    brlo 1f
+check_end:
+    cpi r27, hi8(DATA_END)
+    brsh 1f
+    ret
+1:  jmp outside
+
 ; Calls of Rust stand behind the table: the linker shortens them, and the table must not move.
 ask_watchdog:
     jmp uno200_is_overdue
@@ -290,12 +325,12 @@ ask_watchdog:
 skip_3:
     adiw r28, 3
     rjmp next
-skip_2:
-    adiw r28, 2
-    rjmp next_x
 skip_1:
     adiw r28, 1
-    rjmp next_x
+    rjmp next
+skip_2:
+    adiw r28, 2
+    NEXT
 
 top_from_flag:
     clt
@@ -351,6 +386,7 @@ far_bit:
     lsr r27
     ror r26
     inc r27
+    rcall check_end
     ld r24, X
     ret
 
@@ -364,6 +400,7 @@ set_bits:
     brcc 1b
     eor r24, r21
     st X+, r24
+    rcall check_end
     ld r24, X
     eor r24, r21
     ldi r19, 1
@@ -433,6 +470,7 @@ remember_edge:
     lds r27, CONTEXT + EDGES_START + 1
     add r26, r30
     adc r27, r1
+    rcall check_end
     ld r20, X
     mov r21, r20
     or r21, r18
@@ -455,9 +493,11 @@ compare_words_straight:
     lpm r27, Z+
     lpm r20, Z+
     lpm r21, Z+
+    READABLE r27
     ld r25, X+
     ld r24, X
     movw r26, r20
+    READABLE r27
     ld r23, X+
     ld r22, X
     ldi r27, 1
@@ -470,9 +510,11 @@ compare_words_swapped:
     lpm r27, Z+
     lpm r20, Z+
     lpm r21, Z+
+    READABLE r27
     ld r25, X+
     ld r24, X
     movw r26, r20
+    READABLE r27
     ld r23, X+
     ld r22, X
     ldi r27, 1
@@ -485,6 +527,7 @@ compare_constant_straight:
     lpm r27, Z+
     lpm r22, Z+
     lpm r23, Z+
+    READABLE r27
     ld r25, X+
     ld r24, X
     ldi r27, 1
@@ -497,6 +540,7 @@ compare_constant_swapped:
     lpm r27, Z+
     lpm r22, Z+
     lpm r23, Z+
+    READABLE r27
     ld r25, X+
     ld r24, X
     ldi r27, 1
@@ -507,14 +551,17 @@ compare_constant_swapped:
 compare_bytes:
     movw r30, r28
     lpm r27, Z+
+    READABLE r27
     ld r24, X
     lpm r26, Z+
     lpm r27, Z+
+    READABLE r27
     ld r22, X
     rjmp 1f
 compare_byte_constant:
     movw r30, r28
     lpm r27, Z+
+    READABLE r27
     lpm r22, Z+
     ld r24, X
 1:  clr r23
@@ -527,6 +574,7 @@ compare_byte_constant:
 word_box:
     movw r30, r28
     lpm r27, Z+
+    READABLE r27
     ld r23, X+
     ld r22, X
     lpm r26, Z+
@@ -540,6 +588,7 @@ constant_box:
 one_operand_box:
     movw r30, r28
 1:  lpm r27, Z+
+    rcall check_output
     ld r25, X+
     ld r24, X
     ret
@@ -656,6 +705,7 @@ timer_word:
     lpm r26, Z+
     lpm r27, Z+
     movw r28, r30
+    READABLE r27
     ld r25, X+
     ld r24, X
     mov r26, r20
@@ -683,6 +733,8 @@ place_timer:
     add r26, r18
     lds r18, CONTEXT + TIMERS_START + 1
     adc r27, r18
+    cpi r27, hi8(DATA_END)
+    brsh slot_outside
     ldi r19, 1
     ldi r21, lo8(T_BITS_START)
     cpi r20, 101
@@ -710,6 +762,8 @@ place_bit:
     mov r30, r20
     ldi r31, 1
     ret
+slot_outside:
+    jmp outside
 ; A timer of 1 ms is brought up to date first.
 1:  bld r17, 0
     push r20
@@ -864,6 +918,7 @@ counter_word:
     lpm r26, Z+
     lpm r27, Z+
     movw r28, r30
+    READABLE r27
     ld r25, X+
     ld r24, X
     mov r26, r20
@@ -889,10 +944,13 @@ place_counter:
     add r26, r18
     lds r18, CONTEXT + COUNTERS_START + 1
     adc r27, r18
+    cpi r27, hi8(DATA_END)
+    brsh 2f
     mov r19, r16
     lsl r19
     ldi r21, lo8(C_BITS_START)
     rjmp place_bit
+2:  jmp outside
 
 ; Remembers S1 (or S2 and S1) in bit 0 (and 1) of the state behind X and leaves in r20 which of them rose.
 .macro REMEMBER

@@ -40,6 +40,8 @@ struct Context {
     ticks_100: u16,
     /// Two bytes behind the start of the instruction that left the program, in flash.
     left_at: u16,
+    /// The stack pointer where the program is left.
+    stack: u16,
     /// The low byte of the clock when the watchdog was asked last.
     tick: u8,
 }
@@ -55,6 +57,7 @@ static mut CONTEXT: Context = Context {
     counters: 0,
     ticks_100: 0,
     left_at: 0,
+    stack: 0,
     tick: 0,
 };
 
@@ -77,6 +80,7 @@ global_asm!(
     ".equ COUNTERS, {counters}",
     ".equ TICKS_100, {ticks_100}",
     ".equ LEFT_AT, {left_at}",
+    ".equ STACK, {stack}",
     ".equ TICK, {tick}",
     ".equ LEFT_AT_END, {at_end}",
     ".equ LEFT_BY_STOP, {by_stop}",
@@ -93,6 +97,7 @@ global_asm!(
     counters = const offset_of!(Context, counters),
     ticks_100 = const offset_of!(Context, ticks_100),
     left_at = const offset_of!(Context, left_at),
+    stack = const offset_of!(Context, stack),
     tick = const offset_of!(Context, tick),
     at_end = const LEFT_AT_END,
     by_stop = const LEFT_BY_STOP,

@@ -160,12 +160,12 @@ write_range:
     rjmp next_z_x
 
 % ResetTimers TimerNumber Count
-    ldi r27, hi8((T_BITS_START - 0x0100) << 3)
+    ldi r23, hi8((T_BITS_START - 0x0100) << 3)
     brts reset_constant
     rjmp skip_1
 
 % ResetCounters CounterNumber Count
-    ldi r27, hi8((C_BITS_START - 0x0100) << 3)
+    ldi r23, hi8((C_BITS_START - 0x0100) << 3)
     brts reset_constant
     rjmp skip_1
 
@@ -173,6 +173,7 @@ reset_constant:
     movw r30, r28
     lpm r18, Z+
     movw r28, r30
+    mov r27, r23
     rjmp reset_numbers
 
 % ResetTimers TimerNumber Byte
@@ -191,6 +192,7 @@ reset_byte:
     lpm r26, Z+
     lpm r27, Z+
     movw r28, r30
+    READABLE r27
     ld r18, X
     movw r26, r22
     rjmp reset_numbers
@@ -311,6 +313,7 @@ reset_byte:
     brtc 1f
     movw r30, r28
     lpm r27, Z+
+    READABLE r27
     ld r24, X
     rjmp 2f
 1:  rjmp skip_3
@@ -321,6 +324,7 @@ reset_byte:
     movw r30, r28
 2:  lpm r26, Z+
     lpm r27, Z+
+    rcall check_output
     st X, r24
     rjmp next_z_x
 1:  rjmp skip_2
@@ -331,29 +335,30 @@ reset_byte:
     lpm r27, Z+
     lpm r20, Z+
     lpm r21, Z+
+    READABLE r27
     ld r25, X+
     ld r24, X
     movw r26, r20
-    st X+, r25
-    st X, r24
-    ldi r27, 1
-    rjmp next_z
+    rjmp 2f
 1:  adiw r28, 3
-    rjmp next
+    NEXT
 
 % Movw WordConst WordOut
-    brtc 1f
+    brtc 1b
     mov r24, r26
     movw r30, r28
     lpm r25, Z+
     lpm r26, Z+
     lpm r27, Z+
+2:  cpi r27, hi8(DATA_START)
+    brlo 3f
+    cpi r27, hi8(DATA_END)
+    brsh 3f
     st X+, r25
     st X, r24
     ldi r27, 1
-    rjmp next_z
-1:  adiw r28, 3
-    rjmp next
+    NEXT_Z
+3:  jmp outside
 
 ; ---- integer arithmetic
 
@@ -501,6 +506,7 @@ reset_byte:
     movw r22, r24
     rcall any_int
     movw r26, r18
+    rcall check_output
     st X+, r23
     st X, r22
     ldi r27, 1
@@ -529,6 +535,7 @@ go_to_end:
     rcall any_int
     adiw r30, 2
     movw r26, r18
+    rcall check_output
     ld r21, X+
     ld r20, X
     set

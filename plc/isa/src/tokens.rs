@@ -12,10 +12,12 @@ pub(crate) const OPERANDS_MAX: usize = 4;
 
 /// Tokens behind [`WIDE_PREFIX`] that the table has room for.
 const WIDE_TOKENS: usize = 64;
-/// Bytes of an entry: first token, instruction, values needed, values added, kinds.
-const ENTRY_LEN: usize = 4 + OPERANDS_MAX;
+/// Bytes of an entry: first token, instruction, effect on the stack, where its kinds stand.
+const ENTRY_LEN: usize = 4;
 /// Where the entries begin: behind an index byte for every token and every wide token.
 const ENTRIES_AT: usize = 256 + WIDE_TOKENS;
+/// Where the lists of kinds begin, each ended by 0.
+const KINDS_AT: usize = ENTRIES_AT + FORMS * ENTRY_LEN;
 
 /// How many forms the instructions have together.
 const FORMS: usize = {
@@ -28,33 +30,86 @@ const FORMS: usize = {
 };
 
 /// Bytes of the token table.
-pub const TOKEN_TABLE_LEN: usize = ENTRIES_AT + FORMS * ENTRY_LEN;
+pub const TOKEN_TABLE_LEN: usize = LONG_TABLE.1;
 
-/// The token table: for every token the number of its entry, 0 for undefined tokens; then the entries.
+/// The token table: for every token the number of its entry, 0 for undefined tokens; then the entries, then the lists of
+/// kinds, which many forms share.
 pub const TOKEN_TABLE: [u8; TOKEN_TABLE_LEN] = {
-    let mut table = [0; TOKEN_TABLE_LEN];
+    let (mut table, mut at) = ([0; TOKEN_TABLE_LEN], 0);
+    while at < TOKEN_TABLE_LEN {
+        table[at] = LONG_TABLE.0[at];
+        at += 1;
+    }
+    table
+};
+
+/// More than the table can take.
+const LONG_TABLE_LEN: usize = KINDS_AT + 256;
+
+/// The table with room behind it, and its length.
+const LONG_TABLE: ([u8; LONG_TABLE_LEN], usize) = {
+    let (mut table, mut end) = ([0; LONG_TABLE_LEN], KINDS_AT);
     let (mut index, mut entry) = (0, 0);
     while index < INSTRUCTIONS.len() {
         let instruction = &INSTRUCTIONS[index];
         let mut form = 0;
         while form < instruction.forms.len() {
-            let head = [instruction.op as u8, instruction.stack.needs, instruction.stack.adds as u8];
+            let kinds_at;
+            (table, kinds_at, end) = with_kinds(table, end, instruction.forms[form].kinds);
+            let head = [instruction.op as u8, packed(instruction.stack), kinds_at];
             table = with_entry(table, entry, head, &instruction.forms[form]);
             entry += 1;
             form += 1;
         }
         index += 1;
     }
-    table
+    (table, end)
 };
 
+/// The effect on the stack in a byte: values needed below, values added above.
+const fn packed(effect: StackEffect) -> u8 {
+    assert!(effect.needs < 8 && -8 <= effect.adds && effect.adds < 8);
+    effect.needs | (effect.adds as u8) << 4
+}
+
+const fn unpacked(byte: u8) -> StackEffect {
+    StackEffect { needs: byte & 7, adds: byte as i8 >> 4 }
+}
+
+/// Enters a list of kinds behind the others, unless it is there already. Returns where, from [`KINDS_AT`] on, and the
+/// new end.
+const fn with_kinds(
+    mut table: [u8; LONG_TABLE_LEN],
+    end: usize,
+    kinds: &[Kind],
+) -> ([u8; LONG_TABLE_LEN], u8, usize) {
+    assert!(kinds.len() <= OPERANDS_MAX && end - KINDS_AT < 256);
+    let mut at = KINDS_AT;
+    while at < end {
+        let mut same = 0;
+        while same < kinds.len() && table[at + same] == kinds[same].number() {
+            same += 1;
+        }
+        if same == kinds.len() && table[at + same] == 0 {
+            return (table, (at - KINDS_AT) as u8, end);
+        }
+        at += 1;
+    }
+    let mut index = 0;
+    while index < kinds.len() {
+        table[end + index] = kinds[index].number();
+        index += 1;
+    }
+    (table, (end - KINDS_AT) as u8, end + kinds.len() + 1)
+}
+
 const fn with_entry(
-    mut table: [u8; TOKEN_TABLE_LEN],
+    mut table: [u8; LONG_TABLE_LEN],
     entry: usize,
-    [op, needs, adds]: [u8; 3],
+    [op, stack, kinds_at]: [u8; 3],
     form: &Form,
-) -> [u8; TOKEN_TABLE_LEN] {
-    assert!(entry < 255 && form.kinds.len() <= OPERANDS_MAX);
+) -> [u8; LONG_TABLE_LEN] {
+    assert!(entry < 255);
     let first_index = if form.wide { 256 } else { 0 };
     let mut token = form.first_token as usize;
     assert!(!form.wide || (form.last_token as usize) < WIDE_TOKENS);
@@ -64,12 +119,7 @@ const fn with_entry(
         token += 1;
     }
     let at = ENTRIES_AT + entry * ENTRY_LEN;
-    (table[at], table[at + 1], table[at + 2], table[at + 3]) = (form.first_token, op, needs, adds);
-    let mut kind = 0;
-    while kind < form.kinds.len() {
-        table[at + 4 + kind] = form.kinds[kind].number();
-        kind += 1;
-    }
+    (table[at], table[at + 1], table[at + 2], table[at + 3]) = (form.first_token, op, stack, kinds_at);
     table
 }
 
@@ -83,8 +133,9 @@ pub(crate) struct Fetched {
     pub operands: [Raw; OPERANDS_MAX],
     /// Offset of the first byte behind the instruction.
     pub next: u16,
-    /// Where the numbers of the operands' kinds stand in the table; 0 ends them.
+    /// Where the numbers of the operands' kinds stand in the table, and how many.
     kinds_at: u16,
+    kinds: u8,
 }
 
 impl Fetched {
@@ -97,6 +148,7 @@ impl Fetched {
             operands: [Raw::ZERO; OPERANDS_MAX],
             next: 0,
             kinds_at: 0,
+            kinds: 0,
         }
     }
 
@@ -116,13 +168,15 @@ impl Fetched {
         let at = ENTRIES_AT as u16 + u16::from(entry - 1) * ENTRY_LEN as u16;
         let Some(op) = Op::of_number(code.token_table(at + 1)) else { return false };
         self.op = op;
-        self.stack = StackEffect { needs: code.token_table(at + 2), adds: code.token_table(at + 3) as i8 };
-        self.kinds_at = at + 4;
+        self.stack = unpacked(code.token_table(at + 2));
+        self.kinds_at = KINDS_AT as u16 + u16::from(code.token_table(at + 3));
         let in_token = token.wrapping_sub(code.token_table(at));
         let mut reader = OperandReader::new(code, pc, operands_at, in_token);
-        for index in 0..OPERANDS_MAX {
-            let (Some(kind), Some(operand)) = (self.kind(code, index), self.operands.get_mut(index)) else { break };
+        self.kinds = 0;
+        for operand in &mut self.operands {
+            let Some(kind) = Kind::of_number(code.token_table(self.kinds_at + u16::from(self.kinds))) else { break };
             *operand = kind.read_raw(&mut reader);
+            self.kinds += 1;
         }
         self.next = reader.position();
         true
@@ -131,7 +185,7 @@ impl Fetched {
     /// The kind of operand `index`, if there are so many.
     #[inline]
     pub fn kind<P: ProgramMemory>(&self, code: &P, index: usize) -> Option<Kind> {
-        if index >= OPERANDS_MAX {
+        if index >= usize::from(self.kinds) {
             return None;
         }
         Kind::of_number(code.token_table(self.kinds_at + index as u16))
