@@ -122,7 +122,8 @@ pub fn generate(engine: &str, handlers: &str) -> Engine {
          .equ T_BITS_START, {T_BITS_START}\n.equ C_BITS_START, {C_BITS_START}\n.equ WIDE_COMPARISONS, {wide}\n\
          .equ TIMER_SLOT_LEN, {TIMER_SLOT_LEN}\n.equ COUNTER_SLOT_LEN, {COUNTER_SLOT_LEN}\n"
     );
-    Engine { text: format!("{constants}{}{text}", engine.replace("    ENTRIES\n", &table.concat())), executed }
+    let text = engine.replace("    ENTRIES\n", &table.concat()).replace("    HANDLERS\n", &text);
+    Engine { text: constants + &text, executed }
 }
 
 /// Kinds that the handlers decode themselves must keep their lengths.

@@ -20,6 +20,14 @@
     andi \high, 0x07
 .endm
 
+; Goes to `bad` when X is outside data memory.
+.macro CHECK_OUTPUT bad
+    cpi r27, hi8(DATA_START)
+    brlo \bad
+    cpi r27, hi8(DATA_END)
+    brsh \bad
+.endm
+
 ; Behind an instruction of more than two bytes, Z at the next one.
 .macro NEXT_Z
     lpm r18, Z+
@@ -76,6 +84,9 @@ uno200_vectors:
     in r19, STACK_HIGH
     sts CONTEXT + STACK, r18
     sts CONTEXT + STACK + 1, r19
+    ; The watchdog has nothing to say before the clock moves.
+    lds r18, UNO200_TICK
+    sts CONTEXT + TICK, r18
 .endm
 
 ; u8 uno200_run(u16 address): executes bytecode. Returns why it was left.
@@ -390,77 +401,6 @@ far_bit:
     ld r24, X
     ret
 
-; Sets r18 bits from mask r19 of the byte r24 at X on. Bytes are inverted by r21, so that resetting is setting.
-set_bits:
-    eor r24, r21
-1:  or r24, r19
-    dec r18
-    breq 2f
-    lsl r19
-    brcc 1b
-    eor r24, r21
-    st X+, r24
-    rcall check_end
-    ld r24, X
-    eor r24, r21
-    ldi r19, 1
-    rjmp 1b
-2:  eor r24, r21
-    st X, r24
-    ret
-
-; R of r18 timers or counters from number r26 on; r27 is the upper byte of the first bit as far bits are packed.
-reset_numbers:
-    mov r22, r26
-    mov r23, r18
-    mov r20, r27
-    ; None when the range would pass number 255.
-    mov r24, r26
-    add r24, r18
-    brcc 1f
-    brne 6f
-1:  tst r18
-    breq 6f
-    ldi r21, 0xFF
-    rcall far_bit
-    rcall set_bits
-    ldi r21, COUNTER_SLOT_LEN
-    sbrc r20, 0
-    rjmp 2f
-    ldi r21, TIMER_SLOT_LEN
-    lds r30, CONTEXT + TIMERS_IN_FLASH
-    lds r31, CONTEXT + TIMERS_IN_FLASH + 1
-    lds r26, CONTEXT + TIMERS_START
-    lds r27, CONTEXT + TIMERS_START + 1
-    lds r24, CONTEXT + TIMERS
-    lds r25, CONTEXT + TIMERS + 1
-    rjmp 3f
-2:  lds r30, CONTEXT + COUNTERS_IN_FLASH
-    lds r31, CONTEXT + COUNTERS_IN_FLASH + 1
-    lds r26, CONTEXT + COUNTERS_START
-    lds r27, CONTEXT + COUNTERS_START + 1
-    lds r24, CONTEXT + COUNTERS
-    lds r25, CONTEXT + COUNTERS + 1
-    ; Each slot: of a timer its kind stands behind its number, and its state behind value and preset.
-3:  sbiw r24, 1
-    brcs 6f
-    lpm r19, Z+
-    sbrs r20, 0
-    adiw r30, 1
-    sub r19, r22
-    cp r19, r23
-    brsh 5f
-    st X+, r1
-    st X, r1
-    adiw r26, 3
-    sbrs r20, 0
-    st X, r1
-    sbiw r26, 4
-5:  add r26, r21
-    adc r27, r1
-    rjmp 3b
-6:  rjmp next_x
-
 ; Remembers T in edge memory r26. Not zero: it was remembered before, or this is the first scan, where r19 bit 1 is set.
 remember_edge:
     ldi r21, 0
@@ -571,39 +511,28 @@ compare_byte_constant:
 ; ---- words
 
 ; IN1 of a box in r22 and r23, the value of OUT in r24 and r25, X at the low byte of OUT, Z at what follows.
-word_box:
+.macro BOX_OUT bad
+    lpm r27, Z+
+    CHECK_OUTPUT \bad
+    ld r25, X+
+    ld r24, X
+.endm
+.macro WORD_BOX bad
     movw r30, r28
     lpm r27, Z+
     READABLE r27
     ld r23, X+
     ld r22, X
     lpm r26, Z+
-    rjmp 1f
-constant_box:
+    BOX_OUT \bad
+.endm
+.macro CONSTANT_BOX bad
     mov r22, r26
     movw r30, r28
     lpm r23, Z+
     lpm r26, Z+
-    rjmp 1f
-one_operand_box:
-    movw r30, r28
-1:  lpm r27, Z+
-    rcall check_output
-    ld r25, X+
-    ld r24, X
-    ret
-
-; Writes a result, or leaves OUT as it is when it does not fit.
-write_result:
-    brvs overflow
-    st X, r24
-    st -X, r25
-    ldi r19, 0
-    rjmp write_status
-overflow:
-    ldi r18, 0xF8
-    ldi r19, 0x02
-    rjmp write_bits
+    BOX_OUT \bad
+.endm
 
 ; Writes a result that wrapped around, or did not.
 write_wrapped:
@@ -612,90 +541,36 @@ write_wrapped:
     ldi r19, 0
     brvc write_status
     ldi r19, 0x02
+    rjmp write_status
+; Writes a result, or leaves OUT as it is when it does not fit.
+write_result:
+    brvs overflow
+    st X, r24
+    st -X, r25
+    ldi r19, 0
 write_status:
-    ldi r18, 0xF8
-write_status_of:
-    sbrc r25, 7
-    ori r19, 0x04
     or r24, r25
-    brne write_bits
+    brne 1f
     ori r19, 0x01
+1:  sbrc r25, 7
+    ori r19, 0x04
+    lds r24, RESULT_BITS
+    andi r24, 0xF8
+    or r24, r19
+    sts RESULT_BITS, r24
+    ldi r27, 1
+    NEXT_Z
+
+overflow:
+    ldi r18, 0xF8
+    ldi r19, 0x02
+; Bits r19 of the result bits, of which r18 keeps the others.
 write_bits:
     lds r24, RESULT_BITS
     and r24, r18
     or r24, r19
     sts RESULT_BITS, r24
     rjmp next_z_x
-
-; OUT := OUT * IN1, of 32 bits in r18 to r21.
-multiply:
-    push r27
-    clr r27
-    movw r20, r24
-    muls r21, r23
-    movw r24, r0
-    mul r20, r22
-    movw r18, r0
-    mulsu r21, r22
-    sbc r25, r27
-    add r19, r0
-    adc r24, r1
-    adc r25, r27
-    mulsu r23, r20
-    sbc r25, r27
-    add r19, r0
-    adc r24, r1
-    adc r25, r27
-    clr r1
-    pop r27
-    ; It fits when the upper half is the sign of the lower one.
-    clr r20
-    sbrc r19, 7
-    com r20
-    cp r24, r20
-    cpc r25, r20
-    brne product_overflow
-    movw r24, r18
-write_product:
-    st X, r24
-    st -X, r25
-    ldi r18, 0xF0
-    ldi r19, 0
-    rjmp write_status_of
-product_overflow:
-    ldi r18, 0xF0
-    ldi r19, 0x02
-    rjmp write_bits
-
-; OUT := OUT / IN1.
-divide:
-    ldi r18, 0xFF
-    ldi r19, 0x08
-    mov r20, r22
-    or r20, r23
-    breq write_bits
-    ; The only quotient that does not fit is that of -32768 and -1.
-    mov r20, r22
-    and r20, r23
-    com r20
-    mov r21, r25
-    subi r21, 0x80
-    or r20, r21
-    or r20, r24
-    breq product_overflow
-    bld r17, 0
-    push r30
-    push r31
-    push r26
-    push r27
-    call __divmodhi4
-    pop r27
-    pop r26
-    pop r31
-    pop r30
-    bst r17, 0
-    movw r24, r22
-    rjmp write_product
 
 ; ---- timers
 
@@ -1044,3 +919,163 @@ count_up_down:
     sbci r23, 0
 2:  rjmp store_value
 
+; ---- the handlers
+
+    HANDLERS
+; ---- what is farther away: ranges, products and quotients
+
+; Sets r18 bits from mask r19 of the byte r24 at X on. Bytes are inverted by r21, so that resetting is setting.
+set_bits:
+    eor r24, r21
+1:  or r24, r19
+    dec r18
+    breq 2f
+    lsl r19
+    brcc 1b
+    eor r24, r21
+    st X+, r24
+    rcall check_end
+    ld r24, X
+    eor r24, r21
+    ldi r19, 1
+    rjmp 1b
+2:  eor r24, r21
+    st X, r24
+    ret
+
+; R of r18 timers or counters from number r26 on; r27 is the upper byte of the first bit as far bits are packed.
+reset_numbers:
+    mov r22, r26
+    mov r23, r18
+    mov r20, r27
+    ; None when the range would pass number 255.
+    mov r24, r26
+    add r24, r18
+    brcc 1f
+    brne 6f
+1:  tst r18
+    breq 6f
+    ldi r21, 0xFF
+    rcall far_bit
+    rcall set_bits
+    ldi r21, COUNTER_SLOT_LEN
+    sbrc r20, 0
+    rjmp 2f
+    ldi r21, TIMER_SLOT_LEN
+    lds r30, CONTEXT + TIMERS_IN_FLASH
+    lds r31, CONTEXT + TIMERS_IN_FLASH + 1
+    lds r26, CONTEXT + TIMERS_START
+    lds r27, CONTEXT + TIMERS_START + 1
+    lds r24, CONTEXT + TIMERS
+    lds r25, CONTEXT + TIMERS + 1
+    rjmp 3f
+2:  lds r30, CONTEXT + COUNTERS_IN_FLASH
+    lds r31, CONTEXT + COUNTERS_IN_FLASH + 1
+    lds r26, CONTEXT + COUNTERS_START
+    lds r27, CONTEXT + COUNTERS_START + 1
+    lds r24, CONTEXT + COUNTERS
+    lds r25, CONTEXT + COUNTERS + 1
+    ; Each slot: of a timer its kind stands behind its number, and its state behind value and preset.
+3:  sbiw r24, 1
+    brcs 6f
+    lpm r19, Z+
+    sbrs r20, 0
+    adiw r30, 1
+    sub r19, r22
+    cp r19, r23
+    brsh 5f
+    st X+, r1
+    st X, r1
+    adiw r26, 3
+    sbrs r20, 0
+    st X, r1
+    sbiw r26, 4
+5:  add r26, r21
+    adc r27, r1
+    rjmp 3b
+6:  rjmp next_x
+
+word_box:
+    WORD_BOX 1f
+    ret
+constant_box:
+    CONSTANT_BOX 1f
+    ret
+1:  jmp outside
+
+; OUT := OUT * IN1, of 32 bits in r18 to r21.
+multiply:
+    push r27
+    clr r27
+    movw r20, r24
+    muls r21, r23
+    movw r24, r0
+    mul r20, r22
+    movw r18, r0
+    mulsu r21, r22
+    sbc r25, r27
+    add r19, r0
+    adc r24, r1
+    adc r25, r27
+    mulsu r23, r20
+    sbc r25, r27
+    add r19, r0
+    adc r24, r1
+    adc r25, r27
+    clr r1
+    pop r27
+    ; It fits when the upper half is the sign of the lower one.
+    clr r20
+    sbrc r19, 7
+    com r20
+    cp r24, r20
+    cpc r25, r20
+    brne product_overflow
+    movw r24, r18
+write_product:
+    st X, r24
+    st -X, r25
+    ; SM1.3 belongs to products and quotients.
+    lds r19, RESULT_BITS
+    andi r19, 0xF7
+    sts RESULT_BITS, r19
+    ldi r19, 0
+    rjmp write_status
+product_overflow:
+    ldi r18, 0xF0
+    ldi r19, 0x02
+    rjmp write_bits
+
+; OUT := OUT / IN1.
+divide:
+    ldi r18, 0xFF
+    ldi r19, 0x08
+    mov r20, r22
+    or r20, r23
+    brne 1f
+    rjmp write_bits
+    ; The only quotient that does not fit is that of -32768 and -1.
+1:  mov r20, r22
+    and r20, r23
+    com r20
+    mov r21, r25
+    subi r21, 0x80
+    or r20, r21
+    or r20, r24
+    breq product_overflow
+    bld r17, 0
+    push r30
+    push r31
+    push r26
+    push r27
+    call __divmodhi4
+    pop r27
+    pop r26
+    pop r31
+    pop r30
+    bst r17, 0
+    movw r24, r22
+    rjmp write_product
+
+.global uno200_engine_end
+uno200_engine_end:

@@ -41,7 +41,7 @@
     ld r24, X
     sbrc r24, {n}
     set
-    NEXT
+    rjmp next
 
 % On PageBit
     ld r24, X
@@ -350,10 +350,7 @@ reset_byte:
     lpm r25, Z+
     lpm r26, Z+
     lpm r27, Z+
-2:  cpi r27, hi8(DATA_START)
-    brlo 3f
-    cpi r27, hi8(DATA_END)
-    brsh 3f
+2:  CHECK_OUTPUT 3f
     st X+, r25
     st X, r24
     ldi r27, 1
@@ -363,71 +360,72 @@ reset_byte:
 ; ---- integer arithmetic
 
 % AddInt Word WordOut
-    brts 1f
-    rjmp skip_3
-1:  rcall word_box
-2:  add r24, r22
+    brtc 1f
+    WORD_BOX 2f
+    add r24, r22
     adc r25, r23
     rjmp write_result
 
 % AddInt IntConst WordOut
-    brts 1f
-    rjmp skip_3
-1:  rcall constant_box
-    rjmp 2b
+    brtc 1f
+    CONSTANT_BOX 2f
+    add r24, r22
+    adc r25, r23
+    rjmp write_result
+1:  rjmp skip_3
+2:  jmp outside
 
 % SubInt Word WordOut
-    brts 1f
-    rjmp skip_3
-1:  rcall word_box
-2:  sub r24, r22
+    brtc 1b
+    WORD_BOX 2b
+    sub r24, r22
     sbc r25, r23
     rjmp write_result
 
 % SubInt IntConst WordOut
-    brts 1f
-    rjmp skip_3
-1:  rcall constant_box
-    rjmp 2b
+    brtc 1b
+    CONSTANT_BOX 2b
+    sub r24, r22
+    sbc r25, r23
+    rjmp write_result
 
 % Incw WordOut
-    brts 1f
-    rjmp skip_1
-1:  rcall one_operand_box
+    brtc 1f
+    movw r30, r28
+    BOX_OUT 2f
     subi r24, 0xFF
     sbci r25, 0xFF
     rjmp write_wrapped
+1:  rjmp skip_1
+2:  jmp outside
 
 % Decw WordOut
-    brts 1f
-    rjmp skip_1
-1:  rcall one_operand_box
+    brtc 1b
+    movw r30, r28
+    BOX_OUT 2b
     subi r24, 1
     sbci r25, 0
     rjmp write_wrapped
 
 % MulInt Word WordOut
-    brts 1f
-    rjmp skip_3
-1:  rcall word_box
+    brtc 1f
+    rcall word_box
     rjmp multiply
 
 % MulInt IntConst WordOut
-    brts 1f
-    rjmp skip_3
-1:  rcall constant_box
+    brtc 1f
+    rcall constant_box
     rjmp multiply
+1:  rjmp skip_3
 
 % DivInt Word WordOut
-    brts 1f
-    rjmp skip_3
-1:  rcall word_box
+    brtc 1b
+    rcall word_box
     rjmp divide
 
 % DivInt IntConst WordOut
-    brts 1f
-    rjmp skip_3
-1:  rcall constant_box
+    brtc 1b
+    rcall constant_box
     rjmp divide
 
 ; ---- timers and counters
