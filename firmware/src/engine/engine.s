@@ -288,18 +288,6 @@ any_int:
     ld r24, X
     ret
 
-any_byte:
-    lpm r20, Z+
-    lpm r24, Z+
-    lpm r25, Z+
-    sbrs r20, 0
-    ret
-    movw r26, r24
-    READABLE r27
-    ld r24, X
-    clr r25
-    ret
-
 ; ---- the table of handlers, at a multiple of 512 bytes
 
 .org TABLE_START - NATIVE_VECTORS
@@ -331,6 +319,19 @@ check_end:
 ; Calls of Rust stand behind the table: the linker shortens them, and the table must not move.
 ask_watchdog:
     jmp uno200_is_overdue
+
+; The same for a byte.
+any_byte:
+    lpm r20, Z+
+    lpm r24, Z+
+    lpm r25, Z+
+    sbrs r20, 0
+    ret
+    movw r26, r24
+    READABLE r27
+    ld r24, X
+    clr r25
+    ret
 
 ; Passes over operand bytes that nobody reads.
 skip_3:
