@@ -14,6 +14,7 @@ use awl_asm::flash::flash;
 use awl_asm::hex::intel_hex;
 use awl_asm::listing::listing;
 use awl_asm::map::map;
+use awl_asm::native::translate;
 use awl_asm::source::Source;
 use awl_asm::{firmware, render, symbols};
 use clap::{Parser, ValueEnum};
@@ -32,6 +33,10 @@ struct Arguments {
     /// The image: .hex for Intel HEX at the program slot, anything else binary. Default: the program's name with .bin.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+
+    /// Translates the program to machine code: several times as fast, and several times as long. Runs on the board only.
+    #[arg(long)]
+    native: bool,
 
     /// Writes a listing: offset, bytes and stack depth beside each source line.
     #[arg(long, value_name = "FILE")]
@@ -64,7 +69,11 @@ struct Arguments {
     with_firmware: Option<Option<PathBuf>>,
 
     /// Turns an image back into AWL.
-    #[arg(long, value_name = "IMAGE", conflicts_with_all = ["program", "explain", "check", "listing", "map", "flash"])]
+    #[arg(
+        long,
+        value_name = "IMAGE",
+        conflicts_with_all = ["program", "explain", "check", "listing", "map", "flash", "native"]
+    )]
     disassemble: Option<PathBuf>,
 
     /// Explains an error or warning, such as E0012.
@@ -165,10 +174,12 @@ fn assemble_file(path: &Path, arguments: &Arguments) -> Result<bool> {
     let source = read_source(path)?;
     let mut report = Report { format: arguments.message_format, errors: 0, warnings: 0 };
     let symbols = load_symbols(&arguments.symbols, &mut report)?;
-    let assembly = assemble(&source, symbols);
+    let mut assembly = assemble(&source, symbols);
+    let native = if arguments.native { translated(&mut assembly)? } else { None };
     report.show(&source, &assembly.diagnostics);
     report.finish(path);
-    let Some(image) = assembly.image.as_deref().filter(|_| report.errors == 0) else { return Ok(false) };
+    let image = native.as_deref().or(assembly.image.as_deref());
+    let Some(image) = image.filter(|_| report.errors == 0) else { return Ok(false) };
     if arguments.check {
         return Ok(true);
     }
@@ -187,9 +198,23 @@ fn assemble_file(path: &Path, arguments: &Arguments) -> Result<bool> {
     }
     if arguments.message_format == MessageFormat::Human {
         let written = output.iter().map(|path| path.display().to_string()).chain(arguments.flash.clone());
-        eprintln!("{}", summary(&written.collect::<Vec<_>>().join(", "), image, &assembly));
+        let kind = if arguments.native { "translated: " } else { "" };
+        eprintln!("{}", summary(&written.collect::<Vec<_>>().join(", "), kind, image, &assembly));
     }
     Ok(true)
+}
+
+/// The translated image, if the program has no errors; a program that does not fit has one more.
+fn translated(assembly: &mut Assembly) -> Result<Option<Vec<u8>>> {
+    let Some(bytecode) = &assembly.image else { return Ok(None) };
+    match translate(bytecode) {
+        Ok(translated) => Ok(Some(translated.image)),
+        Err(error) => {
+            let diagnostic = error.diagnostic(assembly).ok_or(error)?;
+            assembly.diagnostics.push(diagnostic);
+            Ok(None)
+        }
+    }
 }
 
 /// The firmware's file, if it is to be written: known to be good before anything is done.
@@ -219,9 +244,9 @@ fn write_image(path: &Path, image: &[u8]) -> Result<()> {
     if has_extension(path, "hex") { write_whole(path, intel_hex(image)?.as_bytes()) } else { write_whole(path, image) }
 }
 
-fn summary(written: &str, image: &[u8], assembly: &Assembly) -> String {
+fn summary(written: &str, kind: &str, image: &[u8], assembly: &Assembly) -> String {
     format!(
-        "{written}: {} instructions, {} of {SLOT_LEN} bytes; data {} of {ARENA_LEN} bytes",
+        "{written}: {kind}{} instructions, {} of {SLOT_LEN} bytes; data {} of {ARENA_LEN} bytes",
         assembly.code.len(),
         image.len(),
         assembly.demand.together_len(),

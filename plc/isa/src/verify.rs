@@ -1,7 +1,8 @@
 //! The loader's check: everything about an image is examined before its first scan, on host and board alike.
 //!
 //! What passes can run without further checks of addresses, jumps and stack depth: an interpreter
-//! cannot be led outside the plan. One pass over the code, constant memory.
+//! cannot be led outside the plan. One pass over the code, constant memory. Machine code is taken on trust but for its
+//! entry: it was made from an image that has passed.
 
 use crate::area::{Area, TimerFamily, timer_family};
 use crate::image::{COUNTER_LEN, CRC_LEN, ENTRY_LEN, Header, ImageError, ImageFault, ProgramMemory, TIMER_LEN};

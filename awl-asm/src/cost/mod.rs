@@ -1,0 +1,142 @@
+//! What a program costs on the board: cycles of every instruction, interpreted and translated, and of the longest scan.
+//! Nothing is executed; `tests/tests/cost.rs` holds the figures against the simulated board.
+
+pub mod interpreter;
+mod longest;
+
+use plc_isa::{Decoded, Op, PowerFlow, Program, decode, verify};
+
+pub use crate::native::Cycles;
+use crate::native::{Translated, TranslatedInstruction, translate};
+pub use longest::Longest;
+
+/// Cycles in a microsecond.
+pub const CYCLES_PER_US: u32 = 16;
+
+/// From entering the engine to the first instruction of machine code, and from its return to the engine's end.
+pub const NATIVE_START: u32 = 56;
+/// See [`NATIVE_START`].
+pub const NATIVE_END: u32 = 47;
+
+/// Most cycles that a scan takes beside its program: inputs, system bits, timers, communication, self-test, retention,
+/// outputs, and the interrupts of a scan that is shorter than a millisecond.
+pub const OVERHEAD_MAX: u32 = 10_500;
+/// More of them for each timer of the program, which is looked through for those that advance at the start of a scan.
+pub const OVERHEAD_TIMER_MAX: u32 = 250;
+
+/// The ways on from an instruction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Ways {
+    /// To the next instruction, without power flow.
+    pub off: Option<Cycles>,
+    /// To the next instruction, with power flow.
+    pub on: Option<Cycles>,
+    /// To elsewhere: a jump that is taken, FOR that is skipped, NEXT that goes back, the end of the program.
+    pub away: Option<Cycles>,
+}
+
+impl Ways {
+    /// To the next instruction, with power flow or without.
+    pub fn next(self) -> Option<Cycles> {
+        either(self.off, self.on)
+    }
+
+    /// The least and the most of all.
+    pub fn all(self) -> Cycles {
+        either(self.next(), self.away).unwrap_or_default()
+    }
+}
+
+fn either(one: Option<Cycles>, other: Option<Cycles>) -> Option<Cycles> {
+    match (one, other) {
+        (Some(one), Some(other)) => Some(one.or(other)),
+        (one, other) => one.or(other),
+    }
+}
+
+/// An instruction with what it costs.
+#[derive(Debug, Clone, Copy)]
+pub struct InstructionCost {
+    /// Its offset in the bytecode image.
+    pub at: u16,
+    /// Interpreted.
+    pub interpreted: Ways,
+    /// Translated; `None` where the program is too large for that.
+    pub translated: Option<Ways>,
+}
+
+/// What a program costs.
+#[derive(Debug, Clone)]
+pub struct ProgramCost {
+    /// Its instructions in order, the hidden ones and the end of the program too.
+    pub instructions: Vec<InstructionCost>,
+    /// The longest scan's program, interpreted.
+    pub interpreted: Longest,
+    /// The same translated.
+    pub translated: Option<Longest>,
+    /// What a scan takes beside it at most.
+    pub overhead: u32,
+}
+
+/// What the program of an image costs; `None` for an image that is not valid.
+pub fn cost(image: &[u8]) -> Option<ProgramCost> {
+    let program = verify(image).ok()?;
+    let code = code_of(&program);
+    let interpreted: Vec<Ways> =
+        code.iter().map(|(_, decoded)| interpreter::ways(decoded, program.plan(), image, None)).collect();
+    // A valid program can only be too large for it.
+    let translated = translate(image).ok();
+    let native = translated.as_ref().map(|translated| native_ways(translated, &code));
+    let instructions = code.iter().enumerate().map(|(index, &(at, _))| InstructionCost {
+        at,
+        interpreted: interpreted.get(index).copied().unwrap_or_default(),
+        translated: native.as_ref().and_then(|ways| ways.get(index).copied()),
+    });
+    let timers = u32::from(program.plan().header.timers);
+    let longest = |start: u32, ways: &[Ways]| {
+        let each_ms = interpreter::EACH_MS + interpreter::EACH_MS_AND_TIMER * timers;
+        longest::longest(&program, &code, start, each_ms, ways)
+    };
+    Some(ProgramCost {
+        instructions: instructions.collect(),
+        interpreted: longest(interpreter::START, &interpreted),
+        translated: translated
+            .as_ref()
+            .zip(native.as_ref())
+            .map(|(translated, ways)| longest(NATIVE_START + translated.start.max, ways)),
+        overhead: OVERHEAD_MAX + OVERHEAD_TIMER_MAX * timers,
+    })
+}
+
+/// The instructions with their offsets.
+fn code_of<'a>(program: &Program<&'a [u8]>) -> Vec<(u16, Decoded)> {
+    let mut code = Vec::new();
+    let mut at = program.code_at();
+    // A verified image decodes to its end.
+    while let Ok(decoded) = decode(program.memory(), at) {
+        code.push((at, decoded));
+        at += decoded.len;
+        if decoded.op == Op::MainEnd {
+            break;
+        }
+    }
+    code
+}
+
+/// The ways on from each translated instruction. What leaves the program takes the engine's way out, too.
+fn native_ways(translated: &Translated, code: &[(u16, Decoded)]) -> Vec<Ways> {
+    let ways = |(instruction, (_, decoded)): (&TranslatedInstruction, &(u16, Decoded))| {
+        let leaves = matches!(decoded.op, Op::MainEnd | Op::End | Op::Stop);
+        let end = Cycles::exactly(if leaves { NATIVE_END } else { 0 });
+        let away = instruction.taken.map(|away| away.then(end));
+        let next = instruction.not_taken;
+        // The shortest way is that of an instruction that has nothing to do; to branch over it takes two cycles.
+        let least = next.map(|next| Cycles { min: next.min, max: next.min.max(2) });
+        match (decoded.op.instruction().power_flow, decoded.op) {
+            (PowerFlow::Needed, _) | (_, Op::Ton | Op::Tonr) => Ways { off: least, on: next, away },
+            (_, Op::Tof) => Ways { off: next, on: least, away },
+            _ => Ways { off: next, on: next, away },
+        }
+    };
+    translated.instructions.iter().zip(code).map(ways).collect()
+}

@@ -1,0 +1,84 @@
+//! Which bytes of data memory a bytecode instruction reads and writes when the firmware executes it.
+
+use std::ops::Range;
+
+use plc_isa::{C_BITS_START, Decoded, Kind, L_START, Op, Operand, Plan, ProgramMemory, SM_START, T_BITS_START};
+
+/// SMB1, where arithmetic leaves its results' properties.
+pub const STATUS: u16 = SM_START + 1;
+
+/// Bytes that 255 bits can touch.
+const RANGE_BYTES_MAX: u16 = 33;
+
+/// Data addresses that are read and written.
+#[derive(Debug, Clone, Default)]
+pub struct Effects {
+    reads: Vec<Range<u16>>,
+    writes: Vec<Range<u16>>,
+}
+
+impl Effects {
+    /// Of the routine of a timer or counter: its slot and the byte with its bit.
+    pub fn of_slot(slot: Range<u16>, bit_address: u16) -> Effects {
+        let ranges = vec![slot, bit_address..bit_address + 1];
+        Effects { reads: ranges.clone(), writes: ranges }
+    }
+
+    /// Of a bytecode instruction.
+    pub fn of<P: ProgramMemory>(decoded: &Decoded, plan: &Plan<P>) -> Effects {
+        let mut effects = Effects::default();
+        let len = bits_len(decoded);
+        for (kind, operand) in decoded.operands() {
+            let range = match (kind, operand) {
+                (_, Operand::Bit(bit)) => bit.address..bit.address + len,
+                (Kind::Byte | Kind::ByteOut | Kind::AnyByte, Operand::Memory(address)) => address..address + 1,
+                (_, Operand::Memory(address)) => address..address + 2,
+                _ => continue,
+            };
+            effects.reads.push(range.clone());
+            if kind.is_output() {
+                effects.writes.push(range);
+            }
+        }
+        match decoded.op {
+            Op::AddInt | Op::SubInt | Op::MulInt | Op::DivInt | Op::Incw | Op::Decw => {
+                effects.writes.push(STATUS..STATUS + 1);
+            }
+            // A timer of 1 ms brings the others up to date.
+            Op::Refresh | Op::ResetTimers | Op::Ton | Op::Tof | Op::Tonr => {
+                effects.writes.extend([T_BITS_START..C_BITS_START, slots(plan)]);
+            }
+            Op::ResetCounters => effects.writes.extend([C_BITS_START..L_START, slots(plan)]),
+            _ => {}
+        }
+        effects
+    }
+
+    /// Whether the byte must stand in memory before.
+    pub fn touches(&self, address: u16) -> bool {
+        self.writes(address) || self.reads.iter().any(|range| range.contains(&address))
+    }
+
+    /// Whether the byte may be another one afterwards.
+    pub fn writes(&self, address: u16) -> bool {
+        self.writes.iter().any(|range| range.contains(&address))
+    }
+}
+
+/// Bytes that the bits of the instruction's operand lie in, at most.
+fn bits_len(decoded: &Decoded) -> u16 {
+    let mut len = 1;
+    for (kind, operand) in decoded.operands() {
+        match (kind, operand) {
+            (Kind::Count, Operand::Constant(count)) => len = (count + 7).div_ceil(8),
+            (Kind::Byte, _) if matches!(decoded.op, Op::Set | Op::Reset) => len = RANGE_BYTES_MAX,
+            _ => {}
+        }
+    }
+    len
+}
+
+/// Where the timers and counters of the plan live.
+pub fn slots<P: ProgramMemory>(plan: &Plan<P>) -> Range<u16> {
+    plan.timer(0).address..plan.edge(0).address
+}

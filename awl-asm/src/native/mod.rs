@@ -1,0 +1,27 @@
+//! Native translation: bytecode images to machine code for the board. It never runs a program and needs no source text.
+//!
+//! What the machine code may rely on, and what it must keep, is the contract in docs/image.md.
+
+mod avr;
+mod bits;
+mod code;
+mod compares;
+mod control;
+mod cost;
+mod diagnose;
+mod effects;
+mod emitter;
+mod image;
+mod math;
+mod pins;
+mod ranges;
+mod registers;
+mod stack;
+mod timers;
+mod translate;
+mod vectors;
+mod words;
+
+pub use cost::Cycles;
+pub use image::{Options, TranslateError, Translated, TranslatedInstruction, translate, translate_with};
+pub use vectors::Vector;
