@@ -13,7 +13,7 @@ use awl_asm::encode::Line;
 use awl_asm::files::{read, read_source};
 use awl_asm::render::human;
 use awl_asm::source::Source;
-use plc_isa::{Area, MAGIC, verify};
+use plc_isa::{Area, ImageFault, MAGIC, verify};
 
 use crate::machine::host::Host;
 use crate::machine::{Machine, PlaceOf};
@@ -104,6 +104,12 @@ fn open_image(name: String, image: Vec<u8>, symbols: Vec<ast::Symbol>, shown: Sh
     if shown.has_errors {
         return Err(ProgramErrors(shown.text).into());
     }
+    let fault = verify(image.as_slice()).err().map(|error| error.fault);
+    if fault == Some(ImageFault::Interface) {
+        bail!(
+            "{name} is machine code for the board; awl-sim takes AWL text or bytecode: --on uno-native translates it"
+        );
+    }
     let assembly = assemble(&Source::new(name, disassemble(&image).unwrap_or_default())?, symbols);
     let lines = verify(image.as_slice()).map(|program| instructions(&program)).unwrap_or_default();
     let place_of = move |at: u16| {
@@ -131,20 +137,21 @@ fn opened(image: Vec<u8>, assembly: &Assembly, place_of: PlaceOf, warnings: Stri
 fn machine(image: Vec<u8>, place_of: PlaceOf, target: Target) -> Result<Box<dyn Machine>> {
     match target {
         Target::Host => Ok(Box::new(Host::new(image, place_of))),
-        Target::Uno => uno(image, place_of),
-        Target::UnoNative => bail!("there are no translated programs yet; --on uno interprets"),
+        Target::Uno | Target::UnoNative => uno(image, place_of, target),
     }
 }
 
 #[cfg(feature = "simavr")]
-fn uno(image: Vec<u8>, place_of: PlaceOf) -> Result<Box<dyn Machine>> {
-    use crate::machine::uno::{Clock, Firmware, Uno};
-    let firmware = Firmware::find()?;
-    Ok(Box::new(Uno::new(firmware, image, Clock::FreeRunning, place_of)?))
+fn uno(image: Vec<u8>, place_of: PlaceOf, target: Target) -> Result<Box<dyn Machine>> {
+    use crate::machine::uno::{Clock, Code, Firmware, Uno};
+    let code = if target == Target::UnoNative { Code::Native } else { Code::Bytecode };
+    let mut uno = Uno::new(&Firmware::find()?, code, Clock::FreeRunning, place_of)?;
+    uno.load(image)?;
+    Ok(Box::new(uno))
 }
 
 #[cfg(not(feature = "simavr"))]
-fn uno(_image: Vec<u8>, _place_of: PlaceOf) -> Result<Box<dyn Machine>> {
+fn uno(_image: Vec<u8>, _place_of: PlaceOf, _target: Target) -> Result<Box<dyn Machine>> {
     bail!(
         "this awl-sim was built without the virtual Uno; on Debian:\n  \
          apt-get install libsimavr-dev libelf-dev\n  cargo install --path sim --features simavr"

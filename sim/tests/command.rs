@@ -4,6 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use awl_asm::assemble::assemble;
+use awl_asm::native::translate;
+use awl_asm::source::Source;
+
 /// A folder of its own for each test, removed afterwards.
 struct Folder(PathBuf);
 
@@ -100,7 +104,6 @@ fn what_cannot_run_is_exit_2() {
         (&["p.awl", "--for", "5"], "needs its unit"),
         (&["p.awl", "--for", "5s", "--scans", "3"], "cannot be used with"),
         (&["p.awl", "--scan-time", "0ms"], "1ms to 60s"),
-        (&["p.awl", "--on", "uno-native"], "no translated programs yet"),
         (&["p.awl", "--plant", "press"], "there is no plant press"),
         (&["p.awl", "--plant", "tank level=200"], "0 to 100"),
         (&["p.awl", "--trace", "I0.0,Q0.9"], "--trace:1:6"),
@@ -128,16 +131,45 @@ fn without_the_virtual_uno_it_is_said_how_to_get_it() {
     assert!(errors.contains("cargo install --path sim --features simavr"), "{errors}");
 }
 
+#[test]
+fn machine_code_is_refused_with_what_to_do() {
+    let folder = Folder::new("machine-code");
+    let source = Source::new("p.awl", COPY).unwrap();
+    let native = translate(&assemble(&source, Vec::new()).image.unwrap()).unwrap();
+    fs::write(folder.0.join("p.bin"), native.image).unwrap();
+    for machine in ["host", "uno", "uno-native"] {
+        let (code, output, errors) = told(&folder.sim(&["p.bin", "--on", machine]));
+        assert_eq!((code, &*output), (Some(2), ""), "{errors}");
+        assert!(errors.contains("p.bin is machine code for the board; awl-sim takes AWL text or bytecode"), "{errors}");
+    }
+}
+
+#[cfg(feature = "simavr")]
+#[test]
+fn a_program_too_large_to_be_translated_is_exit_2() {
+    let text = "LD I0.0\nLD I0.1\nCTU C1, VW0\n".repeat(500);
+    let folder = Folder::with_files("too-large", &[("p.awl", &text)]);
+    let firmware = awl_asm::firmware::find("elf").unwrap_or_else(|error| panic!("{error:#}"));
+    let arguments = ["p.awl", "--on", "uno-native", "--for", "10ms"];
+    let (code, output, errors) = told(&folder.command(&arguments).env("UNO200_FIRMWARE", firmware).output().unwrap());
+    assert_eq!((code, &*output), (Some(2), ""), "{errors}");
+    assert!(errors.contains("error: translated the program needs "), "{errors}");
+}
+
 #[cfg(feature = "simavr")]
 #[test]
 fn a_board_is_traced_by_its_changes() {
     let scenario = "scan 10ms\nat 20ms I0.0 = 1\nat 50ms I0.0 = 0\nat 21ms expect Lamp = 1\nrun 100ms\n";
     let folder = Folder::with_files("board", &[("p.awl", COPY), ("s.scn", scenario)]);
-    let arguments = ["p.awl", "--scenario", "s.scn", "--on", "uno", "--trace", "I0.0,Q0.0"];
+    let arguments = |machine| ["p.awl", "--scenario", "s.scn", "--on", machine, "--trace", "I0.0,Q0.0"];
     let firmware = awl_asm::firmware::find("elf").unwrap_or_else(|error| panic!("{error:#}"));
-    let (code, output, errors) = told(&folder.command(&arguments).env("UNO200_FIRMWARE", firmware).output().unwrap());
-    assert_eq!((code, &*errors), (Some(0), "ran 100 ms, 1 expectation met\n"));
-    assert_eq!(output, "time_ms,scan,I0.0,Q0.0\n0,1,0,0\n20,3,1,1\n50,6,0,0\n");
+    for machine in ["uno", "uno-native"] {
+        let output = folder.command(&arguments(machine)).env("UNO200_FIRMWARE", &firmware).output().unwrap();
+        let (code, output, errors) = told(&output);
+        assert_eq!((code, &*errors), (Some(0), "ran 100 ms, 1 expectation met\n"));
+        assert_eq!(output, "time_ms,scan,I0.0,Q0.0\n0,1,0,0\n20,3,1,1\n50,6,0,0\n");
+    }
+    let arguments = arguments("uno");
     let (code, _, errors) = told(&folder.command(&arguments).env("UNO200_FIRMWARE", "none.elf").output().unwrap());
     assert_eq!(code, Some(2));
     assert!(errors.contains("none.elf") && errors.contains("cargo xtask firmware"), "{errors}");

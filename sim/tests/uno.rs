@@ -5,14 +5,16 @@ use std::fs;
 use std::path::Path;
 
 use awl_asm::assemble::assemble;
+use awl_asm::disassemble::instructions;
 use awl_asm::source::Source;
-use awl_sim::machine::uno::{Clock, Firmware, Uno};
+use awl_sim::machine::uno::{Clock, Code, Firmware, Uno};
 use awl_sim::machine::{Machine, Mode};
 use awl_sim::open::{Opened, Target, open_machine};
 use awl_sim::operand::Operand;
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
 use awl_sim::symbols::Symbols;
+use plc_isa::{NATIVE_INTERFACE, Op, SLOT_START, verify};
 use plc_vm::Fault;
 use simavr::Pin;
 
@@ -25,9 +27,15 @@ fn image(text: &str) -> Vec<u8> {
     assembly.image.unwrap_or_else(|| panic!("{:?}", assembly.diagnostics))
 }
 
-fn board(image: Vec<u8>, clock: Clock) -> Uno {
+fn board_with(code: Code, image: Vec<u8>, clock: Clock) -> Uno {
     let firmware = Firmware::find().unwrap_or_else(|error| panic!("{error:#}"));
-    Uno::new(firmware, image, clock, Box::new(|at| format!("byte {at}"))).unwrap()
+    let mut uno = Uno::new(&firmware, code, clock, Box::new(|at| format!("byte {at}"))).unwrap();
+    uno.load(image).unwrap();
+    uno
+}
+
+fn board(image: Vec<u8>, clock: Clock) -> Uno {
+    board_with(Code::Bytecode, image, clock)
 }
 
 fn uno(text: &str, clock: Clock) -> Uno {
@@ -144,21 +152,43 @@ fn inputs_without_a_pin_are_0_and_cannot_be_set() {
     assert_eq!(uno.write(operand("VW0"), 1).unwrap_err().to_string(), "the program does not use VW0");
 }
 
-#[test]
-fn an_endless_scan_ends_with_the_held_clock_too() {
-    let mut uno = uno("LD SM0.0\n= Q0.0\nLD I0.0\nINCW MW0\nLBL 1\nLD I0.0\nJMP 1\n", Clock::LockStep);
+fn assert_ends_an_endless_scan(code: Code) {
+    let program = image("LD SM0.0\n= Q0.0\nLD I0.0\nINCW MW0\nLBL 1\nLD I0.0\nJMP 1\n");
+    let lines = instructions(&verify(program.as_slice()).unwrap());
+    let jump_at = lines.iter().find(|line| line.decoded.op == Op::Jmp).unwrap().at;
+    let mut uno = board_with(code, program, Clock::LockStep);
     uno.hold_clock_for(1_000_000);
     uno.scan(0);
     assert_eq!((uno.mode(), uno.pin_levels()), (Mode::Run, 1));
     uno.write(operand("I0.0"), 1).unwrap();
     uno.scan(1);
-    assert!(matches!(uno.fault_kind(), Some(Fault::Watchdog { .. })), "{:?}", uno.fault());
+    assert_eq!(uno.fault_kind(), Some(Fault::Watchdog { at: jump_at }));
     let text = uno.fault().unwrap();
     assert!(text.starts_with("watchdog: the scan took longer than 500 ms; the program was at byte "), "{text}");
     assert_eq!((uno.mode(), uno.pin_levels(), read(&mut uno, "MW0")), (Mode::Stop, 0, 1));
     uno.write(operand("I0.0"), 0).unwrap();
     uno.scan(2);
     assert_eq!((uno.mode(), read(&mut uno, "I0.0"), uno.broken()), (Mode::Stop, 0, None));
+}
+
+#[test]
+fn an_endless_scan_ends_with_the_held_clock_too() {
+    assert_ends_an_endless_scan(Code::Bytecode);
+    assert_ends_an_endless_scan(Code::Native);
+}
+
+#[test]
+fn what_does_not_fit_when_it_is_translated_is_an_error_and_changes_nothing() {
+    let mut uno = board_with(Code::Native, image("LD SM0.0\n= Q0.1\n"), Clock::LockStep);
+    let too_large = image(&"LD I0.0\nLD I0.1\nCTU C1, VW0\n".repeat(500));
+    let error = uno.load(too_large.clone()).unwrap_err().to_string();
+    assert!(error.starts_with("translated the program needs "), "{error}");
+    uno.scan(0);
+    assert_eq!((uno.mode(), uno.pin_levels()), (Mode::Run, 0b10), "what was there before");
+    assert_eq!(uno.avr().flash()[usize::from(SLOT_START) + 5], NATIVE_INTERFACE, "and that is machine code");
+    let mut uno = board(too_large, Clock::LockStep);
+    uno.scan(0);
+    assert_eq!(uno.mode(), Mode::Run, "as bytecode it fits");
 }
 
 #[test]
@@ -177,12 +207,13 @@ fn a_clock_that_stands_still_is_a_fault() {
 fn bad_images_and_none() {
     let mut bad = image("LD I0.0\n= Q0.0\n");
     bad[40] ^= 1;
-    for clock in [Clock::LockStep, Clock::FreeRunning] {
-        let mut uno = board(bad.clone(), clock);
+    let of = |code| [(code, Clock::LockStep), (code, Clock::FreeRunning)];
+    for (code, clock) in [Code::Bytecode, Code::Native].into_iter().flat_map(of) {
+        let mut uno = board_with(code, bad.clone(), clock);
         uno.scan(0);
         assert_eq!((uno.mode(), uno.pin_levels()), (Mode::Stop, 0));
         assert!(uno.fault().is_some_and(|text| text.contains("bad image")), "{:?}", uno.fault());
-        uno.load(Vec::new());
+        uno.load(Vec::new()).unwrap();
         uno.scan(0);
         assert_eq!((uno.mode(), uno.fault()), (Mode::Stop, None), "an erased slot is no fault");
     }
@@ -195,10 +226,10 @@ fn many_programs_in_one_board_leave_nothing_to_the_next() {
     let mut uno = board(Vec::new(), Clock::LockStep);
     let mut lengths = Vec::new();
     for _ in 0..20 {
-        uno.load(set_all.clone());
+        uno.load(set_all.clone()).unwrap();
         (0..5).for_each(|scan| uno.scan(scan));
         assert_eq!((uno.pin_levels(), read(&mut uno, "MW0")), (0x3F, -1));
-        uno.load(nothing.clone());
+        uno.load(nothing.clone()).unwrap();
         assert_eq!((uno.mode(), uno.pin_levels(), read(&mut uno, "MW0")), (Mode::Stop, 0, 0), "no power");
         uno.scan(0);
         assert_eq!((uno.mode(), uno.pin_levels(), read(&mut uno, "VB0")), (Mode::Run, 0, 0));
@@ -229,8 +260,7 @@ fn the_stack_is_measured() {
     assert_eq!(uno.unused_stack(), 0);
 }
 
-#[test]
-fn examples_do_what_they_shall_on_a_board_with_its_own_clock() {
+fn assert_examples_do_what_they_shall(target: Target) {
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
     let mut count = 0;
     for path in fs::read_dir(examples).unwrap().map(|entry| entry.unwrap().path()) {
@@ -239,7 +269,7 @@ fn examples_do_what_they_shall_on_a_board_with_its_own_clock() {
             continue;
         }
         count += 1;
-        let Opened { mut machine, symbols, scan_ms, .. } = open_machine(&path, &[], Target::Uno).unwrap();
+        let Opened { mut machine, symbols, scan_ms, .. } = open_machine(&path, &[], target).unwrap();
         let text = fs::read_to_string(path.with_extension("scn")).unwrap();
         let mut has_operand = |operand| machine.read(operand).map(|_| ());
         let context = Context { symbols: &symbols, plant: None, has_operand: &mut has_operand };
@@ -254,4 +284,14 @@ fn examples_do_what_they_shall_on_a_board_with_its_own_clock() {
         assert!(outcome.met >= 2, "{stem}: {}", outcome.met);
     }
     assert_eq!(count, 7);
+}
+
+#[test]
+fn examples_do_what_they_shall_on_a_board_with_its_own_clock() {
+    assert_examples_do_what_they_shall(Target::Uno);
+}
+
+#[test]
+fn examples_do_the_same_translated() {
+    assert_examples_do_what_they_shall(Target::UnoNative);
 }

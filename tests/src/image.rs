@@ -1,10 +1,33 @@
 //! Images of programs for tests. A program with errors is an error of the test.
 
+use std::ops::Range;
+
 use awl_asm::assemble::assemble;
 use awl_asm::render::human;
 use awl_asm::source::Source;
+use fastrand::Rng;
+use plc_isa::{CRC_LEN, Crc32, NATIVE_INTERFACE, ProgramMemory, SLOT_LEN};
 
 use crate::case::{folder, read};
+
+/// Offset of the byte that says for which firmware interface an image was translated.
+pub const INTERFACE_AT: usize = 5;
+
+/// An image as the loader of the board sees it, which takes machine code too.
+#[derive(Debug, Clone, Copy)]
+pub struct OnBoard<'a>(pub &'a [u8]);
+
+impl ProgramMemory for OnBoard<'_> {
+    const NATIVE_INTERFACE: u8 = NATIVE_INTERFACE;
+
+    fn len(&self) -> u16 {
+        ProgramMemory::len(&self.0)
+    }
+
+    fn byte(&self, offset: u16) -> u8 {
+        self.0.byte(offset)
+    }
+}
 
 /// The image of a program.
 ///
@@ -33,4 +56,25 @@ pub fn example_text(name: &str) -> String {
 /// If there is no such example.
 pub fn example(name: &str) -> Vec<u8> {
     image(&example_text(name))
+}
+
+/// An image whose checksum is right again.
+pub fn signed(mut image: Vec<u8>) -> Vec<u8> {
+    let end = image.len() - usize::from(CRC_LEN);
+    let crc = Crc32::of(&image[..end]).to_le_bytes();
+    image[end..].copy_from_slice(&crc);
+    image
+}
+
+/// The image with one to three bytes changed at these offsets, as far as they are not the checksum; that is right again.
+/// It is as long as the slot, because the board does not know the length of a file.
+pub fn damaged(image: &[u8], rng: &mut Rng, offsets: Range<usize>) -> Vec<u8> {
+    let mut image = image.to_vec();
+    let end = image.len() - usize::from(CRC_LEN);
+    for _ in 0..rng.u32(1..4) {
+        image[rng.usize(offsets.start..offsets.end.min(end))] = rng.u8(..);
+    }
+    let mut image = signed(image);
+    image.resize(usize::from(SLOT_LEN), 0xFF);
+    image
 }

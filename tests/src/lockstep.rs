@@ -1,14 +1,20 @@
 //! Host and board side by side: the same inputs and times for both, and everything compared after every scan.
 
+mod runs;
+
+use awl_asm::disassemble::instructions;
+use awl_asm::native::TranslateError;
 use awl_sim::machine::host::Host;
-use awl_sim::machine::uno::{Clock, Uno};
+use awl_sim::machine::uno::{Clock, Code, Uno};
 use awl_sim::machine::{Machine, MachineError, Mode};
 use awl_sim::operand::Operand;
-use plc_isa::{Area, DATA_END, DATA_START, DIGITAL_OUTPUTS, Plan};
+use plc_isa::{Area, DATA_END, DATA_START, DIGITAL_OUTPUTS, Op, Program, verify};
 use plc_vm::Fault;
 
 use crate::bench_board::firmware;
 use crate::case::host;
+
+pub use runs::{assert_cases_are_the_same, assert_random_programs_are_the_same, random_image};
 
 /// Pins of the outputs.
 const OUTPUT_PINS: u8 = (1 << DIGITAL_OUTPUTS) - 1;
@@ -17,13 +23,12 @@ const ENDLESS_CYCLES: u64 = 1_600_000;
 /// How long any other may run: ten minutes. The host charges loops less than the board takes for them.
 const LONG_CYCLES: u64 = 10 * 60 * 16_000_000;
 
-/// A board in lock-step, for many programs.
+/// A board in lock-step, for many programs in this form.
 ///
 /// # Panics
 /// Without the firmware: nothing is left out silently.
-pub fn board() -> Uno {
-    Uno::new(firmware(), Vec::new(), Clock::LockStep, Box::new(|_| String::new()))
-        .unwrap_or_else(|error| panic!("{error}"))
+pub fn board(code: Code) -> Uno {
+    Uno::new(&firmware(), code, Clock::LockStep, Box::new(|_| String::new())).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A host and a board with the same program. As a machine it is the host; the board must be the same.
@@ -32,21 +37,25 @@ pub struct Pair<'a> {
     uno: &'a mut Uno,
     /// One past the last data address that is compared: behind its plan the board keeps a copy of what is retained.
     compared_end: u16,
+    /// Offsets of the jumps and loops, where the watchdog may come.
+    jumps: Vec<u16>,
     scans: u64,
     difference: Option<String>,
 }
 
 impl<'a> Pair<'a> {
-    /// Both with this image, their clocks beginning at this time.
-    pub fn new(uno: &'a mut Uno, image: &[u8], clock_ms: u32) -> Pair<'a> {
+    /// Both with this image, their clocks beginning at this time. An error if it does not fit when it is translated.
+    pub fn new(uno: &'a mut Uno, image: &[u8], clock_ms: u32) -> Result<Pair<'a>, TranslateError> {
         let mut host = host(image);
         host.start_clock_at(clock_ms);
-        uno.load(image.to_vec());
+        uno.load(image.to_vec())?;
         uno.start_clock_at(clock_ms);
         uno.hold_clock_for(LONG_CYCLES);
-        let end_of = |plan: &Plan<&[u8]>| if plan.header.retained == 0 { DATA_END } else { plan.end() };
-        let compared_end = plc_isa::verify(image).map_or(DATA_END, |program| end_of(program.plan()));
-        Pair { host, uno, compared_end, scans: 0, difference: None }
+        let program = verify(image).ok();
+        let retaining = program.as_ref().map(Program::plan).filter(|plan| plan.header.retained > 0);
+        let compared_end = retaining.map_or(DATA_END, |plan| plan.end());
+        let jumps = program.as_ref().map(jumps).unwrap_or_default();
+        Ok(Pair { host, uno, compared_end, jumps, scans: 0, difference: None })
     }
 
     /// The first difference between the two, if there was one.
@@ -63,7 +72,7 @@ impl<'a> Pair<'a> {
     fn compare(&mut self) {
         let broken = self.uno.broken().unwrap_or_default().to_string();
         self.must_be(|| "what is wrong with the board".to_string(), &broken, "");
-        let faults = [self.uno.fault_kind(), self.host.fault_kind()].map(described);
+        let faults = [self.uno.fault_kind(), self.host.fault_kind()].map(|fault| self.described(fault));
         self.must_be(|| "the fault".to_string(), &faults[0], &faults[1]);
         let modes = [self.uno.mode(), self.host.mode()].map(|mode| format!("{mode:?}"));
         self.must_be(|| "the mode".to_string(), &modes[0], &modes[1]);
@@ -72,6 +81,14 @@ impl<'a> Pair<'a> {
         // How far an endless loop came is a matter of speed.
         if !matches!(self.host.fault_kind(), Some(Fault::Watchdog { .. })) {
             self.compare_memory();
+        }
+    }
+
+    /// A fault; the place at which the watchdog came only as far as it is no matter of speed too.
+    fn described(&self, fault: Option<Fault>) -> String {
+        match fault {
+            Some(Fault::Watchdog { at }) if self.jumps.contains(&at) => "the watchdog at a jump".to_string(),
+            fault => format!("{fault:?}"),
         }
     }
 
@@ -85,12 +102,10 @@ impl<'a> Pair<'a> {
     }
 }
 
-/// A fault without the place at which the watchdog came: that is a matter of speed too.
-fn described(fault: Option<Fault>) -> String {
-    match fault {
-        Some(Fault::Watchdog { .. }) => "Watchdog".to_string(),
-        fault => format!("{fault:?}"),
-    }
+/// The offsets of what can lead back.
+fn jumps(program: &Program<&[u8]>) -> Vec<u16> {
+    let lines = instructions(program).into_iter();
+    lines.filter(|line| matches!(line.decoded.op, Op::Jmp | Op::Next)).map(|line| line.at).collect()
 }
 
 fn name(address: u16) -> String {
@@ -148,9 +163,8 @@ mod tests {
     use super::*;
     use crate::image::image;
 
-    #[test]
-    fn every_kind_of_difference_is_seen() {
-        let mut uno = board();
+    fn assert_differences_are_seen(code: Code) {
+        let mut uno = board(code);
         let same = "LD SM0.0\n= Q0.0\n";
         let others = [
             ("LD SM0.0\n= Q0.0\n= M0.7\n", "the byte at 0x0120 (MB0) is 128, should be 0"),
@@ -159,15 +173,21 @@ mod tests {
             ("LD SM0.0\n= Q0.0\nSTOP\n", "the mode is Stop, should be Run"),
         ];
         for (other, difference) in others {
-            let mut pair = Pair::new(&mut uno, &image(same), 0);
-            pair.uno.load(image(other));
+            let mut pair = Pair::new(&mut uno, &image(same), 0).unwrap();
+            pair.uno.load(image(other)).unwrap();
             pair.scan(0);
             let found = pair.difference().unwrap_or_default();
             assert_eq!(found, format!("after scan 1: {difference}"));
         }
-        let mut pair = Pair::new(&mut uno, &image(same), 0);
-        pair.uno.load(b"U200 is no image".to_vec());
+        let mut pair = Pair::new(&mut uno, &image(same), 0).unwrap();
+        pair.uno.load(b"U200 is no image".to_vec()).unwrap();
         pair.scan(0);
         assert!(pair.difference().is_some_and(|found| found.contains("the fault is Some(BadImage")));
+    }
+
+    #[test]
+    fn every_kind_of_difference_is_seen() {
+        assert_differences_are_seen(Code::Bytecode);
+        assert_differences_are_seen(Code::Native);
     }
 }

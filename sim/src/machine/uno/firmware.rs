@@ -9,7 +9,8 @@ use simavr::Elf;
 
 /// The firmware of the board.
 pub struct Firmware {
-    pub(super) elf: Elf,
+    /// The file's content, with all its symbols.
+    pub elf: Elf,
     pub(super) places: Places,
 }
 

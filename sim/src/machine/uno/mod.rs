@@ -9,6 +9,7 @@ mod free_running;
 mod lock_step;
 
 use anyhow::Result;
+use awl_asm::native::{TranslateError, translate};
 use plc_isa::{DIGITAL_INPUTS, Plan, Program, Settings, verify};
 use plc_vm::{Fault, Inputs};
 use simavr::Avr;
@@ -37,6 +38,15 @@ pub enum Clock {
     FreeRunning,
 }
 
+/// In which form the program stands in the slot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Code {
+    /// Bytecode, which the firmware interprets.
+    Bytecode,
+    /// Machine code, translated from it.
+    Native,
+}
+
 /// Where the firmware is stopped.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum At {
@@ -61,8 +71,10 @@ struct Write {
 /// A PLC on a simulated Uno.
 pub struct Uno {
     board: Board,
+    code: Code,
     clock: Clock,
     at: At,
+    /// In bytecode, whatever the board has: it tells plan and settings, which are the same in both.
     program: Option<Program<Vec<u8>>>,
     place_of: PlaceOf,
     inputs: Inputs,
@@ -77,11 +89,14 @@ pub struct Uno {
 }
 
 impl Uno {
-    /// A board with this program, without power: that comes with the first scan, so that inputs which are set before
-    /// are there from the start. A bad image leaves it in STOP with a fault.
-    pub fn new(firmware: Firmware, image: Vec<u8>, clock: Clock, place_of: PlaceOf) -> Result<Uno> {
-        let mut uno = Uno {
-            board: Board::new(&firmware)?,
+    /// A board with an empty slot, without power: that comes with the first scan, so that inputs which are set before
+    /// are there from the start.
+    pub fn new(firmware: &Firmware, code: Code, clock: Clock, place_of: PlaceOf) -> Result<Uno> {
+        let mut board = Board::new(firmware)?;
+        board.renew();
+        Ok(Uno {
+            board,
+            code,
             clock,
             at: At::Off,
             program: None,
@@ -92,21 +107,26 @@ impl Uno {
             clock_start_ms: 0,
             held_cycles_max: lock_step::HELD_CYCLES_MAX,
             first_scan: 0,
-        };
-        uno.load(image);
-        Ok(uno)
+        })
     }
 
-    /// Another program in the same board, as new as the first: nothing of before is left.
-    pub fn load(&mut self, image: Vec<u8>) {
+    /// A program, given as bytecode, in the same board as if it were new: nothing of before is left. A bad image leaves
+    /// it in STOP with a fault. One that is too large when it is translated is an error, and everything stays.
+    pub fn load(&mut self, image: Vec<u8>) -> Result<(), TranslateError> {
+        let translated = match self.code {
+            Code::Native if verify(image.as_slice()).is_ok() => Some(translate(&image)?.image),
+            // What is wrong with a bad image is for the board to say.
+            Code::Native | Code::Bytecode => None,
+        };
         self.board.renew();
-        self.board.insert(&image);
+        self.board.insert(translated.as_ref().unwrap_or(&image));
         self.program = verify(image).ok();
         self.at = At::Off;
         self.inputs = Inputs::default();
         self.writes.clear();
         self.scan_cycles = 0;
         (self.clock_start_ms, self.held_cycles_max) = (0, lock_step::HELD_CYCLES_MAX);
+        Ok(())
     }
 
     /// The data memory of the PLC, for comparisons with other machines.
