@@ -10,6 +10,8 @@ pub mod forms;
 pub mod image;
 #[cfg(feature = "uno")]
 pub mod lockstep;
+#[cfg(feature = "uno")]
+pub mod measure;
 pub mod mutate;
 pub mod naive;
 #[cfg(feature = "uno")]

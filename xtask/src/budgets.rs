@@ -23,3 +23,34 @@ pub const FIRMWARE_DATA_MAX: u64 = 32;
 
 /// Bytes of SRAM for the firmware's own variables: what data memory and the deepest stack leave.
 pub const FIRMWARE_VARIABLES_MAX: u64 = 320;
+
+/// Cycles of a bit instruction in the interpreter, on average over a realistic mix. The S7-200 takes 3.5 and has
+/// hardware for it; the best interpreters known for this chip take over 30.
+pub const INTERPRETER_BIT_CYCLES_MAX: f64 = 20.0;
+
+/// Cycles of a word instruction in the interpreter, on average over the same mix.
+pub const INTERPRETER_WORD_CYCLES_MAX: f64 = 40.0;
+
+/// Cycles of the program of 1,024 instructions in the interpreter: 1.35 ms.
+pub const INTERPRETER_STEPS_CYCLES_MAX: f64 = 21_600.0;
+
+/// Cycles of the station's program in the interpreter. The PLC of 2015 takes 5,518.
+pub const INTERPRETER_STATION_CYCLES_MAX: f64 = 2_000.0;
+
+/// Cycles of the station's whole scan with it. The PLC of 2015 takes 15,873.
+pub const INTERPRETER_STATION_SCAN_CYCLES_MAX: f64 = 2_600.0;
+
+/// Cycles that a scan takes beside its program, on average.
+pub const SCAN_OVERHEAD_CYCLES_MAX: f64 = 400.0;
+
+/// Cycles of a bit instruction in machine code with the process image in SRAM. The S7-200 takes 3.5.
+pub const NATIVE_BIT_CYCLES_MAX: f64 = 3.6;
+
+/// The same with the most used bytes of the process image in registers.
+pub const NATIVE_PINNED_BIT_CYCLES_MAX: f64 = 2.0;
+
+/// Cycles of the program of 1,024 instructions in machine code: 0.30 ms.
+pub const NATIVE_STEPS_CYCLES_MAX: f64 = 4_800.0;
+
+/// Cycles of the station's program in machine code.
+pub const NATIVE_STATION_CYCLES_MAX: f64 = 450.0;

@@ -11,11 +11,20 @@ use crate::{avr, packages};
 
 /// Builds `target/firmware/uno200.elf` and `.hex`. Returns the ELF.
 pub fn build() -> Result<PathBuf> {
+    build_into("target/firmware", &[])
+}
+
+/// Builds the firmware without its fast engine, in which plc-vm executes everything: `target/firmware/plain`.
+pub fn build_plain() -> Result<PathBuf> {
+    build_into("target/firmware/plain", &["--no-default-features"])
+}
+
+fn build_into(folder: &str, features: &[&str]) -> Result<PathBuf> {
     // The linker and objcopy, whichever compiler there is.
     packages::ensure_installed(packages::AVR_LINKER)?;
-    let target = root().join("target/firmware");
+    let target = root().join(folder);
     let mut build = avr::cargo()?;
-    build.current_dir(root().join("firmware")).args(["build", "--release", "--locked"]);
+    build.current_dir(root().join("firmware")).args(["build", "--release", "--locked"]).args(features);
     // Added to the flags in firmware/.cargo/config.toml.
     build.args(["--config", "target.avr-none.rustflags=[\"-Dwarnings\"]"]);
     build.arg("--target-dir").arg(target.join("build"));

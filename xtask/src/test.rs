@@ -24,14 +24,16 @@ const HOST: [Stage; 6] = [
 ];
 
 /// Instead of the last stages of a run that is host-only.
-const BOARD: [Stage; 5] = [
+const BOARD: [Stage; 7] = [
     ("format of the firmware", || {
         process::run(cargo().args(["fmt", "--check", "--manifest-path", "firmware/Cargo.toml"]))
     }),
     ("firmware", || firmware::build().map(drop)),
     ("lints with the virtual board", || lint(WITH_BOARD)),
     ("tests, on the virtual board too", || process::run(&mut tests(WITH_BOARD))),
+    ("firmware without its engine", plain_firmware),
     ("size of the firmware", size::gate),
+    ("budgets of the board", bench::board_gate),
 ];
 
 /// Turns on what runs on the virtual board.
@@ -58,6 +60,14 @@ pub fn run(host_only: bool) -> Result<()> {
         false => println!("all good"),
     }
     Ok(())
+}
+
+/// That plc-vm alone is a whole firmware: a mistake of the engine can then be told from one of the meaning.
+fn plain_firmware() -> Result<()> {
+    let elf = firmware::build_plain()?;
+    let mut lockstep = cargo();
+    lockstep.args(["test", "--quiet", "--package", "tests", "--test", "lockstep"]).args(WITH_BOARD);
+    process::run(lockstep.env("UNO200_FIRMWARE", elf).env("RANDOM_PROGRAMS", "60"))
 }
 
 fn lint(features: &[&str]) -> Result<()> {

@@ -1,4 +1,4 @@
-//! Speed of the host interpreter and of the assembler, compared with their budgets.
+//! Speed of the host interpreter and of the assembler, compared with their budgets. The board is measured elsewhere.
 //!
 //! Each figure is the best of several rounds: other work on the machine only makes rounds slower. What
 //! is counted is checked in the same run: a benchmark that did not execute its instructions fails.
@@ -16,15 +16,12 @@ use plc_isa::{LogicStack, M_START};
 use plc_vm::{Environment, Inputs, Memory, Mode, Plc};
 
 use crate::budgets;
-use crate::process::{cargo, root, run as run_command};
+use crate::process::root;
 
 const ROUNDS: usize = 7;
 
-/// Measures, prints and compares. Rebuilds itself with optimisation if need be.
+/// Measures, prints and compares. Only an optimised build has figures that mean anything.
 pub fn run() -> Result<()> {
-    if cfg!(debug_assertions) {
-        return gate();
-    }
     let figures = [host_interpreter()?, assembler()?, large_file()?, file_of_errors()?, density()?];
     let mut missed = 0;
     for figure in &figures {
@@ -40,24 +37,6 @@ pub fn run() -> Result<()> {
     }
     ensure!(missed == 0, "{missed} budgets missed");
     Ok(())
-}
-
-/// Tries of the gate. One process can be twice as slow as the next without a change of the program: where its pages
-/// and branches fall is luck. A program that has become slow is slow in all of them.
-const TRIES: usize = 3;
-
-/// The same from an unoptimised xtask: a release build does the measuring.
-pub fn gate() -> Result<()> {
-    let measure = || run_command(cargo().args(["run", "--quiet", "--release", "--package", "xtask", "--", "bench"]));
-    let mut result = measure();
-    for _ in 1..TRIES {
-        if result.is_ok() {
-            break;
-        }
-        println!("missed: measuring again");
-        result = measure();
-    }
-    result
 }
 
 struct Figure {

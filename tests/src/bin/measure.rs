@@ -1,0 +1,145 @@
+//! Measures everything that `cargo xtask bench` reports about the board, and prints it line by line; with `table`, the
+//! table of awl-asm/src/cost/interpreter.rs. It judges nothing.
+
+use std::io::{self, Write};
+
+use plc_isa::Op;
+use tests::image::example_text;
+use tests::measure::record::{self, Record};
+use tests::measure::rows::{CHAPTERS, Row};
+use tests::measure::{self, Executable, Meter, Step, Tier, forms, programs, s7_200, scans, table};
+
+fn main() -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    if std::env::args().nth(1).as_deref() == Some("table") {
+        return out.write_all(table::table().as_bytes());
+    }
+    writeln!(out, "{}", record::HEAD)?;
+    for tier in Tier::ALL {
+        for record in [program_records(tier), station_records(tier)].concat() {
+            writeln!(out, "{record}")?;
+        }
+    }
+    for record in firmware_records() {
+        writeln!(out, "{record}")?;
+    }
+    for chapter in &CHAPTERS {
+        for row in chapter.rows {
+            for record in Tier::ALL.into_iter().flat_map(|tier| row_records(chapter.title, row, tier)) {
+                writeln!(out, "{record}")?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn single(section: &'static str, tier: Tier, what: &str, value: f64, name: &str) -> Record {
+    let (what, name) = (what.to_string(), name.to_string());
+    Record { section, tier: tier.to_string(), what, min: value, max: value, quoted_us: None, name }
+}
+
+/// Bytes of flash.
+fn firmware_records() -> Vec<Record> {
+    let elf = measure::elf();
+    let of = |name: &str, bytes: f64| Record {
+        tier: "-".to_string(),
+        ..single("firmware", Tier::Interpreter, "bytes of flash", bytes, name)
+    };
+    let all = elf.flash.iter().map(|(_, bytes)| bytes.len()).sum::<usize>() as f64;
+    let engine = elf.flash_symbol("uno200_engine_end").zip(elf.flash_symbol("uno200_vectors"));
+    let engine = engine.map(|(end, start)| of("fast engine", f64::from(end - start)));
+    [of("firmware", all)].into_iter().chain(engine).collect()
+}
+
+/// The generated programs.
+fn program_records(tier: Tier) -> Vec<Record> {
+    let all =
+        [("1024-step 80/20", programs::eighty_twenty()), ("1K Boolean", programs::boolean()), ("mix", programs::mix())];
+    all.into_iter().flat_map(|(name, text)| one_program(tier, name, &text)).collect()
+}
+
+/// Cycles of the shortest and of the longest scan over all inputs, and cycles an instruction by kind.
+fn one_program(tier: Tier, name: &str, text: &str) -> Vec<Record> {
+    let mut meter = Meter::new(Executable::new(name, text, tier));
+    let (len, bytes) = (meter.executable.len() as f64, meter.executable.code_len() as f64);
+    let (mut cycles, mut bits, mut words) = (Vec::new(), Average::default(), Average::default());
+    for inputs in 0..64 {
+        meter.board.drive_inputs(inputs);
+        let execution = meter.execute();
+        cycles.push(execution.program);
+        for step in &execution.steps {
+            match is_word(&meter, step) {
+                Some(true) => words.add(step.cycles),
+                Some(false) => bits.add(step.cycles),
+                None => {}
+            }
+        }
+    }
+    let spread = scans::Spread::of(cycles);
+    let of = |what: &str, value: f64| single("program", tier, what, value, name);
+    let mut records = vec![
+        Record { min: spread.min as f64, ..of("cycles", spread.max as f64) },
+        of("cycles an instruction", spread.max as f64 / len),
+        of("bytes an instruction", bytes / len),
+    ];
+    records.extend(bits.mean().map(|mean| of("cycles a bit instruction", mean)));
+    records.extend(words.mean().map(|mean| of("cycles a word instruction", mean)));
+    records
+}
+
+#[derive(Default)]
+struct Average {
+    sum: u64,
+    count: u64,
+}
+
+impl Average {
+    fn add(&mut self, value: u64) {
+        self.sum += value;
+        self.count += 1;
+    }
+
+    fn mean(&self) -> Option<f64> {
+        (self.count > 0).then(|| self.sum as f64 / self.count as f64)
+    }
+}
+
+/// Whether a step is a word instruction; `None` for what is no instruction.
+fn is_word(meter: &Meter, step: &Step) -> Option<bool> {
+    let (_, decoded) = meter.executable.code.get(step.instruction?)?;
+    (decoded.op != Op::MainEnd).then(|| programs::is_word(decoded.op.instruction().mnemonic()))
+}
+
+/// The scans of the station.
+fn station_records(tier: Tier) -> Vec<Record> {
+    let name = "station1";
+    let executable = Executable::new(name, &example_text(name), tier);
+    let (len, bytes) = (executable.len() as f64, executable.code_len() as f64);
+    let figures = scans::measure(executable);
+    let of = |what: &str, value: f64| single("scan", tier, what, value, name);
+    let mut records = vec![of("overhead", figures.overhead() as f64), of("bytes an instruction", bytes / len)];
+    for (what, spread) in [("program", figures.program), ("whole scan", figures.whole), ("period", figures.period)] {
+        let scans::Spread { min, median, p99, max, mean } = spread;
+        for (which, value) in [("min", min), ("median", median), ("p99", p99), ("max", max), ("mean", mean)] {
+            records.push(of(&format!("{what} {which}"), value as f64));
+        }
+    }
+    records
+}
+
+fn row_records(chapter: &'static str, row: &Row, tier: Tier) -> Vec<Record> {
+    let found = forms::measure(row, tier);
+    let record = |what: &str, (min, max): forms::Cycles, quoted_us: Option<f64>| Record {
+        min: min as f64,
+        quoted_us,
+        ..single(chapter, tier, what, max as f64, row.awl)
+    };
+    let (on, off) = (found.get(&true).copied(), found.get(&false).copied());
+    if row.is_box() {
+        let on = on.map(|cycles| record("cycles", cycles, row.quoted_us()));
+        let off_us = row.quoted_us().map(|us| us.min(s7_200::WITHOUT_POWER_FLOW_US));
+        return on.into_iter().chain(off.map(|cycles| record("without power flow", cycles, off_us))).collect();
+    }
+    let both = on.into_iter().chain(off).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+    both.map(|cycles| record("cycles", cycles, row.quoted_us())).into_iter().collect()
+}

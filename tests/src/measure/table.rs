@@ -1,0 +1,111 @@
+//! Makes the table of `awl-asm/src/cost/interpreter.rs` by measuring every form of every instruction. Not used by tests,
+//! which hold the table against other programs.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use awl_asm::cost::interpreter::more;
+use fastrand::Rng;
+use plc_isa::{Kind, Op, PowerFlow};
+
+use super::forms::situation;
+use super::rows::CHAPTERS;
+use super::{Executable, Execution, Meter, Tier};
+use crate::random::random_program;
+
+/// Fewest and most cycles.
+type Range = Option<(u64, u64)>;
+
+/// A form's ways: to the next instruction without and with power flow, and to elsewhere.
+#[derive(Default)]
+struct Ways {
+    off: Range,
+    on: Range,
+    away: Range,
+}
+
+/// Scans of each program.
+const SCANS: usize = 100;
+/// Random programs beside those of the rows.
+const RANDOM: u64 = 150;
+
+/// The table as source text.
+pub fn table() -> String {
+    let mut found: BTreeMap<(Op, String), Ways> = BTreeMap::new();
+    let mut start = 0;
+    for row in CHAPTERS.iter().flat_map(|chapter| chapter.rows) {
+        let mut meter = Meter::new(Executable::new(row.awl, &row.program().0, Tier::Interpreter));
+        meter.board.stop_clock();
+        let mut rng = Rng::with_seed(1);
+        for _ in 0..SCANS {
+            situation(&mut meter, &mut rng);
+            let execution = meter.execute();
+            start = start.max(enter(&meter, &execution, &mut found));
+        }
+    }
+    for seed in 0..RANDOM {
+        random(seed, &mut found);
+    }
+    text(start, &found)
+}
+
+fn random(seed: u64, found: &mut BTreeMap<(Op, String), Ways>) {
+    // Away from those that the tests take.
+    let mut rng = Rng::with_seed(1_000_000 + seed);
+    let text = random_program(&mut rng, 80);
+    let mut meter = Meter::new(Executable::new("random", &text, Tier::Interpreter));
+    meter.board.stop_clock();
+    for _ in 0..20 {
+        meter.board.drive_inputs(rng.u8(..64));
+        meter.pass(rng.u32(..150));
+        let execution = meter.execute();
+        enter(&meter, &execution, found);
+    }
+}
+
+/// Enters what was measured; returns the cycles before the first instruction.
+fn enter(meter: &Meter, execution: &Execution, found: &mut BTreeMap<(Op, String), Ways>) -> u64 {
+    let (code, plan) = (&meter.executable.code, meter.executable.plan());
+    let mut jumps_back = 0;
+    for (index, step) in execution.steps.iter().enumerate() {
+        let Some((number, (_, decoded))) = step.instruction.and_then(|number| Some((number, code.get(number)?))) else {
+            continue;
+        };
+        let kinds: Vec<Kind> = decoded.operands().map(|(kind, _)| kind).collect();
+        let ways = found.entry((decoded.op, format!("{kinds:?}"))).or_default();
+        let more = more(decoded, &plan, &meter.executable.bytecode, step.count.map(u32::from));
+        let is_off = !step.flow && decoded.op.instruction().power_flow == PowerFlow::Needed;
+        // Nothing is added to a box without power flow.
+        let cycles = if is_off { step.cycles } else { step.cycles.saturating_sub(more.into()) };
+        let next = execution.steps.get(index + 1).and_then(|next| next.instruction);
+        // The first in a scan finds that time has passed.
+        jumps_back += usize::from(next.is_some_and(|next| next <= number));
+        if jumps_back == 1 && next.is_some_and(|next| next <= number) {
+            continue;
+        }
+        let follows = next == Some(number + 1);
+        let way = match (follows, step.flow) {
+            (true, false) => &mut ways.off,
+            (true, true) => &mut ways.on,
+            (false, _) => &mut ways.away,
+        };
+        let (min, max) = way.unwrap_or((cycles, cycles));
+        *way = Some((min.min(cycles), max.max(cycles)));
+    }
+    execution.steps.first().map_or(0, |step| step.cycles)
+}
+
+fn text(start: u64, found: &BTreeMap<(Op, String), Ways>) -> String {
+    let mut text = format!("pub const START: u32 = {start};\n\nconst TABLE: &[Entry] = &[\n");
+    for ((op, kinds), ways) in found {
+        let range = |range: Range| range.map_or("[0, 0]".to_string(), |(min, max)| format!("[{min}, {max}]"));
+        let _ = writeln!(
+            text,
+            "    (Op::{op:?}, &{kinds}, {}, {}, {}),",
+            range(ways.off),
+            range(ways.on),
+            range(ways.away)
+        );
+    }
+    text + "];\n"
+}

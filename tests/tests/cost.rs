@@ -1,0 +1,206 @@
+//! What the assembler says that a program costs, against the board: all examples, the benchmark programs, random programs,
+//! interpreted and translated.
+//!
+//! A prediction is never too low: neither that of an instruction, nor that of the longest scan. Of a program without loops
+//! and jumps it is at most 15 % too high: that is, the sum of the longest that each instruction can take on the ways on
+//! which it was seen is compared with the sum of the longest that it was seen to take. All timers do not end in the same
+//! scan, so that no single scan is that long. Programs whose instructions take their time by values are left out of this.
+//!
+//! `RANDOM_PROGRAMS=1000 cargo test --package tests --features uno --test cost` runs longer, `RANDOM_SEED` starts elsewhere.
+#![cfg(feature = "uno")]
+
+use std::collections::BTreeMap;
+
+use awl_asm::cost::{self, Cycles, Longest, ProgramCost, Ways, interpreter};
+use awl_asm::native::translate;
+use fastrand::Rng;
+use plc_isa::{Decoded, Kind, Op};
+use tests::bench_board::BenchBoard;
+use tests::case::Case;
+use tests::effort::effort;
+use tests::measure::{Executable, Execution, Meter, Step, Tier, programs};
+use tests::random::random_program;
+
+/// Share by which a prediction may be too high.
+const TOO_HIGH: f64 = 0.15;
+/// Scans of each program.
+const SCANS: usize = 40;
+
+/// A program with its prediction on a board.
+struct Predicted {
+    name: String,
+    meter: Meter,
+    cost: ProgramCost,
+    /// Cycles before the first instruction.
+    start: u64,
+}
+
+impl Predicted {
+    /// `None` for a program that is too large to be translated.
+    fn new(name: &str, text: &str, tier: Tier) -> Option<Predicted> {
+        let bytecode = Executable::new(name, text, Tier::Interpreter).bytecode;
+        let translated = translate(&bytecode).ok();
+        if tier != Tier::Interpreter && translated.is_none() {
+            return None;
+        }
+        let cost = cost::cost(&bytecode).expect("an image of the assembler is valid");
+        let start = match (tier, translated) {
+            (Tier::Native { .. }, Some(translated)) => cost::NATIVE_START + translated.start.max,
+            _ => interpreter::START,
+        };
+        let meter = Meter::new(Executable::new(name, text, tier));
+        meter.board.runs().then_some(())?;
+        Some(Predicted { name: format!("{name}, {tier}"), meter, cost, start: start.into() })
+    }
+
+    /// The ways on from an instruction; from one that reads a count in the scan, with that.
+    fn ways(&self, instruction: usize, count: Option<u8>) -> Ways {
+        let (cost, executable) = (&self.cost.instructions[instruction], &self.meter.executable);
+        let (_, decoded) = &executable.code[instruction];
+        let interpreted =
+            |count: u32| interpreter::ways(decoded, &executable.plan(), &executable.bytecode, Some(count));
+        match (executable.tier, count) {
+            (Tier::Interpreter, Some(count)) => interpreted(count.into()),
+            (Tier::Interpreter, None) => cost.interpreted,
+            (_, None) => cost.translated.expect("the program is translated"),
+            (_, Some(count)) => {
+                let most = |ways: Ways| ways.on.unwrap_or_default().max;
+                let less = most(cost.interpreted) - most(interpreted(count.into()));
+                let ways = cost.translated.expect("the program is translated");
+                Ways { on: ways.on.map(|on| Cycles { min: on.min, max: on.max - less }), ..ways }
+            }
+        }
+    }
+
+    /// What a step should take at most, and what it took.
+    fn step(&self, step: &Step, next: Option<usize>) -> (u64, u64) {
+        let Some(instruction) = step.instruction else { return (self.start, step.cycles) };
+        let ways = self.ways(instruction, step.count);
+        // What is no machine code is no step: the next one may be further on.
+        let follows = next.is_some_and(|next| {
+            next > instruction && (instruction + 1..next).all(|between| self.meter.executable.is_nothing(between))
+        });
+        let next = if step.flow { ways.on } else { ways.off };
+        let way = if follows { next.or(ways.away) } else { ways.away.or(next) };
+        (u64::from(way.unwrap_or_default().max), step.cycles)
+    }
+
+    /// Compares a scan, and enters the longest of each instruction, predicted and measured.
+    fn compare(&self, execution: &Execution, longest: &mut BTreeMap<Option<usize>, (u64, u64)>) {
+        let steps = &execution.steps;
+        for (index, step) in steps.iter().enumerate() {
+            let (most, taken) = self.step(step, steps.get(index + 1).and_then(|next| next.instruction));
+            // Jumps back take longer when time has passed: what that adds is in the prediction of the whole.
+            let is_exact = self.is_straight();
+            let instruction = step.instruction.map(|number| self.meter.executable.code[number].1);
+            assert!(!is_exact || taken <= most, "{}: {instruction:?} took {taken}, not {most}, {step:?}", self.name);
+            let entry = longest.entry(step.instruction).or_default();
+            *entry = (entry.0.max(most), entry.1.max(taken));
+        }
+        if let Longest::Cycles(longest) = self.cost_of_longest() {
+            assert!(execution.program <= longest, "{}: {} > {longest}", self.name, execution.program);
+        }
+    }
+
+    fn cost_of_longest(&self) -> Longest {
+        match self.meter.executable.tier {
+            Tier::Interpreter => self.cost.interpreted,
+            Tier::Native { .. } => self.cost.translated.expect("the program is translated"),
+        }
+    }
+
+    fn is_straight(&self) -> bool {
+        let jumps = [Op::Jmp, Op::For, Op::Next, Op::End, Op::Stop];
+        self.meter.executable.code.iter().all(|(_, decoded)| !jumps.contains(&decoded.op))
+    }
+
+    /// Whether instructions take longer or shorter by the values that they read: a range by its count, a division by its
+    /// divisor. What random programs have there is no measure.
+    fn depends_on_values(&self) -> bool {
+        let reads_count = |decoded: &Decoded| {
+            let is_range = matches!(decoded.op, Op::Set | Op::Reset | Op::ResetTimers | Op::ResetCounters);
+            is_range && decoded.operands().any(|(kind, _)| kind == Kind::Byte)
+        };
+        let mut code = self.meter.executable.code.iter();
+        code.any(|(_, decoded)| decoded.op == Op::DivInt || reads_count(decoded))
+    }
+
+    /// Runs scans with any inputs and times. Returns by how much the prediction is too high.
+    fn run(&mut self, rng: &mut Rng) -> f64 {
+        self.meter.board.stop_clock();
+        let mut longest = BTreeMap::new();
+        for _ in 0..SCANS {
+            self.meter.board.drive_inputs(rng.u8(..64));
+            self.meter.pass(rng.u32(..120));
+            let execution = self.meter.execute();
+            self.compare(&execution, &mut longest);
+        }
+        let (predicted, measured) = longest.values().fold((0, 0), |sum, one| (sum.0 + one.0, sum.1 + one.1));
+        predicted as f64 / measured as f64 - 1.0
+    }
+}
+
+const TIERS: [Tier; 2] = [Tier::Interpreter, Tier::Native { pins: true }];
+
+fn assert_near(predicted: &mut Predicted, rng: &mut Rng) -> f64 {
+    let worst = predicted.run(rng);
+    if !predicted.is_straight() || predicted.depends_on_values() {
+        return 0.0;
+    }
+    assert!(worst <= TOO_HIGH, "{}: the prediction is {:.1} % too high", predicted.name, 100.0 * worst);
+    worst
+}
+
+#[test]
+fn examples_cost_what_the_assembler_says() {
+    let examples = Case::examples().into_iter().map(|case| (case.file, case.awl));
+    let benchmarks = [("80/20", programs::eighty_twenty()), ("boolean", programs::boolean()), ("mix", programs::mix())];
+    let benchmarks = benchmarks.into_iter().map(|(name, text)| (name.to_string(), text));
+    let mut rng = Rng::with_seed(4);
+    for (name, text) in examples.chain(benchmarks) {
+        for tier in TIERS {
+            let mut predicted = Predicted::new(&name, &text, tier).expect("examples are small enough");
+            let worst = assert_near(&mut predicted, &mut rng);
+            println!("{}: at most {:.1} % too high", predicted.name, 100.0 * worst);
+        }
+    }
+}
+
+#[test]
+fn random_programs_cost_what_the_assembler_says() {
+    let (first, count) = (effort("RANDOM_SEED", 1), effort("RANDOM_PROGRAMS", 150));
+    let (mut straight, mut worst) = (0, 0.0f64);
+    for seed in first..first + count {
+        let mut rng = Rng::with_seed(seed);
+        let size = rng.usize(20..150);
+        let text = random_program(&mut rng, size);
+        for tier in TIERS {
+            if let Some(mut predicted) = Predicted::new(&format!("seed {seed}"), &text, tier) {
+                straight += u64::from(predicted.is_straight() && !predicted.depends_on_values());
+                worst = worst.max(assert_near(&mut predicted, &mut rng));
+            }
+        }
+    }
+    println!("{count} programs, {straight} times straight on, at most {:.1} % too high", 100.0 * worst);
+    assert!(straight > count / 10, "hardly any program without jumps");
+}
+
+/// Whole scans by the board's own clock: the longest is not longer than the assembler says.
+#[test]
+fn no_scan_is_longer_than_the_assembler_says() {
+    for case in Case::examples() {
+        for tier in TIERS {
+            let executable = Executable::new(&case.file, &case.awl, tier);
+            let cost = cost::cost(&executable.bytecode).expect("an image of the assembler is valid");
+            let longest = if tier == Tier::Interpreter { Some(cost.interpreted) } else { cost.translated };
+            let Some(Longest::Cycles(program)) = longest else { continue };
+            let mut board = BenchBoard::new();
+            board.insert(&executable.image);
+            board.power_up();
+            let found = board.scans(500).into_iter().map(|scan| scan.cycles()).max().unwrap_or(0);
+            let most = program + u64::from(cost.overhead);
+            println!("{}, {tier}: {found} of {most} cycles", case.file);
+            assert!(found <= most, "{}, {tier}: a scan took {found}, predicted {most}", case.file);
+        }
+    }
+}

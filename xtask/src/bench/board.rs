@@ -1,0 +1,141 @@
+//! The board's part: runs the measuring program, holds its figures against the budgets, against the S7-200 and against
+//! those of docs/benchmarks.csv, and writes them there.
+
+use std::fs;
+
+use anyhow::{Context, Result, ensure};
+
+use super::budget;
+use super::exceptions;
+use super::page;
+use super::record::{Record, parse_all, text_of};
+use crate::process::{cargo, root};
+use crate::test::WITH_BOARD;
+use crate::{firmware, packages};
+
+const FIGURES: &str = "docs/benchmarks.csv";
+const PAGE: &str = "docs/benchmarks.md";
+
+/// Share by which a figure may change without being a change. What the assembler engine does is exact; another version of
+/// the compiler makes other code of the rest.
+const TOLERANCE: f64 = 0.03;
+
+/// Measures and writes both files, unless something has become slower. Then prints what misses its budget.
+pub fn write() -> Result<()> {
+    let records = measure()?;
+    if root().join(FIGURES).exists() {
+        let slower = changes(&known()?, &records).into_iter().filter(|change| change.is_worse);
+        report("slower than in docs/benchmarks.csv (delete the file if it has to be so)", slower)?;
+    }
+    put(FIGURES, &text_of(&records))?;
+    put(PAGE, &page::page(&records))?;
+    println!("{} figures in {PAGE} and {FIGURES}", records.len());
+    judge(&records)
+}
+
+/// Measures, and fails where a budget is missed or the files say something else.
+pub fn check() -> Result<()> {
+    let (known, records) = (known()?, measure()?);
+    let page = fs::read_to_string(root().join(PAGE)).with_context(|| format!("cannot read {PAGE}"))?;
+    ensure!(page == page::page(&known), "{PAGE} is not what {FIGURES} says: run `cargo xtask bench`");
+    report("not what docs/benchmarks.csv says: run `cargo xtask bench`", changes(&known, &records))?;
+    judge(&records)
+}
+
+fn known() -> Result<Vec<Record>> {
+    let text = fs::read_to_string(root().join(FIGURES)).with_context(|| format!("cannot read {FIGURES}"))?;
+    parse_all(&text).with_context(|| FIGURES.to_string())
+}
+
+fn put(file: &str, text: &str) -> Result<()> {
+    fs::write(root().join(file), text).with_context(|| format!("cannot write {file}"))
+}
+
+/// Builds the firmware and measures it.
+fn measure() -> Result<Vec<Record>> {
+    packages::ensure_installed(packages::VIRTUAL_BOARD)?;
+    let elf = firmware::build()?;
+    let mut command = cargo();
+    command.args(["run", "--quiet", "--package", "tests", "--bin", "measure"]).args(WITH_BOARD);
+    command.env(awl_asm::firmware::VARIABLE, elf);
+    let output = command.stderr(std::process::Stdio::inherit()).output().context("cannot start cargo")?;
+    ensure!(output.status.success(), "the measuring failed ({})", output.status);
+    parse_all(&String::from_utf8(output.stdout)?)
+}
+
+/// A figure that is not what it was.
+struct Change {
+    text: String,
+    is_worse: bool,
+}
+
+fn changes(known: &[Record], records: &[Record]) -> Vec<Change> {
+    let mut changes = Vec::new();
+    for old in known {
+        let Some(new) = records.iter().find(|new| new.is_same(old)) else {
+            changes.push(Change { text: format!("{}: not measured any more", old.title()), is_worse: true });
+            continue;
+        };
+        if new.max > old.max * (1.0 + TOLERANCE) || new.max < old.max * (1.0 - TOLERANCE) {
+            let text = format!("{}: {}, was {}", old.title(), new.max, old.max);
+            changes.push(Change { text, is_worse: new.max > old.max });
+        }
+    }
+    let added = records.iter().filter(|new| !known.iter().any(|old| old.is_same(new)));
+    changes.extend(added.map(|new| Change { text: format!("{}: new", new.title()), is_worse: false }));
+    changes
+}
+
+fn report(what: &str, changes: impl IntoIterator<Item = Change>) -> Result<()> {
+    let texts: Vec<String> = changes.into_iter().map(|change| change.text).collect();
+    ensure!(texts.is_empty(), "{} figures are {what}\n  {}", texts.len(), texts.join("\n  "));
+    Ok(())
+}
+
+/// Prints every budget, and fails where one is missed or an instruction is slower than it may be.
+fn judge(records: &[Record]) -> Result<()> {
+    let verdicts = budget::verdicts(records);
+    for verdict in &verdicts {
+        println!("{verdict}");
+    }
+    let breaches = exceptions::breaches(records);
+    for breach in &breaches {
+        println!("{breach}");
+    }
+    let missed = verdicts.iter().filter(|verdict| !verdict.is_met()).count();
+    ensure!(
+        missed == 0 && breaches.is_empty(),
+        "{missed} budgets missed, {} comparisons with the S7-200",
+        breaches.len()
+    );
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn records(lines: &[&str]) -> Vec<Record> {
+        parse_all(&format!("{}\n{}", super::super::record::HEAD, lines.join("\n"))).unwrap()
+    }
+
+    #[test]
+    fn a_figure_that_is_three_percent_higher_is_a_change_for_the_worse() {
+        let known =
+            records(&["scan,native,program,400,400,,\"station1\"", "scan,native,period,900,1000,,\"station1\""]);
+        let found = |program: u32, period: u32| {
+            let lines = [
+                format!("scan,native,program,{program},{program},,\"station1\""),
+                format!("scan,native,period,900,{period},,\"station1\""),
+            ];
+            let new = records(&[&lines[0], &lines[1]]);
+            changes(&known, &new).iter().map(|change| change.is_worse).collect::<Vec<_>>()
+        };
+        assert!(found(400, 1000).is_empty() && found(412, 970).is_empty());
+        assert_eq!(found(413, 1000), [true]);
+        assert_eq!(found(400, 960), [false]);
+        let fewer = changes(&known, &known[..1]);
+        assert!(fewer.len() == 1 && fewer[0].is_worse && fewer[0].text.contains("not measured any more"));
+        assert!(!changes(&known[..1], &known)[0].is_worse);
+    }
+}

@@ -1,0 +1,47 @@
+//! `cargo xtask bench`: speed of the board, of the host interpreter and of the assembler, compared with their budgets and
+//! with what was measured before. Writes docs/benchmarks.md.
+
+mod board;
+mod budget;
+mod exceptions;
+mod host;
+mod page;
+mod record;
+mod text;
+
+use anyhow::Result;
+
+use crate::process::{cargo, run as run_command};
+
+/// Measures everything and writes the page, unless the board has become slower.
+pub fn run() -> Result<()> {
+    if !cfg!(debug_assertions) {
+        return host::run();
+    }
+    let host = gate();
+    board::write()?;
+    host
+}
+
+/// Tries of the gate. One process can be twice as slow as the next without a change of the program: where its pages
+/// and branches fall is luck. A program that has become slow is slow in all of them.
+const TRIES: usize = 3;
+
+/// The budgets of the host, from an unoptimised xtask: a release build does the measuring.
+pub fn gate() -> Result<()> {
+    let measure = || run_command(cargo().args(["run", "--quiet", "--release", "--package", "xtask", "--", "bench"]));
+    let mut result = measure();
+    for _ in 1..TRIES {
+        if result.is_ok() {
+            break;
+        }
+        println!("missed: measuring again");
+        result = measure();
+    }
+    result
+}
+
+/// The budgets of the board, and that it is as fast as the page says.
+pub fn board_gate() -> Result<()> {
+    board::check()
+}
