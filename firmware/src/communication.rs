@@ -62,9 +62,11 @@ pub struct Communication {
 }
 
 impl Communication {
-    /// Begins with the banner.
-    pub const STARTING: Communication =
-        Communication { command: [0; COMMAND_LEN_MAX], command_len: 0, answer: Lines::BANNER };
+    /// Begins with the banner. No constant: that would take SRAM a second time.
+    #[inline(always)]
+    pub fn starting() -> Communication {
+        Communication { command: [0; COMMAND_LEN_MAX], command_len: 0, answer: Lines::BANNER }
+    }
 
     /// Takes what has come in. Returns what a command asks for.
     pub fn receive(&mut self, serial: &mut Serial) -> Option<Request> {
@@ -106,10 +108,15 @@ impl Communication {
         request
     }
 
+    /// Whether there is something to be written.
+    pub fn has_answer(&self) -> bool {
+        self.answer != Lines::NONE
+    }
+
     /// The next line to be written, if the serial line has room for one.
     pub fn next_line(&mut self, serial: &Serial) -> Option<Lines> {
         let Lines(waiting) = self.answer;
-        if self.answer == Lines::NONE || !serial.is_idle() {
+        if !self.has_answer() || !serial.is_idle() {
             return None;
         }
         self.answer = Lines(waiting & (waiting - 1));

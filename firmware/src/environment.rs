@@ -6,10 +6,11 @@ use plc_vm::{Environment, SCAN_MS_MAX};
 use crate::board::{clock, watchdog};
 use crate::engine;
 
-/// The time of one scan.
+/// The time of one scan. In 16 bits: a loop that takes longer than a scan may is left, and code without loops takes
+/// less than the five seconds that are left then.
 pub struct ScanTime {
-    scan_start_ms: u32,
-    watchdog_start_ms: u32,
+    scan_start_ms: u16,
+    watchdog_start_ms: u16,
     watchdog_ms: u16,
     /// Instructions executed, to feed the hardware watchdog now and then.
     executed: u8,
@@ -17,14 +18,17 @@ pub struct ScanTime {
 
 impl ScanTime {
     /// A scan starts now and may take `watchdog_ms`.
-    pub fn starting(now_ms: u32, watchdog_ms: u16) -> ScanTime {
+    #[inline(always)]
+    pub fn starting(now_ms: u16, watchdog_ms: u16) -> ScanTime {
         ScanTime { scan_start_ms: now_ms, watchdog_start_ms: now_ms, watchdog_ms, executed: 0 }
     }
 
     /// Whether the scan has taken longer than it may. In whole ticks, so up to a millisecond late and never early.
-    pub fn is_over(&self, now_ms: u32) -> bool {
-        now_ms.wrapping_sub(self.watchdog_start_ms) > u32::from(self.watchdog_ms)
-            || now_ms.wrapping_sub(self.scan_start_ms) > SCAN_MS_MAX
+    #[inline(never)]
+    pub fn is_over(&self) -> bool {
+        let now_ms = clock::now_ms_low();
+        now_ms.wrapping_sub(self.watchdog_start_ms) > self.watchdog_ms
+            || now_ms.wrapping_sub(self.scan_start_ms) > SCAN_MS_MAX as u16
     }
 }
 
@@ -36,13 +40,12 @@ impl Environment for ScanTime {
     }
 
     fn is_overdue(&mut self, _bytes: u16) -> bool {
-        let now_ms = clock::now_ms();
-        watchdog::feed(now_ms);
-        self.is_over(now_ms)
+        watchdog::feed(clock::now_ms());
+        self.is_over()
     }
 
     fn retrigger_watchdog(&mut self) {
-        self.watchdog_start_ms = clock::now_ms();
+        self.watchdog_start_ms = clock::now_ms_low();
     }
 
     /// Code without loops can take longer than the hardware watchdog waits, too.

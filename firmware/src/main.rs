@@ -20,7 +20,5 @@ use scan::Uno;
 fn main() -> ! {
     let uno = place::once(Uno::new(Board::take()));
     uno.power_up();
-    loop {
-        uno.scan();
-    }
+    uno.scan_for_ever()
 }

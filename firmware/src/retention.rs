@@ -11,13 +11,22 @@ use crate::board::clock;
 use crate::board::eeprom::Eeprom;
 
 /// Ten years for each of the 100,000 times that a byte of the EEPROM can be written: between two writes of one copy.
-const COPY_INTERVAL_MS: u32 = 3_155_760;
+const COPY_INTERVAL: u16 = units(3_155_760);
 /// However many copies there are, changes are saved no more often.
-const INTERVAL_MIN_MS: u32 = 60_000;
+const INTERVAL_MIN: u16 = units(60_000);
 /// Bytes compared, or looked at before one is written, in a scan.
 const BYTES_PER_SCAN: u8 = 4;
 /// Bytes of a sequence number, which begins a copy.
 const SEQUENCE_LEN: u16 = 2;
+
+/// Waiting is measured in units of 256 ms, which is near enough and fits 16 bits.
+const fn units(ms: u32) -> u16 {
+    ms.div_ceil(256) as u16
+}
+
+fn unit_of(ms: u32) -> u16 {
+    (ms >> 8) as u16
+}
 
 /// What is being done, a little in every scan.
 #[derive(Clone, Copy)]
@@ -41,9 +50,12 @@ pub struct Retention {
     copy: u16,
     /// Its sequence number.
     sequence: u16,
-    saved_ms: u32,
-    interval_ms: u32,
+    /// When it was begun, and how long the next one waits, both in units of time.
+    saved: u16,
+    interval: u16,
     phase: Phase,
+    /// Enough time has passed since the last copy.
+    is_due: bool,
     /// Bytes that the phase is done with.
     done: u16,
     /// How far the comparison has come.
@@ -63,9 +75,10 @@ impl Retention {
             identity: Crc32::new(),
             copy: 0,
             sequence: 0,
-            saved_ms: 0,
-            interval_ms: 0,
+            saved: 0,
+            interval: 0,
             phase: Phase::Comparing,
+            is_due: false,
             done: 0,
             walk: RetainedWalk::START,
             crc: Crc32::new(),
@@ -85,7 +98,7 @@ impl Retention {
         while !eeprom.is_ready() {}
         let is_lost = !self.find_last(eeprom);
         // The first change is saved at once.
-        self.saved_ms = clock::now_ms().wrapping_sub(self.interval_ms);
+        self.is_due = true;
         self.has_run = false;
         if is_lost {
             self.enter(Phase::Erasing);
@@ -120,7 +133,7 @@ impl Retention {
             at += len;
             copies += 1;
         }
-        self.interval_ms = COPY_INTERVAL_MS.checked_div(copies).unwrap_or(0).max(INTERVAL_MIN_MS);
+        self.interval = COPY_INTERVAL.checked_div(copies).unwrap_or(0).max(INTERVAL_MIN);
         found
     }
 
@@ -151,27 +164,22 @@ impl Retention {
         self.crc = self.identity;
     }
 
-    /// A little work after a scan, in which the program `was_executed` or not. Out of RUN changes are saved at once.
-    #[inline(never)]
-    pub fn step<P: ProgramMemory>(
-        &mut self,
-        plan: &Plan<P>,
-        memory: &mut Memory,
-        eeprom: &Eeprom,
-        was_executed: bool,
-        runs: bool,
-    ) {
-        if self.len == 0 {
-            return;
-        }
+    /// Time goes on. Once it is over the wait stays over, also when the clock wraps.
+    pub fn tick(&mut self, now_ms: u32) {
+        self.is_due |= unit_of(now_ms).wrapping_sub(self.saved) > self.interval;
+    }
+
+    /// Whether there is anything to do after a scan. Out of RUN changes are saved at once.
+    #[inline(always)]
+    pub fn is_busy(&self, runs: bool) -> bool {
+        self.len != 0 && (self.is_due || !runs || !matches!(self.phase, Phase::Comparing))
+    }
+
+    /// A little work after a scan in which there is, and in which the program `was_executed` or not.
+    pub fn step<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory, eeprom: &Eeprom, was_executed: bool) {
         self.has_run |= was_executed;
         match self.phase {
-            Phase::Comparing => {
-                let waited_ms = clock::now_ms().wrapping_sub(self.saved_ms);
-                if !runs || waited_ms >= self.interval_ms {
-                    self.compare(plan, memory);
-                }
-            }
+            Phase::Comparing => self.compare(plan, memory),
             _ if !eeprom.is_ready() => {}
             Phase::Erasing => self.erase(plan, memory, eeprom),
             Phase::Writing => self.write(plan, memory, eeprom),
@@ -180,18 +188,12 @@ impl Retention {
 
     fn compare<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory) {
         let Some((address, len)) = self.walk.next(plan, u16::from(BYTES_PER_SCAN)) else {
-            // Nothing has changed: the wait stays over, also when the clock wraps.
-            let now_ms = clock::now_ms();
-            if now_ms.wrapping_sub(self.saved_ms) >= self.interval_ms {
-                self.saved_ms = now_ms.wrapping_sub(self.interval_ms);
-            }
             return self.enter(Phase::Comparing);
         };
-        for offset in 0..len {
-            if memory.byte(address + offset) != memory.byte(plan.end() + self.done) {
-                return self.begin(plan, memory);
-            }
-            self.done += 1;
+        let copy = plan.end() + self.done;
+        self.done += len;
+        if (0..len).any(|offset| memory.byte(address + offset) != memory.byte(copy + offset)) {
+            self.begin(plan, memory);
         }
     }
 
@@ -219,7 +221,8 @@ impl Retention {
             self.copy = 0;
         }
         self.sequence = self.sequence.wrapping_add(1);
-        self.saved_ms = clock::now_ms();
+        self.saved = unit_of(clock::now_ms());
+        self.is_due = false;
         self.enter(Phase::Writing);
     }
 

@@ -1,8 +1,9 @@
 //! The scan: inputs, program, communication, self-test, outputs; and the way between RUN and STOP.
 
-use plc_isa::{AnalogInput, CRC_LEN, I_START, ProgramMemory, Settings};
-use plc_vm::{Fault, Memory, Mode, Plc};
+use plc_isa::{AnalogInput, CRC_LEN, DATA_START, I_START, ProgramMemory, Settings};
+use plc_vm::{Exit, Fault, Mode, Plc};
 
+use crate::board::data::Data;
 use crate::board::eeprom::Eeprom;
 use crate::board::flash::ProgramSlot;
 use crate::board::ports::{self, Ports};
@@ -16,26 +17,50 @@ use crate::report::Report;
 use crate::retention::Retention;
 use crate::self_test::SelfTest;
 
-/// Lengths of the scans since RUN in microseconds, inputs to outputs, in steps of 4.
+/// Lengths of the scans since RUN, inputs to outputs, in timer counts.
 pub struct ScanTimes {
     /// The shortest.
-    pub min_us: u32,
+    pub min: u32,
     /// The last.
-    pub last_us: u32,
-    /// The longest.
-    pub max_us: u32,
+    pub last: u32,
+    /// The longest; 0: there is none yet.
+    pub max: u32,
 }
 
 impl ScanTimes {
-    const NONE: ScanTimes = ScanTimes { min_us: 0, last_us: 0, max_us: 0 };
+    const NONE: ScanTimes = ScanTimes { min: 0, last: 0, max: 0 };
 
-    fn enter(&mut self, us: u32) {
-        if self.max_us == 0 || us < self.min_us {
-            self.min_us = us;
+    /// Enters a scan of so many counts, modulo 65,536, and of about so many milliseconds.
+    #[inline(always)]
+    fn enter(&mut self, counts: u16, ms: u16) {
+        let length = if ms < SHORT_MS { u32::from(counts) } else { length_of_long(counts, ms) };
+        if self.max == 0 || length < self.min {
+            self.min = length;
         }
-        self.max_us = self.max_us.max(us);
-        self.last_us = us;
+        if length > self.max {
+            self.max = length;
+        }
+        self.last = length;
     }
+}
+
+/// Scans certainly shorter than 65,536 counts.
+const SHORT_MS: u16 = 200;
+
+/// The length in counts, which `counts` is the lower half of, near `ms`.
+#[inline(never)]
+fn length_of_long(counts: u16, ms: u16) -> u32 {
+    let about = u32::from(ms) * u32::from(clock::COUNTS_PER_MS);
+    about.wrapping_add_signed(i32::from(counts.wrapping_sub(about as u16) as i16))
+}
+
+/// Where IB0 is in data memory.
+const FIRST_INPUT_BYTE: usize = (I_START - DATA_START) as usize;
+
+/// What a self-test can find. Shorter than a fault.
+enum Finding {
+    StackOverflow,
+    ProgramChanged,
 }
 
 /// The PLC.
@@ -43,14 +68,17 @@ pub struct Uno {
     ports: Ports,
     serial: Serial,
     eeprom: Eeprom,
-    memory: &'static mut Memory,
+    data: Data,
     plc: Plc<ProgramSlot>,
     settings: Settings,
     retention: Retention,
     communication: Communication,
     self_test: SelfTest,
     times: ScanTimes,
-    scan_start_ms: u32,
+    /// When the last scan was due, with a fixed period.
+    scan_start_ms: u16,
+    /// A millisecond or more has passed since the last self-test of the program.
+    has_ticked: bool,
     /// RUN was asked for: the next scan is its first. Within a scan RUN can end, but not begin.
     is_run_requested: bool,
     /// As bytes, like everywhere on the board.
@@ -65,14 +93,15 @@ impl Uno {
             ports: board.ports,
             serial: board.serial,
             eeprom: board.eeprom,
-            memory: board.memory,
+            data: board.data,
             plc: Plc::new(),
             settings: Settings::DEFAULT,
             retention: Retention::none(),
-            communication: Communication::STARTING,
+            communication: Communication::starting(),
             self_test: SelfTest::STARTING,
             times: ScanTimes::NONE,
             scan_start_ms: 0,
+            has_ticked: false,
             is_run_requested: false,
             fault_before_reset: Fault::NONE,
         }
@@ -90,7 +119,7 @@ impl Uno {
         }
         if holds {
             // Only these two hold.
-            self.plc.fail(if fault == Fault::Panic.to_bytes() { Fault::Panic } else { Fault::Hang });
+            self.fail(if fault == Fault::Panic.to_bytes() { Fault::Panic } else { Fault::Hang });
         } else {
             self.run();
         }
@@ -104,11 +133,10 @@ impl Uno {
         }
         // A long program takes longer than the watchdog waits. Outputs are off.
         watchdog::stop();
-        let loaded = self.plc.load(self.memory, ProgramSlot);
+        let loaded = self.plc.load(self.data.memory(), ProgramSlot);
         watchdog::start();
         if let Err(error) = loaded {
-            self.plc.fail(Fault::BadImage(error));
-            return self.remember_fault();
+            return self.fail(Fault::BadImage(error));
         }
         self.self_test = SelfTest::STARTING;
         let Some(program) = self.plc.program() else { return };
@@ -116,7 +144,7 @@ impl Uno {
         self.settings = plan.header.settings;
         self.ports.set_pullups(self.settings.pullup);
         analog::set_filter(self.settings.filter);
-        if self.retention.restore(plan, self.memory, &self.eeprom) {
+        if self.retention.restore(plan, self.data.memory(), &self.eeprom) {
             self.plc.retentive_data_lost();
         }
     }
@@ -127,108 +155,192 @@ impl Uno {
         }
         if self.plc.mode() == Mode::Stop && !self.is_program_in_doubt() && self.plc.run() {
             self.times = ScanTimes::NONE;
-            self.scan_start_ms = clock::now_ms().wrapping_sub(u32::from(self.settings.scan_ms));
+            self.scan_start_ms = clock::now_ms_low().wrapping_sub(self.settings.scan_ms);
+        }
+        self.tell();
+    }
+
+    /// What is in flash is known to be bad when the program is in doubt, and the first fault says how.
+    #[inline(never)]
+    fn fail_test(&mut self, finding: Finding) {
+        if !self.is_program_in_doubt() {
+            self.fail(match finding {
+                Finding::StackOverflow => Fault::StackOverflow,
+                Finding::ProgramChanged => Fault::ProgramChanged,
+            });
         }
     }
 
     /// Whether what is in flash may not be the program that was checked, which may still be in force.
+    #[inline(never)]
     fn is_program_in_doubt(&self) -> bool {
         let fault = self.plc.fault();
         matches!(fault, Some(Fault::BadImage(_) | Fault::ProgramChanged | Fault::UndefinedInstruction { .. }))
     }
 
-    /// One scan.
+    /// Scan after scan.
     // On its own: inlined into `main` its frame would be too large for short addresses.
     #[inline(never)]
-    pub fn scan(&mut self) {
-        self.wait_for_period();
+    pub fn scan_for_ever(&mut self) -> ! {
+        loop {
+            self.scan();
+        }
+    }
+
+    #[inline(always)]
+    fn scan(&mut self) {
         if self.is_run_requested {
             self.is_run_requested = false;
             self.run();
         }
+        if self.settings.scan_ms != 0 {
+            self.wait_for_period();
+        }
         trace::mark(Mark::ScanStart);
-        let (start_us, start_ms) = (clock::now_us(), clock::now_ms());
+        self.look_at_clock();
+        let start = clock::counts();
         self.read_inputs();
         let executes = self.plc.mode() == Mode::Run;
-        let fault = self.plc.fault();
-        self.execute(start_ms);
+        let ms = self.execute();
         self.communicate();
         self.test();
         let runs = self.plc.mode() == Mode::Run;
         self.write_outputs(runs);
-        if self.plc.fault() != fault {
-            self.remember_fault();
+        if self.retention.is_busy(runs) {
+            self.keep(executes);
         }
-        self.keep(executes, runs);
         if executes {
-            self.times.enter(clock::now_us().wrapping_sub(start_us));
+            self.times.enter(clock::counts().wrapping_sub(start), ms);
         }
-        trace::write_status(runs, self.fault_bytes());
         trace::mark(Mark::ScanEnd);
-        watchdog::feed(clock::now_ms());
     }
 
-    fn execute(&mut self, start_ms: u32) {
+    /// Executes the program, in RUN. Returns how many milliseconds it took.
+    #[inline(always)]
+    fn execute(&mut self) -> u16 {
+        let start_ms = self.plc.time() as u16;
         let mut time = ScanTime::starting(start_ms, self.settings.watchdog_ms);
-        if let Some(execution) = self.plc.begin(self.memory, &mut time) {
-            let (exit, at) = engine::run(execution);
-            self.plc.finish(exit, at);
+        let Some(execution) = self.plc.begin_at_set_time(self.data.memory(), &mut time) else { return 0 };
+        let (exit, at) = engine::run(execution);
+        let ms = clock::now_ms_low().wrapping_sub(start_ms);
+        if exit != Exit::End {
+            self.leave(exit, at);
+        } else if ms != 0 && time.is_over() {
+            self.fail_at_end();
         }
-        let Some(program) = self.plc.program().filter(|_| self.plc.mode() == Mode::Run) else { return };
-        // Only loops are watched while they run: what else took so long came to the end of the program.
-        if time.is_over(clock::now_ms()) {
-            let at = program.plan().header.total_len - CRC_LEN - 1;
-            self.plc.fail(Fault::Watchdog { at });
-        }
+        ms
     }
 
+    #[inline(never)]
+    fn leave(&mut self, exit: Exit, at: u16) {
+        self.plc.finish(exit, at);
+        self.tell();
+    }
+
+    /// Only loops are watched while they run: what else took so long came to the end of the program.
+    #[inline(never)]
+    fn fail_at_end(&mut self) {
+        let Some(program) = self.plc.program() else { return };
+        let at = program.plan().header.total_len - CRC_LEN - 1;
+        self.fail(Fault::Watchdog { at });
+    }
+
+    #[inline(always)]
     fn test(&mut self) {
-        let found = self.self_test.step(self.plc.program());
-        // What is in flash is known to be bad when the program is in doubt, and the first fault says how.
-        if let Some(fault) = found.filter(|_| !self.is_program_in_doubt()) {
-            self.plc.fail(fault);
+        if !stack::is_sound() {
+            self.fail_test(Finding::StackOverflow);
+        }
+        if self.has_ticked {
+            self.test_program();
         }
     }
 
-    /// With a fixed period: waits for the next one, and talks meanwhile. A scan that took longer starts at once.
+    #[inline(never)]
+    fn test_program(&mut self) {
+        self.has_ticked = false;
+        if self.self_test.has_changed(self.plc.program()) {
+            self.fail_test(Finding::ProgramChanged);
+        }
+    }
+
+    /// Waits for the next period, and talks and tests meanwhile. A scan that took longer than its period starts at once.
+    #[inline(never)]
     fn wait_for_period(&mut self) {
-        let period_ms = u32::from(self.settings.scan_ms);
         loop {
-            let now_ms = clock::now_ms();
-            watchdog::feed(now_ms);
-            let passed_ms = now_ms.wrapping_sub(self.scan_start_ms);
-            if self.plc.mode() == Mode::Stop || passed_ms >= period_ms {
-                // On time the period goes on from where it was due, too late it begins anew.
-                let is_late = passed_ms >= 2 * period_ms;
-                self.scan_start_ms = if is_late { now_ms } else { self.scan_start_ms.wrapping_add(period_ms) };
+            self.look_at_clock();
+            if self.plc.mode() == Mode::Stop || self.is_due() {
                 return;
             }
             self.communicate();
+            self.test();
         }
     }
 
+    #[inline(always)]
+    fn look_at_clock(&mut self) {
+        let now_ms = clock::now_ms();
+        if now_ms != self.plc.time() {
+            self.tick(now_ms);
+        }
+    }
+
+    /// It is another millisecond.
+    #[inline(never)]
+    fn tick(&mut self, now_ms: u32) {
+        self.plc.set_time(now_ms);
+        self.retention.tick(now_ms);
+        self.has_ticked = true;
+        watchdog::feed(now_ms);
+    }
+
+    /// Whether the period is over; then the next one begins.
+    fn is_due(&mut self) -> bool {
+        let (now_ms, period_ms) = (self.plc.time() as u16, self.settings.scan_ms);
+        let passed_ms = now_ms.wrapping_sub(self.scan_start_ms);
+        if passed_ms < period_ms {
+            return false;
+        }
+        // On time the period goes on from where it was due, too late it begins anew.
+        let is_late = passed_ms - period_ms >= period_ms;
+        self.scan_start_ms = if is_late { now_ms } else { self.scan_start_ms.wrapping_add(period_ms) };
+        true
+    }
+
+    #[inline(always)]
     fn read_inputs(&mut self) {
-        self.memory.set_byte(I_START, self.ports.inputs() ^ self.settings.invert_inputs);
+        self.data.memory().bytes_mut()[FIRST_INPUT_BYTE] = self.ports.inputs() ^ self.settings.invert_inputs;
         if analog::has_fresh() {
             analog::take_fresh(|channel, raw| {
-                self.memory.set_word(AnalogInput::Raw(channel).address(), raw);
-                self.memory.set_word(AnalogInput::Scaled(channel).address(), AnalogInput::scale(raw));
+                self.data.memory().set_word(AnalogInput::Raw(channel).address(), raw);
+                self.data.memory().set_word(AnalogInput::Scaled(channel).address(), AnalogInput::scale(raw));
             });
         }
     }
 
-    fn write_outputs(&self, runs: bool) {
+    #[inline(always)]
+    fn write_outputs(&mut self, runs: bool) {
         if runs {
-            self.ports.drive_outputs(self.plc.outputs(self.memory, 0) ^ self.settings.invert_outputs);
+            self.ports.drive_outputs(self.plc.outputs(self.data.memory(), 0) ^ self.settings.invert_outputs);
         } else {
             ports::release_outputs();
         }
     }
 
+    #[inline(always)]
     fn communicate(&mut self) {
+        if self.serial.has_received() || self.communication.has_answer() {
+            self.talk();
+        }
+    }
+
+    #[inline(never)]
+    fn talk(&mut self) {
         match self.communication.receive(&mut self.serial) {
             Some(Request::Run) => self.is_run_requested = true,
-            Some(Request::Stop) => self.plc.stop(),
+            Some(Request::Stop) => {
+                self.plc.stop();
+                self.tell();
+            }
             None => {}
         }
         // The answer to `run` is what has become of it.
@@ -265,21 +377,32 @@ impl Uno {
         report.end();
     }
 
+    /// RUN to STOP, or STOP for another reason.
+    fn fail(&mut self, fault: Fault) {
+        self.plc.fail(fault);
+        self.tell();
+    }
+
+    /// Tells of a change of mode or fault those who look at memory: now, or after a reset.
+    #[inline(never)]
+    fn tell(&self) {
+        let fault = self.fault_bytes();
+        trace::write_status(self.plc.mode() == Mode::Run, fault);
+        if fault != Fault::NONE {
+            fault_memory::remember(fault, false);
+        }
+    }
+
     /// Saves what is retained. A program that is in doubt is not asked what that is.
-    fn keep(&mut self, was_executed: bool, runs: bool) {
+    #[inline(never)]
+    fn keep(&mut self, was_executed: bool) {
         if let Some(program) = self.plc.program().filter(|_| !self.is_program_in_doubt()) {
-            self.retention.step(program.plan(), self.memory, &self.eeprom, was_executed, runs);
+            self.retention.step(program.plan(), self.data.memory(), &self.eeprom, was_executed);
         }
     }
 
     /// The fault in force; none in RUN, which clears it.
     fn fault_bytes(&self) -> [u8; 4] {
         self.plc.fault().map_or(Fault::NONE, Fault::to_bytes)
-    }
-
-    fn remember_fault(&self) {
-        if let Some(fault) = self.plc.fault() {
-            fault_memory::remember(fault.to_bytes(), false);
-        }
     }
 }

@@ -281,47 +281,48 @@ fn a_firmware_that_hangs_is_caught() {
     assert_hang_is_caught(&mut board, |board| board.avr.flash_mut()[place].copy_from_slice(&instruction));
 }
 
-/// Scans until a changed byte has certainly been seen: the checksum takes a byte a scan and a scan for the comparison.
-/// The byte may have been passed just before, so that this pass and the next one are needed.
-fn scans_of_two_passes(len: usize) -> usize {
-    2 * (len + 1)
+/// Milliseconds until a changed byte has certainly been seen: the checksum takes a byte a tick and a tick for the
+/// comparison. The byte may have been passed just before, so that this pass and the next one are needed.
+fn ms_of_two_passes(len: usize) -> u64 {
+    2 * (len as u64 + 1)
 }
 
 #[test]
 fn a_program_that_changes_in_flash_is_seen_in_time() {
     let (mut board, image) = (BenchBoard::new(), image(ALL_ON));
-    let scans_max = scans_of_two_passes(image.len());
+    let ms_max = ms_of_two_passes(image.len());
     board.insert(&image);
     board.power_up();
     let mut longest = 0;
     // Of bytes that do not matter for its execution: the name, and the checksum itself.
     let (name, crc) = (usize::from(HEADER_LEN), image.len() - usize::from(CRC_LEN)..image.len());
     for (round, at) in [name, name + 1].into_iter().chain(crc).enumerate() {
-        board.scans(7 + round * image.len() / 6);
+        board.scans_for((7 + round * image.len() / 6) as u64);
         assert!(board.runs());
         board.slot()[at] ^= 1;
-        let scans = (1..=scans_max).find(|_| {
+        let start = board.avr.cycles();
+        while board.runs() {
             assert_eq!(board.outputs(), Some(0x3F));
+            assert!(board.avr.cycles() - start <= ms_max * MS, "the change is not seen");
             board.scan();
-            !board.runs()
-        });
-        longest = longest.max(scans.expect("the change is seen"));
+        }
+        longest = longest.max(board.avr.cycles() - start);
         assert_eq!((board.fault(), board.is_released()), (Some(Fault::ProgramChanged), true));
         let said = board.ask(b"RUN\r");
         assert!(said.contains("mode STOP") && board.is_released(), "byte {at}: {said}");
-        assert_refused(&mut board, scans_max, "RUN with the changed program");
+        assert_refused(&mut board, 100, "RUN with the changed program");
         board.slot()[at] ^= 1;
         let said = board.ask(b"RUN\r");
         assert!(said.contains("mode RUN") && board.outputs() == Some(0x3F), "{said}");
     }
-    println!("{} bytes: seen after at most {longest} scans, {scans_max} are allowed", image.len());
+    println!("{} bytes: seen after at most {} ms, {ms_max} are allowed", image.len(), longest / MS);
 }
 
 #[test]
 fn a_program_erased_under_way_does_not_start_again() {
     let mut board = BenchBoard::running(ALL_ON);
     board.slot().fill(0xFF);
-    board.scans(scans_of_two_passes(image(ALL_ON).len()));
+    board.scans_for(ms_of_two_passes(image(ALL_ON).len()));
     assert!(!board.runs() && board.fault().is_some() && board.is_released());
     let said = board.ask(b"run\r");
     assert!(said.contains("mode STOP") && !board.runs() && board.is_released(), "{said}");
@@ -338,7 +339,7 @@ fn any_change_while_running_ends_in_stop() {
         board.scans(2);
         assert!(board.runs());
         board.slot()[at] ^= 0xFF;
-        board.scans(scans_of_two_passes(image.len()));
+        board.scans_for(ms_of_two_passes(image.len()));
         assert!(!board.runs() && board.is_released(), "byte {at}");
         let fault = board.fault();
         let is_seen = matches!(fault, Some(Fault::ProgramChanged | Fault::UndefinedInstruction { .. }));

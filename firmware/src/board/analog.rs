@@ -2,7 +2,7 @@
 
 use core::cell::Cell;
 
-use avr_device::atmega328p::Peripherals;
+use avr_device::atmega328p::ADC;
 use avr_device::interrupt::{self, CriticalSection, Mutex};
 use plc_isa::ANALOG_INPUTS;
 
@@ -13,19 +13,21 @@ const REFERENCE_AVCC: u8 = 1 << 6;
 
 /// Raw 10-bit counts, smoothed. Harnesses read and write them by this name.
 #[unsafe(no_mangle)]
-static UNO200_ANALOG: Mutex<[Cell<u16>; CHANNELS]> = Mutex::new([const { Cell::new(0) }; CHANNELS]);
+static UNO200_ANALOG: [Mutex<Cell<u16>>; CHANNELS] = [const { Mutex::new(Cell::new(0)) }; CHANNELS];
 /// A bit for each input with a value that has not been taken yet.
 #[unsafe(no_mangle)]
 static UNO200_ANALOG_FRESH: Mutex<Cell<u8>> = Mutex::new(Cell::new(0));
 /// The sum that smooths each input, and how many samples it holds, as a power of two.
-static SUMS: Mutex<[Cell<u16>; CHANNELS]> = Mutex::new([const { Cell::new(0) }; CHANNELS]);
+static SUMS: [Mutex<Cell<u16>>; CHANNELS] = [const { Mutex::new(Cell::new(0)) }; CHANNELS];
 static FILTER: Mutex<Cell<u8>> = Mutex::new(Cell::new(0));
+/// The input being converted, as number and as bit.
 static CHANNEL: Mutex<Cell<u8>> = Mutex::new(Cell::new(0));
+static CHANNEL_BIT: Mutex<Cell<u8>> = Mutex::new(Cell::new(1));
 
 /// Switches the converter on.
 pub fn start() {
     // SAFETY: before interrupts are enabled, which alone use the converter later.
-    let adc = unsafe { Peripherals::steal() }.ADC;
+    let adc = unsafe { ADC::steal() };
     // SAFETY: every value of this register is a valid choice of reference and channel.
     adc.admux().write(|w| unsafe { w.bits(REFERENCE_AVCC) });
     // Digital input buffers of the analog pins off.
@@ -39,18 +41,20 @@ pub fn start() {
 #[inline]
 pub fn take_and_start_next(cs: CriticalSection<'_>) {
     // SAFETY: after `start` only this interrupt uses the converter.
-    let adc = unsafe { Peripherals::steal() }.ADC;
-    let channel = CHANNEL.borrow(cs).get();
-    let (values, sums, filter) = (UNO200_ANALOG.borrow(cs), SUMS.borrow(cs), FILTER.borrow(cs).get());
-    if let (Some(value), Some(sum)) = (values.get(usize::from(channel)), sums.get(usize::from(channel))) {
-        // A sample replaces its share of the sum; 64 samples of 10 bits are 16 bits.
-        sum.set(sum.get() - (sum.get() >> filter) + adc.adc().read().bits());
-        value.set(sum.get() >> filter);
+    let adc = unsafe { ADC::steal() };
+    let (channel, bit) = (CHANNEL.borrow(cs).get(), CHANNEL_BIT.borrow(cs).get());
+    if let (Some(value), Some(sum)) = (UNO200_ANALOG.get(usize::from(channel)), SUMS.get(usize::from(channel))) {
+        let (value, sum) = (value.borrow(cs), sum.borrow(cs));
+        // A sample replaces its share of the sum, which is the value; 64 samples of 10 bits are 16 bits.
+        let total = sum.get().wrapping_sub(value.get()).wrapping_add(adc.adc().read().bits());
+        sum.set(total);
+        value.set(total >> FILTER.borrow(cs).get());
     }
     let fresh = UNO200_ANALOG_FRESH.borrow(cs);
-    fresh.set(fresh.get() | 1 << channel);
-    let next = if usize::from(channel) + 1 < CHANNELS { channel + 1 } else { 0 };
+    fresh.set(fresh.get() | bit);
+    let (next, next_bit) = if usize::from(channel) + 1 < CHANNELS { (channel + 1, bit << 1) } else { (0, 1) };
     CHANNEL.borrow(cs).set(next);
+    CHANNEL_BIT.borrow(cs).set(next_bit);
     // SAFETY: as in `start`; the channel is 0 to 5.
     adc.admux().write(|w| unsafe { w.bits(REFERENCE_AVCC | next) });
     adc.adcsra().modify(|_, w| w.adsc().set_bit());
@@ -65,27 +69,20 @@ pub fn wait_for_all() {
 pub fn set_filter(filter: u8) {
     interrupt::free(|cs| {
         FILTER.borrow(cs).set(filter);
-        for (sum, value) in SUMS.borrow(cs).iter().zip(UNO200_ANALOG.borrow(cs)) {
-            sum.set(value.get() << filter);
+        for (sum, value) in SUMS.iter().zip(&UNO200_ANALOG) {
+            sum.borrow(cs).set(value.borrow(cs).get() << filter);
         }
     });
 }
 
 /// Hands out the raw counts of every input that has a new value.
 pub fn take_fresh(mut take: impl FnMut(u8, u16)) {
-    for channel in 0..CHANNELS as u8 {
-        let value = interrupt::free(|cs| {
-            let fresh = UNO200_ANALOG_FRESH.borrow(cs);
-            let bit = 1 << channel;
-            if fresh.get() & bit == 0 {
-                return None;
-            }
-            fresh.set(fresh.get() & !bit);
-            UNO200_ANALOG.borrow(cs).get(usize::from(channel)).map(Cell::get)
-        });
-        if let Some(value) = value {
-            take(channel, value);
+    let mut fresh = interrupt::free(|cs| UNO200_ANALOG_FRESH.borrow(cs).take());
+    for (channel, value) in (0..).zip(&UNO200_ANALOG) {
+        if fresh & 1 != 0 {
+            take(channel, interrupt::free(|cs| value.borrow(cs).get()));
         }
+        fresh >>= 1;
     }
 }
 

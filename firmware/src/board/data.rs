@@ -3,11 +3,22 @@
 use plc_isa::DATA_START;
 use plc_vm::Memory;
 
-/// The data memory, cleared. Called once, by [`Board::take`](super::Board::take).
-pub(super) fn take() -> &'static mut Memory {
-    // SAFETY: the linker places nothing below DATA_END (build.rs), the type is 1,280 bytes for which every value is
-    // valid, and the only caller comes here once.
-    let memory = unsafe { &mut *(DATA_START as *mut Memory) };
-    memory.clear();
-    memory
+/// The right to the data memory. It holds no reference: an address that the compiler knows makes shorter code.
+pub struct Data(());
+
+impl Data {
+    /// The right, and data memory cleared. Called once, by [`Board::take`](super::Board::take).
+    pub(super) fn take() -> Data {
+        let mut data = Data(());
+        data.memory().clear();
+        data
+    }
+
+    /// The data memory.
+    #[inline(always)]
+    pub fn memory(&mut self) -> &mut Memory {
+        // SAFETY: the linker places nothing below DATA_END (build script), the type is 1,280 bytes for which every value
+        // is valid, and there is one right to it, which is borrowed as long as the reference lives.
+        unsafe { &mut *(DATA_START as *mut Memory) }
+    }
 }

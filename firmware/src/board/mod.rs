@@ -20,8 +20,9 @@ use core::cell::Cell;
 
 use avr_device::atmega328p::Peripherals;
 use avr_device::interrupt::{self, Mutex};
-use plc_vm::{Fault, Memory};
+use plc_vm::Fault;
 
+use data::Data;
 use eeprom::Eeprom;
 use ports::Ports;
 use serial::Serial;
@@ -37,7 +38,7 @@ pub struct Board {
     /// Memory that keeps without power.
     pub eeprom: Eeprom,
     /// The data memory of the controller.
-    pub memory: &'static mut Memory,
+    pub data: Data,
 }
 
 impl Board {
@@ -53,11 +54,11 @@ impl Board {
         let peripherals = unsafe { Peripherals::steal() };
         let ports = Ports::new(peripherals.PORTB, peripherals.PORTD);
         analog::start();
-        clock::start(&peripherals.TC0);
+        clock::start(&peripherals.TC0, &peripherals.TC1);
         let serial = Serial::new(&peripherals.USART0);
         watchdog::start();
         // SAFETY: everything that interrupts share has been set up.
         unsafe { interrupt::enable() };
-        Board { ports, serial, eeprom: Eeprom::new(peripherals.EEPROM), memory: data::take() }
+        Board { ports, serial, eeprom: Eeprom::new(peripherals.EEPROM), data: Data::take() }
     }
 }

@@ -1,6 +1,6 @@
 //! Digital inputs and outputs. Ports are read and written whole, so that all points of a scan are of one moment.
 
-use avr_device::atmega328p::{PORTB, PORTD, Peripherals};
+use avr_device::atmega328p::{PORTB, PORTD};
 
 /// I0.0 is PD2, which is D2 on the Uno.
 const INPUT_SHIFT: u8 = 2;
@@ -48,7 +48,7 @@ impl Ports {
 /// Lets the output pins go: they drive nothing. From anywhere, also where something has gone wrong.
 pub fn release_outputs() {
     // SAFETY: interrupts that come here never return; releasing pins is right at any time.
-    let outputs = unsafe { Peripherals::steal() }.PORTB;
+    let outputs = unsafe { PORTB::steal() };
     outputs.ddrb().reset();
     outputs.portb().reset();
 }

@@ -1,11 +1,10 @@
 //! The serial line, 115200 8N1, by interrupts and two queues. Nothing waits: a full queue says so.
 
-use core::cell::UnsafeCell;
+use core::cell::Cell;
 
-use avr_device::atmega328p::{Peripherals, USART0};
-use avr_device::interrupt::{self, CriticalSection};
+use avr_device::atmega328p::USART0;
+use avr_device::interrupt::{self, CriticalSection, Mutex};
 use embedded_hal_nb::serial::{ErrorKind, ErrorType, Read, Write};
-use heapless::spsc::Queue;
 
 /// 16 MHz / 8 / 115200, the Arduino's own divider: 2.1 % fast, within what receivers take.
 const DIVIDER: u16 = 16;
@@ -16,31 +15,50 @@ const RECEIVE_LEN: usize = 16;
 static TRANSMIT: Shared<TRANSMIT_LEN> = Shared::new();
 static RECEIVE: Shared<RECEIVE_LEN> = Shared::new();
 
-/// A queue between the program and an interrupt. Used as a whole and with interrupts off: its two ends alone would
-/// have to divide by a length they do not know.
-struct Shared<const N: usize>(UnsafeCell<Queue<u8, N>>);
-
-// SAFETY: the queue is reached with interrupts off only.
-unsafe impl<const N: usize> Sync for Shared<N> {}
+/// A queue between the program and an interrupt. Used with interrupts off.
+struct Shared<const N: usize> {
+    bytes: [Mutex<Cell<u8>>; N],
+    first: Mutex<Cell<u8>>,
+    end: Mutex<Cell<u8>>,
+}
 
 impl<const N: usize> Shared<N> {
     const fn new() -> Shared<N> {
-        Shared(UnsafeCell::new(Queue::new()))
+        Shared {
+            bytes: [const { Mutex::new(Cell::new(0)) }; N],
+            first: Mutex::new(Cell::new(0)),
+            end: Mutex::new(Cell::new(0)),
+        }
     }
 
-    fn add(&self, _: CriticalSection<'_>, byte: u8) -> Result<(), u8> {
-        // SAFETY: interrupts are off, and the reference does not leave this function.
-        unsafe { &mut *self.0.get() }.enqueue(byte)
+    fn next(place: u8) -> u8 {
+        (place + 1) & (N as u8 - 1)
     }
 
-    fn take(&self, _: CriticalSection<'_>) -> Option<u8> {
-        // SAFETY: as above.
-        unsafe { &mut *self.0.get() }.dequeue()
+    fn add(&self, cs: CriticalSection<'_>, byte: u8) -> Result<(), u8> {
+        let end = self.end.borrow(cs);
+        let next = Self::next(end.get());
+        if next == self.first.borrow(cs).get() {
+            return Err(byte);
+        }
+        if let Some(place) = self.bytes.get(usize::from(end.get())) {
+            place.borrow(cs).set(byte);
+        }
+        end.set(next);
+        Ok(())
     }
 
-    fn is_empty(&self, _: CriticalSection<'_>) -> bool {
-        // SAFETY: as above.
-        unsafe { &*self.0.get() }.is_empty()
+    fn take(&self, cs: CriticalSection<'_>) -> Option<u8> {
+        if self.is_empty(cs) {
+            return None;
+        }
+        let first = self.first.borrow(cs);
+        let place = first.replace(Self::next(first.get()));
+        self.bytes.get(usize::from(place)).map(|byte| byte.borrow(cs).get())
+    }
+
+    fn is_empty(&self, cs: CriticalSection<'_>) -> bool {
+        self.first.borrow(cs).get() == self.end.borrow(cs).get()
     }
 }
 
@@ -55,6 +73,11 @@ impl Serial {
         usart.ucsr0c().write(|w| w.umsel0().usart_async().ucsz0().chr8());
         usart.ucsr0b().write(|w| w.rxcie0().set_bit().rxen0().set_bit().txen0().set_bit());
         Serial(())
+    }
+
+    /// Whether there is something to read.
+    pub fn has_received(&self) -> bool {
+        interrupt::free(|cs| !RECEIVE.is_empty(cs))
     }
 
     /// Whether everything written has been handed to the line: a whole queue is free.
@@ -78,7 +101,7 @@ impl Write<u8> for Serial {
         interrupt::free(|cs| {
             TRANSMIT.add(cs, byte).map_err(|_| nb::Error::WouldBlock)?;
             // SAFETY: interrupts are off, so that the transmit interrupt cannot change the register meanwhile.
-            let usart = unsafe { Peripherals::steal() }.USART0;
+            let usart = unsafe { USART0::steal() };
             usart.ucsr0b().modify(|_, w| w.udrie0().set_bit());
             Ok(())
         })
@@ -92,20 +115,22 @@ impl Write<u8> for Serial {
 #[avr_device::interrupt(atmega328p)]
 fn USART_RX() {
     // SAFETY: the receive registers belong to this interrupt alone.
-    let usart = unsafe { Peripherals::steal() }.USART0;
+    let usart = unsafe { USART0::steal() };
     let is_broken = usart.ucsr0a().read().fe0().bit_is_set();
     let byte = usart.udr0().read().bits();
     if !is_broken {
         // A full queue loses the byte: whoever floods the line must not stop the scan.
-        interrupt::free(|cs| RECEIVE.add(cs, byte).ok());
+        // SAFETY: interrupts are off in an interrupt.
+        let _ = RECEIVE.add(unsafe { CriticalSection::new() }, byte);
     }
 }
 
 #[avr_device::interrupt(atmega328p)]
 fn USART_UDRE() {
     // SAFETY: the registers are changed elsewhere only with interrupts off.
-    let usart = unsafe { Peripherals::steal() }.USART0;
-    match interrupt::free(|cs| TRANSMIT.take(cs)) {
+    let usart = unsafe { USART0::steal() };
+    // SAFETY: interrupts are off in an interrupt.
+    match TRANSMIT.take(unsafe { CriticalSection::new() }) {
         Some(byte) => {
             usart.udr0().write(|w| w.set(byte));
         }

@@ -1,6 +1,6 @@
 //! What a harness or a logic analyser sees of the scan: marks in a register without function, and the status.
 
-use avr_device::atmega328p::Peripherals;
+use avr_device::atmega328p::CPU;
 
 /// Points of the scan.
 #[derive(Clone, Copy)]
@@ -19,7 +19,7 @@ static mut UNO200_STATUS: [u8; 6] = [0; 6];
 #[inline(always)]
 pub fn mark(mark: Mark) {
     // SAFETY: nobody else uses the register, which has no function.
-    let cpu = unsafe { Peripherals::steal() }.CPU;
+    let cpu = unsafe { CPU::steal() };
     cpu.gpior0().write(|w| w.set(mark as u8));
 }
 

@@ -2,7 +2,7 @@
 
 use core::cell::Cell;
 
-use avr_device::atmega328p::Peripherals;
+use avr_device::atmega328p::{CPU, WDT};
 use avr_device::interrupt::{self, Mutex};
 use plc_vm::Fault;
 
@@ -24,13 +24,13 @@ fn set(value: u8) {
     interrupt::free(|_| {
         avr_device::asm::wdr();
         // SAFETY: the sequence of the data sheet (10.9.2); interrupts are off.
-        let peripherals = unsafe { Peripherals::steal() };
+        let (cpu, watchdog) = unsafe { (CPU::steal(), WDT::steal()) };
         // A reset by the watchdog keeps it on as long as its flag stands.
-        peripherals.CPU.mcusr().reset();
+        cpu.mcusr().reset();
         // SAFETY: as above.
-        peripherals.WDT.wdtcsr().write(|w| unsafe { w.bits(UNLOCK) });
+        watchdog.wdtcsr().write(|w| unsafe { w.bits(UNLOCK) });
         // SAFETY: as above.
-        peripherals.WDT.wdtcsr().write(|w| unsafe { w.bits(value) });
+        watchdog.wdtcsr().write(|w| unsafe { w.bits(value) });
     });
 }
 

@@ -28,13 +28,62 @@
     brsh \bad
 .endm
 
+; Flags of the word at r26 with the next byte minus the constant behind it, or the other way round. Z at what follows.
+.macro COMPARE_CONSTANT order
+    movw r30, r28
+    lpm r27, Z+
+    lpm r22, Z+
+    lpm r23, Z+
+    READABLE r27
+    ld r25, X+
+    ld r24, X
+    ldi r27, 1
+.ifc \order, swapped
+    cp r22, r24
+    cpc r23, r25
+.else
+    cp r24, r22
+    cpc r25, r23
+.endif
+.endm
+
+; IN1 of a box in r22 and r23, the value of OUT in r24 and r25, X at the low byte of OUT, Z at what follows.
+.macro BOX_OUT bad
+    lpm r27, Z+
+    CHECK_OUTPUT \bad
+    ld r25, X+
+    ld r24, X
+.endm
+.macro WORD_BOX bad
+    movw r30, r28
+    lpm r27, Z+
+    READABLE r27
+    ld r23, X+
+    ld r22, X
+    lpm r26, Z+
+    BOX_OUT \bad
+.endm
+.macro CONSTANT_BOX bad
+    mov r22, r26
+    movw r30, r28
+    lpm r23, Z+
+    lpm r26, Z+
+    BOX_OUT \bad
+.endm
+
+; What all handlers find: the upper byte of the bit page, and that of the table beside the token in r2.
+.macro FOR_HANDLERS
+    ldi r27, hi8(TABLE_START / 2)
+    mov r3, r27
+    ldi r27, 1
+.endm
+
 ; Behind an instruction of more than two bytes, Z at the next one.
 .macro NEXT_Z
-    lpm r18, Z+
+    lpm r2, Z+
     lpm r26, Z+
     movw r28, r30
-    mov r30, r18
-    ldi r31, hi8(TABLE_START / 2)
+    movw r30, r2
     ijmp
 .endm
 
@@ -47,11 +96,10 @@
 ; Behind an instruction of one byte: its operand byte is the next token.
 .macro NEXT_ONE_BYTE
     movw r30, r28
-    mov r18, r26
+    mov r2, r26
     lpm r26, Z+
     movw r28, r30
-    mov r30, r18
-    ldi r31, hi8(TABLE_START / 2)
+    movw r30, r2
     ijmp
 .endm
 
@@ -76,6 +124,8 @@ uno200_vectors:
 
 ; Keeps what the caller of Rust keeps, and where the stack is then, for those who leave from within subroutines.
 .macro ENTER
+    push r2
+    push r3
     push r16
     push r17
     push r28
@@ -94,7 +144,7 @@ uno200_vectors:
 uno200_run:
     ENTER
     movw r28, r24
-    ldi r27, 1
+    FOR_HANDLERS
     clr r16
     clt
     rcall next
@@ -105,6 +155,8 @@ epilogue:
     pop r28
     pop r17
     pop r16
+    pop r3
+    pop r2
 .global uno200_run_end
 uno200_run_end:
     ret
@@ -112,8 +164,6 @@ uno200_run_end:
 ; u8 uno200_run_native(u16 word_address): executes machine code.
 .global uno200_run_native
 uno200_run_native:
-    push r2
-    push r3
     push r4
     push r5
     push r6
@@ -139,8 +189,6 @@ uno200_run_native:
     pop r6
     pop r5
     pop r4
-    pop r3
-    pop r2
 .global uno200_run_native_end
 uno200_run_native_end:
     ret
@@ -175,17 +223,21 @@ leave_here:
 ; ---- what native programs call
 
 bytecode_vector:
+    push r2
+    push r3
     push r16
     push r17
     push r28
     push r29
     movw r28, r30
-    ldi r27, 1
+    FOR_HANDLERS
     rcall next
     pop r29
     pop r28
     pop r17
     pop r16
+    pop r3
+    pop r2
     ret
 
 stop_vector:
@@ -275,19 +327,6 @@ compare_any:
     subi r18, WIDE_COMPARISONS / 2
 4:  rjmp combine
 
-; A word, constant or in memory: mode byte and word at Z, value in r24 and r25.
-any_int:
-    lpm r20, Z+
-    lpm r24, Z+
-    lpm r25, Z+
-    sbrs r20, 0
-    ret
-    movw r26, r24
-    READABLE r27
-    ld r25, X+
-    ld r24, X
-    ret
-
 ; ---- the table of handlers, at a multiple of 512 bytes
 
 .org TABLE_START - NATIVE_VECTORS
@@ -320,6 +359,19 @@ check_end:
 ask_watchdog:
     jmp uno200_is_overdue
 
+; A word, constant or in memory: mode byte and word at Z, value in r24 and r25.
+any_int:
+    lpm r20, Z+
+    lpm r24, Z+
+    lpm r25, Z+
+    sbrs r20, 0
+    ret
+    movw r26, r24
+    READABLE r27
+    ld r25, X+
+    ld r24, X
+    ret
+
 ; The same for a byte.
 any_byte:
     lpm r20, Z+
@@ -336,7 +388,7 @@ any_byte:
 ; Passes over operand bytes that nobody reads.
 skip_3:
     adiw r28, 3
-    rjmp next
+    NEXT
 skip_1:
     adiw r28, 1
     rjmp next
@@ -379,284 +431,7 @@ rest:
 
 ; ---- bits
 
-; A bit packed in a word, whose low byte is r26: mask in r19, address in X, byte in r24. Z at what follows.
-load_far_bit:
-    movw r30, r28
-    lpm r27, Z+
-far_bit:
-    ldi r19, 1
-    sbrc r26, 1
-    ldi r19, 4
-    sbrc r26, 0
-    lsl r19
-    sbrc r26, 2
-    swap r19
-    lsr r27
-    ror r26
-    lsr r27
-    ror r26
-    lsr r27
-    ror r26
-    inc r27
-    rcall check_end
-    ld r24, X
-    ret
-
-; Remembers T in edge memory r26. Not zero: it was remembered before, or this is the first scan, where r19 bit 1 is set.
-remember_edge:
-    ldi r21, 0
-    mov r20, r26
-    rcall place_bit
-    lds r26, CONTEXT + EDGES_START
-    lds r27, CONTEXT + EDGES_START + 1
-    add r26, r30
-    adc r27, r1
-    rcall check_end
-    ld r20, X
-    mov r21, r20
-    or r21, r18
-    brts 1f
-    eor r21, r18
-1:  st X, r21
-    ldi r27, 1
-    lds r19, SYSTEM_BITS
-    and r20, r18
-    sbrc r19, FIRST_SCAN
-    or r20, r18
-    tst r20
-    ret
-
-; ---- comparisons
-
-; Flags of the word at r26 with the next bytes minus another. Z at what follows.
-compare_words_straight:
-    movw r30, r28
-    lpm r27, Z+
-    lpm r20, Z+
-    lpm r21, Z+
-    READABLE r27
-    ld r25, X+
-    ld r24, X
-    movw r26, r20
-    READABLE r27
-    ld r23, X+
-    ld r22, X
-    ldi r27, 1
-    cp r24, r22
-    cpc r25, r23
-    ret
-
-compare_words_swapped:
-    movw r30, r28
-    lpm r27, Z+
-    lpm r20, Z+
-    lpm r21, Z+
-    READABLE r27
-    ld r25, X+
-    ld r24, X
-    movw r26, r20
-    READABLE r27
-    ld r23, X+
-    ld r22, X
-    ldi r27, 1
-    cp r22, r24
-    cpc r23, r25
-    ret
-
-compare_constant_straight:
-    movw r30, r28
-    lpm r27, Z+
-    lpm r22, Z+
-    lpm r23, Z+
-    READABLE r27
-    ld r25, X+
-    ld r24, X
-    ldi r27, 1
-    cp r24, r22
-    cpc r25, r23
-    ret
-
-compare_constant_swapped:
-    movw r30, r28
-    lpm r27, Z+
-    lpm r22, Z+
-    lpm r23, Z+
-    READABLE r27
-    ld r25, X+
-    ld r24, X
-    ldi r27, 1
-    cp r22, r24
-    cpc r23, r25
-    ret
-
-compare_bytes:
-    movw r30, r28
-    lpm r27, Z+
-    READABLE r27
-    ld r24, X
-    lpm r26, Z+
-    lpm r27, Z+
-    READABLE r27
-    ld r22, X
-    rjmp 1f
-compare_byte_constant:
-    movw r30, r28
-    lpm r27, Z+
-    READABLE r27
-    lpm r22, Z+
-    ld r24, X
-1:  clr r23
-    clr r25
-    rjmp combine
-
-; ---- words
-
-; IN1 of a box in r22 and r23, the value of OUT in r24 and r25, X at the low byte of OUT, Z at what follows.
-.macro BOX_OUT bad
-    lpm r27, Z+
-    CHECK_OUTPUT \bad
-    ld r25, X+
-    ld r24, X
-.endm
-.macro WORD_BOX bad
-    movw r30, r28
-    lpm r27, Z+
-    READABLE r27
-    ld r23, X+
-    ld r22, X
-    lpm r26, Z+
-    BOX_OUT \bad
-.endm
-.macro CONSTANT_BOX bad
-    mov r22, r26
-    movw r30, r28
-    lpm r23, Z+
-    lpm r26, Z+
-    BOX_OUT \bad
-.endm
-
-; Writes a result that wrapped around, or did not.
-write_wrapped:
-    st X, r24
-    st -X, r25
-    ldi r19, 0
-    brvc write_status
-    ldi r19, 0x02
-    rjmp write_status
-; Writes a result, or leaves OUT as it is when it does not fit.
-write_result:
-    brvs overflow
-    st X, r24
-    st -X, r25
-    ldi r19, 0
-write_status:
-    or r24, r25
-    brne 1f
-    ori r19, 0x01
-1:  sbrc r25, 7
-    ori r19, 0x04
-    lds r24, RESULT_BITS
-    andi r24, 0xF8
-    or r24, r19
-    sts RESULT_BITS, r24
-    ldi r27, 1
-    NEXT_Z
-
-overflow:
-    ldi r18, 0xF8
-    ldi r19, 0x02
-; Bits r19 of the result bits, of which r18 keeps the others.
-write_bits:
-    lds r24, RESULT_BITS
-    and r24, r18
-    or r24, r19
-    sts RESULT_BITS, r24
-    rjmp next_z_x
-
 ; ---- timers
-
-timer_word:
-    mov r20, r26
-    movw r30, r28
-    lpm r26, Z+
-    lpm r27, Z+
-    movw r28, r30
-    READABLE r27
-    ld r25, X+
-    ld r24, X
-    mov r26, r20
-    rjmp place_timer
-timer_constant:
-    movw r30, r28
-    lpm r24, Z+
-    lpm r25, Z+
-    movw r28, r30
-
-; Timer in slot r26: X slot, Z byte of its bit, r18 mask of its bit, r19 bit 0: counts in 100 ms.
-place_timer:
-    lds r30, CONTEXT + TIMERS_IN_FLASH
-    lds r31, CONTEXT + TIMERS_IN_FLASH + 1
-    add r30, r26
-    adc r31, r1
-    add r30, r26
-    adc r31, r1
-    lpm r20, Z
-    ldi r21, TIMER_SLOT_LEN
-    mul r26, r21
-    movw r26, r0
-    clr r1
-    lds r18, CONTEXT + TIMERS_START
-    add r26, r18
-    lds r18, CONTEXT + TIMERS_START + 1
-    adc r27, r18
-    cpi r27, hi8(DATA_END)
-    brsh slot_outside
-    ldi r19, 1
-    ldi r21, lo8(T_BITS_START)
-    cpi r20, 101
-    brsh place_bit
-    mov r18, r20
-    andi r18, 31
-    breq 1f
-    cpi r18, 5
-    brsh place_bit
-    ldi r19, 0
-
-; Bit r20 of the bytes from r21 of the bit page on: byte Z, mask r18.
-place_bit:
-    ldi r18, 1
-    sbrc r20, 1
-    ldi r18, 4
-    sbrc r20, 0
-    lsl r18
-    sbrc r20, 2
-    swap r18
-    lsr r20
-    lsr r20
-    lsr r20
-    add r20, r21
-    mov r30, r20
-    ldi r31, 1
-    ret
-slot_outside:
-    jmp outside
-; A timer of 1 ms is brought up to date first.
-1:  bld r17, 0
-    push r20
-    push r24
-    push r25
-    push r26
-    push r27
-    call uno200_refresh_timers
-    pop r27
-    pop r26
-    pop r25
-    pop r24
-    pop r20
-    bst r17, 0
-    ldi r19, 0
-    ldi r21, lo8(T_BITS_START)
-    rjmp place_bit
 
 ; TON: slot X, preset r24 and r25, byte of the bit Z, mask of the bit r18, r19 bit 0: counts in 100 ms.
 on_delay:
@@ -788,46 +563,6 @@ off_delay:
 
 ; ---- counters
 
-counter_word:
-    mov r20, r26
-    movw r30, r28
-    lpm r26, Z+
-    lpm r27, Z+
-    movw r28, r30
-    READABLE r27
-    ld r25, X+
-    ld r24, X
-    mov r26, r20
-    rjmp place_counter
-counter_constant:
-    movw r30, r28
-    lpm r24, Z+
-    lpm r25, Z+
-    movw r28, r30
-
-; Counter in slot r26: X slot, Z byte of its bit, r18 mask of its bit, r19: S1 in bit 1, S2 in bit 2.
-place_counter:
-    lds r30, CONTEXT + COUNTERS_IN_FLASH
-    lds r31, CONTEXT + COUNTERS_IN_FLASH + 1
-    add r30, r26
-    adc r31, r1
-    lpm r20, Z
-    ldi r21, COUNTER_SLOT_LEN
-    mul r26, r21
-    movw r26, r0
-    clr r1
-    lds r18, CONTEXT + COUNTERS_START
-    add r26, r18
-    lds r18, CONTEXT + COUNTERS_START + 1
-    adc r27, r18
-    cpi r27, hi8(DATA_END)
-    brsh 2f
-    mov r19, r16
-    lsl r19
-    ldi r21, lo8(C_BITS_START)
-    rjmp place_bit
-2:  jmp outside
-
 ; Remembers S1 (or S2 and S1) in bit 0 (and 1) of the state behind X and leaves in r20 which of them rose.
 .macro REMEMBER
     adiw r26, 2
@@ -923,7 +658,283 @@ count_up_down:
 ; ---- the handlers
 
     HANDLERS
-; ---- what is farther away: ranges, products and quotients
+; ---- what is farther away: places, comparisons, results, ranges, products
+
+; A bit packed in a word, whose low byte is r26: mask in r19, address in X, byte in r24. Z at what follows.
+load_far_bit:
+    movw r30, r28
+    lpm r27, Z+
+far_bit:
+    ldi r19, 1
+    sbrc r26, 1
+    ldi r19, 4
+    sbrc r26, 0
+    lsl r19
+    sbrc r26, 2
+    swap r19
+    lsr r27
+    ror r26
+    lsr r27
+    ror r26
+    lsr r27
+    ror r26
+    inc r27
+    rcall check_end
+    ld r24, X
+    ret
+
+; Remembers T in edge memory r26. Not zero: it was remembered before, or this is the first scan, where r19 bit 1 is set.
+remember_edge:
+    ldi r21, 0
+    mov r20, r26
+    rcall place_bit
+    lds r26, CONTEXT + EDGES_START
+    lds r27, CONTEXT + EDGES_START + 1
+    add r26, r30
+    adc r27, r1
+    rcall check_end
+    ld r20, X
+    mov r21, r20
+    or r21, r18
+    brts 1f
+    eor r21, r18
+1:  st X, r21
+    ldi r27, 1
+    lds r19, SYSTEM_BITS
+    and r20, r18
+    sbrc r19, FIRST_SCAN
+    or r20, r18
+    tst r20
+    ret
+
+; ---- comparisons
+
+; Flags of the word at r26 with the next bytes minus another. Z at what follows.
+compare_words_straight:
+    movw r30, r28
+    lpm r27, Z+
+    lpm r20, Z+
+    lpm r21, Z+
+    READABLE r27
+    ld r25, X+
+    ld r24, X
+    movw r26, r20
+    READABLE r27
+    ld r23, X+
+    ld r22, X
+    ldi r27, 1
+    cp r24, r22
+    cpc r25, r23
+    ret
+
+compare_words_swapped:
+    movw r30, r28
+    lpm r27, Z+
+    lpm r20, Z+
+    lpm r21, Z+
+    READABLE r27
+    ld r25, X+
+    ld r24, X
+    movw r26, r20
+    READABLE r27
+    ld r23, X+
+    ld r22, X
+    ldi r27, 1
+    cp r22, r24
+    cpc r23, r25
+    ret
+
+compare_constant_straight:
+    COMPARE_CONSTANT straight
+    ret
+
+compare_constant_swapped:
+    COMPARE_CONSTANT swapped
+    ret
+
+compare_bytes:
+    movw r30, r28
+    lpm r27, Z+
+    READABLE r27
+    ld r24, X
+    lpm r26, Z+
+    lpm r27, Z+
+    READABLE r27
+    ld r22, X
+    rjmp 1f
+compare_byte_constant:
+    movw r30, r28
+    lpm r27, Z+
+    READABLE r27
+    lpm r22, Z+
+    ld r24, X
+1:  clr r23
+    clr r25
+    jmp combine
+
+; ---- words
+
+; Writes a result that wrapped around, or did not.
+write_wrapped:
+    st X, r24
+    st -X, r25
+    ldi r19, 0
+    brvc write_status
+    ldi r19, 0x02
+    rjmp write_status
+; Writes a result, or leaves OUT as it is when it does not fit.
+write_result:
+    brvs overflow
+    st X, r24
+    st -X, r25
+    ldi r19, 0
+write_status:
+    or r24, r25
+    brne 1f
+    ori r19, 0x01
+1:  sbrc r25, 7
+    ori r19, 0x04
+    lds r24, RESULT_BITS
+    andi r24, 0xF8
+    or r24, r19
+    sts RESULT_BITS, r24
+    ldi r27, 1
+    NEXT_Z
+
+overflow:
+    ldi r18, 0xF8
+    ldi r19, 0x02
+; Bits r19 of the result bits, of which r18 keeps the others.
+write_bits:
+    lds r24, RESULT_BITS
+    and r24, r18
+    or r24, r19
+    sts RESULT_BITS, r24
+    rjmp next_z_x
+
+timer_word:
+    mov r20, r26
+    movw r30, r28
+    lpm r26, Z+
+    lpm r27, Z+
+    movw r28, r30
+    READABLE r27
+    ld r25, X+
+    ld r24, X
+    mov r26, r20
+    rjmp place_timer
+timer_constant:
+    movw r30, r28
+    lpm r24, Z+
+    lpm r25, Z+
+    movw r28, r30
+
+; Timer in slot r26: X slot, Z byte of its bit, r18 mask of its bit, r19 bit 0: counts in 100 ms.
+place_timer:
+    lds r30, CONTEXT + TIMERS_IN_FLASH
+    lds r31, CONTEXT + TIMERS_IN_FLASH + 1
+    add r30, r26
+    adc r31, r1
+    add r30, r26
+    adc r31, r1
+    lpm r20, Z
+    ldi r21, TIMER_SLOT_LEN
+    mul r26, r21
+    movw r26, r0
+    clr r1
+    lds r18, CONTEXT + TIMERS_START
+    add r26, r18
+    lds r18, CONTEXT + TIMERS_START + 1
+    adc r27, r18
+    cpi r27, hi8(DATA_END)
+    brsh slot_outside
+    ldi r19, 1
+    ldi r21, lo8(T_BITS_START)
+    cpi r20, 101
+    brsh place_bit
+    mov r18, r20
+    andi r18, 31
+    breq 1f
+    cpi r18, 5
+    brsh place_bit
+    ldi r19, 0
+
+; Bit r20 of the bytes from r21 of the bit page on: byte Z, mask r18.
+place_bit:
+    ldi r18, 1
+    sbrc r20, 1
+    ldi r18, 4
+    sbrc r20, 0
+    lsl r18
+    sbrc r20, 2
+    swap r18
+    lsr r20
+    lsr r20
+    lsr r20
+    add r20, r21
+    mov r30, r20
+    ldi r31, 1
+    ret
+slot_outside:
+    jmp outside
+; A timer of 1 ms is brought up to date first.
+1:  bld r17, 0
+    push r20
+    push r24
+    push r25
+    push r26
+    push r27
+    call uno200_refresh_timers
+    pop r27
+    pop r26
+    pop r25
+    pop r24
+    pop r20
+    bst r17, 0
+    ldi r19, 0
+    ldi r21, lo8(T_BITS_START)
+    rjmp place_bit
+
+counter_word:
+    mov r20, r26
+    movw r30, r28
+    lpm r26, Z+
+    lpm r27, Z+
+    movw r28, r30
+    READABLE r27
+    ld r25, X+
+    ld r24, X
+    mov r26, r20
+    rjmp place_counter
+counter_constant:
+    movw r30, r28
+    lpm r24, Z+
+    lpm r25, Z+
+    movw r28, r30
+
+; Counter in slot r26: X slot, Z byte of its bit, r18 mask of its bit, r19: S1 in bit 1, S2 in bit 2.
+place_counter:
+    lds r30, CONTEXT + COUNTERS_IN_FLASH
+    lds r31, CONTEXT + COUNTERS_IN_FLASH + 1
+    add r30, r26
+    adc r31, r1
+    lpm r20, Z
+    ldi r21, COUNTER_SLOT_LEN
+    mul r26, r21
+    movw r26, r0
+    clr r1
+    lds r18, CONTEXT + COUNTERS_START
+    add r26, r18
+    lds r18, CONTEXT + COUNTERS_START + 1
+    adc r27, r18
+    cpi r27, hi8(DATA_END)
+    brsh 2f
+    mov r19, r16
+    lsl r19
+    ldi r21, lo8(C_BITS_START)
+    rjmp place_bit
+2:  jmp outside
+
 
 ; Sets r18 bits from mask r19 of the byte r24 at X on. Bytes are inverted by r21, so that resetting is setting.
 set_bits:
@@ -994,7 +1005,7 @@ reset_numbers:
 5:  add r26, r21
     adc r27, r1
     rjmp 3b
-6:  rjmp next_x
+6:  jmp next_x
 
 word_box:
     WORD_BOX 1f

@@ -137,21 +137,23 @@ pub fn run(mut execution: Execution<'_>) -> (Exit, u16) {
     (exit, at.wrapping_sub(SLOT_START + 2))
 }
 
-/// Makes an execution the one that the assembly works for.
+/// Makes an execution the one that the assembly works for. What the plan says stays the same until the next RUN.
 #[inline(always)]
 fn enter(execution: &mut Execution<'_>) {
     let plan = execution.program().plan();
     // SAFETY: no interrupt uses the context or the execution, and the assembly is not running.
     unsafe {
         let context = &raw mut CONTEXT;
-        (*context).timers_in_flash = SLOT_START + plan.timers_at;
-        (*context).counters_in_flash = SLOT_START + plan.counters_at;
-        (*context).labels_in_flash = SLOT_START + plan.labels_at;
-        (*context).timers_start = plan.timers_start;
-        (*context).counters_start = plan.counters_start;
-        (*context).edges_start = plan.edges_start;
-        (*context).timers = plan.header.timers;
-        (*context).counters = plan.header.counters;
+        if execution.is_first_scan() {
+            (*context).timers_in_flash = SLOT_START + plan.timers_at;
+            (*context).counters_in_flash = SLOT_START + plan.counters_at;
+            (*context).labels_in_flash = SLOT_START + plan.labels_at;
+            (*context).timers_start = plan.timers_start;
+            (*context).counters_start = plan.counters_start;
+            (*context).edges_start = plan.edges_start;
+            (*context).timers = plan.header.timers;
+            (*context).counters = plan.header.counters;
+        }
         (*context).ticks_100 = execution.ticks_100();
         EXECUTION = ptr::from_mut(execution).cast();
     }

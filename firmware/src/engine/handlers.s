@@ -4,9 +4,9 @@
 ; script enters it for the tokens of that form; {n} becomes the token's distance from the form's first one (bit or
 ; relation). What has no block is executed by plc-vm. Subroutines stand in engine.s.
 ;
-; At the start of a block: r18 token, X the address of the operand byte in the bit page, Y the address in flash behind
-; token and operand byte, T the top of the logic stack, r16 the levels below, S1 in bit 0. To keep: Y, r16, r27 = 1
-; (NEXT_X restores it), r1 = 0. Free: r0, r17 to r26, r30, r31.
+; At the start of a block: r2 token, X the address of the operand byte in the bit page, Y the address in flash behind
+; token and operand byte, T the top of the logic stack, r16 the levels below, S1 in bit 0. To keep: Y, r3, r16, r27 = 1
+; (NEXT_X restores it), r1 = 0. Free: r0, r2, r17 to r26, r30, r31.
 
 ; ---- contacts
 
@@ -23,7 +23,7 @@
     ld r24, X
     com r24
     bst r24, {n}
-    rjmp next
+    NEXT
 
 % A PageBit
     ld r24, X
@@ -41,13 +41,13 @@
     ld r24, X
     sbrc r24, {n}
     set
-    rjmp next
+    NEXT
 
 % On PageBit
     ld r24, X
     sbrs r24, {n}
     set
-    rjmp next
+    NEXT
 
 % Ld FarBit
     rcall load_far_bit
@@ -89,7 +89,7 @@
     bld r24, 0
     com r24
     bst r24, 0
-    rjmp next_one_byte
+    NEXT_ONE_BYTE
 
 % Eu Edge
     rcall remember_edge
@@ -203,27 +203,27 @@ reset_byte:
     lsr r16
     brcs 1f
     clt
-1:  rjmp next_one_byte
+1:  NEXT_ONE_BYTE
 
 % Old
     lsr r16
     brcc 1f
     set
-1:  rjmp next_one_byte
+1:  NEXT_ONE_BYTE
 
 % Lps
     lsl r16
     bld r16, 0
-    rjmp next_one_byte
+    NEXT_ONE_BYTE
 
 % Lrd
     bst r16, 0
-    rjmp next_one_byte
+    NEXT_ONE_BYTE
 
 % Lpp
     bst r16, 0
     lsr r16
-    rjmp next_one_byte
+    NEXT_ONE_BYTE
 
 % Lds Level
     mov r24, r16
@@ -267,17 +267,17 @@ reset_byte:
 % Ldw Relation Word IntConst
     lsl r16
     bld r16, 0
-    rcall compare_constant_{order}
+    COMPARE_CONSTANT {order}
     set
     {branch} 1f
     clt
-1:  rjmp next_z
+1:  NEXT_Z
 
 % Aw Relation Word IntConst
-    rcall compare_constant_{order}
+    COMPARE_CONSTANT {order}
     {branch} 1f
     clt
-1:  rjmp next_z
+1:  NEXT_Z
 
 % Ow Relation Word IntConst
     rcall compare_constant_{order}
@@ -290,12 +290,14 @@ reset_byte:
 % Ldb Relation Byte Byte
 % Ab Relation Byte Byte
 % Ob Relation Byte Byte
+    mov r18, r2
     subi r18, {token}
     rjmp compare_bytes
 
 % Ldb Relation Byte ByteConst
 % Ab Relation Byte ByteConst
 % Ob Relation Byte ByteConst
+    mov r18, r2
     subi r18, {token}
     rjmp compare_byte_constant
 

@@ -135,8 +135,10 @@ impl AnalogInput {
 
     /// The AIW value of a raw count, rounded to the nearest.
     pub const fn scale(raw: u16) -> u16 {
-        let raw = if raw > Self::RAW_MAX { Self::RAW_MAX } else { raw } as u32;
-        ((raw * Self::SCALED_MAX as u32 + Self::RAW_MAX as u32 / 2) / Self::RAW_MAX as u32) as u16
+        let raw = if raw > Self::RAW_MAX { Self::RAW_MAX } else { raw };
+        // A division takes the board longer than a scan has. 18,386 / 65,536 is the rest of 32,000 / 1,023 beside 31,
+        // near enough for every count.
+        31 * raw + ((raw as u32 * 18_386 + 0x8000) >> 16) as u16
     }
 
     /// The raw count nearest to an AIW value.
@@ -177,11 +179,12 @@ pub enum TimerFamily {
     TonTof,
 }
 
-/// The resolution of a timer, by its number.
+/// The resolution of a timer, by its number: the first five of each 32 up to T100 are the fast ones.
 pub const fn timer_resolution(number: u8) -> TimerResolution {
-    match number {
-        0 | 32 | 64 | 96 => TimerResolution::Ms1,
-        1..=4 | 33..=36 | 65..=68 | 97..=100 => TimerResolution::Ms10,
+    match number % 32 {
+        _ if number > 100 => TimerResolution::Ms100,
+        0 => TimerResolution::Ms1,
+        1..=4 => TimerResolution::Ms10,
         _ => TimerResolution::Ms100,
     }
 }
@@ -191,5 +194,20 @@ pub const fn timer_family(number: u8) -> TimerFamily {
     match number {
         0..=31 | 64..=95 => TimerFamily::Tonr,
         _ => TimerFamily::TonTof,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::AnalogInput;
+
+    #[test]
+    fn every_raw_count_is_scaled_to_the_nearest() {
+        let (raw_max, scaled_max) = (u32::from(AnalogInput::RAW_MAX), u32::from(AnalogInput::SCALED_MAX));
+        for raw in 0..=raw_max {
+            let nearest = (raw * scaled_max + raw_max / 2) / raw_max;
+            assert_eq!(u32::from(AnalogInput::scale(raw as u16)), nearest, "{raw}");
+        }
+        assert_eq!(AnalogInput::scale(u16::MAX), AnalogInput::SCALED_MAX);
     }
 }

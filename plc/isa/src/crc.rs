@@ -21,16 +21,17 @@ impl Crc32 {
     /// Takes one byte in.
     #[cfg_attr(target_arch = "avr", inline(never))]
     pub const fn byte(&mut self, byte: u8) {
-        self.0 ^= byte as u32;
-        let mut bit = 0;
-        while bit < 8 {
-            let carry = self.0 & 1 != 0;
-            self.0 >>= 1;
-            if carry {
-                self.0 ^= 0xEDB8_8320;
+        let (mut crc, mut byte, mut bits) = (self.0, byte, 8u8);
+        while bits != 0 {
+            let is_odd = (crc as u8 ^ byte) & 1 != 0;
+            crc >>= 1;
+            byte >>= 1;
+            if is_odd {
+                crc ^= 0xEDB8_8320;
             }
-            bit += 1;
+            bits -= 1;
         }
+        self.0 = crc;
     }
 
     /// The checksum of the bytes so far.

@@ -210,6 +210,12 @@ pub const LABEL_LEN: u16 = 2;
 /// Bytes of the entry: an offset in the image, at the start of machine code.
 pub const ENTRY_LEN: u16 = 2;
 
+/// Where entry `index` stands among others of `len` bytes, whether in a table of the image or in the arena. Wraps.
+#[cfg_attr(target_arch = "avr", inline(never))]
+pub(crate) fn entry_at(start: u16, index: u16, len: u16) -> u16 {
+    start.wrapping_add(index.wrapping_mul(len))
+}
+
 impl Header {
     /// The header as bytes.
     pub fn to_bytes(&self) -> [u8; HEADER_LEN as usize] {
@@ -284,62 +290,66 @@ impl Header {
     /// The header, whatever it says.
     #[cfg_attr(target_arch = "avr", inline(never))]
     pub(crate) fn fields<P: ProgramMemory>(memory: &P) -> Header {
-        let total_len = memory.word(6);
-        let mut words = [0; 9];
-        for (place, word) in (8..).step_by(2).zip(&mut words) {
-            *word = memory.word(place);
-        }
-        let [code_len, arena_len, edges, labels, v_ranges, timers, counters, watchdog_ms, scan_ms] = words;
-        let mut bytes = [0; 6];
-        for (place, byte) in (26..).zip(&mut bytes) {
-            *byte = memory.byte(place);
-        }
-        let [pullup, invert_inputs, invert_outputs, retained, name_len, filter] = bytes;
-        let settings = Settings { pullup, invert_inputs, invert_outputs, watchdog_ms, scan_ms, filter };
-        Header {
-            interface: memory.byte(5),
-            total_len,
-            code_len,
-            arena_len,
-            edges,
-            labels,
-            v_ranges,
-            timers,
-            counters,
-            retained,
-            name_len,
-            settings,
-        }
+        // One after the other: the board has no registers to hold them all.
+        let mut header = Header { interface: memory.byte(5), ..Header::default() };
+        header.total_len = memory.word(6);
+        header.code_len = memory.word(8);
+        header.arena_len = memory.word(10);
+        header.edges = memory.word(12);
+        header.labels = memory.word(14);
+        header.v_ranges = memory.word(16);
+        header.timers = memory.word(18);
+        header.counters = memory.word(20);
+        header.settings.watchdog_ms = memory.word(22);
+        header.settings.scan_ms = memory.word(24);
+        header.settings.pullup = memory.byte(26);
+        header.settings.invert_inputs = memory.byte(27);
+        header.settings.invert_outputs = memory.byte(28);
+        header.retained = memory.byte(29);
+        header.name_len = memory.byte(30);
+        header.settings.filter = memory.byte(31);
+        header
     }
 
     /// Offset of the V ranges.
     pub fn v_ranges_at(&self) -> u16 {
-        HEADER_LEN + u16::from(self.name_len)
+        self.offsets()[0]
     }
 
     /// Offset of the timers.
     pub fn timers_at(&self) -> u16 {
-        self.v_ranges_at() + V_RANGE_LEN * self.v_ranges
+        self.offsets()[1]
     }
 
     /// Offset of the counters.
     pub fn counters_at(&self) -> u16 {
-        self.timers_at() + TIMER_LEN * self.timers
+        self.offsets()[2]
     }
 
     /// Offset of the labels.
     pub fn labels_at(&self) -> u16 {
-        self.counters_at() + COUNTER_LEN * self.counters
+        self.offsets()[3]
     }
 
     /// Offset of the retained ranges.
     pub fn retained_at(&self) -> u16 {
-        self.labels_at() + LABEL_LEN * self.labels
+        self.offsets()[4]
     }
 
     /// Offset of the first instruction.
     pub fn code_at(&self) -> u16 {
-        self.retained_at() + Retained::STORED_LEN * u16::from(self.retained)
+        self.offsets()[5]
+    }
+
+    /// Where V ranges, timers, counters, labels, retained ranges and code begin.
+    pub(crate) fn offsets(&self) -> [u16; 6] {
+        let v_ranges_at = HEADER_LEN + u16::from(self.name_len);
+        let timers_at = entry_at(v_ranges_at, self.v_ranges, V_RANGE_LEN);
+        let counters_at = entry_at(timers_at, self.timers, TIMER_LEN);
+        let labels_at = entry_at(counters_at, self.counters, COUNTER_LEN);
+        let retained_at = entry_at(labels_at, self.labels, LABEL_LEN);
+        let code_at = entry_at(retained_at, u16::from(self.retained), Retained::STORED_LEN);
+        [v_ranges_at, timers_at, counters_at, labels_at, retained_at, code_at]
     }
 
     /// Offset of the first byte behind the code, which is the checksum.
@@ -347,13 +357,12 @@ impl Header {
         self.code_at() + self.code_len
     }
 
-    /// The sum of all parts equals the length, and no count is absurd: offsets cannot overflow after this.
-    pub(crate) fn lengths_agree(&self) -> bool {
+    /// No count is absurd: offsets cannot overflow after this.
+    pub(crate) fn is_plausible(&self) -> bool {
         // Each is below 2,048 if all their bits together are.
         self.v_ranges | self.timers | self.counters | self.labels | self.edges < 2048
             && self.code_len <= self.total_len
             && self.name_len <= NAME_LEN_MAX
             && self.retained <= Retained::RANGES_MAX
-            && self.code_end() == self.total_len - CRC_LEN
     }
 }

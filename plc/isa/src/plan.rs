@@ -4,7 +4,7 @@
 //! are the plan; nothing is stored twice.
 
 use crate::area::{AnalogInput, Area, TimerFamily, timer_family};
-use crate::image::{COUNTER_LEN, Header, LABEL_LEN, ProgramMemory, TIMER_LEN, V_RANGE_LEN};
+use crate::image::{COUNTER_LEN, Header, LABEL_LEN, ProgramMemory, TIMER_LEN, V_RANGE_LEN, entry_at};
 use crate::layout::*;
 use crate::operand::Bit;
 use crate::settings::Retained;
@@ -140,34 +140,28 @@ pub struct Plan<P> {
 }
 
 impl<P: ProgramMemory> Plan<P> {
-    /// The plan of an image whose header has been checked.
-    pub(crate) fn of(memory: P) -> Self {
-        let header = Header::fields(&memory);
-        Self::trusted(memory, header)
-    }
-
     /// The plan in the tables behind this header, taken on trust: for the assembler, which wrote them.
     pub fn trusted(memory: P, header: Header) -> Self {
-        let (v_ranges_at, timers_at) = (header.v_ranges_at(), header.timers_at());
-        // Lengths that are not checked yet: nothing may overflow.
+        let [v_ranges_at, timers_at, counters_at, labels_at, retained_at, code_at] = header.offsets();
+        // Lengths that are not checked yet may wrap: then they are not valid, and nothing is placed by them.
         let mut timers_start = ARENA_START;
         let mut at = v_ranges_at + 2;
         while at < timers_at {
-            timers_start = timers_start.saturating_add(memory.word(at));
+            timers_start = timers_start.wrapping_add(memory.word(at));
             at += V_RANGE_LEN;
         }
-        let counters_start = timers_start.saturating_add(TIMER_SLOT_LEN * header.timers);
-        let edges_start = counters_start.saturating_add(COUNTER_SLOT_LEN * header.counters);
-        let end = edges_start.saturating_add(header.edges.div_ceil(8));
+        let counters_start = entry_at(timers_start, header.timers, TIMER_SLOT_LEN);
+        let edges_start = entry_at(counters_start, header.counters, COUNTER_SLOT_LEN);
+        let end = edges_start.wrapping_add(header.edges.wrapping_add(7) / 8);
         Plan {
             memory,
             header,
             v_ranges_at,
             timers_at,
-            counters_at: header.counters_at(),
-            labels_at: header.labels_at(),
-            retained_at: header.retained_at(),
-            code_at: header.code_at(),
+            counters_at,
+            labels_at,
+            retained_at,
+            code_at,
             timers_start,
             counters_start,
             edges_start,
@@ -210,7 +204,7 @@ impl<P: ProgramMemory> Plan<P> {
     /// The timer in a slot.
     pub fn timer(&self, slot: u8) -> TimerSlot {
         let (number, kind) = self.timer_entry(u16::from(slot));
-        let address = self.timers_start + TIMER_SLOT_LEN * u16::from(slot);
+        let address = entry_at(self.timers_start, u16::from(slot), TIMER_SLOT_LEN);
         TimerSlot { number, kind: kind.unwrap_or(TimerKind::NotStarted), address }
     }
 
@@ -223,7 +217,7 @@ impl<P: ProgramMemory> Plan<P> {
     #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn counter(&self, slot: u8) -> CounterSlot {
         let at = self.counters_at + COUNTER_LEN * u16::from(slot);
-        let address = self.counters_start + COUNTER_SLOT_LEN * u16::from(slot);
+        let address = entry_at(self.counters_start, u16::from(slot), COUNTER_SLOT_LEN);
         CounterSlot { number: self.memory.byte(at), address }
     }
 
@@ -251,7 +245,7 @@ impl<P: ProgramMemory> Plan<P> {
         if index >= u16::from(self.header.retained) {
             return None;
         }
-        let at = self.retained_at + Retained::STORED_LEN * index;
+        let at = entry_at(self.retained_at, index, Retained::STORED_LEN);
         let area = Retained::area_of_code(self.memory.byte(at))?;
         Some(Retained { area, first: self.memory.word(at + 1), count: self.memory.word(at + 3) })
     }
@@ -304,18 +298,25 @@ impl<P: ProgramMemory> Plan<P> {
         if address < self.timers_start {
             return self.v_region(address - ARENA_START);
         }
-        // Only the first word of a slot can be named.
         if address < self.counters_start {
-            let offset = address - self.timers_start;
-            let is_value = offset.is_multiple_of(TIMER_SLOT_LEN);
-            return is_value.then(|| Region::TimerValue(self.timer((offset / TIMER_SLOT_LEN) as u8).number));
+            return self.number_at(address, self.timers_start, TIMER_SLOT_LEN, self.timers_at, TIMER_LEN)
+                .map(Region::TimerValue);
         }
         if address < self.edges_start {
-            let offset = address - self.counters_start;
-            let is_value = offset.is_multiple_of(COUNTER_SLOT_LEN);
-            return is_value.then(|| Region::CounterValue(self.counter((offset / COUNTER_SLOT_LEN) as u8).number));
+            return self.number_at(address, self.counters_start, COUNTER_SLOT_LEN, self.counters_at, COUNTER_LEN)
+                .map(Region::CounterValue);
         }
         None
+    }
+
+    /// The number of the timer or counter whose slot is at `address`: only the first word of a slot can be named.
+    fn number_at(&self, address: u16, start: u16, slot_len: u16, table_at: u16, entry_len: u16) -> Option<u8> {
+        let (mut slot_at, mut at) = (start, table_at);
+        while slot_at < address {
+            slot_at += slot_len;
+            at += entry_len;
+        }
+        (slot_at == address).then(|| self.memory.byte(at))
     }
 
     fn v_region(&self, mut offset: u16) -> Option<Region> {

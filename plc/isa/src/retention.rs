@@ -3,7 +3,7 @@
 use crate::area::Area;
 use crate::crc::Crc32;
 use crate::image::{COUNTER_LEN, ProgramMemory, TIMER_LEN};
-use crate::layout::{COUNTER_SLOT_LEN, TIMER_SLOT_LEN};
+use crate::layout::{COUNTER_SLOT_LEN, M_START, TIMER_SLOT_LEN};
 use crate::plan::{Plan, Region};
 use crate::settings::Retained;
 
@@ -30,7 +30,6 @@ impl RetainedWalk {
 
     /// The next bytes that lie side by side, at most `len_max`, which is at least 2: address and length. `None` at the
     /// end. The length is 0 where the program uses nothing of a range, so that no call takes long.
-    #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn next<P: ProgramMemory>(&mut self, plan: &Plan<P>, len_max: u16) -> Option<(u16, u16)> {
         if self.left == 0 {
             let range = plan.retained_entry(u16::from(self.ranges))?;
@@ -49,8 +48,9 @@ impl RetainedWalk {
             Area::T => (plan.timers_at, TIMER_LEN, plan.header.timers, plan.timers_start, TIMER_SLOT_LEN),
             Area::C => (plan.counters_at, COUNTER_LEN, plan.header.counters, plan.counters_start, COUNTER_SLOT_LEN),
             area => {
-                (self.gap, self.left) = (0, range.count);
-                self.address = plan.byte_address(area, range.first).unwrap_or(0);
+                // No other area than M and V can be retained.
+                let address = if area == Area::M { Some(M_START + range.first) } else { plan.v_address(range.first) };
+                (self.gap, self.left, self.address) = (0, range.count, address.unwrap_or(0));
                 return;
             }
         };

@@ -69,6 +69,7 @@ const LONG_TABLE: ([u8; LONG_TABLE_LEN], usize) = {
 /// The effect on the stack in a byte: values needed below, values added above.
 const fn packed(effect: StackEffect) -> u8 {
     assert!(effect.needs < 8 && -8 <= effect.adds && effect.adds < 8);
+    assert!(effect.needs as i8 + effect.adds >= 0, "more is taken than is needed");
     effect.needs | (effect.adds as u8) << 4
 }
 
@@ -133,9 +134,8 @@ pub(crate) struct Fetched {
     pub operands: [Raw; OPERANDS_MAX],
     /// Offset of the first byte behind the instruction.
     pub next: u16,
-    /// Where the numbers of the operands' kinds stand in the table, and how many.
-    kinds_at: u16,
-    kinds: u8,
+    /// The operands' kinds.
+    pub kinds: [Option<Kind>; OPERANDS_MAX],
 }
 
 impl Fetched {
@@ -147,8 +147,7 @@ impl Fetched {
             stack: StackEffect { needs: 0, adds: 0 },
             operands: [Raw::ZERO; OPERANDS_MAX],
             next: 0,
-            kinds_at: 0,
-            kinds: 0,
+            kinds: [None; OPERANDS_MAX],
         }
     }
 
@@ -169,14 +168,16 @@ impl Fetched {
         let Some(op) = Op::of_number(code.token_table(at + 1)) else { return false };
         self.op = op;
         self.stack = unpacked(code.token_table(at + 2));
-        self.kinds_at = KINDS_AT as u16 + u16::from(code.token_table(at + 3));
+        let mut kinds_at = KINDS_AT as u16 + u16::from(code.token_table(at + 3));
         let in_token = token.wrapping_sub(code.token_table(at));
         let mut reader = OperandReader::new(code, pc, operands_at, in_token);
-        self.kinds = 0;
-        for operand in &mut self.operands {
-            let Some(kind) = Kind::of_number(code.token_table(self.kinds_at + u16::from(self.kinds))) else { break };
-            *operand = kind.read_raw(&mut reader);
-            self.kinds += 1;
+        for (operand, kind) in self.operands.iter_mut().zip(&mut self.kinds) {
+            *kind = Kind::of_number(code.token_table(kinds_at));
+            // The 0 that ends the list is read again for every operand that there is not.
+            if let Some(kind) = *kind {
+                *operand = kind.read_raw(&mut reader);
+                kinds_at += 1;
+            }
         }
         self.next = reader.position();
         true
@@ -184,10 +185,7 @@ impl Fetched {
 
     /// The kind of operand `index`, if there are so many.
     #[inline]
-    pub fn kind<P: ProgramMemory>(&self, code: &P, index: usize) -> Option<Kind> {
-        if index >= usize::from(self.kinds) {
-            return None;
-        }
-        Kind::of_number(code.token_table(self.kinds_at + index as u16))
+    pub fn kind<P: ProgramMemory>(&self, _code: &P, index: usize) -> Option<Kind> {
+        self.kinds.get(index).copied().flatten()
     }
 }

@@ -51,10 +51,11 @@ impl<P: ProgramMemory> Program<P> {
 /// Checks an image completely.
 pub fn verify<P: ProgramMemory>(memory: P) -> Result<Program<P>, ImageError> {
     Header::check(&memory)?;
-    if !Header::fields(&memory).lengths_agree() {
+    let header = Header::fields(&memory);
+    if !header.is_plausible() {
         return Err(ImageError { fault: ImageFault::Length, at: 6 });
     }
-    let program = Program { plan: Plan::of(memory) };
+    let program = Program { plan: Plan::trusted(memory, header) };
     check(&program.plan)?;
     Ok(program)
 }
@@ -78,7 +79,7 @@ fn is_native<P: ProgramMemory>(plan: &Plan<P>) -> bool {
 
 /// Whether machine code has its entry word, and there an even offset behind the word in the code; and no labels.
 fn entry_is_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
-    let (code_at, end) = (plan.code_at(), plan.header.code_end());
+    let (code_at, end) = (plan.code_at(), plan.header.total_len - CRC_LEN);
     let entry = plan.memory.word(code_at);
     plan.header.labels == 0 && entry.is_multiple_of(2) && entry >= code_at + ENTRY_LEN && entry < end
 }
@@ -89,6 +90,8 @@ fn ensure(holds: bool, fault: ImageFault) -> Result<(), ImageFault> {
 
 fn check_tables<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageFault> {
     let header = &plan.header;
+    // The sum of all parts is the length.
+    ensure(plan.code_at() + header.code_len == header.total_len - CRC_LEN, ImageFault::Length)?;
     ensure(plan.name().all(|byte| matches!(byte, 0x20..=0x7E)), ImageFault::Name)?;
     ensure(header.settings.is_valid(), ImageFault::Settings)?;
     ensure(v_ranges_are_valid(plan), ImageFault::VRanges)?;
@@ -106,6 +109,7 @@ fn check_tables<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageFault> {
 /// Where in the image a fault of the tables is.
 fn place_of<P: ProgramMemory>(plan: &Plan<P>, fault: ImageFault) -> u16 {
     match fault {
+        ImageFault::Length => 6,
         ImageFault::Name => crate::image::HEADER_LEN,
         ImageFault::Settings => 22,
         ImageFault::VRanges => plan.v_ranges_at,
@@ -125,12 +129,16 @@ fn is_ascending<P: ProgramMemory>(memory: &P, at: u16, step: u16, count: u16) ->
 fn v_ranges_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
     let mut least = 0;
     plan.v_ranges().all(|(first, len)| {
-        let end = first.saturating_add(len);
-        let valid = first >= least && len > 0 && end <= Area::V.size();
+        let valid = first >= least && is_within(first, len, Area::V.size());
         // Adjacent ranges would be one range.
-        least = end.saturating_add(1);
+        least = first.wrapping_add(len).wrapping_add(1);
         valid
     })
+}
+
+/// Whether there are `count` from `first` on, at least one, and all below `size`.
+fn is_within(first: u16, count: u16, size: u16) -> bool {
+    count > 0 && first < size && count <= size - first
 }
 
 fn timers_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
@@ -145,10 +153,10 @@ fn timers_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
 #[cfg_attr(target_arch = "avr", inline(never))]
 fn retained_is_valid<P: ProgramMemory>(plan: &Plan<P>, index: u16) -> bool {
     let Some(range) = plan.retained_entry(index) else { return false };
-    let end = range.first.saturating_add(range.count);
-    if range.count == 0 || end > range.area.size() {
+    if !is_within(range.first, range.count, range.area.size()) {
         return false;
     }
+    let end = range.first + range.count;
     match range.area {
         Area::V => plan.v_ranges().any(|(first, len)| range.first >= first && end <= first + len),
         Area::T => (range.first..end).all(|number| timer_family(number as u8) == TimerFamily::Tonr),
@@ -165,7 +173,7 @@ struct Loop {
 struct CodeCheck<'a, P> {
     plan: &'a Plan<P>,
     loops: [Loop; LOOPS_MAX],
-    open_loops: usize,
+    open_loops: u8,
     next_label: u16,
     depth: u8,
 }
@@ -210,20 +218,20 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
         let mut needs = fetched.stack.needs;
         // The last one first: a count stands behind what it counts.
         let mut count = 1;
-        for (index, &raw) in fetched.operands.iter().enumerate().rev() {
-            let Some(kind) = fetched.kind(&self.plan.memory, index) else { continue };
+        for (&kind, &raw) in fetched.kinds.iter().zip(&fetched.operands).rev() {
+            let Some(kind) = kind else { continue };
+            self.operand(fetched.op, kind, raw, count)?;
             match kind {
                 Kind::Count => count = raw.value,
-                Kind::Level => needs = needs.saturating_add(raw.value as u8),
+                Kind::Level => needs += raw.value as u8,
                 _ => {}
             }
-            self.operand(fetched.op, kind, raw, count)?;
         }
         ensure(self.depth >= needs, ImageFault::StackUnderflow)?;
         self.depth = match fetched.op {
             // Where control comes from two sides only the top of the stack is certain.
             Op::Lbl | Op::For | Op::Next => 1,
-            _ => self.depth.saturating_add_signed(fetched.stack.adds).min(STACK_LEVELS),
+            _ => self.depth.wrapping_add_signed(fetched.stack.adds).min(STACK_LEVELS),
         };
         self.control(fetched, at)
     }
@@ -279,7 +287,7 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
                 ensure(listed, ImageFault::Label)
             }
             Op::For => {
-                let place = self.loops.get_mut(self.open_loops).ok_or(ImageFault::Loop)?;
+                let place = self.loops.get_mut(usize::from(self.open_loops)).ok_or(ImageFault::Loop)?;
                 let [_, _, _, end] = fetched.operands;
                 *place = Loop { start: at, end: end.value };
                 self.open_loops += 1;
@@ -287,7 +295,7 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
             }
             Op::Next => {
                 self.open_loops = self.open_loops.wrapping_sub(1);
-                let open = self.loops.get(self.open_loops);
+                let open = self.loops.get(usize::from(self.open_loops));
                 let [start, ..] = fetched.operands;
                 ensure(open.is_some_and(|open| open.end == fetched.next && open.start == start.value), ImageFault::Loop)
             }

@@ -78,6 +78,11 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
         self.program
     }
 
+    /// Whether this is the first scan since RUN.
+    pub fn is_first_scan(&self) -> bool {
+        self.first_scan
+    }
+
     /// The outside of the program.
     pub fn environment(&mut self) -> &mut E {
         self.environment

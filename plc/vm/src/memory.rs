@@ -39,6 +39,12 @@ impl Memory {
         &self.bytes
     }
 
+    /// All bytes, to be changed.
+    #[inline(always)]
+    pub fn bytes_mut(&mut self) -> &mut [u8; DATA_LEN] {
+        &mut self.bytes
+    }
+
     /// The byte at an address.
     #[cfg_attr(target_arch = "avr", inline(never))]
     #[cfg_attr(not(target_arch = "avr"), inline(always))]

@@ -1,8 +1,8 @@
 //! The controller: mode, scan, faults. Reads inputs from the caller, leaves outputs for the caller.
 
 use plc_isa::{
-    ANALOG_INPUTS, AnalogInput, I_START, ImageError, LogicStack, Program, ProgramMemory, Q_START, TimerResolution,
-    verify,
+    ANALOG_INPUTS, AnalogInput, DATA_START, I_START, ImageError, LogicStack, Program, ProgramMemory, Q_START,
+    TimerResolution, verify,
 };
 
 use crate::clock::Clock;
@@ -10,9 +10,11 @@ use crate::environment::Environment;
 use crate::fault::Fault;
 use crate::interpreter::{Exit, Interpreter};
 use crate::memory::Memory;
-use crate::special::{self, SystemBits};
-use crate::timer;
+use crate::special;
+use crate::timer::{self, AtScanStart};
 
+/// Where the image of the outputs begins in data memory.
+const OUTPUTS: usize = (Q_START - DATA_START) as usize;
 /// Bytes of the input and output process images.
 const IMAGE_BYTES: usize = 16;
 
@@ -56,9 +58,10 @@ pub struct Plc<P> {
     mode: Mode,
     fault: Option<Fault>,
     clock: Clock,
+    timers: AtScanStart,
     scans: Scans,
-    powered_up: bool,
-    retentive_lost: bool,
+    /// Bits of SMB0 in the next first scan.
+    bits_of_first_scan: u8,
 }
 
 /// How far the scans since RUN have come.
@@ -66,8 +69,12 @@ pub struct Plc<P> {
 enum Scans {
     None,
     First,
-    Second,
+    /// More, and it is another time.
     More,
+    /// It is the time of the last start, which was another than the one before.
+    Moved,
+    /// It is the time of the last two starts.
+    Still,
 }
 
 impl<P: ProgramMemory> Default for Plc<P> {
@@ -78,15 +85,16 @@ impl<P: ProgramMemory> Default for Plc<P> {
 
 impl<P: ProgramMemory> Plc<P> {
     /// A controller in STOP without a program, just switched on.
+    #[inline(always)]
     pub const fn new() -> Self {
         Plc {
             program: None,
             mode: Mode::Stop,
             fault: None,
-            clock: Clock::ZERO,
+            clock: Clock::zero(),
+            timers: AtScanStart { ms_1: false, ms_10: false },
             scans: Scans::None,
-            powered_up: true,
-            retentive_lost: false,
+            bits_of_first_scan: special::FIRST_SCAN | special::POWER_UP,
         }
     }
 
@@ -112,7 +120,7 @@ impl<P: ProgramMemory> Plc<P> {
 
     /// Says before RUN that values that should have been kept were lost: SM0.2 in the first scan.
     pub fn retentive_data_lost(&mut self) {
-        self.retentive_lost = true;
+        self.bits_of_first_scan |= special::RETENTIVE_LOST;
     }
 
     /// The mode.
@@ -161,42 +169,98 @@ impl<P: ProgramMemory> Plc<P> {
         self.finish(exit, at);
     }
 
+    /// Sets the time, in milliseconds, at which the next scan starts.
+    pub fn set_time(&mut self, now_ms: u32) {
+        self.clock.now_ms = now_ms;
+        if matches!(self.scans, Scans::Moved | Scans::Still) {
+            self.scans = Scans::More;
+        }
+    }
+
+    /// The time that was set last.
+    pub fn time(&self) -> u32 {
+        self.clock.now_ms
+    }
+
     /// Begins a scan: clock, special memory, timers. In RUN hands out the execution of the program, for a caller with
     /// an engine of its own, which ends with [`finish`](Self::finish).
-    #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn begin<'a, E: Environment>(
         &'a mut self,
         memory: &'a mut Memory,
         environment: &'a mut E,
     ) -> Option<Interpreter<'a, P, E>> {
-        let program = self.program.as_ref().filter(|_| self.mode == Mode::Run)?;
         let now_ms = environment.now_ms();
-        start_scan(&mut self.clock, &mut self.scans, memory, now_ms);
+        if now_ms != self.time() {
+            self.set_time(now_ms);
+        }
+        self.begin_at_set_time(memory, environment)
+    }
+
+    /// The same for a caller that has set the time.
+    #[inline(always)]
+    pub fn begin_at_set_time<'a, E: Environment>(
+        &'a mut self,
+        memory: &'a mut Memory,
+        environment: &'a mut E,
+    ) -> Option<Interpreter<'a, P, E>> {
+        if self.mode == Mode::Stop {
+            return None;
+        }
+        match self.scans {
+            Scans::Still => special::toggle_scan_clock(memory),
+            Scans::Moved => {
+                self.scans = Scans::Still;
+                self.clock.ticks_100 = 0;
+                special::write_no_scan_time(memory);
+                special::toggle_scan_clock(memory);
+            }
+            _ => self.start_scan(memory),
+        }
         let first_scan = self.scans == Scans::First;
-        if first_scan {
-            timer::start_of_run(memory, program.plan());
-        }
-        SystemBits {
-            first_scan,
-            retentive_lost: first_scan && self.retentive_lost,
-            power_up: first_scan && self.powered_up,
-            half_minute: self.clock.half_minute,
-            half_second: self.clock.half_second,
-            scan_clock: !memory.bit(SCAN_CLOCK) || first_scan,
-        }
-        .write(memory);
-        let fast_ms = self.clock.take_fast_ms(now_ms);
-        timer::advance(memory, program.plan(), TimerResolution::Ms1, fast_ms);
-        timer::advance(memory, program.plan(), TimerResolution::Ms10, self.clock.ticks_10);
-        let clock = &mut self.clock;
+        let (program, clock) = (self.program.as_ref()?, &mut self.clock);
         Some(Interpreter { program, memory, environment, clock, first_scan, stack: LogicStack::EMPTY, exit: Exit::End })
+    }
+
+    /// A scan starts at another time than the one before, or is the first or second.
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    fn start_scan(&mut self, memory: &mut Memory) {
+        let mut bits = 0;
+        if self.scans == Scans::None {
+            self.start_run(memory);
+            bits = self.bits_of_first_scan;
+            self.bits_of_first_scan = special::FIRST_SCAN;
+        }
+        let passed_ms = self.clock.advance();
+        special::write_scan_time(memory, passed_ms, self.scans == Scans::First);
+        self.scans = match self.scans {
+            Scans::None => Scans::First,
+            _ if passed_ms == 0 => Scans::Still,
+            _ => Scans::Moved,
+        };
+        special::write_system_bits(memory, bits | self.clock.bits);
+        let Some(program) = &self.program else { return };
+        let plan = program.plan();
+        let fast_ms = self.clock.take_fast_ms(self.clock.now_ms);
+        if self.timers.ms_1 {
+            timer::advance(memory, plan, TimerResolution::Ms1, fast_ms);
+        }
+        if self.timers.ms_10 && self.clock.ticks_10 != 0 {
+            timer::advance(memory, plan, TimerResolution::Ms10, self.clock.ticks_10);
+        }
+    }
+
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    fn start_run(&mut self, memory: &mut Memory) {
+        self.clock.start();
+        special::clear_scan_times(memory);
+        if let Some(program) = &self.program {
+            self.timers = timer::start_of_run(memory, program.plan());
+        }
     }
 
     /// The program was left, at this offset.
     #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn finish(&mut self, exit: Exit, at: u16) {
-        self.powered_up = false;
-        self.retentive_lost = false;
         self.fault = match exit {
             Exit::End => return,
             Exit::Stop => None,
@@ -211,26 +275,9 @@ impl<P: ProgramMemory> Plc<P> {
         match self.mode {
             // Between the change to RUN and the end of the first scan the image is that of an earlier RUN.
             Mode::Run if self.scans != Scans::None && usize::from(byte) < IMAGE_BYTES => {
-                memory.byte(Q_START + u16::from(byte))
+                memory.bytes().get(OUTPUTS + usize::from(byte)).copied().unwrap_or(0)
             }
             _ => 0,
         }
-    }
-}
-
-const SCAN_CLOCK: plc_isa::Bit = plc_isa::Bit { address: plc_isa::SM_START, bit: 6 };
-
-fn start_scan(clock: &mut Clock, scans: &mut Scans, memory: &mut Memory, now_ms: u32) {
-    *scans = match *scans {
-        Scans::None => Scans::First,
-        Scans::First => Scans::Second,
-        Scans::Second | Scans::More => Scans::More,
-    };
-    if *scans == Scans::First {
-        *clock = Clock::starting(now_ms);
-        special::clear_scan_times(memory);
-    } else {
-        let passed_ms = clock.advance(now_ms);
-        special::write_scan_time(memory, passed_ms, *scans == Scans::Second);
     }
 }

@@ -119,8 +119,18 @@ pub(crate) fn advance<P: ProgramMemory>(memory: &mut Memory, plan: &Plan<P>, res
     }
 }
 
+/// Whether a program has timers that advance at scan start.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct AtScanStart {
+    /// Of 1 ms.
+    pub ms_1: bool,
+    /// Of 10 ms.
+    pub ms_10: bool,
+}
+
 /// The change to RUN (reference 2.2): no timer runs, all bits are 0; only TONR keeps its current value.
-pub(crate) fn start_of_run<P: ProgramMemory>(memory: &mut Memory, plan: &Plan<P>) {
+pub(crate) fn start_of_run<P: ProgramMemory>(memory: &mut Memory, plan: &Plan<P>) -> AtScanStart {
+    let mut found = AtScanStart { ms_1: false, ms_10: false };
     for address in T_BITS_START..C_BITS_START {
         memory.set_byte(address, 0);
     }
@@ -130,5 +140,11 @@ pub(crate) fn start_of_run<P: ProgramMemory>(memory: &mut Memory, plan: &Plan<P>
         if timer_family(slot.number) == TimerFamily::TonTof {
             timer.set_current(0);
         }
+        match timer_resolution(slot.number) {
+            TimerResolution::Ms1 => found.ms_1 = true,
+            TimerResolution::Ms10 => found.ms_10 = true,
+            TimerResolution::Ms100 => {}
+        }
     }
+    found
 }
