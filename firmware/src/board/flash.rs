@@ -23,19 +23,18 @@ pub fn byte(address: u16) -> u8 {
 /// The little-endian word at an address of flash.
 #[inline]
 fn word(address: u16) -> u16 {
-    let (low, high): (u8, u8);
+    let word: u16;
     // SAFETY: as above; Z is given up.
     unsafe {
         asm!(
-            "lpm {low}, Z+",
-            "lpm {high}, Z",
-            low = out(reg) low,
-            high = out(reg) high,
+            "lpm {word:l}, Z+",
+            "lpm {word:h}, Z",
+            word = out(reg_pair) word,
             inout("Z") address => _,
             options(pure, readonly, nostack, preserves_flags)
         );
     }
-    u16::from_le_bytes([low, high])
+    word
 }
 
 /// The program slot.

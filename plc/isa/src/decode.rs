@@ -39,11 +39,9 @@ pub fn decode<P: ProgramMemory>(code: &P, pc: u16) -> Result<Decoded, DecodeErro
     if next > code.len() || next <= pc {
         return Err(DecodeError::Truncated);
     }
-    let mut decoded =
-        Decoded { op: fetched.op, stack: fetched.stack, len: next - pc, kinds: [None; OPERANDS_MAX], raw };
-    for (index, (place, &raw)) in decoded.kinds.iter_mut().zip(&raw).enumerate() {
-        *place = fetched.kind(code, index);
-        match *place {
+    let mut decoded = Decoded { op: fetched.op, stack: fetched.stack, len: next - pc, kinds: fetched.kinds, raw };
+    for (&kind, &raw) in fetched.kinds.iter().zip(&raw) {
+        match kind {
             Some(kind) if !kind.is_canonical(raw) => return Err(DecodeError::Malformed),
             Some(Kind::Level) => decoded.stack.needs = decoded.stack.needs.saturating_add(raw.value as u8),
             _ => {}

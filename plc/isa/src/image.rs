@@ -212,6 +212,7 @@ pub const ENTRY_LEN: u16 = 2;
 
 /// Where entry `index` stands among others of `len` bytes, whether in a table of the image or in the arena. Wraps.
 #[cfg_attr(target_arch = "avr", inline(never))]
+#[cfg_attr(not(target_arch = "avr"), inline(always))]
 pub(crate) fn entry_at(start: u16, index: u16, len: u16) -> u16 {
     start.wrapping_add(index.wrapping_mul(len))
 }

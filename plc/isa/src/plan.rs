@@ -140,7 +140,14 @@ pub struct Plan<P> {
 }
 
 impl<P: ProgramMemory> Plan<P> {
+    /// The plan of an image whose header is plausible.
+    pub(crate) fn of(memory: P) -> Self {
+        let header = Header::fields(&memory);
+        Self::trusted(memory, header)
+    }
+
     /// The plan in the tables behind this header, taken on trust: for the assembler, which wrote them.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn trusted(memory: P, header: Header) -> Self {
         let [v_ranges_at, timers_at, counters_at, labels_at, retained_at, code_at] = header.offsets();
         // Lengths that are not checked yet may wrap: then they are not valid, and nothing is placed by them.
@@ -299,11 +306,13 @@ impl<P: ProgramMemory> Plan<P> {
             return self.v_region(address - ARENA_START);
         }
         if address < self.counters_start {
-            return self.number_at(address, self.timers_start, TIMER_SLOT_LEN, self.timers_at, TIMER_LEN)
+            return self
+                .number_at(address, self.timers_start, TIMER_SLOT_LEN, self.timers_at, TIMER_LEN)
                 .map(Region::TimerValue);
         }
         if address < self.edges_start {
-            return self.number_at(address, self.counters_start, COUNTER_SLOT_LEN, self.counters_at, COUNTER_LEN)
+            return self
+                .number_at(address, self.counters_start, COUNTER_SLOT_LEN, self.counters_at, COUNTER_LEN)
                 .map(Region::CounterValue);
         }
         None

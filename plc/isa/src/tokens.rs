@@ -79,11 +79,7 @@ const fn unpacked(byte: u8) -> StackEffect {
 
 /// Enters a list of kinds behind the others, unless it is there already. Returns where, from [`KINDS_AT`] on, and the
 /// new end.
-const fn with_kinds(
-    mut table: [u8; LONG_TABLE_LEN],
-    end: usize,
-    kinds: &[Kind],
-) -> ([u8; LONG_TABLE_LEN], u8, usize) {
+const fn with_kinds(mut table: [u8; LONG_TABLE_LEN], end: usize, kinds: &[Kind]) -> ([u8; LONG_TABLE_LEN], u8, usize) {
     assert!(kinds.len() <= OPERANDS_MAX && end - KINDS_AT < 256);
     let mut at = KINDS_AT;
     while at < end {
@@ -134,7 +130,7 @@ pub(crate) struct Fetched {
     pub operands: [Raw; OPERANDS_MAX],
     /// Offset of the first byte behind the instruction.
     pub next: u16,
-    /// The operands' kinds.
+    /// The operands' kinds, `None` behind the last.
     pub kinds: [Option<Kind>; OPERANDS_MAX],
 }
 
@@ -183,7 +179,7 @@ impl Fetched {
         true
     }
 
-    /// The kind of operand `index`, if there are so many.
+    /// The kind of operand `index`, if there are so many. It was read with the operands.
     #[inline]
     pub fn kind<P: ProgramMemory>(&self, _code: &P, index: usize) -> Option<Kind> {
         self.kinds.get(index).copied().flatten()

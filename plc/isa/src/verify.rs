@@ -51,11 +51,10 @@ impl<P: ProgramMemory> Program<P> {
 /// Checks an image completely.
 pub fn verify<P: ProgramMemory>(memory: P) -> Result<Program<P>, ImageError> {
     Header::check(&memory)?;
-    let header = Header::fields(&memory);
-    if !header.is_plausible() {
+    if !Header::fields(&memory).is_plausible() {
         return Err(ImageError { fault: ImageFault::Length, at: 6 });
     }
-    let program = Program { plan: Plan::trusted(memory, header) };
+    let program = Program { plan: Plan::of(memory) };
     check(&program.plan)?;
     Ok(program)
 }
@@ -243,7 +242,7 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
             Kind::PageBit | Kind::FarBit | Kind::Byte | Kind::ByteOut => return self.memory(kind, value, 1),
             Kind::Word | Kind::WordOut => return self.memory(kind, value, 2),
             Kind::PageBitOut | Kind::PageBitReset | Kind::FarBitOut | Kind::FarBitReset => {
-                return self.memory(kind, value, (u16::from(raw.tag) + count).div_ceil(8));
+                return self.memory(kind, value, (u16::from(raw.tag) + count - 1) / 8 + 1);
             }
             Kind::AnyByte | Kind::AnyInt => {
                 ensure(kind.is_canonical(raw), ImageFault::Malformed)?;
