@@ -102,7 +102,7 @@ const WAITING_MAX: u64 = 100;
 const COMPARING_MAX: u64 = 800;
 const WRITING_MAX: u64 = 1_500;
 /// The same for each counter of the program, whose numbers are looked through for a range of them.
-const COMPARING_COUNTER_MAX: u64 = 25;
+const COMPARING_COUNTER_MAX: u64 = 30;
 /// When a copy is begun: for itself, for each byte and for each counter.
 const SNAPSHOT_MAX: u64 = 2_500;
 const SNAPSHOT_BYTE_MAX: u64 = 14;
