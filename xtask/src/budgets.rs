@@ -37,10 +37,11 @@ pub const INTERPRETER_STEPS_CYCLES_MAX: f64 = 21_600.0;
 /// Cycles of the station's program in the interpreter. The PLC of 2015 takes 5,518.
 pub const INTERPRETER_STATION_CYCLES_MAX: f64 = 2_000.0;
 
-/// Cycles of the station's whole scan with it. The PLC of 2015 takes 15,873.
+/// Cycles of the station's whole scan with it, unless a millisecond passes in it. The PLC of 2015 takes 15,873.
 pub const INTERPRETER_STATION_SCAN_CYCLES_MAX: f64 = 2_600.0;
 
-/// Cycles that a scan takes beside its program, on average.
+/// Cycles that a scan takes beside its program, unless a millisecond has passed: then clock, timers and self-test are
+/// due.
 pub const SCAN_OVERHEAD_CYCLES_MAX: f64 = 400.0;
 
 /// Cycles of a bit instruction in machine code with the process image in SRAM. The S7-200 takes 3.5.

@@ -6,19 +6,19 @@ use plc_isa::Kind::{
     Here, IntConst, LabelIndex, LabelNumber, Level, LoopEnd, LoopStart, Number, One, PageBit, PageBitOut, PageBitReset,
     Relation, TimerNumber, TimerSlot, Word, WordConst, WordOut,
 };
-use plc_isa::{Decoded, Kind, Op, Operand, Plan, PowerFlow, ProgramMemory, TimerResolution, decode, timer_resolution};
+use plc_isa::{Decoded, Kind, Op, Operand, Plan, PowerFlow, ProgramMemory, decode};
 
-use super::Ways;
+use super::{Ways, is_fast};
 use crate::native::Cycles;
 
 /// From entering the engine to the first instruction; the way out belongs to what leaves the program.
-pub const START: u32 = 37;
+pub const START: u32 = 56;
 
 /// When a millisecond has passed, the next jump back asks the watchdog and the next timer of 1 ms advances all of them,
 /// which looks at each timer of the program.
-pub const EACH_MS: u32 = 400;
+pub const EACH_MS: u32 = 300;
 /// See [`EACH_MS`].
-pub const EACH_MS_AND_TIMER: u32 = 250;
+pub const EACH_MS_AND_TIMER: u32 = 700;
 
 /// Fewest and most cycles; none for a way that there is not.
 type Range = [u16; 2];
@@ -49,6 +49,8 @@ const BIT: u32 = 6;
 const BYTE: u32 = 17;
 /// For each byte of a range whose length is read in the scan: plc-vm writes that.
 const COUNTED_BYTE: u32 = 89;
+/// It looks for the end of the area, through the ranges of V memory that the program has.
+const COUNTED_V_RANGE: u32 = 40;
 /// R of timers and counters, and for each of the program's that R looks at.
 const RESET: u32 = 58;
 const RESET_SLOT: u32 = 27;
@@ -71,15 +73,12 @@ pub fn more<P: ProgramMemory>(decoded: &Decoded, plan: &Plan<P>, image: &[u8], c
         (Op::Lds, _) => LEVEL * number(0),
         (Op::Set | Op::Reset, [(_, Operand::Bit(bit)), (Byte, _)]) => {
             COUNTED_BYTE * (u32::from(bit.bit) + number(1)).div_ceil(8)
+                + COUNTED_V_RANGE * u32::from(plan.header.v_ranges)
         }
         (Op::Set | Op::Reset, [(_, Operand::Bit(bit)), (kind, _)]) if *kind != One => bits(bit.bit.into(), number(1)),
         (Op::ResetTimers, _) => numbers(number(0), number(1), count, plan.header.timers),
         (Op::ResetCounters, _) => numbers(number(0), number(1), count, plan.header.counters),
-        (Op::Ton | Op::Tof | Op::Tonr, [(_, Operand::Number(slot)), _])
-            if timer_resolution(plan.timer(*slot).number) == TimerResolution::Ms1 =>
-        {
-            FAST_TIMER
-        }
+        _ if is_fast(plan, decoded) => FAST_TIMER,
         (Op::For, [_, init, last, _]) => words(&[*init, *last]),
         (Op::Next, [(_, Operand::Offset(start)), _]) => {
             let head = decode(&image, *start).map(|head| head.operands().skip(1).take(2).collect::<Vec<_>>());
@@ -106,91 +105,108 @@ fn words(operands: &[(Kind, Operand)]) -> u32 {
 }
 
 const TABLE: &[Entry] = &[
-    (Op::Ld, &[FarBit], [60, 60], [60, 60], [0, 0]),
-    (Op::Ld, &[PageBit], [19, 19], [19, 19], [0, 0]),
-    (Op::Ldn, &[FarBit], [59, 59], [59, 59], [0, 0]),
-    (Op::Ldn, &[PageBit], [22, 22], [22, 22], [0, 0]),
-    (Op::A, &[FarBit], [57, 57], [57, 57], [0, 0]),
-    (Op::A, &[PageBit], [18, 18], [18, 18], [0, 0]),
-    (Op::An, &[FarBit], [56, 56], [56, 56], [0, 0]),
-    (Op::An, &[PageBit], [18, 18], [18, 18], [0, 0]),
-    (Op::O, &[FarBit], [57, 57], [57, 57], [0, 0]),
-    (Op::O, &[PageBit], [20, 20], [20, 20], [0, 0]),
-    (Op::On, &[FarBit], [56, 56], [56, 56], [0, 0]),
-    (Op::On, &[PageBit], [20, 20], [20, 20], [0, 0]),
-    (Op::Not, &[], [17, 17], [17, 17], [0, 0]),
-    (Op::Eu, &[Edge], [77, 77], [77, 77], [0, 0]),
-    (Op::Ed, &[Edge], [78, 79], [78, 78], [0, 0]),
-    (Op::Assign, &[FarBitOut], [57, 57], [57, 57], [0, 0]),
-    (Op::Assign, &[PageBitOut], [19, 19], [19, 19], [0, 0]),
-    (Op::Set, &[FarBitOut, Byte], [902, 909], [0, 1107], [0, 0]),
-    (Op::Set, &[FarBitOut, Count], [20, 20], [67, 67], [0, 0]),
-    (Op::Set, &[PageBitOut, One], [16, 16], [22, 22], [0, 0]),
-    (Op::Reset, &[FarBitReset, Byte], [901, 908], [348, 1136], [0, 0]),
-    (Op::Reset, &[FarBitReset, Count], [20, 20], [67, 67], [0, 0]),
-    (Op::Reset, &[PageBitReset, One], [16, 16], [22, 22], [0, 0]),
-    (Op::ResetTimers, &[TimerNumber, Byte], [20, 20], [0, 50], [0, 0]),
-    (Op::ResetTimers, &[TimerNumber, Count], [22, 22], [0, 43], [0, 0]),
-    (Op::ResetCounters, &[CounterNumber, Byte], [20, 20], [0, 46], [0, 0]),
-    (Op::ResetCounters, &[CounterNumber, Count], [22, 22], [0, 39], [0, 0]),
-    (Op::Nop, &[Number], [14, 14], [14, 14], [0, 0]),
-    (Op::Ald, &[], [17, 17], [17, 17], [0, 0]),
-    (Op::Old, &[], [17, 17], [17, 17], [0, 0]),
-    (Op::Lps, &[], [16, 16], [16, 16], [0, 0]),
-    (Op::Lrd, &[], [15, 15], [15, 15], [0, 0]),
-    (Op::Lpp, &[], [16, 16], [16, 16], [0, 0]),
-    (Op::Lds, &[Level], [27, 27], [27, 27], [0, 0]),
-    (Op::Ldw, &[Relation, AnyInt, AnyInt], [97, 110], [97, 110], [0, 0]),
-    (Op::Ldw, &[Relation, Word, IntConst], [45, 45], [45, 45], [0, 0]),
-    (Op::Ldw, &[Relation, Word, Word], [51, 51], [51, 51], [0, 0]),
-    (Op::Aw, &[Relation, AnyInt, AnyInt], [106, 118], [105, 118], [0, 0]),
-    (Op::Aw, &[Relation, Word, IntConst], [42, 42], [42, 42], [0, 0]),
-    (Op::Aw, &[Relation, Word, Word], [48, 48], [48, 48], [0, 0]),
-    (Op::Ow, &[Relation, AnyInt, AnyInt], [112, 125], [112, 125], [0, 0]),
-    (Op::Ow, &[Relation, Word, IntConst], [42, 42], [42, 42], [0, 0]),
-    (Op::Ow, &[Relation, Word, Word], [48, 48], [48, 48], [0, 0]),
-    (Op::Ldb, &[Relation, AnyByte, AnyByte], [96, 108], [96, 108], [0, 0]),
-    (Op::Ldb, &[Relation, Byte, ByteConst], [57, 63], [57, 63], [0, 0]),
-    (Op::Ldb, &[Relation, Byte, Byte], [65, 71], [65, 71], [0, 0]),
-    (Op::Ab, &[Relation, AnyByte, AnyByte], [104, 116], [104, 116], [0, 0]),
-    (Op::Ab, &[Relation, Byte, ByteConst], [65, 71], [65, 71], [0, 0]),
-    (Op::Ab, &[Relation, Byte, Byte], [73, 79], [73, 79], [0, 0]),
-    (Op::Ob, &[Relation, AnyByte, AnyByte], [111, 123], [111, 123], [0, 0]),
-    (Op::Ob, &[Relation, Byte, ByteConst], [72, 78], [72, 78], [0, 0]),
-    (Op::Ob, &[Relation, Byte, Byte], [80, 86], [80, 86], [0, 0]),
-    (Op::Movb, &[Byte, ByteOut], [22, 22], [45, 45], [0, 0]),
-    (Op::Movb, &[ByteConst, ByteOut], [20, 20], [38, 38], [0, 0]),
-    (Op::Movw, &[Word, WordOut], [18, 18], [41, 41], [0, 0]),
-    (Op::Movw, &[WordConst, WordOut], [18, 18], [34, 34], [0, 0]),
-    (Op::AddInt, &[IntConst, WordOut], [22, 22], [50, 55], [0, 0]),
-    (Op::AddInt, &[Word, WordOut], [22, 22], [54, 59], [0, 0]),
-    (Op::SubInt, &[IntConst, WordOut], [22, 22], [50, 55], [0, 0]),
-    (Op::SubInt, &[Word, WordOut], [22, 22], [54, 59], [0, 0]),
-    (Op::MulInt, &[IntConst, WordOut], [22, 22], [87, 98], [0, 0]),
-    (Op::MulInt, &[Word, WordOut], [22, 22], [91, 102], [0, 0]),
-    (Op::DivInt, &[IntConst, WordOut], [22, 22], [58, 346], [0, 0]),
-    (Op::DivInt, &[Word, WordOut], [22, 22], [62, 347], [0, 0]),
-    (Op::Incw, &[WordOut], [22, 22], [49, 51], [0, 0]),
-    (Op::Decw, &[WordOut], [22, 22], [49, 51], [0, 0]),
-    (Op::Ton, &[TimerSlot, IntConst], [102, 107], [117, 143], [0, 0]),
-    (Op::Ton, &[TimerSlot, Word], [111, 116], [126, 152], [0, 0]),
-    (Op::Tof, &[TimerSlot, IntConst], [96, 150], [104, 109], [0, 0]),
-    (Op::Tof, &[TimerSlot, Word], [105, 159], [113, 118], [0, 0]),
-    (Op::Tonr, &[TimerSlot, IntConst], [92, 95], [125, 140], [0, 0]),
-    (Op::Tonr, &[TimerSlot, Word], [101, 104], [134, 149], [0, 0]),
-    (Op::Ctu, &[CounterSlot, IntConst], [118, 123], [109, 109], [0, 0]),
-    (Op::Ctu, &[CounterSlot, Word], [127, 132], [118, 118], [0, 0]),
-    (Op::Ctd, &[CounterSlot, IntConst], [122, 125], [110, 110], [0, 0]),
-    (Op::Ctd, &[CounterSlot, Word], [131, 134], [119, 119], [0, 0]),
-    (Op::Ctud, &[CounterSlot, IntConst], [125, 127], [111, 111], [0, 0]),
-    (Op::Ctud, &[CounterSlot, Word], [134, 136], [120, 120], [0, 0]),
-    (Op::For, &[WordOut, AnyInt, AnyInt, LoopEnd], [0, 0], [79, 81], [29, 88]),
-    (Op::Next, &[LoopStart, Here], [75, 82], [75, 82], [81, 88]),
-    (Op::Jmp, &[LabelIndex, Here], [17, 17], [36, 36], [36, 43]),
-    (Op::Lbl, &[LabelNumber], [14, 14], [14, 14], [0, 0]),
-    (Op::End, &[], [15, 15], [0, 0], [21, 21]),
-    (Op::Stop, &[], [15, 15], [0, 0], [35, 35]),
-    (Op::Wdr, &[], [20, 20], [73, 73], [0, 0]),
-    (Op::Refresh, &[], [211, 211], [211, 211], [0, 0]),
-    (Op::MainEnd, &[], [0, 0], [0, 0], [19, 19]),
+    (Op::Ld, &[FarBit], [59, 59], [59, 59], [0, 0]),
+    (Op::Ld, &[PageBit], [18, 18], [18, 18], [0, 0]),
+    (Op::Ldn, &[FarBit], [58, 58], [58, 58], [0, 0]),
+    (Op::Ldn, &[PageBit], [19, 19], [19, 19], [0, 0]),
+    (Op::A, &[FarBit], [56, 56], [56, 56], [0, 0]),
+    (Op::A, &[PageBit], [17, 17], [17, 17], [0, 0]),
+    (Op::An, &[FarBit], [55, 55], [55, 55], [0, 0]),
+    (Op::An, &[PageBit], [17, 17], [17, 17], [0, 0]),
+    (Op::O, &[FarBit], [56, 56], [56, 56], [0, 0]),
+    (Op::O, &[PageBit], [17, 17], [17, 17], [0, 0]),
+    (Op::On, &[FarBit], [55, 55], [55, 55], [0, 0]),
+    (Op::On, &[PageBit], [17, 17], [17, 17], [0, 0]),
+    (Op::Not, &[], [14, 14], [14, 14], [0, 0]),
+    (Op::Eu, &[Edge], [76, 76], [76, 76], [0, 0]),
+    (Op::Ed, &[Edge], [77, 78], [77, 77], [0, 0]),
+    (Op::Assign, &[FarBitOut], [56, 56], [56, 56], [0, 0]),
+    (Op::Assign, &[PageBitOut], [18, 18], [18, 18], [0, 0]),
+    (Op::Set, &[FarBitOut, Byte], [886, 893], [0, 1065], [0, 0]),
+    (Op::Set, &[FarBitOut, Count], [19, 19], [66, 66], [0, 0]),
+    (Op::Set, &[PageBitOut, One], [15, 15], [21, 21], [0, 0]),
+    (Op::Reset, &[FarBitReset, Byte], [885, 892], [0, 1064], [0, 0]),
+    (Op::Reset, &[FarBitReset, Count], [19, 19], [66, 66], [0, 0]),
+    (Op::Reset, &[PageBitReset, One], [15, 15], [21, 21], [0, 0]),
+    (Op::ResetTimers, &[TimerNumber, Byte], [19, 19], [0, 49], [0, 0]),
+    (Op::ResetTimers, &[TimerNumber, Count], [21, 21], [0, 42], [0, 0]),
+    (Op::ResetCounters, &[CounterNumber, Byte], [19, 19], [0, 45], [0, 0]),
+    (Op::ResetCounters, &[CounterNumber, Count], [21, 21], [0, 40], [0, 0]),
+    (Op::Nop, &[Number], [13, 13], [13, 13], [0, 0]),
+    (Op::Ald, &[], [14, 14], [14, 14], [0, 0]),
+    (Op::Old, &[], [14, 14], [14, 14], [0, 0]),
+    (Op::Lps, &[], [13, 13], [13, 13], [0, 0]),
+    (Op::Lrd, &[], [12, 12], [12, 12], [0, 0]),
+    (Op::Lpp, &[], [13, 13], [13, 13], [0, 0]),
+    (Op::Lds, &[Level], [26, 26], [26, 26], [0, 0]),
+    (Op::Ldw, &[Relation, AnyInt, AnyInt], [96, 109], [96, 109], [0, 0]),
+    (Op::Ldw, &[Relation, Word, IntConst], [35, 35], [35, 35], [0, 0]),
+    (Op::Ldw, &[Relation, Word, Word], [50, 50], [50, 50], [0, 0]),
+    (Op::Aw, &[Relation, AnyInt, AnyInt], [104, 117], [104, 117], [0, 0]),
+    (Op::Aw, &[Relation, Word, IntConst], [32, 32], [32, 32], [0, 0]),
+    (Op::Aw, &[Relation, Word, Word], [47, 47], [47, 47], [0, 0]),
+    (Op::Ow, &[Relation, AnyInt, AnyInt], [111, 124], [111, 124], [0, 0]),
+    (Op::Ow, &[Relation, Word, IntConst], [41, 41], [41, 41], [0, 0]),
+    (Op::Ow, &[Relation, Word, Word], [47, 47], [47, 47], [0, 0]),
+    (Op::Ldb, &[Relation, AnyByte, AnyByte], [95, 107], [95, 107], [0, 0]),
+    (Op::Ldb, &[Relation, Byte, ByteConst], [58, 64], [58, 64], [0, 0]),
+    (Op::Ldb, &[Relation, Byte, Byte], [66, 72], [66, 72], [0, 0]),
+    (Op::Ab, &[Relation, AnyByte, AnyByte], [103, 115], [103, 115], [0, 0]),
+    (Op::Ab, &[Relation, Byte, ByteConst], [66, 72], [66, 72], [0, 0]),
+    (Op::Ab, &[Relation, Byte, Byte], [74, 80], [74, 80], [0, 0]),
+    (Op::Ob, &[Relation, AnyByte, AnyByte], [110, 122], [110, 122], [0, 0]),
+    (Op::Ob, &[Relation, Byte, ByteConst], [73, 79], [73, 79], [0, 0]),
+    (Op::Ob, &[Relation, Byte, Byte], [81, 87], [81, 87], [0, 0]),
+    (Op::Movb, &[Byte, ByteOut], [19, 19], [44, 44], [0, 0]),
+    (Op::Movb, &[ByteConst, ByteOut], [19, 19], [37, 37], [0, 0]),
+    (Op::Movw, &[Word, WordOut], [17, 17], [40, 40], [0, 0]),
+    (Op::Movw, &[WordConst, WordOut], [17, 17], [33, 33], [0, 0]),
+    (Op::AddInt, &[IntConst, WordOut], [19, 19], [49, 54], [0, 0]),
+    (Op::AddInt, &[Word, WordOut], [19, 19], [53, 58], [0, 0]),
+    (Op::SubInt, &[IntConst, WordOut], [19, 19], [49, 54], [0, 0]),
+    (Op::SubInt, &[Word, WordOut], [19, 19], [53, 58], [0, 0]),
+    (Op::MulInt, &[IntConst, WordOut], [19, 19], [86, 97], [0, 0]),
+    (Op::MulInt, &[Word, WordOut], [19, 19], [90, 101], [0, 0]),
+    (Op::DivInt, &[IntConst, WordOut], [19, 19], [57, 348], [0, 0]),
+    (Op::DivInt, &[Word, WordOut], [19, 19], [61, 346], [0, 0]),
+    (Op::Incw, &[WordOut], [21, 21], [48, 50], [0, 0]),
+    (Op::Decw, &[WordOut], [21, 21], [48, 50], [0, 0]),
+    (Op::Ton, &[TimerSlot, IntConst], [101, 106], [116, 142], [0, 0]),
+    (Op::Ton, &[TimerSlot, Word], [110, 115], [125, 151], [0, 0]),
+    (Op::Tof, &[TimerSlot, IntConst], [95, 149], [103, 108], [0, 0]),
+    (Op::Tof, &[TimerSlot, Word], [104, 158], [112, 117], [0, 0]),
+    (Op::Tonr, &[TimerSlot, IntConst], [91, 94], [124, 139], [0, 0]),
+    (Op::Tonr, &[TimerSlot, Word], [100, 103], [133, 148], [0, 0]),
+    (Op::Ctu, &[CounterSlot, IntConst], [117, 122], [108, 108], [0, 0]),
+    (Op::Ctu, &[CounterSlot, Word], [126, 132], [117, 117], [0, 0]),
+    (Op::Ctd, &[CounterSlot, IntConst], [121, 124], [109, 109], [0, 0]),
+    (Op::Ctd, &[CounterSlot, Word], [130, 133], [118, 118], [0, 0]),
+    (Op::Ctud, &[CounterSlot, IntConst], [124, 126], [110, 110], [0, 0]),
+    (Op::Ctud, &[CounterSlot, Word], [133, 135], [119, 119], [0, 0]),
+    (Op::For, &[WordOut, AnyInt, AnyInt, LoopEnd], [0, 0], [78, 80], [28, 87]),
+    (Op::Next, &[LoopStart, Here], [74, 81], [74, 81], [80, 87]),
+    (Op::Jmp, &[LabelIndex, Here], [16, 16], [35, 35], [35, 42]),
+    (Op::Lbl, &[LabelNumber], [13, 13], [13, 13], [0, 0]),
+    (Op::End, &[], [14, 14], [0, 0], [25, 25]),
+    (Op::Stop, &[], [14, 14], [0, 0], [40, 40]),
+    (Op::Wdr, &[], [19, 19], [49, 49], [0, 0]),
+    (Op::Refresh, &[], [210, 210], [210, 210], [0, 0]),
+    (Op::MainEnd, &[], [0, 0], [0, 0], [23, 23]),
 ];
+
+#[cfg(test)]
+mod tests {
+    use plc_isa::INSTRUCTIONS;
+
+    use super::*;
+
+    #[test]
+    fn every_form_has_an_entry_and_none_has_two() {
+        let forms = INSTRUCTIONS.iter().flat_map(|row| row.forms.iter().map(move |form| (row.op, form.kinds)));
+        let entries =
+            |op: Op, kinds: &[Kind]| TABLE.iter().filter(|(of, like, ..)| (*of, *like) == (op, kinds)).count();
+        let wrong: Vec<_> = forms.clone().filter(|(op, kinds)| entries(*op, kinds) != 1).collect();
+        assert!(wrong.is_empty(), "{wrong:?}");
+        assert_eq!(TABLE.len(), forms.count(), "entries of forms that there are not");
+    }
+}

@@ -1,9 +1,9 @@
 //! The longest way through a program: every instruction once, those in loops as often as the loops say. How long an
 //! instruction takes comes from the caller.
 
-use plc_isa::{Decoded, Kind, Op, Operand, Program, Region, TimerResolution, timer_resolution};
+use plc_isa::{Decoded, Kind, Op, Operand, Program, Region};
 
-use super::Ways;
+use super::{Ways, is_fast};
 
 /// Cycles of a program's longest scan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,8 +21,8 @@ struct Loop {
     passes: u64,
 }
 
-/// Adds up the most cycles of each instruction. A jump forward skips what is counted here all the same: the sum is never
-/// too low. `each_ms` is what jumps back and timers of 1 ms take more whenever a millisecond has passed.
+/// Adds up the most cycles of each instruction. A jump forward skips what is counted here all the same: the sum is
+/// never too low. `each_ms` is what jumps back and timers of 1 ms take more whenever a millisecond has passed.
 pub fn longest(program: &Program<&[u8]>, code: &[(u16, Decoded)], start: u32, each_ms: u32, ways: &[Ways]) -> Longest {
     let mut loops = Vec::new();
     for (index, (at, decoded)) in code.iter().enumerate() {
@@ -52,12 +52,7 @@ const CYCLES_A_MS: u64 = 16_000;
 
 /// Whether an instruction takes longer when a millisecond has passed.
 fn feels_time(program: &Program<&[u8]>, decoded: &Decoded) -> bool {
-    let is_fast = |slot: u8| timer_resolution(program.plan().timer(slot).number) == TimerResolution::Ms1;
-    match (decoded.op, decoded.operands().next()) {
-        (Op::Next | Op::Refresh, _) => true,
-        (Op::Ton | Op::Tof | Op::Tonr, Some((_, Operand::Number(slot)))) => is_fast(slot),
-        _ => false,
-    }
+    matches!(decoded.op, Op::Next | Op::Refresh) || is_fast(program.plan(), decoded)
 }
 
 fn target(program: &Program<&[u8]>, jump: &Decoded) -> u16 {
@@ -97,7 +92,10 @@ fn may_write(decoded: &Decoded, word: u16) -> bool {
         _ => None,
     });
     decoded.operands().any(|(kind, operand)| match operand {
-        Operand::Memory(at) if kind.is_output() => at <= word + 1 && at + 1 >= word,
+        Operand::Memory(at) if kind.is_output() => {
+            let len = if kind == Kind::ByteOut { 1 } else { 2 };
+            at < word + 2 && at + len > word
+        }
         Operand::Bit(bit) if kind.is_output() => {
             let bits = match decoded.op {
                 Op::Assign => 1,
@@ -107,4 +105,57 @@ fn may_write(decoded: &Decoded, word: u16) -> bool {
         }
         _ => false,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Longest;
+    use crate::assemble::assemble;
+    use crate::cost::{ProgramCost, cost};
+    use crate::source::Source;
+
+    fn cost_of(text: &str) -> ProgramCost {
+        let image = assemble(&Source::new("test", text).unwrap(), Vec::new()).image;
+        cost(&image.unwrap_or_else(|| panic!("{text}"))).unwrap()
+    }
+
+    fn cycles(text: &str) -> u64 {
+        match cost_of(text).interpreted {
+            Longest::Cycles(cycles) => cycles,
+            Longest::Depends(at) => panic!("{text} depends on {at}"),
+        }
+    }
+
+    #[test]
+    fn a_loop_counts_as_often_as_it_is_passed() {
+        let passes = |count: i32, body: &str| cycles(&format!("LD SM0.0\nFOR MW0, 1, {count}\n{body}NEXT\n"));
+        let step = passes(2, "") - passes(1, "");
+        assert_eq!(passes(12, "") - passes(2, ""), 10 * step);
+        let body = "LD SM0.0\nFOR MW2, 1, 3\nNOT\nNEXT\n";
+        let nested = passes(2, body) - passes(1, body);
+        let not = cycles("LD SM0.0\nNOT\n") - cycles("LD SM0.0\n");
+        let more = "LD SM0.0\nFOR MW2, 1, 3\nNOT\nNOT\nNEXT\n";
+        assert_eq!(passes(2, more) - passes(1, more), nested + 3 * not);
+        assert_eq!(passes(0, body), passes(-5, ""), "a loop that is skipped");
+    }
+
+    #[test]
+    fn what_cannot_be_known_is_not_told() {
+        for (text, place) in [
+            ("LD SM0.0\nFOR MW0, 1, MW2\nNEXT\n", "NEXT"),
+            ("LD SM0.0\nFOR MW0, MW2, 1\nNEXT\n", "NEXT"),
+            ("LD SM0.0\nFOR MW0, 1, 5\nINCW MW0\nNEXT\n", "NEXT"),
+            ("LD SM0.0\nFOR MW0, 1, 5\nMOVB 0, MB1\nNEXT\n", "NEXT"),
+            ("LD SM0.0\nFOR MW2, 1, 5\nS M0.0, 17\nNEXT\n", "NEXT"),
+            ("LD SM0.0\nFOR MW2, 1, 5\nR M0.0, MB9\nNEXT\n", "NEXT"),
+            ("LBL 1\nLD I0.0\nJMP 1\n", "JMP"),
+        ] {
+            let cost = cost_of(text);
+            assert!(matches!(cost.interpreted, Longest::Depends(_)), "{text}{place}");
+            assert_eq!(Some(cost.interpreted), cost.translated, "{text}");
+        }
+        // Beside the counted word, or with known counts, nothing changes it.
+        cycles("LD SM0.0\nFOR MW2, 1, 5\nMOVB 0, MB1\nMOVW 0, MW4\nS M0.0, 16\nR M4.0, 8\nNEXT\n");
+        cycles("LD I0.0\nJMP 1\nLD I0.1\n= Q0.0\nLBL 1\n");
+    }
 }

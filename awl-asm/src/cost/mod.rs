@@ -4,7 +4,10 @@
 pub mod interpreter;
 mod longest;
 
-use plc_isa::{Decoded, Op, PowerFlow, Program, decode, verify};
+use plc_isa::{
+    Area, Decoded, Op, Operand, Plan, PowerFlow, Program, ProgramMemory, TimerResolution, decode, timer_resolution,
+    verify,
+};
 
 pub use crate::native::Cycles;
 use crate::native::{Translated, TranslatedInstruction, translate};
@@ -18,11 +21,16 @@ pub const NATIVE_START: u32 = 56;
 /// See [`NATIVE_START`].
 pub const NATIVE_END: u32 = 47;
 
-/// Most cycles that a scan takes beside its program: inputs, system bits, timers, communication, self-test, retention,
-/// outputs, and the interrupts of a scan that is shorter than a millisecond.
-pub const OVERHEAD_MAX: u32 = 10_500;
-/// More of them for each timer of the program, which is looked through for those that advance at the start of a scan.
-pub const OVERHEAD_TIMER_MAX: u32 = 250;
+/// Most cycles that a scan takes beside its program: inputs, system bits, self-test, outputs, the interrupts of a scan
+/// that is shorter than a millisecond. Not the first scan after RUN, and none in which the serial line is answered.
+const OVERHEAD_MAX: u32 = 4_000;
+/// More of them for each timer of the program: of 100 ms, and of 1 and 10 ms, which advance at the start of a scan.
+const OVERHEAD_TIMER_MAX: u32 = 20;
+const OVERHEAD_ADVANCE_MAX: u32 = 700;
+/// More of them when values are retained, for each byte of these, and for each counter among them.
+const OVERHEAD_RETENTION_MAX: u32 = 2_500;
+const OVERHEAD_RETAINED_MAX: u32 = 14;
+const OVERHEAD_COUNTER_MAX: u32 = 310;
 
 /// The ways on from an instruction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -86,7 +94,7 @@ pub fn cost(image: &[u8]) -> Option<ProgramCost> {
         code.iter().map(|(_, decoded)| interpreter::ways(decoded, program.plan(), image, None)).collect();
     // A valid program can only be too large for it.
     let translated = translate(image).ok();
-    let native = translated.as_ref().map(|translated| native_ways(translated, &code));
+    let native = translated.as_ref().map(|translated| native_ways(translated, program.plan(), &code));
     let instructions = code.iter().enumerate().map(|(index, &(at, _))| InstructionCost {
         at,
         interpreted: interpreted.get(index).copied().unwrap_or_default(),
@@ -104,12 +112,25 @@ pub fn cost(image: &[u8]) -> Option<ProgramCost> {
             .as_ref()
             .zip(native.as_ref())
             .map(|(translated, ways)| longest(NATIVE_START + translated.start.max, ways)),
-        overhead: OVERHEAD_MAX + OVERHEAD_TIMER_MAX * timers,
+        overhead: overhead(program.plan()),
     })
 }
 
+fn overhead(plan: &Plan<&[u8]>) -> u32 {
+    let timers = plan.timers().map(|slot| match timer_resolution(slot.number) {
+        TimerResolution::Ms100 => OVERHEAD_TIMER_MAX,
+        TimerResolution::Ms1 | TimerResolution::Ms10 => OVERHEAD_ADVANCE_MAX,
+    });
+    let retained = plan.retained().map(|range| {
+        let each = if range.area == Area::C { OVERHEAD_COUNTER_MAX } else { OVERHEAD_RETAINED_MAX };
+        each * u32::from(range.count)
+    });
+    let retention = if plan.header.retained > 0 { OVERHEAD_RETENTION_MAX } else { 0 };
+    OVERHEAD_MAX + timers.sum::<u32>() + retention + retained.sum::<u32>()
+}
+
 /// The instructions with their offsets.
-fn code_of<'a>(program: &Program<&'a [u8]>) -> Vec<(u16, Decoded)> {
+fn code_of(program: &Program<&[u8]>) -> Vec<(u16, Decoded)> {
     let mut code = Vec::new();
     let mut at = program.code_at();
     // A verified image decodes to its end.
@@ -124,7 +145,7 @@ fn code_of<'a>(program: &Program<&'a [u8]>) -> Vec<(u16, Decoded)> {
 }
 
 /// The ways on from each translated instruction. What leaves the program takes the engine's way out, too.
-fn native_ways(translated: &Translated, code: &[(u16, Decoded)]) -> Vec<Ways> {
+fn native_ways(translated: &Translated, plan: &Plan<&[u8]>, code: &[(u16, Decoded)]) -> Vec<Ways> {
     let ways = |(instruction, (_, decoded)): (&TranslatedInstruction, &(u16, Decoded))| {
         let leaves = matches!(decoded.op, Op::MainEnd | Op::End | Op::Stop);
         let end = Cycles::exactly(if leaves { NATIVE_END } else { 0 });
@@ -133,10 +154,22 @@ fn native_ways(translated: &Translated, code: &[(u16, Decoded)]) -> Vec<Ways> {
         // The shortest way is that of an instruction that has nothing to do; to branch over it takes two cycles.
         let least = next.map(|next| Cycles { min: next.min, max: next.min.max(2) });
         match (decoded.op.instruction().power_flow, decoded.op) {
-            (PowerFlow::Needed, _) | (_, Op::Ton | Op::Tonr) => Ways { off: least, on: next, away },
-            (_, Op::Tof) => Ways { off: next, on: least, away },
+            (PowerFlow::Needed, _) => Ways { off: least, on: next, away },
+            // The other input of a timer is handled in place, except by the firmware for those of 1 ms.
+            (_, Op::Ton | Op::Tonr) if !is_fast(plan, decoded) => Ways { off: least, on: next, away },
+            (_, Op::Tof) if !is_fast(plan, decoded) => Ways { off: next, on: least, away },
             _ => Ways { off: next, on: next, away },
         }
     };
     translated.instructions.iter().zip(code).map(ways).collect()
+}
+
+/// Whether an instruction is that of a timer of 1 ms.
+fn is_fast<P: ProgramMemory>(plan: &Plan<P>, decoded: &Decoded) -> bool {
+    match (decoded.op, decoded.operands().next()) {
+        (Op::Ton | Op::Tof | Op::Tonr, Some((_, Operand::Number(slot)))) => {
+            timer_resolution(plan.timer(slot).number) == TimerResolution::Ms1
+        }
+        _ => false,
+    }
 }

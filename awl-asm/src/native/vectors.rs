@@ -1,6 +1,6 @@
 //! The routines of the firmware that machine code calls: where they are and how long they take.
 
-use plc_isa::{Decoded, NATIVE_VECTORS, Plan, ProgramMemory};
+use plc_isa::{Decoded, NATIVE_VECTORS, Plan, PowerFlow, ProgramMemory};
 
 use super::cost::Cycles;
 use crate::cost::interpreter;
@@ -55,10 +55,14 @@ impl Vector {
 }
 
 /// From the vector to the handler, and back through the end of the program behind the instruction.
-const BYTECODE: Cycles = Cycles::exactly(45);
+const BYTECODE: u32 = 54;
 
 /// Cycles of [`Vector::Bytecode`] for an instruction of a bytecode image, with power flow where it needs that.
 pub fn bytecode_cycles<P: ProgramMemory>(decoded: &Decoded, plan: &Plan<P>, image: &[u8]) -> Cycles {
     let ways = interpreter::ways(decoded, plan, image, None);
-    ways.on.or(ways.off).unwrap_or_default().then(BYTECODE)
+    let next = match decoded.op.instruction().power_flow {
+        PowerFlow::Needed => ways.on,
+        PowerFlow::Always => ways.next(),
+    };
+    next.unwrap_or_default().then(Cycles::exactly(BYTECODE))
 }

@@ -53,8 +53,12 @@ fn firmware_records() -> Vec<Record> {
 
 /// The generated programs.
 fn program_records(tier: Tier) -> Vec<Record> {
-    let all =
-        [("1024-step 80/20", programs::eighty_twenty()), ("1K Boolean", programs::boolean()), ("mix", programs::mix())];
+    let all = [
+        ("1024-step 80/20", programs::eighty_twenty()),
+        ("1024-step 80/20, power flow at all boxes", programs::eighty_twenty_all_boxes()),
+        ("1K Boolean", programs::boolean()),
+        ("mix", programs::mix()),
+    ];
     all.into_iter().flat_map(|(name, text)| one_program(tier, name, &text)).collect()
 }
 
@@ -117,7 +121,9 @@ fn station_records(tier: Tier) -> Vec<Record> {
     let (len, bytes) = (executable.len() as f64, executable.code_len() as f64);
     let figures = scans::measure(executable);
     let of = |what: &str, value: f64| single("scan", tier, what, value, name);
-    let mut records = vec![of("overhead", figures.overhead() as f64), of("bytes an instruction", bytes / len)];
+    let (usual, mean) = figures.overhead();
+    let mut records =
+        vec![of("overhead", usual as f64), of("overhead mean", mean as f64), of("bytes an instruction", bytes / len)];
     for (what, spread) in [("program", figures.program), ("whole scan", figures.whole), ("period", figures.period)] {
         let scans::Spread { min, median, p99, max, mean } = spread;
         for (which, value) in [("min", min), ("median", median), ("p99", p99), ("max", max), ("mean", mean)] {

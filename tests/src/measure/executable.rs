@@ -36,8 +36,8 @@ impl fmt::Display for Tier {
     }
 }
 
-/// A program for the slot. Its instructions are numbered as the bytecode has them: with those that the assembler put in,
-/// and with the end of the program.
+/// A program for the slot. Its instructions are numbered as the bytecode has them: with those that the assembler put
+/// in, and with the end of the program.
 pub struct Executable {
     /// How it is executed.
     pub tier: Tier,

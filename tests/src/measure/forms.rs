@@ -1,5 +1,5 @@
-//! Measures a row of the table of instructions: the cycles it takes in many situations, with and without power flow, with
-//! random bits and words and those at the ends of their ranges, with timers and counters in all their states.
+//! Measures a row of the table of instructions: the cycles it takes in many situations, with and without power flow,
+//! with random bits and words and those at the ends of their ranges, with timers and counters in all their states.
 
 use std::collections::BTreeMap;
 

@@ -14,8 +14,8 @@ use crate::bench_board::BenchBoard;
 
 /// End of the interrupt vectors in flash, in bytes.
 const VECTORS_END: u32 = NATIVE_VECTORS as u32;
-/// simavr tells the status register only to the program: an instruction `in r18, SREG` in the room of the bootloader, which
-/// this board has not. The T flag of the status register is S0.
+/// simavr tells the status register only to the program: an instruction `in r18, SREG` in the room of the bootloader,
+/// which this board has not. The T flag of the status register is S0.
 const READ_STATUS: u32 = SLOT_END as u32;
 const READ_STATUS_CODE: [u8; 2] = [0x2F, 0xB7];
 const STATUS: usize = 18;
@@ -94,17 +94,17 @@ pub struct Meter {
 }
 
 impl Meter {
-    /// A board that runs a program, after its first scan.
+    /// A board with a program, after its first scan, in RUN unless the program has a STOP.
     ///
     /// # Panics
-    /// If the firmware is missing or does not run it.
+    /// If the firmware is missing or refuses it.
     pub fn new(executable: Executable) -> Meter {
         let (mut board, probe) = (BenchBoard::new(), Probe::of(executable.tier, &elf()));
         board.insert(&executable.image);
         board.avr.write_flash(READ_STATUS, &READ_STATUS_CODE).unwrap_or_else(|error| panic!("{error}"));
         board.power_up();
         board.scan();
-        assert!(board.runs(), "{:?}", board.fault());
+        assert_eq!(board.fault(), None);
         Meter { board, executable, probe, others: 0 }
     }
 

@@ -1,7 +1,7 @@
 //! The benchmark programs, written by a generator: the same text at every call. What they take is measured elsewhere.
 //!
-//! Every instruction is executed in every scan: word boxes stand behind SM0.0, jumps there are none. A scan that skips
-//! boxes is shorter.
+//! There are no jumps: every instruction is reached in every scan. Word boxes stand behind contacts that the translator
+//! cannot know, by turns with power flow (M30.0) and without (M30.1), as in a machine not all steps are active.
 
 use std::fmt::Write as _;
 
@@ -17,6 +17,11 @@ pub const MIX_WORD_STEPS: usize = 12;
 /// 1,024 instructions, 80 % of them bit instructions and 20 % word instructions.
 pub fn eighty_twenty() -> String {
     Generator::new(8020).program(STEPS, WORD_STEPS)
+}
+
+/// The same with power flow at all boxes: its longest scan.
+pub fn eighty_twenty_all_boxes() -> String {
+    eighty_twenty().replacen(GUARDS, ALL_GUARDS, 1)
 }
 
 /// 1,024 bit instructions.
@@ -50,15 +55,18 @@ const BIT_RUNGS: [&str; 8] = [
     "LDN m\nA i\nNOT\n= q\n",
 ];
 
-/// Rungs with words. `w` stands for a word, `c` for a constant.
-const WORD_RUNGS: [&str; 7] = [
+/// Sets M30.0 in the first scan and leaves M30.1; and sets both.
+const GUARDS: &str = "LD SM0.1\nS M30.0, 1\n";
+const ALL_GUARDS: &str = "LD SM0.1\nS M30.0, 2\n";
+
+/// Rungs with words. `w` stands for a word, `c` for a constant, `g` for the next of the two guards.
+const WORD_RUNGS: [&str; 6] = [
     "LDW>= w, c\nA m\n= m\n",
-    "LD m\nAW< w, w\nAN i\n= q\n",
-    "LD i\nOW= w, c\nAN m\nS m, 1\n",
-    "LDW> w, c\nAW< w, c\nA i\n= m\n",
-    "LD SM0.0\nMOVW w, w\n",
-    "LD SM0.0\n+I c, w\n-I w, w\n",
-    "LD SM0.0\nMOVW c, w\nINCW w\n",
+    "LD m\nAW< w, c\nAN i\n= q\n",
+    "LDW> w, w\nAW< w, c\nA i\n= m\n",
+    "LD g\nMOVW w, w\n",
+    "LD g\n+I c, w\n-I w, w\n",
+    "LD g\nMOVW c, w\nINCW w\n",
 ];
 
 /// What fills up the last places, on the value that is there.
@@ -69,6 +77,7 @@ struct Generator {
     state: u32,
     text: String,
     networks: usize,
+    guards: usize,
     /// Instructions, and word instructions among them, that are still wanted.
     wanted: usize,
     wanted_words: usize,
@@ -76,7 +85,7 @@ struct Generator {
 
 impl Generator {
     fn new(seed: u32) -> Generator {
-        Generator { state: seed, text: String::new(), networks: 0, wanted: 0, wanted_words: 0 }
+        Generator { state: seed, text: String::new(), networks: 0, guards: 0, wanted: 0, wanted_words: 0 }
     }
 
     /// A number below `end`: Marsaglia's xorshift, so that no library decides what the benchmark is.
@@ -89,6 +98,10 @@ impl Generator {
 
     fn program(mut self, steps: usize, word_steps: usize) -> String {
         (self.wanted, self.wanted_words) = (steps, word_steps);
+        if word_steps > 0 {
+            self.text += GUARDS;
+            self.wanted -= count(GUARDS).0;
+        }
         while self.wanted > 0 {
             // Words are spread evenly.
             let is_behind = self.wanted_words * steps >= self.wanted * word_steps;
@@ -124,6 +137,10 @@ impl Generator {
             'i' => format!("I0.{}", self.below(6)),
             'q' => format!("Q0.{}", self.below(6)),
             'm' => format!("M{}.{}", self.below(4), self.below(8)),
+            'g' => {
+                self.guards += 1;
+                format!("M30.{}", self.guards % 2)
+            }
             'w' if self.below(4) == 0 => format!("VW{}", 2 * self.below(8)),
             'w' => format!("MW{}", 4 + 2 * self.below(12)),
             'c' => (self.below(200) as i32 - 100).to_string(),
@@ -160,6 +177,8 @@ mod tests {
         assert_eq!(counted(&eighty_twenty()), (1024, 204));
         assert_eq!(counted(&boolean()), (1024, 0));
         assert_eq!(counted(&mix()), (164, 12));
+        assert_eq!(counted(&eighty_twenty_all_boxes()), (1024, 204));
+        assert_ne!(eighty_twenty_all_boxes(), eighty_twenty());
     }
 
     #[test]

@@ -1,5 +1,5 @@
-//! The table of instructions: every form of every instruction with its operands, the small program it stands in, and what
-//! the S7-200 takes. Nothing is measured here.
+//! The table of instructions: every form of every instruction with its operands, the small program it stands in, and
+//! what the S7-200 takes. Nothing is measured here.
 
 use super::s7_200::{self, Quoted};
 

@@ -24,8 +24,8 @@ const fn fixed(base_us: f64) -> Quoted {
     Quoted { base_us, each_us: 0.0 }
 }
 
-/// A conditional instruction without power flow: "about 1 us" for all of them. Those that are quoted with less take what
-/// they take with power flow.
+/// A conditional instruction without power flow: "about 1 us" for all of them. Those that are quoted with less take
+/// what they take with power flow.
 pub const WITHOUT_POWER_FLOW_US: f64 = 1.0;
 
 /// LD of I and SM0.0.

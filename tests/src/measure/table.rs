@@ -1,16 +1,17 @@
-//! Makes the table of `awl-asm/src/cost/interpreter.rs` by measuring every form of every instruction. Not used by tests,
-//! which hold the table against other programs.
+//! Makes the table of `awl-asm/src/cost/interpreter.rs` by measuring every form of every instruction, and constants
+//! beside. Not used by tests, which hold the table against other programs.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use awl_asm::cost::interpreter::more;
+use awl_asm::native::{Options, translate_with};
 use fastrand::Rng;
 use plc_isa::{Kind, Op, PowerFlow};
 
 use super::forms::situation;
 use super::rows::CHAPTERS;
-use super::{Executable, Execution, Meter, Tier};
+use super::{Executable, Execution, Meter, Step, Tier};
 use crate::random::random_program;
 
 /// Fewest and most cycles.
@@ -27,7 +28,7 @@ struct Ways {
 /// Scans of each program.
 const SCANS: usize = 100;
 /// Random programs beside those of the rows.
-const RANDOM: u64 = 150;
+const RANDOM: u64 = 1_500;
 
 /// The table as source text.
 pub fn table() -> String {
@@ -46,7 +47,29 @@ pub fn table() -> String {
     for seed in 0..RANDOM {
         random(seed, &mut found);
     }
-    text(start, &found)
+    native_constants(&found) + &text(start, &found)
+}
+
+/// What calls between the engine and machine code take: constants of `awl-asm/src/cost/mod.rs`, and of
+/// `awl-asm/src/native/vectors.rs`.
+fn native_constants(found: &BTreeMap<(Op, String), Ways>) -> String {
+    let executable = Executable::new("native", "LD T32\n= Q0.0\nTON T32, 5\n", Tier::Native { pins: false });
+    let translated = translate_with(&executable.bytecode, Options { pins: false });
+    let translated = translated.unwrap_or_else(|error| panic!("{error}"));
+    let end = translated.instructions.last().map_or(0, |end| end.cycles.max);
+    let mut meter = Meter::new(executable);
+    meter.board.stop_clock();
+    let steps = meter.execute().steps;
+    let cycles = |step: Option<&Step>| step.map_or(0, |step| step.cycles);
+    // The first instruction is the hidden one, which the firmware executes for a call with two words.
+    let refresh = found.get(&(Op::Refresh, "[]".to_string())).and_then(|ways| ways.off.or(ways.on));
+    let call = 2 + 4;
+    format!(
+        "pub const NATIVE_START: u32 = {};\npub const NATIVE_END: u32 = {};\nconst BYTECODE: u32 = {};\n",
+        cycles(steps.first()) - u64::from(translated.start.max),
+        cycles(steps.last()) - u64::from(end),
+        cycles(steps.get(1)) - refresh.map_or(0, |(_, most)| most) - call,
+    )
 }
 
 fn random(seed: u64, found: &mut BTreeMap<(Op, String), Ways>) {

@@ -44,7 +44,7 @@ const BUDGETS: [(About, f64, &str); 15] = [
     ((INTERPRETER, WORD, "mix"), budgets::INTERPRETER_WORD_CYCLES_MAX, "cycles"),
     ((INTERPRETER, "cycles", "1024-step 80/20"), budgets::INTERPRETER_STEPS_CYCLES_MAX, "cycles"),
     ((INTERPRETER, "program max", "station1"), budgets::INTERPRETER_STATION_CYCLES_MAX, "cycles"),
-    ((INTERPRETER, "whole scan mean", "station1"), budgets::INTERPRETER_STATION_SCAN_CYCLES_MAX, "cycles"),
+    ((INTERPRETER, "whole scan median", "station1"), budgets::INTERPRETER_STATION_SCAN_CYCLES_MAX, "cycles"),
     ((INTERPRETER, "overhead", "station1"), budgets::SCAN_OVERHEAD_CYCLES_MAX, "cycles"),
     ((INTERPRETER, "bytes an instruction", "station1"), budgets::CODE_BYTES_PER_INSTRUCTION_MAX, "bytes"),
     ((INTERPRETER, "bytes an instruction", "1024-step 80/20"), budgets::CODE_BYTES_PER_INSTRUCTION_MAX, "bytes"),

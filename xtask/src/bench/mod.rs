@@ -1,5 +1,5 @@
-//! `cargo xtask bench`: speed of the board, of the host interpreter and of the assembler, compared with their budgets and
-//! with what was measured before. Writes docs/benchmarks.md.
+//! `cargo xtask bench`: speed of the board, of the host interpreter and of the assembler, compared with their budgets
+//! and with what was measured before. Writes docs/benchmarks.md.
 
 mod board;
 mod budget;

@@ -92,7 +92,7 @@ fn scans_table(page: &mut String, records: &[Record]) {
     page.push('\n');
     line(page, &["", TIERS[0], TIERS[1], TIERS[2]]);
     let _ = writeln!(page, "|---|---|---|---|");
-    for what in ["overhead", "bytes an instruction"] {
+    for what in ["overhead", "overhead mean", "bytes an instruction"] {
         let cells = TIERS.iter().map(|tier| value(records, tier, what, "station1"));
         line(page, &[what.to_string()].into_iter().chain(cells).collect::<Vec<_>>());
     }
@@ -110,7 +110,10 @@ fn others_table(page: &mut String) {
 
 /// Budgets only: what is measured differs from machine to machine, and is printed.
 fn host_table(page: &mut String) {
-    let words = "Measured at every run of `cargo xtask bench` and `cargo xtask test`, which print the figures of the machine they run\non; a budget that is missed fails them.\n";
+    let words = "\
+Measured at every run of `cargo xtask bench` and `cargo xtask test`, which print the figures of the machine they run on;
+a budget that is missed fails them.
+";
     section(page, "Host", words, &["what", "budget"]);
     for (what, budget) in [
         (
@@ -163,8 +166,8 @@ fn exceptions_table(page: &mut String, records: &[Record]) {
     let words = format!("Marked with `!` above ({slower}): slower than what is quoted. Nothing else may be.\n");
     section(page, "Slower than the S7-200", &words, &["instructions", "tier", "what", "why"]);
     for exception in EXCEPTIONS {
-        let mnemonics: Vec<String> = exception.mnemonics.iter().map(|mnemonic| format!("`{mnemonic}`")).collect();
-        line(page, &[&*mnemonics.join(" "), exception.tier, exception.what, exception.reason]);
+        let names: Vec<String> = exception.names.iter().map(|name| format!("`{}`", name.trim())).collect();
+        line(page, &[&*names.join(" "), &*exception.tiers.join(", "), exception.what, exception.reason]);
     }
 }
 
