@@ -22,9 +22,12 @@ pub const EXECUTED: u128 = include!(concat!(env!("OUT_DIR"), "/executed.rs"));
 
 type Execution<'a> = Interpreter<'a, ProgramSlot, ScanTime>;
 
-/// What the assembly knows of the program and the scan.
+/// What is known of the program and the scan. The assembly reads it at these offsets.
 #[repr(C)]
 struct Context {
+    /// Where execution begins in flash: the address of bytecode, the word address of machine code.
+    start: u16,
+    is_native: bool,
     /// Addresses of the plan's tables in flash.
     timers_in_flash: u16,
     counters_in_flash: u16,
@@ -47,6 +50,8 @@ struct Context {
 }
 
 static mut CONTEXT: Context = Context {
+    start: 0,
+    is_native: false,
     timers_in_flash: 0,
     counters_in_flash: 0,
     labels_in_flash: 0,
@@ -115,16 +120,13 @@ unsafe extern "C" {
 /// Executes the program. Returns why it was left, and the offset of the instruction that left it.
 #[inline(always)]
 pub fn run(mut execution: Execution<'_>) -> (Exit, u16) {
-    let (code_at, entry) = (execution.program().code_at(), execution.program().entry());
     enter(&mut execution);
     // SAFETY: the program has been verified; the assembly reads flash, writes to addresses of the plan, and keeps what
     // the calling convention asks for. Machine code is trusted to do the same: its translator made it from a verified
-    // program, and its checksum and interface version are right.
+    // program, and its checksum and interface version are right. Nothing else uses the context.
     let left = unsafe {
-        match entry {
-            Some(entry) => uno200_run_native((SLOT_START + entry) / 2),
-            None => uno200_run(SLOT_START + code_at),
-        }
+        let (start, is_native) = ((*&raw const CONTEXT).start, (*&raw const CONTEXT).is_native);
+        if is_native { uno200_run_native(start) } else { uno200_run(start) }
     };
     // SAFETY: the assembly has returned; nothing else uses the context.
     let at = unsafe { (*&raw const CONTEXT).left_at };
@@ -145,6 +147,9 @@ fn enter(execution: &mut Execution<'_>) {
     unsafe {
         let context = &raw mut CONTEXT;
         if execution.is_first_scan() {
+            let entry = execution.program().entry();
+            (*context).is_native = entry.is_some();
+            (*context).start = entry.map_or(SLOT_START + execution.program().code_at(), |entry| (SLOT_START + entry) / 2);
             (*context).timers_in_flash = SLOT_START + plan.timers_at;
             (*context).counters_in_flash = SLOT_START + plan.counters_at;
             (*context).labels_in_flash = SLOT_START + plan.labels_at;
