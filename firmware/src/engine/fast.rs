@@ -149,7 +149,8 @@ fn enter(execution: &mut Execution<'_>) {
         if execution.is_first_scan() {
             let entry = execution.program().entry();
             (*context).is_native = entry.is_some();
-            (*context).start = entry.map_or(SLOT_START + execution.program().code_at(), |entry| (SLOT_START + entry) / 2);
+            (*context).start =
+                entry.map_or(SLOT_START + execution.program().code_at(), |entry| (SLOT_START + entry) / 2);
             (*context).timers_in_flash = SLOT_START + plan.timers_at;
             (*context).counters_in_flash = SLOT_START + plan.counters_at;
             (*context).labels_in_flash = SLOT_START + plan.labels_at;
