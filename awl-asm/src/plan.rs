@@ -246,8 +246,10 @@ impl Places {
                 address += 1;
             }
         }
-        let timers = plan.timers().zip(0..).map(|(slot, index)| (slot.number, (index, slot.address))).collect();
-        let counters = plan.counters().zip(0..).map(|(slot, index)| (slot.number, (index, slot.address))).collect();
+        // All 256 can be used.
+        let (timers, counters) = ((0..=u8::MAX).zip(plan.timers()), (0..=u8::MAX).zip(plan.counters()));
+        let timers = timers.map(|(index, slot)| (slot.number, (index, slot.address))).collect();
+        let counters = counters.map(|(index, slot)| (slot.number, (index, slot.address))).collect();
         Places { v, timers, counters }
     }
 

@@ -12,7 +12,7 @@ pub struct ScanTime {
     scan_start_ms: u16,
     watchdog_start_ms: u16,
     watchdog_ms: u16,
-    /// Instructions executed, to feed the hardware watchdog now and then.
+    /// Instructions executed, to feed the hardware watchdog now and then. The fast engine does that in its own way.
     executed: u8,
 }
 

@@ -136,6 +136,23 @@ fn a_program_without_loops_can_be_too_slow_too() {
     assert!(!board.runs() && board.is_released());
 }
 
+/// Longer than the hardware watchdog waits, and not a jump in it.
+#[test]
+fn a_program_without_loops_may_take_long_when_it_says_so() {
+    let uses: String = (0..200).map(|number| format!("MOVW 0, C{number}\n")).collect();
+    let slow = format!("//# watchdog 2s\n{ALL_ON}LD SM0.1\n{uses}LD I0.0\n{}", "R C0, 255\n".repeat(1_900));
+    let mut board = BenchBoard::new();
+    board.insert(&image(&slow));
+    board.power_up();
+    board.drive_inputs(1);
+    for _ in 0..3 {
+        let start = board.avr.cycles();
+        board.scan_within(2_000 * MS);
+        assert!(board.avr.cycles() - start > 600 * MS, "the program is not slow");
+        assert!(board.runs(), "{:?}", board.fault());
+    }
+}
+
 #[test]
 fn a_division_by_zero_is_told_and_the_program_goes_on() {
     let program = "LD SM0.0\nMOVW 7, MW0\n/I MW2, MW0\n= Q0.1\nLD SM1.3\n= Q0.0\nLD SM0.0\nINCW MW4\n";

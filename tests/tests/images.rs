@@ -155,3 +155,13 @@ fn faults_of_the_code() {
     assert_eq!(fault_with(next_at + 1, &start.to_le_bytes()), Some(ImageFault::Loop), "NEXT of no FOR");
     assert_eq!(fault_with(next_at, &[0x63, 0, 0x60]), Some(ImageFault::Loop), "FOR without NEXT");
 }
+
+/// The last number is not one too many.
+#[test]
+fn all_counters_can_be_used_in_one_program() {
+    let text: String = (0..=255).map(|number| format!("LD SM0.0\nMOVW {number}, C{number}\n")).collect();
+    let image = tests::image::image(&text);
+    let program = plc_isa::verify(image.as_slice()).unwrap();
+    assert_eq!(program.plan().counters().count(), 256);
+    assert_eq!(program.plan().counter_slot(255).map(|slot| slot.number), Some(255));
+}

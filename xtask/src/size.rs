@@ -4,6 +4,7 @@
 //! paints the free SRAM, runs every program there is, and looks how much paint is left.
 
 use std::fs;
+use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
 use object::{Object, ObjectSection, ObjectSymbol};
@@ -21,6 +22,13 @@ pub fn run() -> Result<()> {
     stack.args(["test", "--quiet", "--package", "tests", "--test", "stack"]).args(WITH_BOARD);
     run_command(stack.args(["--", "--nocapture"]))?;
     result
+}
+
+/// Whether an ELF has a symbol of this name.
+pub fn has_symbol(path: &Path, name: &str) -> Result<bool> {
+    let bytes = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
+    let elf = object::File::parse(&*bytes).context("the firmware is no ELF")?;
+    Ok(elf.symbols().any(|symbol| symbol.name() == Ok(name)))
 }
 
 /// What the ELF alone tells. The stack has its test.

@@ -3,7 +3,7 @@
 use std::process::Command;
 use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 
 use crate::process::{self, cargo};
 use crate::{bench, docs, firmware, packages, rules, size};
@@ -65,6 +65,7 @@ pub fn run(host_only: bool) -> Result<()> {
 /// That plc-vm alone is a whole firmware: a mistake of the engine can then be told from one of the meaning.
 fn plain_firmware() -> Result<()> {
     let elf = firmware::build_plain()?;
+    ensure!(!size::has_symbol(&elf, "uno200_vectors")?, "the engine is in the firmware without its engine");
     let mut lockstep = cargo();
     lockstep.args(["test", "--quiet", "--package", "tests", "--test", "lockstep"]).args(WITH_BOARD);
     process::run(lockstep.env("UNO200_FIRMWARE", elf).env("RANDOM_PROGRAMS", "60"))

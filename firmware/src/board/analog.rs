@@ -72,6 +72,8 @@ pub fn set_filter(filter: u8) {
         for (sum, value) in SUMS.iter().zip(&UNO200_ANALOG) {
             sum.borrow(cs).set(value.borrow(cs).get() << filter);
         }
+        // A program that begins finds all values there.
+        UNO200_ANALOG_FRESH.borrow(cs).set(ALL_CHANNELS);
     });
 }
 

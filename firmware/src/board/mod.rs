@@ -1,4 +1,4 @@
-//! The Uno's hardware: the only module with `unsafe`. It knows pins and registers, nothing of programs.
+//! The Uno's hardware. It knows pins and registers, nothing of programs.
 #![allow(unsafe_code)]
 
 pub mod analog;

@@ -18,7 +18,8 @@ const SHORTEST: u8 = 0;
 /// WDCE and WDE: unlocks the register for four cycles.
 const UNLOCK: u8 = 1 << 4 | 1 << 3;
 
-static LAST_MS: Mutex<Cell<u8>> = Mutex::new(Cell::new(0));
+/// More than a byte: a scan of just 256 ms must not look like a clock that stands still.
+static LAST_MS: Mutex<Cell<u16>> = Mutex::new(Cell::new(0));
 
 fn set(value: u8) {
     interrupt::free(|_| {
@@ -47,7 +48,7 @@ pub fn start() {
 /// The firmware is alive, at this time. A clock that stands still does not count as life.
 #[inline]
 pub fn feed(now_ms: u32) {
-    let now = now_ms as u8;
+    let now = now_ms as u16;
     let has_moved = interrupt::free(|cs| LAST_MS.borrow(cs).replace(now) != now);
     if has_moved {
         avr_device::asm::wdr();

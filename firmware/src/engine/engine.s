@@ -14,8 +14,8 @@
 
 ; ---- dispatch
 
-; Flash can change under a running program until the self-test has seen it: no operand may lead outside. What is read
-; stays in SRAM, what is written stays in data memory.
+; Flash can change under a running program until the self-test has seen it: no operand may lead far. What is read stays
+; below 0x0800, what is written in data memory and the four bytes behind it, which the linker keeps free.
 .macro READABLE high
     andi \high, 0x07
 .endm
@@ -28,6 +28,34 @@
     brsh \bad
 .endm
 
+; Flags of r24 and r25 minus r22 and r23, or the other way round.
+.macro COMPARE order
+.ifc \order, swapped
+    cp r22, r24
+    cpc r23, r25
+.else
+    cp r24, r22
+    cpc r25, r23
+.endif
+.endm
+
+; The same for the word at r26 with the next byte, and the word whose address stands behind it. Z at what follows.
+.macro COMPARE_WORDS order
+    movw r30, r28
+    lpm r27, Z+
+    lpm r20, Z+
+    lpm r21, Z+
+    READABLE r27
+    ld r25, X+
+    ld r24, X
+    movw r26, r20
+    READABLE r27
+    ld r23, X+
+    ld r22, X
+    ldi r27, 1
+    COMPARE \order
+.endm
+
 ; Flags of the word at r26 with the next byte minus the constant behind it, or the other way round. Z at what follows.
 .macro COMPARE_CONSTANT order
     movw r30, r28
@@ -38,13 +66,7 @@
     ld r25, X+
     ld r24, X
     ldi r27, 1
-.ifc \order, swapped
-    cp r22, r24
-    cpc r23, r25
-.else
-    cp r24, r22
-    cpc r25, r23
-.endif
+    COMPARE \order
 .endm
 
 ; IN1 of a box in r22 and r23, the value of OUT in r24 and r25, X at the low byte of OUT, Z at what follows.
@@ -205,7 +227,8 @@ run_native:
 ; An operand leads outside.
 outside:
     ldi r24, LEFT_BY_UNDEFINED
-; Leaves the program from any level with the reason in r24. Y tells the place.
+; Leaves the program from any level with the reason in r24. Y tells the place: two bytes behind the start of the
+; instruction, or a little more.
 leave:
     sts CONTEXT + LEFT_AT, r28
     sts CONTEXT + LEFT_AT + 1, r29
@@ -428,8 +451,6 @@ rest:
     rjmp next_x
 1:  ldi r24, LEFT_BY_UNDEFINED
     rjmp leave
-
-; ---- bits
 
 ; ---- timers
 
@@ -711,37 +732,11 @@ remember_edge:
 
 ; Flags of the word at r26 with the next bytes minus another. Z at what follows.
 compare_words_straight:
-    movw r30, r28
-    lpm r27, Z+
-    lpm r20, Z+
-    lpm r21, Z+
-    READABLE r27
-    ld r25, X+
-    ld r24, X
-    movw r26, r20
-    READABLE r27
-    ld r23, X+
-    ld r22, X
-    ldi r27, 1
-    cp r24, r22
-    cpc r25, r23
+    COMPARE_WORDS straight
     ret
 
 compare_words_swapped:
-    movw r30, r28
-    lpm r27, Z+
-    lpm r20, Z+
-    lpm r21, Z+
-    READABLE r27
-    ld r25, X+
-    ld r24, X
-    movw r26, r20
-    READABLE r27
-    ld r23, X+
-    ld r22, X
-    ldi r27, 1
-    cp r22, r24
-    cpc r23, r25
+    COMPARE_WORDS swapped
     ret
 
 compare_constant_straight:
@@ -989,7 +984,7 @@ reset_numbers:
     lds r25, CONTEXT + COUNTERS + 1
     ; Each slot: of a timer its kind stands behind its number, and its state behind value and preset.
 3:  sbiw r24, 1
-    brcs 6f
+    brcs 4f
     lpm r19, Z+
     sbrs r20, 0
     adiw r30, 1
@@ -1005,6 +1000,10 @@ reset_numbers:
 5:  add r26, r21
     adc r27, r1
     rjmp 3b
+    ; Many of these take longer than the hardware watchdog waits.
+4:  bld r17, 0
+    call loop_vector
+    bst r17, 0
 6:  jmp next_x
 
 word_box:

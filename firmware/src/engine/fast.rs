@@ -10,8 +10,8 @@ use core::ptr;
 use plc_isa::{Execute, Flow, SLOT_START};
 use plc_vm::{Environment, Exit, Interpreter};
 
-use crate::board::clock;
 use crate::board::flash::ProgramSlot;
+use crate::board::{clock, watchdog};
 use crate::environment::ScanTime;
 
 /// The firmware's interface to native programs.
@@ -165,17 +165,19 @@ fn enter(execution: &mut Execution<'_>) {
     }
 }
 
-/// The execution that the assembly is in.
+/// Does something with the execution that the assembly is in. Only for what the assembly calls.
 #[inline(always)]
-fn execution<'a>() -> &'a mut Execution<'a> {
-    // SAFETY: called from within the assembly, which `run` has called with this execution.
-    unsafe { &mut *EXECUTION.cast() }
+fn with_execution<T>(act: impl FnOnce(&mut Execution<'_>) -> T) -> T {
+    // SAFETY: the assembly has called, which `run` has called with this execution and which waits; `run` does not touch
+    // it before the assembly returns, and none of the callers calls another.
+    unsafe { act(&mut *EXECUTION) }
 }
 
-/// Executes the instruction at this address of flash. Returns the address of the next one, 0 when the program is left.
+/// Executes the instruction at this address of flash, which may take long. Returns the address of the next one, 0 when the program is left.
 #[unsafe(no_mangle)]
 extern "C" fn uno200_execute_rest(address: u16, top: u8) -> u16 {
-    match execution().execute_one(address.wrapping_sub(SLOT_START), top != 0) {
+    watchdog::feed(clock::now_ms());
+    match with_execution(|execution| execution.execute_one(address.wrapping_sub(SLOT_START), top != 0)) {
         Flow::Jump(next) => SLOT_START + next,
         Flow::Next | Flow::Leave => 0,
     }
@@ -184,7 +186,7 @@ extern "C" fn uno200_execute_rest(address: u16, top: u8) -> u16 {
 /// Brings the timers of 1 ms up to date.
 #[unsafe(no_mangle)]
 extern "C" fn uno200_refresh_timers() {
-    execution().refresh_timers();
+    with_execution(|execution| execution.refresh_timers());
 }
 
 /// Whether the scan takes longer than it may; not 0 if so. Asked again only when the clock has moved.
@@ -192,11 +194,11 @@ extern "C" fn uno200_refresh_timers() {
 extern "C" fn uno200_is_overdue() -> u8 {
     // SAFETY: as in `enter`: the assembly has called and waits.
     unsafe { (*&raw mut CONTEXT).tick = clock::now_ms() as u8 };
-    u8::from(execution().environment().is_overdue(0))
+    with_execution(|execution| u8::from(execution.environment().is_overdue(0)))
 }
 
 /// WDR.
 #[unsafe(no_mangle)]
 extern "C" fn uno200_retrigger_watchdog() {
-    execution().environment().retrigger_watchdog();
+    with_execution(|execution| execution.environment().retrigger_watchdog());
 }

@@ -2,11 +2,12 @@
 ;
 ; A block begins with % and the form as the instruction table writes it: instruction, kinds of its operands. The build
 ; script enters it for the tokens of that form; {n} becomes the token's distance from the form's first one (bit or
-; relation). What has no block is executed by plc-vm. Subroutines stand in engine.s.
+; relation), {token} that first one; {order}, {branch} and {inverse} follow from the relation. What has no block is executed by plc-vm. Subroutines stand in engine.s.
 ;
 ; At the start of a block: r2 token, X the address of the operand byte in the bit page, Y the address in flash behind
-; token and operand byte, T the top of the logic stack, r16 the levels below, S1 in bit 0. To keep: Y, r3, r16, r27 = 1
-; (NEXT_X restores it), r1 = 0. Free: r0, r2, r17 to r26, r30, r31.
+; token and operand byte, T the top of the logic stack, r16 the levels below, S1 in bit 0. To keep: Y (or behind more
+; of the instruction), r3, r16, r27 = 1
+; (next_x restores it), r1 = 0. Free: r0, r2, r17 to r26, r30, r31.
 
 ; ---- contacts
 

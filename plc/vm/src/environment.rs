@@ -23,7 +23,7 @@ pub trait Environment {
     /// WDR: the watchdog time of this scan starts again.
     fn retrigger_watchdog(&mut self);
 
-    /// Called after every instruction with its offset and the stack it left. For monitors and tests.
+    /// Called by the interpreter's own loop after every instruction, with its offset and the stack it left. For monitors and tests.
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
     fn executed(&mut self, at: u16, stack: LogicStack) {
         let _ = (at, stack);

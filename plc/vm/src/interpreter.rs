@@ -138,7 +138,7 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
     }
 
     fn timer(&mut self, slot: u8, pt: WordSource) -> Flow {
-        let slot = self.plan().timer(slot);
+        let (slot, preset) = (self.plan().timer(slot), self.memory.int_of(pt));
         let ticks = match timer_resolution(slot.number) {
             TimerResolution::Ms1 => {
                 self.refresh();
@@ -147,7 +147,6 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
             TimerResolution::Ms10 => 0,
             TimerResolution::Ms100 => self.clock.ticks_100,
         };
-        let preset = self.memory.int_of(pt);
         Timer { memory: self.memory, slot }.execute(self.stack.top(), preset, ticks);
         Flow::Next
     }
