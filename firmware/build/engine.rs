@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 
 use plc_isa::{
     C_BITS_START, COUNTER_SLOT_LEN, DATA_END, DATA_START, Form, INSTRUCTIONS, Instruction, Kind, NATIVE_VECTORS,
-    Relation, SLOT_START, T_BITS_START, TIMER_SLOT_LEN, WIDE_PREFIX,
+    Relation, SLOT_START, SM_START, T_BITS_START, TIMER_SLOT_LEN, WIDE_PREFIX,
 };
 
 /// Where the jump table lies in flash: `ijmp` takes the token as the low byte of a word address.
@@ -118,7 +118,7 @@ pub fn generate(engine: &str, handlers: &str) -> Engine {
     let table: Vec<String> = entries.iter().map(|entry| format!("    rjmp {entry}\n")).collect();
     let constants = format!(
         ".equ NATIVE_VECTORS, {NATIVE_VECTORS}\n.equ TABLE_START, {TABLE_START}\n.equ SLOT_START, {SLOT_START}\n\
-         .equ DATA_START, {DATA_START}\n.equ DATA_END, {DATA_END}\n\
+         .equ DATA_START, {DATA_START}\n.equ DATA_END, {DATA_END}\n.equ SM_START, {SM_START}\n\
          .equ T_BITS_START, {T_BITS_START}\n.equ C_BITS_START, {C_BITS_START}\n.equ WIDE_COMPARISONS, {wide}\n\
          .equ TIMER_SLOT_LEN, {TIMER_SLOT_LEN}\n.equ COUNTER_SLOT_LEN, {COUNTER_SLOT_LEN}\n"
     );

@@ -8,9 +8,10 @@
 .equ STACK_HIGH, 0x3E
 ; The bit of SREG that says "less" after a comparison of signed numbers.
 .equ SIGN, 4
-.equ SYSTEM_BITS, 0x0140
+; SMB0 with the first scan, and SMB1 with what a result is like.
+.equ SYSTEM_BITS, SM_START
 .equ FIRST_SCAN, 1
-.equ RESULT_BITS, 0x0141
+.equ RESULT_BITS, SM_START + 1
 
 ; ---- dispatch
 
@@ -217,8 +218,8 @@ uno200_run_native_end:
 
 run_native:
     ENTER
-    ldi r28, 0x00
-    ldi r29, 0x01
+    ldi r28, lo8(DATA_START)
+    ldi r29, hi8(DATA_START)
     movw r30, r24
     clt
     icall
