@@ -92,6 +92,9 @@ fn changes(known: &[Record], records: &[Record]) -> Vec<Change> {
             changes.push(Change { text: format!("{}: not measured any more", old.title()), kind: Kind::Gone });
             continue;
         };
+        if old.is_by_chance() {
+            continue;
+        }
         let kind = match new.max {
             max if max > old.max * (1.0 + TOLERANCE) => Kind::Worse,
             max if max < old.max * (1.0 - TOLERANCE) => Kind::Better,
@@ -135,6 +138,14 @@ mod tests {
 
     fn records(lines: &[&str]) -> Vec<Record> {
         parse_all(&format!("{}\n{}", super::super::record::HEAD, lines.join("\n"))).unwrap()
+    }
+
+    #[test]
+    fn the_longest_scans_are_a_matter_of_chance() {
+        let of = |max: u32| records(&[&format!("scan,native,whole scan max,{max},{max},,\"station1\"")]);
+        assert!(changes(&of(1000), &of(2000)).is_empty());
+        let of = |max: u32| records(&[&format!("scan,native,whole scan median,{max},{max},,\"station1\"")]);
+        assert_eq!(changes(&of(1000), &of(2000)).len(), 1);
     }
 
     #[test]
