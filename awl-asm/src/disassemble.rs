@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use plc_isa::{
     AnalogInput, Area, Bit, DEFAULT_WATCHDOG_MS, Decoded, Group, ImageError, Kind, Op, Operand, Program, ProgramMemory,
-    Region, Retained, STACK_LEVELS, decode, verify,
+    Region, Retained, STACK_LEVELS, verify,
 };
 
 use crate::address::Address;
@@ -41,17 +41,8 @@ pub fn disassemble(image: &[u8]) -> Result<String, ImageError> {
 
 /// The instructions of a program, hidden ones included.
 pub fn instructions<P: ProgramMemory>(program: &Program<P>) -> Vec<TextLine> {
-    let mut lines = Vec::new();
-    let mut at = program.code_at();
-    // A verified image decodes to its end.
-    while let Ok(decoded) = decode(program.memory(), at) {
-        lines.push(TextLine { at, decoded, text: instruction_text(program, &decoded) });
-        at += decoded.len;
-        if decoded.op == Op::MainEnd {
-            break;
-        }
-    }
-    lines
+    let line = |(at, decoded)| TextLine { at, decoded, text: instruction_text(program, &decoded) };
+    program.instructions().map(line).collect()
 }
 
 /// One instruction as AWL.

@@ -61,18 +61,24 @@ pub fn encode(
     }
     encoder.finish(labels_at);
 
-    let Encoder { mut image, lines, .. } = encoder;
-    header.code_len = (image.len() - code_at) as u16;
+    let Encoder { image, lines, .. } = encoder;
     let total_len = image.len() + usize::from(CRC_LEN);
     if total_len > usize::from(SLOT_LEN) {
         diagnostics.push(too_large(program, code, &lines, total_len, code_at, demand));
         return Encoding { image: Vec::new(), lines };
     }
-    header.total_len = total_len as u16;
+    Encoding { image: seal(header, image, code_at), lines }
+}
+
+/// Completes an image that has everything else: the lengths in the header, and the checksum behind the code.
+pub fn seal(mut header: Header, mut image: Vec<u8>, code_at: usize) -> Vec<u8> {
+    header.code_len = (image.len() - code_at) as u16;
+    header.total_len = (image.len() + usize::from(CRC_LEN)) as u16;
     let head = header.to_bytes();
     image[..head.len()].copy_from_slice(&head);
-    image.extend_from_slice(&Crc32::of(&image).to_le_bytes());
-    Encoding { image, lines }
+    let crc = Crc32::of(&image);
+    image.extend_from_slice(&crc.to_le_bytes());
+    image
 }
 
 /// The name as the image can hold it: printable ASCII, short.

@@ -1,7 +1,7 @@
 //! Puts the fast engine's assembly together: the jump table follows from the instruction table and from which forms
 //! have a handler. What the handlers do stands in `src/engine`.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use plc_isa::{
@@ -20,12 +20,6 @@ fn name(instruction: &Instruction, form: &Form) -> String {
         let _ = write!(name, " {kind:?}");
     }
     name
-}
-
-/// All forms by name.
-fn forms() -> BTreeMap<String, (&'static Instruction, &'static Form)> {
-    let of = |instruction: &'static Instruction| instruction.forms.iter().map(move |form| (instruction, form));
-    INSTRUCTIONS.iter().flat_map(of).map(|(instruction, form)| (name(instruction, form), (instruction, form))).collect()
 }
 
 /// Handlers with one text: the forms they are for, and the text.
@@ -66,6 +60,80 @@ fn expanded(text: &str, token: u8, distance: u8) -> String {
         .replace("{inverse}", inverse)
 }
 
+/// The jump table while it is filled.
+struct Table {
+    /// All forms by name.
+    forms: BTreeMap<String, (&'static Instruction, &'static Form)>,
+    /// Names of those that have a handler.
+    handled: BTreeSet<String>,
+    /// Where each token leads.
+    entries: Vec<String>,
+    /// Tokens behind the prefix that have a handler: the first so many.
+    wide: u8,
+}
+
+impl Table {
+    fn new() -> Table {
+        let of = |instruction: &'static Instruction| instruction.forms.iter().map(move |form| (instruction, form));
+        let named = |(instruction, form)| (name(instruction, form), (instruction, form));
+        Table {
+            forms: INSTRUCTIONS.iter().flat_map(of).map(named).collect(),
+            handled: BTreeSet::new(),
+            entries: vec!["rest".to_string(); 256],
+            wide: 0,
+        }
+    }
+
+    /// Enters the tokens of a block's forms. Returns its text with labels: once for all, or once for each token when it
+    /// depends on that.
+    fn enter(&mut self, block: &Block) -> String {
+        let forms: Vec<_> = block.forms.iter().map(|name| self.take(name)).collect();
+        let depends = ["{n}", "{order}", "{branch}", "{inverse}"].iter().any(|place| block.text.contains(place));
+        let mut text = String::new();
+        let mut write = |(instruction, form): (&Instruction, &Form), token: u8| {
+            let label = label(instruction, form, token);
+            let own = expanded(&block.text, form.first_token, token - form.first_token);
+            text += &format!("{label}:\n{own}");
+            label
+        };
+        let shared = forms.first().filter(|_| !depends).map(|&form| write(form, form.1.first_token));
+        for &(instruction, form) in &forms {
+            for token in form.first_token..=form.last_token {
+                let label = shared.clone().unwrap_or_else(|| write((instruction, form), token));
+                self.lead(form, token, label);
+            }
+        }
+        text
+    }
+
+    /// The form of this name, which gets its only handler.
+    fn take(&mut self, name: &str) -> (&'static Instruction, &'static Form) {
+        let form = *self.forms.get(name).unwrap_or_else(|| panic!("no such form: {name}"));
+        assert!(self.handled.insert(name.to_string()), "two handlers for {name}");
+        form
+    }
+
+    fn lead(&mut self, form: &Form, token: u8, label: String) {
+        if form.wide {
+            assert!(token == self.wide, "tokens behind the prefix have handlers in order, from the first on");
+            self.wide += 1;
+        }
+        self.entries[usize::from(if form.wide { WIDE_PREFIX } else { token })] = label;
+    }
+
+    /// The instructions of which all forms have handlers.
+    fn executed(&self) -> u128 {
+        let is_handled = |instruction: &&Instruction| {
+            instruction.forms.iter().all(|form| self.handled.contains(&name(instruction, form)))
+        };
+        INSTRUCTIONS.iter().filter(is_handled).fold(0, |set, instruction| set | 1 << instruction.op as u32)
+    }
+}
+
+fn label(instruction: &Instruction, form: &Form, token: u8) -> String {
+    format!("{:?}_{}{token:02X}", instruction.op, if form.wide { "FE" } else { "" })
+}
+
 /// The engine: its assembly text, and the instructions it executes in all their forms, a bit each in the order of the
 /// table.
 pub struct Engine {
@@ -76,54 +144,20 @@ pub struct Engine {
 /// Joins the two sources.
 ///
 /// # Panics
-/// When a handler is for no form of the instruction table: the build ends.
+/// When a handler is for no form of the instruction table, or a form has two: the build ends.
 pub fn generate(engine: &str, handlers: &str) -> Engine {
-    let forms = forms();
-    let mut entries: Vec<String> = (0..256).map(|_| "rest".to_string()).collect();
-    let mut wide = 0;
-    let mut text = String::new();
-    let mut handled = Vec::new();
-    for block in blocks(handlers) {
-        let depends = ["{n}", "{order}", "{branch}", "{inverse}"].iter().any(|place| block.text.contains(place));
-        for (index, form_name) in block.forms.iter().enumerate() {
-            let (instruction, form) = forms.get(form_name).unwrap_or_else(|| panic!("no such form: {form_name}"));
-            handled.push(form_name.clone());
-            if form.wide {
-                wide += form.last_token - form.first_token + 1;
-                entries[usize::from(WIDE_PREFIX)] = "wide".to_string();
-                continue;
-            }
-            for token in form.first_token..=form.last_token {
-                let distance = if depends { token - form.first_token } else { 0 };
-                let label = format!("{:?}_{:02X}", instruction.op, form.first_token + distance);
-                // One text for the whole block, or one for each token.
-                if depends || (index == 0 && token == form.first_token) {
-                    let _ = write!(text, "{label}:\n{}", expanded(&block.text, form.first_token, distance));
-                }
-                let shared = forms.get(&block.forms[0]).map(|(first, form)| (first.op, form.first_token));
-                entries[usize::from(token)] = match shared {
-                    Some((op, first)) if !depends => format!("{op:?}_{first:02X}"),
-                    _ => label,
-                };
-            }
-        }
-        if block.forms.iter().all(|form| form.starts_with("wide ")) {
-            let _ = write!(text, "wide:\n{}", block.text);
-        }
-    }
-    let executed = INSTRUCTIONS
-        .iter()
-        .filter(|instruction| instruction.forms.iter().all(|form| handled.contains(&name(instruction, form))))
-        .fold(0, |set, instruction| set | 1 << instruction.op as u32);
-    let table: Vec<String> = entries.iter().map(|entry| format!("    rjmp {entry}\n")).collect();
+    let mut table = Table::new();
+    let text: String = blocks(handlers).iter().map(|block| table.enter(block)).collect();
+    let entries: String = table.entries.iter().map(|entry| format!("    rjmp {entry}\n")).collect();
+    let wide = table.wide;
     let constants = format!(
         ".equ NATIVE_VECTORS, {NATIVE_VECTORS}\n.equ TABLE_START, {TABLE_START}\n.equ SLOT_START, {SLOT_START}\n\
          .equ DATA_START, {DATA_START}\n.equ DATA_END, {DATA_END}\n.equ SM_START, {SM_START}\n\
          .equ T_BITS_START, {T_BITS_START}\n.equ C_BITS_START, {C_BITS_START}\n.equ WIDE_COMPARISONS, {wide}\n\
          .equ TIMER_SLOT_LEN, {TIMER_SLOT_LEN}\n.equ COUNTER_SLOT_LEN, {COUNTER_SLOT_LEN}\n"
     );
-    let text = engine.replace("    ENTRIES\n", &table.concat()).replace("    HANDLERS\n", &text);
-    Engine { text: constants + &text, executed }
+    let text = engine.replace("    ENTRIES\n", &entries).replace("    HANDLERS\n", &text);
+    Engine { text: constants + &text, executed: table.executed() }
 }
 
 /// Kinds that the handlers decode themselves must keep their lengths.

@@ -104,14 +104,15 @@ fn open_image(name: String, image: Vec<u8>, symbols: Vec<ast::Symbol>, shown: Sh
     if shown.has_errors {
         return Err(ProgramErrors(shown.text).into());
     }
-    let fault = verify(image.as_slice()).err().map(|error| error.fault);
-    if fault == Some(ImageFault::Interface) {
-        bail!(
+    let lines = match verify(image.as_slice()) {
+        Ok(program) => instructions(&program),
+        Err(error) if error.fault == ImageFault::Interface => bail!(
             "{name} is machine code for the board; awl-sim takes AWL text or bytecode: --on uno-native translates it"
-        );
-    }
+        ),
+        // What is wrong with the image is for the machine to say.
+        Err(_) => Vec::new(),
+    };
     let assembly = assemble(&Source::new(name, disassemble(&image).unwrap_or_default())?, symbols);
-    let lines = verify(image.as_slice()).map(|program| instructions(&program)).unwrap_or_default();
     let place_of = move |at: u16| {
         let line = lines.iter().find(|line| (line.at..line.at + line.decoded.len).contains(&at));
         line.map_or_else(String::new, |line| format!("`{}` (offset {at:#06x})", line.text))

@@ -1,6 +1,8 @@
 //! The forms of the instruction table as they stand in an image: to count them, and to exchange them.
 
-use plc_isa::{CRC_LEN, Crc32, Form, Header, INSTRUCTIONS, Instruction, Kind, Op, WIDE_PREFIX, decode};
+use plc_isa::{Form, Header, INSTRUCTIONS, Instruction, Kind, Op, WIDE_PREFIX, decode};
+
+use crate::image::signed;
 
 /// An instruction in one of its forms.
 #[derive(Clone, Copy)]
@@ -100,8 +102,5 @@ pub fn with_tokens(image: &[u8], exchange: impl Fn(&Row, u8) -> Option<u8>) -> O
     if changed == image {
         return None;
     }
-    let end = changed.len() - usize::from(CRC_LEN);
-    let crc = Crc32::of(&changed[..end]);
-    changed[end..].copy_from_slice(&crc.to_le_bytes());
-    Some(changed)
+    Some(signed(changed))
 }

@@ -58,11 +58,16 @@ pub fn example(name: &str) -> Vec<u8> {
     image(&example_text(name))
 }
 
-/// An image whose checksum is right again.
+/// Makes the checksum right again, so that the rest is looked at. What is shorter than a checksum stays as it is.
+pub fn sign(image: &mut [u8]) {
+    let Some(end) = <[u8]>::len(image).checked_sub(usize::from(CRC_LEN)) else { return };
+    let crc = Crc32::of(&image[..end]);
+    image[end..].copy_from_slice(&crc.to_le_bytes());
+}
+
+/// The same for an image that is handed on.
 pub fn signed(mut image: Vec<u8>) -> Vec<u8> {
-    let end = image.len() - usize::from(CRC_LEN);
-    let crc = Crc32::of(&image[..end]).to_le_bytes();
-    image[end..].copy_from_slice(&crc);
+    sign(&mut image);
     image
 }
 

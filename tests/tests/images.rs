@@ -1,8 +1,7 @@
 //! The loader's check: for every fault an image that has it, right in all else, and the fault is named.
 
-use awl_asm::assemble::assemble;
-use awl_asm::source::Source;
-use plc_isa::{CRC_LEN, Crc32, HEADER_LEN, Header, ImageFault, verify};
+use plc_isa::{HEADER_LEN, Header, ImageFault, verify};
+use tests::image::sign;
 
 /// A program that has something in every table.
 const PROGRAM: &str = "\
@@ -43,16 +42,9 @@ LD     M0.0
 ";
 
 fn image() -> (Vec<u8>, Header) {
-    let assembly = assemble(&Source::new("images", PROGRAM).unwrap(), Vec::new());
-    let image = assembly.image.unwrap_or_else(|| panic!("{:?}", assembly.diagnostics));
+    let image = tests::image::image(PROGRAM);
     let header = Header::read(&image).unwrap();
     (image, header)
-}
-
-fn sign(image: &mut [u8]) {
-    let end = image.len() - usize::from(CRC_LEN);
-    let crc = Crc32::of(&image[..end]);
-    image[end..].copy_from_slice(&crc.to_le_bytes());
 }
 
 /// What the check says about an image with these bytes at this offset.

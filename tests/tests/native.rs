@@ -17,6 +17,7 @@ use plc_isa::{
 use plc_vm::{Environment, Exit, Fault, Inputs, Interpreter, Memory, Mode, Plc};
 use simavr::{Avr, Elf, Reset, Stopped};
 use tests::effort::effort;
+use tests::image::OnBoard;
 use tests::measure::programs;
 use tests::naive;
 use tests::random::{random_inputs, random_program, random_step_ms};
@@ -40,19 +41,6 @@ impl Environment for Time {
         self.looped > LOOPED_MAX
     }
     fn retrigger_watchdog(&mut self) {}
-}
-
-/// A native image is for the board; here it is looked at.
-struct Native<'a>(&'a [u8]);
-
-impl ProgramMemory for Native<'_> {
-    const NATIVE_INTERFACE: u8 = plc_isa::NATIVE_INTERFACE;
-    fn len(&self) -> u16 {
-        self.0.len() as u16
-    }
-    fn byte(&self, offset: u16) -> u8 {
-        self.0.byte(offset)
-    }
 }
 
 const ALWAYS_ON: Bit = Bit { address: SM_START, bit: 0 };
@@ -234,7 +222,7 @@ struct Pair<'a> {
 
 impl<'a> Pair<'a> {
     fn new(board: &'a mut Board, image: &'a [u8], translated: &Translated) -> Pair<'a> {
-        let native_image = Native(&translated.image);
+        let native_image = OnBoard(&translated.image);
         let program = verify(native_image).unwrap_or_else(|error| panic!("{error:?}"));
         board.load(&translated.image);
         let plc = || {

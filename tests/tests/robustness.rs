@@ -10,9 +10,10 @@ use awl_asm::disassemble::disassemble;
 use awl_asm::source::Source;
 use awl_asm::{render, symbols};
 use fastrand::Rng;
-use plc_isa::{ARENA_START, C_BITS_START, CRC_LEN, Crc32, DATA_START, Header, L_START, SLOT_LEN};
+use plc_isa::{ARENA_START, C_BITS_START, CRC_LEN, DATA_START, Header, L_START, SLOT_LEN};
 use plc_vm::{Environment, Inputs, Memory, Plc};
 use tests::effort::effort;
+use tests::image::sign;
 use tests::mutate::mutate;
 use tests::random::random_program;
 
@@ -41,13 +42,6 @@ fn images(rng: &mut Rng, count: usize) -> Vec<Vec<u8>> {
     };
     let image = |rng: &mut Rng| assemble(&Source::new("corpus", text(rng)).unwrap(), Vec::new()).image;
     (0..count).filter_map(|_| image(rng)).collect()
-}
-
-/// Makes the checksum right again, so that the rest is looked at.
-fn sign(image: &mut [u8]) {
-    let Some(end) = image.len().checked_sub(usize::from(CRC_LEN)) else { return };
-    let crc = Crc32::of(&image[..end]);
-    image[end..].copy_from_slice(&crc.to_le_bytes());
 }
 
 fn change_bytes(rng: &mut Rng, image: &mut [u8], from: usize) {

@@ -4,13 +4,10 @@
 pub mod interpreter;
 mod longest;
 
-use plc_isa::{
-    Area, Decoded, Op, Operand, Plan, PowerFlow, Program, ProgramMemory, TimerResolution, decode, timer_resolution,
-    verify,
-};
+use plc_isa::{Area, Decoded, Op, Operand, Plan, PowerFlow, ProgramMemory, TimerResolution, timer_resolution, verify};
 
 pub use crate::native::Cycles;
-use crate::native::{Translated, TranslatedInstruction, translate};
+use crate::native::{Translated, TranslatedInstruction, either, translate};
 pub use longest::Longest;
 
 /// Cycles in a microsecond.
@@ -55,13 +52,6 @@ impl Ways {
     }
 }
 
-fn either(one: Option<Cycles>, other: Option<Cycles>) -> Option<Cycles> {
-    match (one, other) {
-        (Some(one), Some(other)) => Some(one.or(other)),
-        (one, other) => one.or(other),
-    }
-}
-
 /// An instruction with what it costs.
 #[derive(Debug, Clone, Copy)]
 pub struct InstructionCost {
@@ -89,7 +79,7 @@ pub struct ProgramCost {
 /// What the program of an image costs; `None` for an image that is not valid.
 pub fn cost(image: &[u8]) -> Option<ProgramCost> {
     let program = verify(image).ok()?;
-    let code = code_of(&program);
+    let code: Vec<(u16, Decoded)> = program.instructions().collect();
     let interpreted: Vec<Ways> =
         code.iter().map(|(_, decoded)| interpreter::ways(decoded, program.plan(), image, None)).collect();
     // A valid program can only be too large for it.
@@ -127,21 +117,6 @@ fn overhead(plan: &Plan<&[u8]>) -> u32 {
     });
     let retention = if plan.header.retained > 0 { OVERHEAD_RETENTION_MAX } else { 0 };
     OVERHEAD_MAX + timers.sum::<u32>() + retention + retained.sum::<u32>()
-}
-
-/// The instructions with their offsets.
-fn code_of(program: &Program<&[u8]>) -> Vec<(u16, Decoded)> {
-    let mut code = Vec::new();
-    let mut at = program.code_at();
-    // A verified image decodes to its end.
-    while let Ok(decoded) = decode(program.memory(), at) {
-        code.push((at, decoded));
-        at += decoded.len;
-        if decoded.op == Op::MainEnd {
-            break;
-        }
-    }
-    code
 }
 
 /// The ways on from each translated instruction. What leaves the program takes the engine's way out, too.

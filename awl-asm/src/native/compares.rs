@@ -104,8 +104,7 @@ impl Emitter<'_> {
             (Operand::Memory(a), Operand::Memory(b)) => {
                 let (a, b) = (self.word(a, false), self.word(b, false));
                 self.ordered(relation, (a, b), |emitter, (a, b)| {
-                    emitter.two(Two::Cp, a.low, b.low);
-                    emitter.two(Two::Cpc, a.high, b.high);
+                    emitter.compare(a, b);
                     (Condition::LESS, Condition::GREATER_OR_EQUAL)
                 })
             }

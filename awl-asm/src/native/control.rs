@@ -179,7 +179,8 @@ impl Emitter<'_> {
         }
     }
 
-    fn compare(&mut self, a: Word, b: Word) {
+    /// Sets the flags of a - b.
+    pub(super) fn compare(&mut self, a: Word, b: Word) {
         self.two(Two::Cp, a.low, b.low);
         self.two(Two::Cpc, a.high, b.high);
     }

@@ -4,16 +4,14 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::ops::Range;
 
-use plc_isa::{
-    CRC_LEN, Crc32, ENTRY_LEN, Header, ImageError, NATIVE_INTERFACE, Op, Plan, Program, SLOT_LEN, SLOT_START, decode,
-    verify,
-};
+use plc_isa::{CRC_LEN, ENTRY_LEN, Header, ImageError, NATIVE_INTERFACE, Plan, Program, SLOT_LEN, SLOT_START, verify};
 
 use super::code::PlacedCode;
 use super::cost::{Cycles, either, ways};
 use super::emitter::{Emitter, Traffic};
 use super::pins;
 use super::translate::{Marks, Source, Translator};
+use crate::encode::seal;
 
 /// How a program is translated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -170,17 +168,8 @@ fn flash_address(offset: usize) -> u32 {
 }
 
 fn source_of<'a>(image: &'a [u8], program: &Program<&'a [u8]>) -> Source<'a> {
-    let mut source = Source { image, code: Vec::new(), offsets: Vec::new(), passes: Vec::new() };
-    let mut at = program.code_at();
-    // A verified image decodes to its end.
-    while let Ok(decoded) = decode(&image, at) {
-        source.code.push(decoded);
-        source.offsets.push(at);
-        at += decoded.len;
-        if decoded.op == Op::MainEnd {
-            break;
-        }
-    }
+    let (offsets, code) = program.instructions().unzip();
+    let mut source = Source { image, code, offsets, passes: Vec::new() };
     source.estimate_passes(program.plan());
     source
 }
@@ -202,13 +191,7 @@ fn native_image(mut header: Header, tables: Vec<u8>, pieces: &[u8], entry: usize
         image.extend(words.iter().take(placed.op.words().into()).flat_map(|word| word.to_le_bytes()));
     }
     (header.interface, header.labels) = (NATIVE_INTERFACE, 0);
-    header.code_len = (image.len() - code_at) as u16;
-    header.total_len = (image.len() + usize::from(CRC_LEN)) as u16;
-    let head = header.to_bytes();
-    image[..head.len()].copy_from_slice(&head);
-    let crc = Crc32::of(&image);
-    image.extend_from_slice(&crc.to_le_bytes());
-    image
+    seal(header, image, code_at)
 }
 
 /// What each instruction costs, and what stands before the first.

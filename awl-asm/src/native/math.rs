@@ -27,10 +27,7 @@ impl Translator<'_> {
                 emitter.finish_result(out, true);
             }
             _ => {
-                let in1 = emitter.source(in1);
-                emitter.start_result(out);
-                emitter.two(Two::Add, WORD.low, in1.low);
-                emitter.two(Two::Adc, WORD.high, in1.high);
+                emitter.start_with_source(in1, out, (Two::Add, Two::Adc));
                 emitter.finish_result(out, false);
             }
         });
@@ -44,10 +41,7 @@ impl Translator<'_> {
                 emitter.finish_result(out, true);
             }
             _ => {
-                let in1 = emitter.source(in1);
-                emitter.start_result(out);
-                emitter.two(Two::Sub, WORD.low, in1.low);
-                emitter.two(Two::Sbc, WORD.high, in1.high);
+                emitter.start_with_source(in1, out, (Two::Sub, Two::Sbc));
                 emitter.finish_result(out, true);
             }
         });
@@ -80,13 +74,19 @@ impl Emitter<'_> {
         match in1 {
             Operand::Memory(address) => self.word(address, false),
             Operand::Constant(value) => {
-                let [high, low] = value.to_be_bytes();
-                self.constant(Constant::Ldi, WORD2.high, high);
-                self.constant(Constant::Ldi, WORD2.low, low);
+                self.load_constant(WORD2, value);
                 WORD2
             }
             _ => WORD2,
         }
+    }
+
+    /// The result of OUT and IN1: by one operation on their low bytes, then by the other.
+    fn start_with_source(&mut self, in1: Operand, out: u16, (low, high): (Two, Two)) {
+        let in1 = self.source(in1);
+        self.start_result(out);
+        self.two(low, WORD.low, in1.low);
+        self.two(high, WORD.high, in1.high);
     }
 
     /// Loads OUT and SMB1 without the bits to come.

@@ -23,5 +23,6 @@ mod vectors;
 mod words;
 
 pub use cost::Cycles;
+pub(crate) use cost::either;
 pub use image::{Options, TranslateError, Translated, TranslatedInstruction, translate, translate_with};
 pub use vectors::Vector;

@@ -1,6 +1,6 @@
 //! S and R: bits, ranges of bits, timers and counters, all with power flow only.
 
-use plc_isa::{Bit, CounterSlot, Decoded, TimerSlot, counter_bit, timer_bit};
+use plc_isa::{Bit, Decoded, counter_bit, timer_bit};
 
 use super::avr::{Constant, OfBit, Reg, Two};
 use super::emitter::{Emitter, TEMP, ZERO};
@@ -46,29 +46,22 @@ impl Translator<'_> {
         }
     }
 
-    /// R of timers.
+    /// R of timers: value and state.
     pub(super) fn reset_timers(&mut self, decoded: &Decoded, first: u8, count: u16) {
-        let is_reset = |slot: &TimerSlot| (u16::from(first)..u16::from(first) + count).contains(&slot.number.into());
-        let slots: Vec<TimerSlot> = self.emitter.plan.timers().filter(is_reset).collect();
-        let masks = masks(timer_bit(first), count);
-        if masks.len() > INLINE_BYTES_MAX || slots.len() > INLINE_SLOTS_MAX {
-            return self.by_bytecode(decoded);
-        }
-        self.emitter.with_power_flow(|emitter| {
-            for &(address, mask) in &masks {
-                emitter.write_bits(address, mask, false);
-            }
-            for slot in slots {
-                [0, 1, 4].into_iter().for_each(|byte| emitter.write(slot.address + byte, ZERO));
-            }
-        });
+        let slots = self.emitter.plan.timers().map(|slot| (slot.number, slot.address));
+        let slots = slots_in(slots, first, count);
+        self.reset_slots(decoded, masks(timer_bit(first), count), &slots, &[0, 1, 4]);
     }
 
-    /// R of counters.
+    /// R of counters: the value; the state remembers edges.
     pub(super) fn reset_counters(&mut self, decoded: &Decoded, first: u8, count: u16) {
-        let is_reset = |slot: &CounterSlot| (u16::from(first)..u16::from(first) + count).contains(&slot.number.into());
-        let slots: Vec<CounterSlot> = self.emitter.plan.counters().filter(is_reset).collect();
-        let masks = masks(counter_bit(first), count);
+        let slots = self.emitter.plan.counters().map(|slot| (slot.number, slot.address));
+        let slots = slots_in(slots, first, count);
+        self.reset_slots(decoded, masks(counter_bit(first), count), &slots, &[0, 1]);
+    }
+
+    /// Resets bits, and these bytes of slots.
+    fn reset_slots(&mut self, decoded: &Decoded, masks: Vec<(u16, u8)>, slots: &[u16], bytes: &[u16]) {
         if masks.len() > INLINE_BYTES_MAX || slots.len() > INLINE_SLOTS_MAX {
             return self.by_bytecode(decoded);
         }
@@ -77,10 +70,16 @@ impl Translator<'_> {
                 emitter.write_bits(address, mask, false);
             }
             for slot in slots {
-                [0, 1].into_iter().for_each(|byte| emitter.write(slot.address + byte, ZERO));
+                bytes.iter().for_each(|byte| emitter.write(slot + byte, ZERO));
             }
         });
     }
+}
+
+/// Addresses of the slots with these numbers.
+fn slots_in(slots: impl Iterator<Item = (u8, u16)>, first: u8, count: u16) -> Vec<u16> {
+    let numbers = u16::from(first)..u16::from(first) + count;
+    slots.filter(|(number, _)| numbers.contains(&u16::from(*number))).map(|(_, address)| address).collect()
 }
 
 impl Emitter<'_> {

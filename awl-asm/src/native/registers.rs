@@ -104,10 +104,7 @@ impl Registers {
 
     /// The byte has changed in memory: its copy is worth nothing.
     pub fn forget(&mut self, address: u16) {
-        self.cached
-            .iter_mut()
-            .filter(|cached| cached.address == Some(address))
-            .for_each(|cached| cached.address = None);
+        self.forget_if(|held| held == address);
     }
 
     /// The same for all bytes of which this holds.

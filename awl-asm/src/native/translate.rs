@@ -193,7 +193,7 @@ impl<'a> Translator<'a> {
 
     /// The top of the stack gets a neighbour below, for which it stands.
     pub(super) fn push(&mut self) {
-        if self.needed.get(self.index).copied().unwrap_or(true) {
+        if self.is_needed() {
             self.emitter.bit(OfBit::Bld, STACK, self.pushed & 7);
         }
         self.pushed = self.pushed.wrapping_add(1);

@@ -40,8 +40,8 @@
 .endif
 .endm
 
-; The same for the word at r26 with the next byte, and the word whose address stands behind it. Z at what follows.
-.macro COMPARE_WORDS order
+; The word whose address begins with r26 in r24 and r25, and the address behind that in X. Z at what follows.
+.macro WORD_AND_ADDRESS
     movw r30, r28
     lpm r27, Z+
     lpm r20, Z+
@@ -50,6 +50,11 @@
     ld r25, X+
     ld r24, X
     movw r26, r20
+.endm
+
+; Flags of one word minus another, or the other way round: both by their addresses. Z at what follows.
+.macro COMPARE_WORDS order
+    WORD_AND_ADDRESS
     READABLE r27
     ld r23, X+
     ld r22, X
@@ -57,7 +62,7 @@
     COMPARE \order
 .endm
 
-; Flags of the word at r26 with the next byte minus the constant behind it, or the other way round. Z at what follows.
+; The same for a word by its address, which begins with r26, and the constant behind it.
 .macro COMPARE_CONSTANT order
     movw r30, r28
     lpm r27, Z+
@@ -145,14 +150,27 @@ uno200_vectors:
 
 ; ---- entry and exit
 
-; Keeps what the caller of Rust keeps, and where the stack is then, for those who leave from within subroutines.
-.macro ENTER
+; What handlers change of the registers that a routine must keep.
+.macro PUSH_KEPT
     push r2
     push r3
     push r16
     push r17
     push r28
     push r29
+.endm
+.macro POP_KEPT
+    pop r29
+    pop r28
+    pop r17
+    pop r16
+    pop r3
+    pop r2
+.endm
+
+; Also keeps where the stack is then, for those who leave from within subroutines.
+.macro ENTER
+    PUSH_KEPT
     in r18, STACK_LOW
     in r19, STACK_HIGH
     sts CONTEXT + STACK, r18
@@ -174,12 +192,7 @@ uno200_run:
 finish:
     ldi r24, LEFT_AT_END
 epilogue:
-    pop r29
-    pop r28
-    pop r17
-    pop r16
-    pop r3
-    pop r2
+    POP_KEPT
 .global uno200_run_end
 uno200_run_end:
     ret
@@ -247,21 +260,11 @@ leave_here:
 ; ---- what native programs call
 
 bytecode_vector:
-    push r2
-    push r3
-    push r16
-    push r17
-    push r28
-    push r29
+    PUSH_KEPT
     movw r28, r30
     FOR_HANDLERS
     rcall next
-    pop r29
-    pop r28
-    pop r17
-    pop r16
-    pop r3
-    pop r2
+    POP_KEPT
     ret
 
 stop_vector:
@@ -455,20 +458,33 @@ rest:
 
 ; ---- timers
 
-; TON: slot X, preset r24 and r25, byte of the bit Z, mask of the bit r18, r19 bit 0: counts in 100 ms.
-on_delay:
+; The preset r24 and r25 into the slot X. X at the state.
+.macro STORE_PRESET
     adiw r26, 2
     st X+, r25
     st X+, r24
-    brts 1f
-    st X, r1
+.endm
+; The value of the timer whose state is at X. X at its low byte.
+.macro CLEAR_VALUE
     sbiw r26, 4
     st X+, r1
     st X, r1
+.endm
+; The bit with mask r18 in the byte at Z.
+.macro CLEAR_BIT
     com r18
     ld r20, Z
     and r20, r18
     st Z, r20
+.endm
+
+; TON: slot X, preset r24 and r25, byte of the bit Z, mask of the bit r18, r19 bit 0: counts in 100 ms.
+on_delay:
+    STORE_PRESET
+    brts 1f
+    st X, r1
+    CLEAR_VALUE
+    CLEAR_BIT
     ret
 1:  ld r20, X
     ldi r21, 1
@@ -482,9 +498,7 @@ on_delay:
     rjmp store_value
 
 retentive_on_delay:
-    adiw r26, 2
-    st X+, r25
-    st X+, r24
+    STORE_PRESET
     brts 1f
     st X, r1
     ret
@@ -533,16 +547,12 @@ add_ticks:
 2:  ret
 
 off_delay:
-    adiw r26, 2
-    st X+, r25
-    st X+, r24
+    STORE_PRESET
     ld r20, X
     brtc 1f
     ldi r21, 2
     st X, r21
-    sbiw r26, 4
-    st X+, r1
-    st X, r1
+    CLEAR_VALUE
     ld r20, Z
     or r20, r18
     st Z, r20
@@ -551,9 +561,7 @@ off_delay:
     sbrs r20, 1
     rjmp 2f
     st X, r21
-    sbiw r26, 4
-    st X+, r1
-    st X, r1
+    CLEAR_VALUE
     clr r22
     clr r23
     rjmp 3f
@@ -624,10 +632,7 @@ write_zero:
     st X+, r1
     st X, r1
 clear_bit:
-    com r18
-    ld r20, Z
-    and r20, r18
-    st Z, r20
+    CLEAR_BIT
     ret
 
 count_down:
@@ -808,7 +813,10 @@ write_bits:
     sts RESULT_BITS, r24
     rjmp next_z_x
 
-timer_word:
+; ---- places of timers and counters
+
+; The preset, by address or as a constant, in r24 and r25; r26 stays the slot. Y behind both.
+.macro PRESET_WORD
     mov r20, r26
     movw r30, r28
     lpm r26, Z+
@@ -818,12 +826,30 @@ timer_word:
     ld r25, X+
     ld r24, X
     mov r26, r20
-    rjmp place_timer
-timer_constant:
+.endm
+.macro PRESET_CONSTANT
     movw r30, r28
     lpm r24, Z+
     lpm r25, Z+
     movw r28, r30
+.endm
+; The address of slot r26 in X.
+.macro SLOT_ADDRESS start, len
+    ldi r21, \len
+    mul r26, r21
+    movw r26, r0
+    clr r1
+    lds r18, CONTEXT + \start
+    add r26, r18
+    lds r18, CONTEXT + \start + 1
+    adc r27, r18
+.endm
+
+timer_word:
+    PRESET_WORD
+    rjmp place_timer
+timer_constant:
+    PRESET_CONSTANT
 
 ; Timer in slot r26: X slot, Z byte of its bit, r18 mask of its bit, r19 bit 0: counts in 100 ms.
 place_timer:
@@ -834,14 +860,7 @@ place_timer:
     add r30, r26
     adc r31, r1
     lpm r20, Z
-    ldi r21, TIMER_SLOT_LEN
-    mul r26, r21
-    movw r26, r0
-    clr r1
-    lds r18, CONTEXT + TIMERS_START
-    add r26, r18
-    lds r18, CONTEXT + TIMERS_START + 1
-    adc r27, r18
+    SLOT_ADDRESS TIMERS_START, TIMER_SLOT_LEN
     cpi r27, hi8(DATA_END)
     brsh slot_outside
     ldi r19, 1
@@ -892,21 +911,10 @@ slot_outside:
     rjmp place_bit
 
 counter_word:
-    mov r20, r26
-    movw r30, r28
-    lpm r26, Z+
-    lpm r27, Z+
-    movw r28, r30
-    READABLE r27
-    ld r25, X+
-    ld r24, X
-    mov r26, r20
+    PRESET_WORD
     rjmp place_counter
 counter_constant:
-    movw r30, r28
-    lpm r24, Z+
-    lpm r25, Z+
-    movw r28, r30
+    PRESET_CONSTANT
 
 ; Counter in slot r26: X slot, Z byte of its bit, r18 mask of its bit, r19: S1 in bit 1, S2 in bit 2.
 place_counter:
@@ -915,14 +923,7 @@ place_counter:
     add r30, r26
     adc r31, r1
     lpm r20, Z
-    ldi r21, COUNTER_SLOT_LEN
-    mul r26, r21
-    movw r26, r0
-    clr r1
-    lds r18, CONTEXT + COUNTERS_START
-    add r26, r18
-    lds r18, CONTEXT + COUNTERS_START + 1
-    adc r27, r18
+    SLOT_ADDRESS COUNTERS_START, COUNTER_SLOT_LEN
     cpi r27, hi8(DATA_END)
     brsh 2f
     mov r19, r16
@@ -931,6 +932,7 @@ place_counter:
     rjmp place_bit
 2:  jmp outside
 
+; ---- ranges
 
 ; Sets r18 bits from mask r19 of the byte r24 at X on. Bytes are inverted by r21, so that resetting is setting.
 set_bits:
@@ -1006,6 +1008,8 @@ reset_numbers:
     call loop_vector
     bst r17, 0
 6:  jmp next_x
+
+; ---- products and quotients
 
 word_box:
     WORD_BOX 1f

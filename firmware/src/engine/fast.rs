@@ -173,7 +173,8 @@ fn with_execution<T>(act: impl FnOnce(&mut Execution<'_>) -> T) -> T {
     unsafe { act(&mut *EXECUTION) }
 }
 
-/// Executes the instruction at this address of flash, which may take long. Returns the address of the next one, 0 when the program is left.
+/// Executes the instruction at this address of flash, which may take long. Returns the address of the next one, 0 when
+/// the program is left.
 #[unsafe(no_mangle)]
 extern "C" fn uno200_execute_rest(address: u16, top: u8) -> u16 {
     watchdog::feed(clock::now_ms());

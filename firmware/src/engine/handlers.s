@@ -2,12 +2,13 @@
 ;
 ; A block begins with % and the form as the instruction table writes it: instruction, kinds of its operands. The build
 ; script enters it for the tokens of that form; {n} becomes the token's distance from the form's first one (bit or
-; relation), {token} that first one; {order}, {branch} and {inverse} follow from the relation. What has no block is executed by plc-vm. Subroutines stand in engine.s.
+; relation), {token} that first one; {order}, {branch} and {inverse} follow from the relation. What has no block is
+; executed by plc-vm. Subroutines and macros stand in engine.s. Numbered labels reach into the next block here and
+; there: blocks of one kind stay together.
 ;
 ; At the start of a block: r2 token, X the address of the operand byte in the bit page, Y the address in flash behind
 ; token and operand byte, T the top of the logic stack, r16 the levels below, S1 in bit 0. To keep: Y (or behind more
-; of the instruction), r3, r16, r27 = 1
-; (next_x restores it), r1 = 0. Free: r0, r2, r17 to r26, r30, r31.
+; of the instruction), r3, r16, r27 = 1 (next_x restores it), r1 = 0. Free: r0, r2, r17 to r26, r30, r31.
 
 ; ---- contacts
 
@@ -334,14 +335,7 @@ reset_byte:
 
 % Movw Word WordOut
     brtc 1f
-    movw r30, r28
-    lpm r27, Z+
-    lpm r20, Z+
-    lpm r21, Z+
-    READABLE r27
-    ld r25, X+
-    ld r24, X
-    movw r26, r20
+    WORD_AND_ADDRESS
     rjmp 2f
 1:  adiw r28, 3
     NEXT

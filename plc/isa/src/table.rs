@@ -182,9 +182,8 @@ macro_rules! instruction_table {
             if !fetched.fetch(code, pc) {
                 return engine.undefined();
             }
-            for index in 0..OPERANDS_MAX {
-                let kind = fetched.kind(code, index);
-                let (Some(kind), Some(operand)) = (kind, fetched.operands.get_mut(index)) else { break };
+            for (operand, kind) in fetched.operands.iter_mut().zip(&fetched.kinds) {
+                let Some(kind) = kind else { break };
                 if operand.tag != MODE_MEMORY {
                     continue;
                 }

@@ -178,10 +178,4 @@ impl Fetched {
         self.next = reader.position();
         true
     }
-
-    /// The kind of operand `index`, if there are so many. It was read with the operands.
-    #[inline]
-    pub fn kind<P: ProgramMemory>(&self, _code: &P, index: usize) -> Option<Kind> {
-        self.kinds.get(index).copied().flatten()
-    }
 }

@@ -5,6 +5,7 @@
 //! entry: it was made from an image that has passed.
 
 use crate::area::{Area, TimerFamily, timer_family};
+use crate::decode::{Decoded, decode};
 use crate::image::{COUNTER_LEN, CRC_LEN, ENTRY_LEN, Header, ImageError, ImageFault, ProgramMemory, TIMER_LEN};
 use crate::layout::*;
 use crate::operand::{Kind, MODE_MEMORY, Raw};
@@ -39,6 +40,18 @@ impl<P: ProgramMemory> Program<P> {
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
     pub fn code_at(&self) -> u16 {
         self.plan.code_at()
+    }
+
+    /// The instructions of bytecode with their offsets, hidden ones and the end of the program included.
+    pub fn instructions(&self) -> impl Iterator<Item = (u16, Decoded)> + '_ {
+        let mut next = self.entry().is_none().then(|| self.code_at());
+        core::iter::from_fn(move || {
+            let at = next?;
+            // A verified image decodes to its end.
+            let decoded = decode(self.memory(), at).ok()?;
+            next = (decoded.op != Op::MainEnd).then_some(at + decoded.len);
+            Some((at, decoded))
+        })
     }
 
     /// Offset of the first instruction of machine code; `None` in bytecode.

@@ -244,7 +244,7 @@ impl<P: ProgramMemory> Plc<P> {
         if self.timers.ms_1 {
             timer::advance(memory, plan, TimerResolution::Ms1, fast_ms);
         }
-        if self.timers.ms_10 && self.clock.ticks_10 != 0 {
+        if self.timers.ms_10 {
             timer::advance(memory, plan, TimerResolution::Ms10, self.clock.ticks_10);
         }
     }

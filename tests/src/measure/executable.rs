@@ -7,7 +7,9 @@ use awl_asm::assemble::{Assembly, assemble};
 use awl_asm::diagnostic::Severity;
 use awl_asm::native::{Options, translate_with};
 use awl_asm::source::Source;
-use plc_isa::{Decoded, Group, Header, NATIVE_INTERFACE, Op, Plan, Program, ProgramMemory, decode, verify};
+use plc_isa::{Decoded, Group, Header, Plan, Program, verify};
+
+use crate::image::OnBoard;
 
 /// How the board executes a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -64,7 +66,8 @@ impl Executable {
         let errors = assembly.diagnostics.iter().filter(|diagnostic| diagnostic.severity() == Severity::Error);
         let errors: Vec<_> = errors.map(|error| (error.span, &error.message)).collect();
         let Some(bytecode) = assembly.image.clone() else { panic!("{name}: {errors:?}") };
-        let code = code_of(&bytecode);
+        let code: Vec<(u16, Decoded)> =
+            verify(bytecode.as_slice()).map_or(Vec::new(), |program| program.instructions().collect());
         let (image, places) = match tier {
             Tier::Interpreter => (bytecode.clone(), code.iter().map(|(at, decoded)| *at..at + decoded.len).collect()),
             Tier::Native { pins } => {
@@ -122,36 +125,7 @@ impl Executable {
 
     /// Bytes of code, with the end of the program.
     pub fn code_len(&self) -> usize {
-        let header = Header::read(&Slot(&self.image));
+        let header = Header::read(&OnBoard(&self.image));
         header.map_or(0, |header| usize::from(header.code_len))
     }
-}
-
-/// An image as the board reads it.
-struct Slot<'a>(&'a [u8]);
-
-impl ProgramMemory for Slot<'_> {
-    const NATIVE_INTERFACE: u8 = NATIVE_INTERFACE;
-
-    fn len(&self) -> u16 {
-        ProgramMemory::len(&self.0)
-    }
-
-    fn byte(&self, offset: u16) -> u8 {
-        self.0.byte(offset)
-    }
-}
-
-/// The instructions of an image of the assembler, with their offsets.
-fn code_of(image: &[u8]) -> Vec<(u16, Decoded)> {
-    let mut at = verify(image).map_or(0, |program| program.code_at());
-    let mut code = Vec::new();
-    while let Ok(decoded) = decode(&image, at) {
-        code.push((at, decoded));
-        at += decoded.len;
-        if decoded.op == Op::MainEnd {
-            break;
-        }
-    }
-    code
 }

@@ -113,14 +113,13 @@ impl Uno {
     /// A program, given as bytecode, in the same board as if it were new: nothing of before is left. A bad image leaves
     /// it in STOP with a fault. One that is too large when it is translated is an error, and everything stays.
     pub fn load(&mut self, image: Vec<u8>) -> Result<(), TranslateError> {
-        let translated = match self.code {
-            Code::Native if verify(image.as_slice()).is_ok() => Some(translate(&image)?.image),
-            // What is wrong with a bad image is for the board to say.
-            Code::Native | Code::Bytecode => None,
-        };
+        let program = verify(image.clone()).ok();
+        // What is wrong with a bad image is for the board to say.
+        let translates = self.code == Code::Native && program.is_some();
+        let translated = if translates { Some(translate(&image)?.image) } else { None };
         self.board.renew();
         self.board.insert(translated.as_ref().unwrap_or(&image));
-        self.program = verify(image).ok();
+        self.program = program;
         self.at = At::Off;
         self.inputs = Inputs::default();
         self.writes.clear();
