@@ -21,6 +21,8 @@ pub enum Area {
     T,
     /// Counters: the bit, or the current value as a word.
     C,
+    /// Local memory of the program's units.
+    L,
 }
 
 impl Area {
@@ -35,14 +37,17 @@ impl Area {
             Area::V => "V",
             Area::T => "T",
             Area::C => "C",
+            Area::L => "L",
         }
     }
 
-    /// How many bytes a program can address (reference 4.1; V: largest CPU). For T and C: how many numbers.
+    /// How many bytes a program can address (reference 4.1; V and SM: largest CPU). For T and C: how many numbers.
     pub const fn size(self) -> u16 {
         match self {
             Area::I | Area::Q => 16,
-            Area::M | Area::S | Area::Sm => 32,
+            Area::M | Area::S => 32,
+            Area::Sm => 550,
+            Area::L => 64,
             Area::V => 10240,
             Area::T | Area::C => 256,
         }
@@ -59,14 +64,15 @@ impl Area {
             Area::S => Some(S_START),
             Area::T => Some(T_BITS_START),
             Area::C => Some(C_BITS_START),
+            Area::L => Some(L_START),
             Area::V => None,
         }
     }
 
-    /// Bytes the area takes in the bit page.
+    /// Bytes the area takes in the bit page. SM bytes behind them are placed by the plan.
     pub const fn page_len(self) -> u16 {
         match self {
-            Area::T | Area::C => 32,
+            Area::T | Area::C | Area::Sm => 32,
             Area::V => 0,
             other => other.size(),
         }
@@ -81,7 +87,7 @@ impl Area {
         }
     }
 
-    /// The area of a bit page address, with the byte number in it. `None` in local memory.
+    /// The area of a bit page address, with the byte number in it. `None` outside of the page.
     pub fn of_page_address(address: u16) -> Option<(Area, u16)> {
         let area = match address {
             I_START..Q_START => Area::I,
@@ -91,6 +97,7 @@ impl Area {
             S_START..T_BITS_START => Area::S,
             T_BITS_START..C_BITS_START => Area::T,
             C_BITS_START..L_START => Area::C,
+            L_START..AIW_START => Area::L,
             _ => return None,
         };
         Some((area, address - area.page_start()?))

@@ -1,18 +1,23 @@
 //! The program image: header and tables, as bytes. Whether an image may run is decided in [`verify`](crate::verify).
 //!
-//! Layout (docs/image.md): header, name, V ranges, timers, counters, labels, retained ranges, code, CRC.
+//! Layout (docs/image.md): header, modules, name, V ranges, timers, counters, labels, retained ranges, routines, events,
+//! constants, initial values, code, CRC.
 //! Numbers are little-endian. Offsets count from the first byte of the image.
 
 use crate::crc::Crc32;
+use crate::modules::{self, MODULE_KINDS_AT, MODULES, Routine};
 use crate::settings::{Retained, Settings};
 use crate::tokens::{TOKEN_TABLE, TOKEN_TABLE_LEN};
 
 /// First bytes of every image.
 pub const MAGIC: [u8; 4] = *b"U200";
 /// Version of the image format and of the instruction set it is written in.
-pub const FORMAT_VERSION: u8 = 1;
+pub const FORMAT_VERSION: u8 = 2;
 /// Bytes of the header.
-pub const HEADER_LEN: u16 = 32;
+pub const HEADER_LEN: u16 = 64;
+/// Offset of the directory of modules in the header: for each the word address of its jump table in flash, 0 where the
+/// program does not use it.
+pub const DIRECTORY_AT: u16 = 40;
 /// Bytes of the checksum at the end.
 pub const CRC_LEN: u16 = 4;
 /// Longest program name in bytes.
@@ -36,10 +41,21 @@ pub trait ProgramMemory {
         u16::from_le_bytes([self.byte(offset), self.byte(offset.wrapping_add(1))])
     }
     /// The byte at an offset of [`TOKEN_TABLE`](crate::TOKEN_TABLE), which the board keeps in flash like the program;
-    /// 0 past the end.
+    /// 0 past the end. From [`MODULE_KINDS_AT`] on: kinds of module routines.
     fn token_table(&self, offset: u16) -> u8 {
         static TABLE: [u8; TOKEN_TABLE_LEN] = TOKEN_TABLE;
+        if offset >= MODULE_KINDS_AT {
+            return modules::kind_byte(offset - MODULE_KINDS_AT);
+        }
         TABLE.get(usize::from(offset)).copied().unwrap_or(0)
+    }
+    /// A routine of a module; `None` where there is none.
+    fn routine(&self, module: u8, routine: u8) -> Option<Routine> {
+        modules::routine(module, routine)
+    }
+    /// Whether the modules in the image are those that this machine knows. The host executes their instructions itself.
+    fn modules_are_valid(&self) -> bool {
+        true
     }
     /// Whether there is nothing to read.
     fn is_empty(&self) -> bool {
@@ -104,6 +120,14 @@ pub enum ImageFault {
     Loop,
     /// Machine code that cannot run here: for another firmware interface, for the board only, or without a valid entry.
     Interface,
+    /// A module is not the one that the firmware knows, or an instruction's module is missing.
+    Module,
+    /// The table of routines does not match the code, or a call leads to none or backwards.
+    Routine,
+    /// The table of events is not ascending, or an event is not in it.
+    Event,
+    /// Initial values are not in V memory.
+    Initial,
 }
 
 /// What is wrong with an image, and where.
@@ -117,7 +141,7 @@ pub struct ImageError {
 
 impl ImageFault {
     /// All faults, in the order of their numbers on the board.
-    pub const ALL: [ImageFault; 21] = [
+    pub const ALL: [ImageFault; 25] = [
         ImageFault::Length,
         ImageFault::Magic,
         ImageFault::Version,
@@ -139,6 +163,10 @@ impl ImageFault {
         ImageFault::Label,
         ImageFault::Loop,
         ImageFault::Interface,
+        ImageFault::Module,
+        ImageFault::Routine,
+        ImageFault::Event,
+        ImageFault::Initial,
     ];
 
     /// The fault in words.
@@ -165,6 +193,10 @@ impl ImageFault {
             ImageFault::Label => "a jump and its label do not match",
             ImageFault::Loop => "FOR and NEXT do not match",
             ImageFault::Interface => "the image is translated to machine code that this machine does not run",
+            ImageFault::Module => "a module of the image is not one that this firmware knows",
+            ImageFault::Routine => "a call and its routine do not match",
+            ImageFault::Event => "the table of interrupt events is not valid",
+            ImageFault::Initial => "the initial values of V memory are not valid",
         }
     }
 }
@@ -196,6 +228,34 @@ pub struct Header {
     pub name_len: u8,
     /// System settings.
     pub settings: Settings,
+    /// Bytes of the modules.
+    pub modules_len: u16,
+    /// Bytes of the constants.
+    pub constants_len: u16,
+    /// Bytes of the initial values of V memory.
+    pub initial_len: u16,
+    /// Routines: subroutines and interrupt routines.
+    pub routines: u8,
+    /// Interrupt events that the program names.
+    pub events: u8,
+    /// For each module the word address of its jump table in flash; 0: not in the image.
+    pub directory: [u16; MODULES],
+}
+
+/// Where the parts of an image begin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs, reason = "the names of the header")]
+pub struct Offsets {
+    pub v_ranges: u16,
+    pub timers: u16,
+    pub counters: u16,
+    pub labels: u16,
+    pub retained: u16,
+    pub routines: u16,
+    pub events: u16,
+    pub constants: u16,
+    pub initial: u16,
+    pub code: u16,
 }
 
 /// Bytes of a V range in the image: first byte, length.
@@ -206,6 +266,13 @@ pub const TIMER_LEN: u16 = 2;
 pub const COUNTER_LEN: u16 = 1;
 /// Bytes of a label in the image: offset of its LBL.
 pub const LABEL_LEN: u16 = 2;
+
+/// Bytes of a routine in the image: offset of its first instruction, kind, number in the text.
+pub const ROUTINE_LEN: u16 = 4;
+/// Bytes of an event in the image: its number.
+pub const EVENT_LEN: u16 = 1;
+/// Bytes before the values of an initial range: first V byte, length.
+pub const INITIAL_HEAD_LEN: u16 = 3;
 
 /// Bytes of the entry: an offset in the image, at the start of machine code.
 pub const ENTRY_LEN: u16 = 2;
@@ -248,7 +315,15 @@ impl Header {
             self.name_len,
             settings.filter,
         ];
-        bytes[26..].copy_from_slice(&tail);
+        bytes[26..32].copy_from_slice(&tail);
+        let words = [self.modules_len, self.constants_len, self.initial_len];
+        for (place, word) in bytes[32..38].chunks_exact_mut(2).zip(words) {
+            place.copy_from_slice(&word.to_le_bytes());
+        }
+        bytes[38..40].copy_from_slice(&[self.routines, self.events]);
+        for (place, word) in bytes[usize::from(DIRECTORY_AT)..].chunks_exact_mut(2).zip(self.directory) {
+            place.copy_from_slice(&word.to_le_bytes());
+        }
         bytes
     }
 
@@ -309,48 +384,60 @@ impl Header {
         header.retained = memory.byte(29);
         header.name_len = memory.byte(30);
         header.settings.filter = memory.byte(31);
+        header.modules_len = memory.word(32);
+        header.constants_len = memory.word(34);
+        header.initial_len = memory.word(36);
+        header.routines = memory.byte(38);
+        header.events = memory.byte(39);
+        for (at, module) in (DIRECTORY_AT..).step_by(2).zip(&mut header.directory) {
+            *module = memory.word(at);
+        }
         header
     }
 
     /// Offset of the V ranges.
     pub fn v_ranges_at(&self) -> u16 {
-        self.offsets()[0]
+        self.offsets().v_ranges
     }
 
     /// Offset of the timers.
     pub fn timers_at(&self) -> u16 {
-        self.offsets()[1]
+        self.offsets().timers
     }
 
     /// Offset of the counters.
     pub fn counters_at(&self) -> u16 {
-        self.offsets()[2]
+        self.offsets().counters
     }
 
     /// Offset of the labels.
     pub fn labels_at(&self) -> u16 {
-        self.offsets()[3]
+        self.offsets().labels
     }
 
     /// Offset of the retained ranges.
     pub fn retained_at(&self) -> u16 {
-        self.offsets()[4]
+        self.offsets().retained
     }
 
     /// Offset of the first instruction.
     pub fn code_at(&self) -> u16 {
-        self.offsets()[5]
+        self.offsets().code
     }
 
-    /// Where V ranges, timers, counters, labels, retained ranges and code begin.
-    pub(crate) fn offsets(&self) -> [u16; 6] {
-        let v_ranges_at = HEADER_LEN + u16::from(self.name_len);
-        let timers_at = entry_at(v_ranges_at, self.v_ranges, V_RANGE_LEN);
-        let counters_at = entry_at(timers_at, self.timers, TIMER_LEN);
-        let labels_at = entry_at(counters_at, self.counters, COUNTER_LEN);
-        let retained_at = entry_at(labels_at, self.labels, LABEL_LEN);
-        let code_at = entry_at(retained_at, u16::from(self.retained), Retained::STORED_LEN);
-        [v_ranges_at, timers_at, counters_at, labels_at, retained_at, code_at]
+    /// Where the parts of the image begin.
+    pub fn offsets(&self) -> Offsets {
+        let v_ranges = HEADER_LEN + self.modules_len + u16::from(self.name_len);
+        let timers = entry_at(v_ranges, self.v_ranges, V_RANGE_LEN);
+        let counters = entry_at(timers, self.timers, TIMER_LEN);
+        let labels = entry_at(counters, self.counters, COUNTER_LEN);
+        let retained = entry_at(labels, self.labels, LABEL_LEN);
+        let routines = entry_at(retained, u16::from(self.retained), Retained::STORED_LEN);
+        let events = entry_at(routines, u16::from(self.routines), ROUTINE_LEN);
+        let constants = events + u16::from(self.events);
+        let initial = constants + self.constants_len;
+        let code = initial + self.initial_len;
+        Offsets { v_ranges, timers, counters, labels, retained, routines, events, constants, initial, code }
     }
 
     /// Offset of the first byte behind the code, which is the checksum.
@@ -362,6 +449,7 @@ impl Header {
     pub(crate) fn is_plausible(&self) -> bool {
         // Each is below 2,048 if all their bits together are.
         self.v_ranges | self.timers | self.counters | self.labels | self.edges < 2048
+            && self.modules_len | self.constants_len | self.initial_len < 8192
             && self.code_len <= self.total_len
             && self.name_len <= NAME_LEN_MAX
             && self.retained <= Retained::RANGES_MAX

@@ -30,7 +30,7 @@ pub const S_START: u16 = 0x0160;
 pub const T_BITS_START: u16 = 0x0180;
 /// Counter bits, C0-C255.
 pub const C_BITS_START: u16 = 0x01A0;
-/// Local memory: reserved, no instruction reaches it yet.
+/// Local memory, LB0-LB63: the frames of all units of the program, overlaid.
 pub const L_START: u16 = 0x01C0;
 
 /// Analog inputs scaled to 0..=32000: AIW0, AIW2, ... AIW10, one word each.
@@ -40,8 +40,22 @@ pub const AIN_START: u16 = 0x020C;
 /// Analog inputs of the board.
 pub const ANALOG_INPUTS: u16 = 6;
 
-/// The arena: memory planned per program. The bytes between the analog inputs and the arena are
-/// reserved for accumulators and analog outputs.
+/// Accumulators AC0-AC3, a double word each.
+pub const AC_START: u16 = 0x0218;
+/// How many accumulators there are.
+pub const ACCUMULATORS: u8 = 4;
+/// Current value of high-speed counter 0, a double word.
+pub const HC0: u16 = 0x0228;
+/// Current value of high-speed counter 3.
+pub const HC3: u16 = 0x022C;
+/// Analog outputs AQW0 and AQW2, a word each.
+pub const AQW_START: u16 = 0x0230;
+/// How many analog outputs there are.
+pub const ANALOG_OUTPUTS: u8 = 2;
+/// ENO of the last module instruction: a byte, 0 or 1. No instruction names it.
+pub const ENO: u16 = 0x0234;
+
+/// The arena: memory planned per program.
 pub const ARENA_START: u16 = 0x0240;
 /// Bytes in the arena.
 pub const ARENA_LEN: u16 = DATA_END - ARENA_START;

@@ -6,12 +6,16 @@
 #![no_std]
 
 mod area;
+mod core_instructions;
 mod crc;
 mod decode;
 mod image;
 mod layout;
+mod module_instructions;
+mod modules;
 mod operand;
 mod plan;
+mod reference;
 mod retention;
 mod settings;
 mod stack;
@@ -23,18 +27,22 @@ pub use area::{AnalogInput, Area, TimerFamily, TimerResolution, timer_family, ti
 pub use crc::Crc32;
 pub use decode::{DecodeError, Decoded, decode};
 pub use image::{
-    CRC_LEN, ENTRY_LEN, FORMAT_VERSION, HEADER_LEN, Header, ImageError, ImageFault, LABEL_LEN, MAGIC, NAME_LEN_MAX,
-    NATIVE_INTERFACE, ProgramMemory,
+    CRC_LEN, DIRECTORY_AT, ENTRY_LEN, EVENT_LEN, FORMAT_VERSION, HEADER_LEN, Header, INITIAL_HEAD_LEN, ImageError,
+    ImageFault, LABEL_LEN, MAGIC, NAME_LEN_MAX, NATIVE_INTERFACE, Offsets, ProgramMemory, ROUTINE_LEN,
 };
 pub use layout::*;
+pub use modules::{
+    MODULE_KINDS_AT, MODULE_NAMES, MODULES, OPERANDS_MODULE, ROUTINES_MAX, Routine, module_instructions,
+};
 pub use operand::{Bit, ByteSource, Kind, Operand, OperandKind, OperandReader, Relation, WordSource, kinds};
-pub use plan::{CounterSlot, Plan, Region, TimerKind, TimerSlot, counter_bit, timer_bit};
+pub use plan::{CounterSlot, Plan, Region, SM_IN_V, TimerKind, TimerSlot, counter_bit, timer_bit};
+pub use reference::{Operands, Place, Reference, pointer};
 pub use retention::RetainedWalk;
 pub use settings::{DEFAULT_WATCHDOG_MS, Retained, Settings};
 pub use stack::{LogicStack, STACK_LEVELS};
 pub use table::{
-    Encoded, Execute, Flow, Form, Group, INSTRUCTIONS, Instruction, Op, PowerFlow, StackEffect, WIDE_PREFIX, execute,
-    execute_compact,
+    CORE_INSTRUCTIONS, Encoded, Execute, Flow, Form, Group, INSTRUCTIONS, Instruction, MODULE_PREFIX, Op, PowerFlow,
+    StackEffect, WIDE_PREFIX, execute, execute_compact,
 };
 pub use tokens::{TOKEN_TABLE, TOKEN_TABLE_LEN};
 pub use verify::{LOOPS_MAX, Program, verify};

@@ -4,6 +4,7 @@
 
 use crate::image::ProgramMemory;
 use crate::layout::{DATA_START, PAGE_LEN, PAGE_START};
+use crate::reference::Reference;
 
 /// A bit of data memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -113,6 +114,8 @@ pub enum Operand {
     Relation(Relation),
     /// An offset into the code.
     Offset(u16),
+    /// An operand of a module instruction.
+    Reference(Reference),
 }
 
 /// An operand of any kind as it was read, in three bytes: what handles operands without knowing their kinds.
@@ -389,6 +392,40 @@ operand_kinds! {
     LoopEnd, 2, u16, |r| r.word(), |v| Operand::Offset(v);
     /// Offset of the FOR that a NEXT closes; not written in AWL.
     LoopStart, 2, u16, |r| r.word(), |v| Operand::Offset(v);
+    /// Offset behind a call with parameters; not written in AWL.
+    CallEnd, 2, u16, |r| r.word(), |v| Operand::Offset(v);
+    /// The SCR bit of a unit, in its local memory; not written in AWL.
+    ScrBit, 2, Bit, |r| far_bit(r), |v| Operand::Bit(v);
+    /// A digital input of the board.
+    InputPoint, 2, Bit, |r| far_bit(r), |v| Operand::Bit(v);
+    /// A digital output of the board.
+    OutputPoint, 2, Bit, |r| far_bit(r), |v| Operand::Bit(v);
+    /// A byte that is read.
+    ByteIn, 2, Reference, |r| Reference(r.word()), |v| Operand::Reference(v);
+    /// A word that is read.
+    WordIn, 2, Reference, |r| Reference(r.word()), |v| Operand::Reference(v);
+    /// A double word that is read.
+    DoubleIn, 2, Reference, |r| Reference(r.word()), |v| Operand::Reference(v);
+    /// A real that is read.
+    RealIn, 2, Reference, |r| Reference(r.word()), |v| Operand::Reference(v);
+    /// A string that is read.
+    TextIn, 2, Reference, |r| Reference(r.word()), |v| Operand::Reference(v);
+    /// The first of several bytes that are read.
+    BytesAt, 2, Reference, |r| Reference(r.word()), |v| Operand::Reference(v);
+    /// The first of several words that are read.
+    WordsAt, 2, Reference, |r| Reference(r.word()), |v| Operand::Reference(v);
+    /// The first of several double words that are read.
+    DoublesAt, 2, Reference, |r| Reference(r.word()), |v| Operand::Reference(v);
+    /// A byte that is written, or the first of several.
+    ByteTo, 2, Reference, |r| Reference(r.word()), |v| Operand::Reference(v);
+    /// A word that is written, or the first of several.
+    WordTo, 2, Reference, |r| Reference(r.word()), |v| Operand::Reference(v);
+    /// A double word that is written, or the first of several.
+    DoubleTo, 2, Reference, |r| Reference(r.word()), |v| Operand::Reference(v);
+    /// A real that is written.
+    RealTo, 2, Reference, |r| Reference(r.word()), |v| Operand::Reference(v);
+    /// A string that is written.
+    TextTo, 2, Reference, |r| Reference(r.word()), |v| Operand::Reference(v);
     /// A byte constant.
     ByteConst, 1, ByteSource, |r| ByteSource::Constant(r.byte()), |v| byte_operand(v);
     /// A constant count, 1 to 255.
@@ -411,6 +448,16 @@ operand_kinds! {
     LabelIndex, 1, u8, |r| r.byte(), |v| Operand::Number(v);
     /// A label where it stands: its number, 0 to 255.
     LabelNumber, 1, u8, |r| r.byte(), |v| Operand::Number(v);
+    /// A routine: its index in the table of routines.
+    Routine, 1, u8, |r| r.byte(), |v| Operand::Number(v);
+    /// An interrupt event: its index in the table of events.
+    Event, 1, u8, |r| r.byte(), |v| Operand::Number(v);
+    /// The number of a PID loop, 0 to 7.
+    Loop, 1, u8, |r| r.byte(), |v| Operand::Number(v);
+    /// What AENO looks at: bits of SMB1 that are errors, bit 7 for ENO of a module; not written in AWL.
+    ErrorMask, 1, u8, |r| r.byte(), |v| Operand::Number(v);
+    /// The comparison in a byte of its own.
+    RelationByte, 1, super::Relation, |r| super::Relation::of_token_offset(r.byte()), |v| Operand::Relation(v);
     /// The count 1: takes no room.
     One, 0, ByteSource, |_r| ByteSource::Constant(1), |v| byte_operand(v);
     /// The comparison in a token.
@@ -424,12 +471,23 @@ impl Kind {
     pub(crate) fn read_raw<P: ProgramMemory>(self, reader: &mut OperandReader<'_, P>) -> Raw {
         match self {
             Kind::PageBit | Kind::PageBitOut | Kind::PageBitReset => page_bit(reader).raw(),
-            Kind::FarBit | Kind::FarBitOut | Kind::FarBitReset => far_bit(reader).raw(),
+            Kind::FarBit
+            | Kind::FarBitOut
+            | Kind::FarBitReset
+            | Kind::ScrBit
+            | Kind::InputPoint
+            | Kind::OutputPoint => far_bit(reader).raw(),
             Kind::AnyByte | Kind::AnyInt => Raw { tag: reader.byte(), value: reader.word() },
             Kind::Byte | Kind::Word => Raw { tag: MODE_MEMORY, value: reader.word() },
-            Kind::ByteOut | Kind::WordOut | Kind::WordConst | Kind::IntConst | Kind::LoopEnd | Kind::LoopStart => {
-                Raw { tag: 0, value: reader.word() }
-            }
+            Kind::ByteOut
+            | Kind::WordOut
+            | Kind::WordConst
+            | Kind::IntConst
+            | Kind::LoopEnd
+            | Kind::LoopStart
+            | Kind::CallEnd => Raw { tag: 0, value: reader.word() },
+            _ if self.is_reference() => Raw { tag: 0, value: reader.word() },
+            Kind::RelationByte => Raw { tag: reader.byte(), value: 0 },
             Kind::One => Raw { tag: MODE_CONSTANT, value: 1 },
             Kind::Relation => Raw { tag: reader.in_token, value: 0 },
             Kind::Here => Raw { tag: 0, value: reader.start },
@@ -442,20 +500,62 @@ impl Kind {
         match self {
             Kind::AnyByte if raw.tag == MODE_CONSTANT => raw.value <= 255,
             Kind::AnyByte | Kind::AnyInt => raw.tag <= MODE_MEMORY,
+            Kind::RelationByte => raw.tag < Relation::ALL.len() as u8,
             _ => true,
+        }
+    }
+
+    /// Whether this is an operand of module instructions that stands in a [`Reference`].
+    pub const fn is_reference(self) -> bool {
+        self as u8 >= Kind::ByteIn as u8 && self as u8 <= Kind::TextTo as u8
+    }
+
+    /// Whether a number can stand in a reference of this kind.
+    pub const fn takes_constants(self) -> bool {
+        matches!(self, Kind::ByteIn | Kind::WordIn | Kind::DoubleIn | Kind::RealIn)
+    }
+
+    /// Bytes of the value that a reference of this kind leads to; of a string, its length byte.
+    pub const fn value_len(self) -> u16 {
+        match self {
+            Kind::WordIn | Kind::WordsAt | Kind::WordTo => 2,
+            Kind::DoubleIn | Kind::RealIn | Kind::DoublesAt | Kind::DoubleTo | Kind::RealTo => 4,
+            _ => 1,
         }
     }
 
     /// Whether the operand stands in the AWL text, separated by commas.
     pub const fn is_written(self) -> bool {
-        !matches!(self, Kind::Edge | Kind::LoopEnd | Kind::LoopStart | Kind::Here | Kind::Relation)
+        !matches!(
+            self,
+            Kind::Edge
+                | Kind::LoopEnd
+                | Kind::LoopStart
+                | Kind::CallEnd
+                | Kind::ScrBit
+                | Kind::ErrorMask
+                | Kind::Here
+                | Kind::Relation
+                | Kind::RelationByte
+        )
     }
 
     /// Whether the instruction writes through this operand.
     pub const fn is_output(self) -> bool {
         matches!(
             self,
-            Kind::PageBitOut | Kind::PageBitReset | Kind::FarBitOut | Kind::FarBitReset | Kind::ByteOut | Kind::WordOut
+            Kind::PageBitOut
+                | Kind::PageBitReset
+                | Kind::FarBitOut
+                | Kind::FarBitReset
+                | Kind::OutputPoint
+                | Kind::ByteOut
+                | Kind::WordOut
+                | Kind::ByteTo
+                | Kind::WordTo
+                | Kind::DoubleTo
+                | Kind::RealTo
+                | Kind::TextTo
         )
     }
 
@@ -467,6 +567,7 @@ impl Kind {
             Kind::WordConst => Some((i16::MIN as i32, u16::MAX as i32)),
             Kind::IntConst => Some((i16::MIN as i32, i16::MAX as i32)),
             Kind::One | Kind::Count => Some((1, 255)),
+            Kind::Loop => Some((0, 7)),
             Kind::Level => Some((0, crate::stack::STACK_LEVELS as i32 - 1)),
             _ => None,
         }
@@ -478,7 +579,16 @@ impl Kind {
             (Kind::PageBit | Kind::PageBitOut | Kind::PageBitReset, Operand::Bit(bit)) => {
                 (PAGE_START..PAGE_START + PAGE_LEN).contains(&bit.address)
             }
-            (Kind::FarBit | Kind::FarBitOut | Kind::FarBitReset, Operand::Bit(_)) => true,
+            (
+                Kind::FarBit
+                | Kind::FarBitOut
+                | Kind::FarBitReset
+                | Kind::ScrBit
+                | Kind::InputPoint
+                | Kind::OutputPoint,
+                Operand::Bit(_),
+            ) => true,
+            (kind, Operand::Reference(reference)) => kind.is_reference() && reference.place().is_some(),
             (Kind::Byte | Kind::ByteOut | Kind::Word | Kind::WordOut, Operand::Memory(_)) => true,
             (Kind::AnyByte | Kind::AnyInt, Operand::Memory(_)) => true,
             (Kind::ByteConst | Kind::AnyByte, Operand::Constant(value)) => value <= 255,
@@ -494,11 +604,15 @@ impl Kind {
                 | Kind::Edge
                 | Kind::Number
                 | Kind::LabelIndex
-                | Kind::LabelNumber,
+                | Kind::LabelNumber
+                | Kind::Routine
+                | Kind::Event
+                | Kind::Loop
+                | Kind::ErrorMask,
                 Operand::Number(_),
             ) => true,
-            (Kind::LoopEnd | Kind::LoopStart | Kind::Here, Operand::Offset(_)) => true,
-            (Kind::Relation, Operand::Relation(_)) => true,
+            (Kind::LoopEnd | Kind::LoopStart | Kind::CallEnd | Kind::Here, Operand::Offset(_)) => true,
+            (Kind::Relation | Kind::RelationByte, Operand::Relation(_)) => true,
             _ => false,
         }
     }
@@ -527,7 +641,8 @@ impl Kind {
             (Kind::AnyByte | Kind::AnyInt, Operand::Constant(value)) => mode(MODE_CONSTANT, value),
             (_, Operand::Memory(value) | Operand::Constant(value) | Operand::Offset(value)) => word(value),
             (_, Operand::Number(value)) => [value, 0, 0],
-            (_, Operand::Relation(_)) => [0; 3],
+            (_, Operand::Reference(reference)) => word(reference.0),
+            (_, Operand::Relation(relation)) => [relation as u8, 0, 0],
         }
     }
 }

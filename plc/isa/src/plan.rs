@@ -1,14 +1,19 @@
 //! The memory plan of a program: which V bytes, timers, counters and edges it uses and where they live.
 //!
-//! Order in the arena: V ranges, timer slots, counter slots, edge memories. The tables of the image
+//! Order in the arena: V ranges, timer slots, counter slots, edge memories, attached events. The tables of the image
 //! are the plan; nothing is stored twice.
 
 use crate::area::{AnalogInput, Area, TimerFamily, timer_family};
-use crate::image::{COUNTER_LEN, Header, LABEL_LEN, ProgramMemory, TIMER_LEN, V_RANGE_LEN, entry_at};
+use crate::image::{
+    COUNTER_LEN, EVENT_LEN, Header, LABEL_LEN, ProgramMemory, ROUTINE_LEN, TIMER_LEN, V_RANGE_LEN, entry_at,
+};
 use crate::layout::*;
 use crate::operand::Bit;
 use crate::settings::Retained;
 use crate::table::Op;
+
+/// The V ranges carry SM bytes that are not in the bit page with this added to their number.
+pub const SM_IN_V: u16 = 0x8000;
 
 /// How a program starts a timer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -98,6 +103,17 @@ pub enum Region {
     },
     /// The word of an analog input.
     Analog(AnalogInput),
+    /// An accumulator.
+    Accumulator {
+        /// 0 to 3.
+        number: u8,
+        /// Bytes from this one to the lowest.
+        room: u16,
+    },
+    /// The current value of a high-speed counter.
+    HighSpeedCounter(u8),
+    /// An analog output: AQW0 is 0, AQW2 is 1.
+    AnalogOutput(u8),
     /// The current value of a timer.
     TimerValue(u8),
     /// The current value of a counter.
@@ -129,6 +145,14 @@ pub struct Plan<P> {
     /// Offset of the labels' table.
     pub labels_at: u16,
     pub(crate) retained_at: u16,
+    /// Offset of the table of routines.
+    pub routines_at: u16,
+    /// Offset of the table of events.
+    pub events_at: u16,
+    /// Offset of the constants.
+    pub constants_at: u16,
+    /// Offset of the initial values.
+    pub initial_at: u16,
     code_at: u16,
     /// Data address of the first timer's slot.
     pub timers_start: u16,
@@ -136,6 +160,8 @@ pub struct Plan<P> {
     pub counters_start: u16,
     /// Data address of the first edge memory.
     pub edges_start: u16,
+    /// Data address of the first event's byte: the routine attached to it, counted from 1.
+    pub events_start: u16,
     end: u16,
 }
 
@@ -149,30 +175,35 @@ impl<P: ProgramMemory> Plan<P> {
     /// The plan in the tables behind this header, taken on trust: for the assembler, which wrote them.
     #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn trusted(memory: P, header: Header) -> Self {
-        let [v_ranges_at, timers_at, counters_at, labels_at, retained_at, code_at] = header.offsets();
+        let at_offsets = header.offsets();
         // Lengths that are not checked yet may wrap: then they are not valid, and nothing is placed by them.
         let mut timers_start = ARENA_START;
-        let mut at = v_ranges_at + 2;
-        while at < timers_at {
+        let mut at = at_offsets.v_ranges + 2;
+        while at < at_offsets.timers {
             timers_start = timers_start.wrapping_add(memory.word(at));
             at += V_RANGE_LEN;
         }
         let counters_start = entry_at(timers_start, header.timers, TIMER_SLOT_LEN);
         let edges_start = entry_at(counters_start, header.counters, COUNTER_SLOT_LEN);
-        let end = edges_start.wrapping_add(header.edges.wrapping_add(7) / 8);
+        let events_start = edges_start.wrapping_add(header.edges.wrapping_add(7) / 8);
         Plan {
             memory,
             header,
-            v_ranges_at,
-            timers_at,
-            counters_at,
-            labels_at,
-            retained_at,
-            code_at,
+            v_ranges_at: at_offsets.v_ranges,
+            timers_at: at_offsets.timers,
+            counters_at: at_offsets.counters,
+            labels_at: at_offsets.labels,
+            retained_at: at_offsets.retained,
+            routines_at: at_offsets.routines,
+            events_at: at_offsets.events,
+            constants_at: at_offsets.constants,
+            initial_at: at_offsets.initial,
+            code_at: at_offsets.code,
             timers_start,
             counters_start,
             edges_start,
-            end,
+            events_start,
+            end: events_start.wrapping_add(u16::from(header.events)),
         }
     }
 
@@ -243,6 +274,27 @@ impl<P: ProgramMemory> Plan<P> {
         self.memory.word(self.labels_at + LABEL_LEN * u16::from(index))
     }
 
+    /// Offset of a routine's first instruction.
+    pub fn routine(&self, index: u8) -> u16 {
+        self.memory.word(self.routines_at + ROUTINE_LEN * u16::from(index))
+    }
+
+    /// Whether a routine serves interrupts, and its number in the text.
+    pub fn routine_name(&self, index: u8) -> (bool, u8) {
+        let at = self.routines_at + ROUTINE_LEN * u16::from(index);
+        (self.memory.byte(at + 2) != 0, self.memory.byte(at + 3))
+    }
+
+    /// The number of an interrupt event.
+    pub fn event(&self, index: u8) -> u8 {
+        self.memory.byte(self.events_at + EVENT_LEN * u16::from(index))
+    }
+
+    /// Where an event keeps the routine attached to it, counted from 1; 0: none.
+    pub fn event_address(&self, index: u8) -> u16 {
+        self.events_start + u16::from(index)
+    }
+
     /// The retained ranges. Entries with an unknown area are left out; a valid image has none.
     pub fn retained(&self) -> impl Iterator<Item = Retained> + '_ {
         (0..u16::from(self.header.retained)).filter_map(|index| self.retained_entry(index))
@@ -279,6 +331,13 @@ impl<P: ProgramMemory> Plan<P> {
         match area {
             Area::V => self.v_address(byte),
             Area::T | Area::C => None,
+            Area::Sm if byte >= area.page_len() => {
+                if byte < area.size() {
+                    self.v_address(SM_IN_V + byte)
+                } else {
+                    None
+                }
+            }
             _ => (byte < area.size()).then(|| area.page_start().unwrap_or(0) + byte),
         }
     }
@@ -300,7 +359,7 @@ impl<P: ProgramMemory> Plan<P> {
             return Some(Region::Byte { area, byte, room: area.page_len() - byte });
         }
         if address < ARENA_START {
-            return AnalogInput::at_address(address).map(Region::Analog);
+            return Region::beside_page(address);
         }
         if address < self.timers_start {
             return self.v_region(address - ARENA_START);
@@ -331,7 +390,8 @@ impl<P: ProgramMemory> Plan<P> {
     fn v_region(&self, mut offset: u16) -> Option<Region> {
         for (first, len) in self.v_ranges() {
             if offset < len {
-                return Some(Region::Byte { area: Area::V, byte: first + offset, room: len - offset });
+                let (area, first) = if first < SM_IN_V { (Area::V, first) } else { (Area::Sm, first - SM_IN_V) };
+                return Some(Region::Byte { area, byte: first + offset, room: len - offset });
             }
             offset -= len;
         }
@@ -340,13 +400,38 @@ impl<P: ProgramMemory> Plan<P> {
 }
 
 impl Region {
+    /// What stands between bit page and arena.
+    fn beside_page(address: u16) -> Option<Region> {
+        const END_OF_ACCUMULATORS: u16 = AC_START + 4 * ACCUMULATORS as u16;
+        const END_OF_OUTPUTS: u16 = AQW_START + 2 * ANALOG_OUTPUTS as u16;
+        match address {
+            AC_START..END_OF_ACCUMULATORS => {
+                let (number, byte) = (((address - AC_START) / 4) as u8, (address - AC_START) % 4);
+                Some(Region::Accumulator { number, room: 4 - byte })
+            }
+            HC0 => Some(Region::HighSpeedCounter(0)),
+            HC3 => Some(Region::HighSpeedCounter(3)),
+            AQW_START..END_OF_OUTPUTS if address.is_multiple_of(2) => {
+                Some(Region::AnalogOutput(((address - AQW_START) / 2) as u8))
+            }
+            _ => AnalogInput::at_address(address).map(Region::Analog),
+        }
+    }
+
     /// Whether an instruction may write here. How much, [`holds_value`](Self::holds_value) and the room say.
     pub fn is_writable(self) -> bool {
         match self {
             Region::Byte { area, byte, .. } => byte >= area.first_writable(),
-            Region::Analog(_) => false,
-            Region::TimerValue(_) | Region::CounterValue(_) => true,
+            Region::Analog(_) | Region::HighSpeedCounter(_) => false,
+            Region::TimerValue(_) | Region::CounterValue(_) | Region::Accumulator { .. } | Region::AnalogOutput(_) => {
+                true
+            }
         }
+    }
+
+    /// Whether an instruction may read here.
+    pub fn is_readable(self) -> bool {
+        !matches!(self, Region::AnalogOutput(_))
     }
 
     /// Whether the bits of `len` bytes can be addressed here.
@@ -359,7 +444,10 @@ impl Region {
         match self {
             Region::Byte { area: Area::T | Area::C, .. } => false,
             Region::Byte { room, .. } => room >= len,
-            Region::Analog(_) | Region::TimerValue(_) | Region::CounterValue(_) => len == 2,
+            // A byte or word of an accumulator is its low end.
+            Region::Accumulator { room, .. } => room == len,
+            Region::HighSpeedCounter(_) => len == 4,
+            Region::Analog(_) | Region::AnalogOutput(_) | Region::TimerValue(_) | Region::CounterValue(_) => len == 2,
         }
     }
 }

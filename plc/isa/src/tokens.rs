@@ -5,7 +5,7 @@
 
 use crate::image::ProgramMemory;
 use crate::operand::{Kind, OperandReader, Raw};
-use crate::table::{Form, INSTRUCTIONS, Op, StackEffect, WIDE_PREFIX};
+use crate::table::{CORE_INSTRUCTIONS, Form, INSTRUCTIONS, MODULE_PREFIX, Op, StackEffect, WIDE_PREFIX};
 
 /// Most operands of an instruction.
 pub(crate) const OPERANDS_MAX: usize = 4;
@@ -19,10 +19,10 @@ const ENTRIES_AT: usize = 256 + WIDE_TOKENS;
 /// Where the lists of kinds begin, each ended by 0.
 const KINDS_AT: usize = ENTRIES_AT + FORMS * ENTRY_LEN;
 
-/// How many forms the instructions have together.
+/// How many forms the instructions of the core have together.
 const FORMS: usize = {
     let (mut forms, mut index) = (0, 0);
-    while index < INSTRUCTIONS.len() {
+    while index < CORE_INSTRUCTIONS {
         forms += INSTRUCTIONS[index].forms.len();
         index += 1;
     }
@@ -50,7 +50,7 @@ const LONG_TABLE_LEN: usize = KINDS_AT + 256;
 const LONG_TABLE: ([u8; LONG_TABLE_LEN], usize) = {
     let (mut table, mut end) = ([0; LONG_TABLE_LEN], KINDS_AT);
     let (mut index, mut entry) = (0, 0);
-    while index < INSTRUCTIONS.len() {
+    while index < CORE_INSTRUCTIONS {
         let instruction = &INSTRUCTIONS[index];
         let mut form = 0;
         while form < instruction.forms.len() {
@@ -67,7 +67,7 @@ const LONG_TABLE: ([u8; LONG_TABLE_LEN], usize) = {
 };
 
 /// The effect on the stack in a byte: values needed below, values added above.
-const fn packed(effect: StackEffect) -> u8 {
+pub(crate) const fn packed(effect: StackEffect) -> u8 {
     assert!(effect.needs < 8 && -8 <= effect.adds && effect.adds < 8);
     assert!(effect.needs as i8 + effect.adds >= 0, "more is taken than is needed");
     effect.needs | (effect.adds as u8) << 4
@@ -107,9 +107,9 @@ const fn with_entry(
     form: &Form,
 ) -> [u8; LONG_TABLE_LEN] {
     assert!(entry < 255);
-    let first_index = if form.wide { 256 } else { 0 };
+    let first_index = if form.prefix.is_some() { 256 } else { 0 };
     let mut token = form.first_token as usize;
-    assert!(!form.wide || (form.last_token as usize) < WIDE_TOKENS);
+    assert!(form.prefix.is_none() || (form.last_token as usize) < WIDE_TOKENS);
     while token <= form.last_token as usize {
         assert!(table[first_index + token] == 0, "a token belongs to two forms");
         table[first_index + token] = entry as u8 + 1;
@@ -150,6 +150,12 @@ impl Fetched {
     /// Fetches the instruction at `pc`. Returns whether its token is in the table.
     pub fn fetch<P: ProgramMemory>(&mut self, code: &P, pc: u16) -> bool {
         let (mut token, mut operands_at, mut index_at) = (code.byte(pc), pc.wrapping_add(1), 0);
+        if token & !7 == MODULE_PREFIX {
+            let Some(routine) = code.routine(token - MODULE_PREFIX, code.byte(operands_at)) else { return false };
+            (self.op, self.stack) = (routine.op, unpacked(routine.stack));
+            self.operands(code, routine.kinds_at, OperandReader::new(code, pc, pc.wrapping_add(2), 0));
+            return true;
+        }
         if token == WIDE_PREFIX {
             (token, operands_at, index_at) = (code.byte(operands_at), pc.wrapping_add(2), 256);
             if usize::from(token) >= WIDE_TOKENS {
@@ -164,9 +170,15 @@ impl Fetched {
         let Some(op) = Op::of_number(code.token_table(at + 1)) else { return false };
         self.op = op;
         self.stack = unpacked(code.token_table(at + 2));
-        let mut kinds_at = KINDS_AT as u16 + u16::from(code.token_table(at + 3));
+        let kinds_at = KINDS_AT as u16 + u16::from(code.token_table(at + 3));
         let in_token = token.wrapping_sub(code.token_table(at));
-        let mut reader = OperandReader::new(code, pc, operands_at, in_token);
+        self.operands(code, kinds_at, OperandReader::new(code, pc, operands_at, in_token));
+        true
+    }
+
+    /// Fetches the operands whose kinds stand at `kinds_at` in the token table.
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    fn operands<P: ProgramMemory>(&mut self, code: &P, mut kinds_at: u16, mut reader: OperandReader<'_, P>) {
         for (operand, kind) in self.operands.iter_mut().zip(&mut self.kinds) {
             *kind = Kind::of_number(code.token_table(kinds_at));
             // The 0 that ends the list is read again for every operand that there is not.
@@ -176,6 +188,5 @@ impl Fetched {
             }
         }
         self.next = reader.position();
-        true
     }
 }

@@ -6,10 +6,14 @@
 
 use crate::area::{Area, TimerFamily, timer_family};
 use crate::decode::{Decoded, decode};
-use crate::image::{COUNTER_LEN, CRC_LEN, ENTRY_LEN, Header, ImageError, ImageFault, ProgramMemory, TIMER_LEN};
+use crate::image::{
+    COUNTER_LEN, CRC_LEN, DIRECTORY_AT, ENTRY_LEN, EVENT_LEN, Header, INITIAL_HEAD_LEN, ImageError, ImageFault,
+    ProgramMemory, TIMER_LEN,
+};
 use crate::layout::*;
 use crate::operand::{Kind, MODE_MEMORY, Raw};
-use crate::plan::{Plan, Region, TimerKind};
+use crate::plan::{Plan, Region, SM_IN_V, TimerKind};
+use crate::reference::{Place, Reference};
 use crate::stack::STACK_LEVELS;
 use crate::table::Op;
 use crate::tokens::Fetched;
@@ -68,6 +72,9 @@ pub fn verify<P: ProgramMemory>(memory: P) -> Result<Program<P>, ImageError> {
         return Err(ImageError { fault: ImageFault::Length, at: 6 });
     }
     let program = Program { plan: Plan::of(memory) };
+    if !program.memory().modules_are_valid() {
+        return Err(ImageError { fault: ImageFault::Module, at: DIRECTORY_AT });
+    }
     check(&program.plan)?;
     Ok(program)
 }
@@ -80,7 +87,15 @@ fn check<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageError> {
         return ensure(entry_is_valid(plan), ImageFault::Interface)
             .map_err(|fault| ImageError { fault, at: plan.code_at() });
     }
-    let mut check = CodeCheck { plan, loops: [Loop::default(); LOOPS_MAX], open_loops: 0, next_label: 0, depth: 0 };
+    let mut check = CodeCheck {
+        plan,
+        loops: [Loop::default(); LOOPS_MAX],
+        open_loops: 0,
+        next_label: 0,
+        depth: 0,
+        next_routine: 0,
+        call_end: 0,
+    };
     check.run().map_err(|(fault, at)| ImageError { fault, at })
 }
 
@@ -110,6 +125,8 @@ fn check_tables<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageFault> {
     ensure(timers_are_valid(plan), ImageFault::Timers)?;
     ensure(is_ascending(&plan.memory, plan.counters_at, COUNTER_LEN, header.counters), ImageFault::Counters)?;
     ensure(header.edges <= EDGES_MAX && header.labels <= 256, ImageFault::Plan)?;
+    ensure(events_are_valid(plan), ImageFault::Event)?;
+    ensure(initial_is_valid(plan), ImageFault::Initial)?;
     ensure((0..u16::from(header.retained)).all(|index| retained_is_valid(plan, index)), ImageFault::Retained)?;
     let end = plan.end();
     ensure(end <= DATA_END && end - ARENA_START == header.arena_len, ImageFault::Plan)?;
@@ -128,6 +145,9 @@ fn place_of<P: ProgramMemory>(plan: &Plan<P>, fault: ImageFault) -> u16 {
         ImageFault::Timers => plan.timers_at,
         ImageFault::Counters => plan.counters_at,
         ImageFault::Retained => plan.retained_at,
+        ImageFault::Event => plan.events_at,
+        ImageFault::Initial => plan.initial_at,
+        ImageFault::Module => DIRECTORY_AT,
         _ => 10,
     }
 }
@@ -141,11 +161,34 @@ fn is_ascending<P: ProgramMemory>(memory: &P, at: u16, step: u16, count: u16) ->
 fn v_ranges_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
     let mut least = 0;
     plan.v_ranges().all(|(first, len)| {
-        let valid = first >= least && is_within(first, len, Area::V.size());
+        let in_area = match first.checked_sub(SM_IN_V) {
+            Some(byte) => byte >= Area::Sm.page_len() && is_within(byte, len, Area::Sm.size()),
+            None => is_within(first, len, Area::V.size()),
+        };
+        let valid = first >= least && in_area;
         // Adjacent ranges would be one range.
         least = first.wrapping_add(len).wrapping_add(1);
         valid
     })
+}
+
+fn events_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
+    is_ascending(&plan.memory, plan.events_at, EVENT_LEN, u16::from(plan.header.events))
+}
+
+/// Whether the initial values are ranges of V memory one behind the other.
+fn initial_is_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
+    let mut at = plan.initial_at;
+    while at < plan.code_at() {
+        let (first, len) = (plan.memory.word(at), u16::from(plan.memory.byte(at + 2)));
+        let in_range =
+            |(start, room): (u16, u16)| first >= start && first - start < room && len <= room - (first - start);
+        if len == 0 || !plan.v_ranges().any(in_range) {
+            return false;
+        }
+        at += INITIAL_HEAD_LEN + len;
+    }
+    at == plan.code_at()
 }
 
 /// Whether there are `count` from `first` on, at least one, and all below `size`.
@@ -188,6 +231,10 @@ struct CodeCheck<'a, P> {
     open_loops: u8,
     next_label: u16,
     depth: u8,
+    /// The index of the first routine behind the unit that is checked.
+    next_routine: u8,
+    /// Where an open call with parameters ends; 0: none is open.
+    call_end: u16,
 }
 
 impl<P: ProgramMemory> CodeCheck<'_, P> {
@@ -210,20 +257,32 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
             }
             self.instruction(&fetched, at).map_err(|fault| (fault, at))?;
             at = fetched.next;
-            if fetched.op == Op::MainEnd {
-                break;
+            // A unit ends; another begins where the table says, or the code ends.
+            if matches!(fetched.op, Op::MainEnd | Op::Ret) {
+                self.end_of_unit().map_err(|fault| (fault, at))?;
+                if self.next_routine == plan.header.routines {
+                    break;
+                }
+                if plan.routine(self.next_routine) != at {
+                    return Err((ImageFault::Routine, at));
+                }
+                self.next_routine += 1;
             }
         }
         let fault = if at != end {
             ImageFault::Truncated
         } else if self.next_label != plan.header.labels {
             ImageFault::Label
-        } else if self.open_loops != 0 {
-            ImageFault::Loop
         } else {
             return Ok(());
         };
         Err((fault, at))
+    }
+
+    fn end_of_unit(&mut self) -> Result<(), ImageFault> {
+        self.depth = 0;
+        ensure(self.open_loops == 0, ImageFault::Loop)?;
+        ensure(self.call_end == 0, ImageFault::Routine)
     }
 
     fn instruction(&mut self, fetched: &Fetched, at: u16) -> Result<(), ImageFault> {
@@ -254,6 +313,8 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
         let holds = match kind {
             Kind::PageBit | Kind::FarBit | Kind::Byte | Kind::ByteOut => return self.memory(kind, value, 1),
             Kind::Word | Kind::WordOut => return self.memory(kind, value, 2),
+            Kind::ScrBit | Kind::InputPoint | Kind::OutputPoint => return self.memory(kind, value, 1),
+            _ if kind.is_reference() => return self.reference(kind, Reference(value)),
             Kind::PageBitOut | Kind::PageBitReset | Kind::FarBitOut | Kind::FarBitReset => {
                 return self.memory(kind, value, (u16::from(raw.tag) + count - 1) / 8 + 1);
             }
@@ -270,7 +331,14 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
             Kind::CounterSlot => value < header.counters,
             Kind::TimerNumber | Kind::CounterNumber => value + count <= 256,
             Kind::Edge => value < header.edges,
-            Kind::LabelIndex => value < header.labels,
+            Kind::LabelIndex => value < header.labels && self.is_in_unit(self.plan.label(value as u8)),
+            // Only routines behind this one: none can call itself, by whatever way.
+            Kind::Routine => {
+                value < u16::from(header.routines) && (op != Op::Call || value >= u16::from(self.next_routine))
+            }
+            Kind::Event => value < u16::from(header.events),
+            Kind::Loop => value < 8,
+            Kind::RelationByte => return ensure(kind.is_canonical(raw), ImageFault::Malformed),
             _ => true,
         };
         ensure(holds, ImageFault::Operand)
@@ -281,6 +349,9 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
         let region = self.plan.region(address).ok_or(ImageFault::Operand)?;
         let fits = match kind {
             Kind::PageBit | Kind::PageBitOut | Kind::FarBit | Kind::FarBitOut => region.holds_bits(len),
+            Kind::ScrBit => matches!(region, Region::Byte { area: Area::L, .. }),
+            Kind::InputPoint => matches!(region, Region::Byte { area: Area::I, .. }),
+            Kind::OutputPoint => matches!(region, Region::Byte { area: Area::Q, .. }),
             // The reset of a timer or counter does more than to write bits.
             Kind::PageBitReset | Kind::FarBitReset => {
                 region.holds_bits(len) && !matches!(region, Region::Byte { area: Area::T | Area::C, .. })
@@ -288,7 +359,39 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
             _ => region.holds_value(len),
         };
         ensure(fits, ImageFault::Operand)?;
+        ensure(kind.is_output() || region.is_readable(), ImageFault::Operand)?;
         ensure(!kind.is_output() || region.is_writable(), ImageFault::ReadOnly)
+    }
+
+    /// An operand of a module instruction.
+    fn reference(&self, kind: Kind, reference: Reference) -> Result<(), ImageFault> {
+        let len = kind.value_len();
+        let holds = match reference.place().ok_or(ImageFault::Malformed)? {
+            Place::Direct(address) => return self.memory(kind, address, len),
+            Place::Indirect(address) => match self.plan.region(address) {
+                Some(Region::Byte { area: Area::V | Area::L, room, .. }) => room >= 4,
+                Some(Region::Accumulator { number: 1.., room }) => room == 4,
+                _ => false,
+            },
+            Place::Constant(_) => kind.takes_constants(),
+            Place::Pool(offset) => {
+                let (start, end) = (self.plan.constants_at, self.plan.initial_at);
+                let text = if kind == Kind::TextIn { u16::from(self.plan.memory.byte(offset)) } else { 0 };
+                (kind.takes_constants() || kind == Kind::TextIn) && offset >= start && offset + len + text <= end
+            }
+        };
+        ensure(holds, ImageFault::Operand)
+    }
+
+    /// Whether an offset lies in the code of the unit that is checked. Where it begins, the labels before it say.
+    fn is_in_unit(&self, offset: u16) -> bool {
+        let plan = self.plan;
+        let start = match self.next_routine.checked_sub(1) {
+            Some(unit) => plan.routine(unit),
+            None => plan.code_at(),
+        };
+        let is_last = self.next_routine == plan.header.routines;
+        offset >= start && (is_last || offset < plan.routine(self.next_routine))
     }
 
     fn control(&mut self, fetched: &Fetched, at: u16) -> Result<(), ImageFault> {
@@ -311,7 +414,27 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
                 let [start, ..] = fetched.operands;
                 ensure(open.is_some_and(|open| open.end == fetched.next && open.start == start.value), ImageFault::Loop)
             }
+            Op::CallBegin => {
+                let [end, ..] = fetched.operands;
+                ensure(self.call_end == 0 && end.value > at, ImageFault::Routine)?;
+                self.call_end = end.value;
+                Ok(())
+            }
+            Op::MainEnd => ensure(self.next_routine == 0, ImageFault::Routine),
+            Op::Ret => ensure(self.next_routine != 0, ImageFault::Routine),
             _ => Ok(()),
         }
+        .and_then(|()| self.within_call(fetched))
+    }
+
+    /// A call with parameters ends where an instruction does, and holds nothing that jumps.
+    fn within_call(&mut self, fetched: &Fetched) -> Result<(), ImageFault> {
+        if self.call_end == 0 || fetched.next < self.call_end {
+            let jumps = matches!(fetched.op, Op::Lbl | Op::For | Op::Next | Op::Jmp | Op::Ret | Op::MainEnd);
+            return ensure(self.call_end == 0 || !jumps, ImageFault::Routine);
+        }
+        ensure(fetched.next == self.call_end, ImageFault::Routine)?;
+        self.call_end = 0;
+        Ok(())
     }
 }

@@ -17,6 +17,16 @@ pub enum Fault {
         /// Offset of the instruction.
         at: u16,
     },
+    /// A comparison at this offset of the image read through an illegal pointer.
+    ComparedPointer {
+        /// Offset of the instruction.
+        at: u16,
+    },
+    /// A comparison at this offset of the image read an illegal real.
+    ComparedReal {
+        /// Offset of the instruction.
+        at: u16,
+    },
     /// Self-test of the board: the program in flash is no longer the one that was checked.
     ProgramChanged,
     /// Self-test of the board: the stack has grown into the firmware's variables.
@@ -41,6 +51,8 @@ impl Fault {
             Fault::StackOverflow => (5, 0, 0),
             Fault::Hang => (6, 0, 0),
             Fault::Panic => (7, 0, 0),
+            Fault::ComparedPointer { at } => (8, 0, at),
+            Fault::ComparedReal { at } => (9, 0, at),
         };
         let [low, high] = at.to_le_bytes();
         [code, detail, low, high]
@@ -57,6 +69,8 @@ impl Fault {
             5 => Fault::StackOverflow,
             6 => Fault::Hang,
             7 => Fault::Panic,
+            8 => Fault::ComparedPointer { at },
+            9 => Fault::ComparedReal { at },
             _ => return None,
         })
     }
@@ -77,13 +91,15 @@ mod tests {
             Fault::StackOverflow,
             Fault::Hang,
             Fault::Panic,
+            Fault::ComparedPointer { at: 3 },
+            Fault::ComparedReal { at: 4 },
         ];
         for fault in images.into_iter().chain(others) {
             assert_eq!(Fault::from_bytes(fault.to_bytes()), Some(fault));
             assert_ne!(fault.to_bytes(), Fault::NONE);
         }
         assert_eq!(Fault::from_bytes(Fault::NONE), None);
-        assert_eq!(Fault::from_bytes([8, 0, 0, 0]), None);
+        assert_eq!(Fault::from_bytes([10, 0, 0, 0]), None);
         assert_eq!(Fault::from_bytes([1, 99, 0, 0]), None);
     }
 }

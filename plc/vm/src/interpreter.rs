@@ -1,17 +1,21 @@
 //! The reference interpreter: one method for each instruction of the table.
 
 use plc_isa::{
-    Bit, ByteSource, Execute, Flow, LogicStack, OperandKind, OperandReader, Plan, Program, ProgramMemory, Relation,
-    TimerResolution, WordSource, execute, execute_compact, kinds, timer_resolution,
+    Bit, ByteSource, ENO, Execute, Flow, LogicStack, Op, OperandKind, OperandReader, Operands, Plan, Program,
+    ProgramMemory, Relation, SM_START, TimerResolution, WordSource, execute, execute_compact, kinds, timer_resolution,
 };
 
+use crate::calls::{Calls, Frame};
 use crate::clock::Clock;
 use crate::counter::{self, Counter};
 use crate::edge;
 use crate::environment::Environment;
+use crate::events::Events;
 use crate::math;
 use crate::memory::Memory;
+use crate::modules;
 use crate::range;
+use crate::special::PROGRAMMING_ERROR;
 use crate::timer::{self, Timer};
 
 /// Why the program was left.
@@ -25,7 +29,18 @@ pub enum Exit {
     Watchdog,
     /// There was no instruction. Cannot happen in a verified image.
     Undefined,
+    /// A comparison read through an illegal pointer.
+    ComparedPointer,
+    /// A comparison read an illegal real.
+    ComparedReal,
 }
+
+/// Bytes of CALL.
+const CALL_LEN: u16 = 2;
+/// Where SMB1 is, the status of results.
+const STATUS: u16 = SM_START + 1;
+/// In the operand of AENO: looks at ENO of a module instruction too.
+const MODULE_ENO: u8 = 0x80;
 
 /// Bytes of a jump or of NEXT, about.
 const JUMP_LEN: u16 = 3;
@@ -39,6 +54,8 @@ pub struct Interpreter<'a, P, E> {
     pub(crate) clock: &'a mut Clock,
     pub(crate) first_scan: bool,
     pub(crate) stack: LogicStack,
+    pub(crate) calls: Calls,
+    pub(crate) events: &'a mut Events,
     /// Why the program is left, once it is.
     pub(crate) exit: Exit,
 }
@@ -161,7 +178,14 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
         Counter { memory: self.memory, slot, first_scan: self.first_scan }
     }
 
-    fn leave(&mut self, exit: Exit) -> Flow {
+    /// Begins a routine with a stack of its own.
+    fn enter(&mut self, routine: u8) -> Flow {
+        self.stack = LogicStack::EMPTY;
+        self.stack.set_top(true);
+        Flow::Jump(self.plan().routine(routine))
+    }
+
+    pub(crate) fn leave(&mut self, exit: Exit) -> Flow {
         self.exit = exit;
         Flow::Leave
     }
@@ -493,6 +517,139 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
 
     fn main_end(&mut self) -> Flow {
         self.leave(Exit::End)
+    }
+
+    fn load_scr(&mut self, bit: Bit, scr: Bit) -> Flow {
+        let is_active = self.memory.bit(bit);
+        self.memory.set_bit(scr, is_active);
+        self.stack.push(is_active);
+        Flow::Next
+    }
+
+    fn and_scr(&mut self, scr: Bit) -> Flow {
+        self.stack.and(self.memory.bit(scr));
+        Flow::Next
+    }
+
+    fn scr_transition(&mut self, bit: Bit, own: Bit) -> Flow {
+        if self.stack.top() {
+            self.memory.set_bit(own, false);
+            self.memory.set_bit(bit, true);
+        }
+        Flow::Next
+    }
+
+    fn scr_end(&mut self) -> Flow {
+        Flow::Next
+    }
+
+    fn conditional_scr_end(&mut self, scr: Bit) -> Flow {
+        if self.stack.top() {
+            self.memory.set_bit(scr, false);
+        }
+        Flow::Next
+    }
+
+    fn begin_call(&mut self, end: u16) -> Flow {
+        if self.stack.top() { Flow::Next } else { Flow::Jump(end) }
+    }
+
+    fn copy_bit(&mut self, bit: Bit, out: Bit) -> Flow {
+        let value = self.memory.bit(bit);
+        self.memory.set_bit(out, value);
+        Flow::Next
+    }
+
+    fn call(&mut self, routine: u8, here: u16) -> Flow {
+        if !self.stack.top() {
+            return Flow::Next;
+        }
+        if !self.calls.enter(Frame { return_to: here.wrapping_add(CALL_LEN), stack: self.stack }) {
+            self.memory.set_bit(PROGRAMMING_ERROR, true);
+            return Flow::Next;
+        }
+        self.enter(routine)
+    }
+
+    fn return_(&mut self) -> Flow {
+        match self.calls.leave(self.memory) {
+            Some(frame) => {
+                self.stack = frame.stack;
+                Flow::Jump(frame.return_to)
+            }
+            None => self.leave(Exit::End),
+        }
+    }
+
+    fn conditional_return(&mut self) -> Flow {
+        if self.stack.top() { self.return_() } else { Flow::Next }
+    }
+
+    fn conditional_return_from_interrupt(&mut self) -> Flow {
+        self.conditional_return()
+    }
+
+    /// Afterwards the program goes on here, so that one routine follows the other.
+    fn poll_events(&mut self, here: u16) -> Flow {
+        if self.calls.is_interrupted() {
+            return Flow::Next;
+        }
+        match self.events.take(self.program.plan(), self.memory) {
+            Some(routine) => {
+                self.calls.interrupt(Frame { return_to: here, stack: self.stack }, self.memory);
+                self.enter(routine)
+            }
+            None => Flow::Next,
+        }
+    }
+
+    fn attach(&mut self, int: u8, evnt: u8) -> Flow {
+        if self.stack.top() {
+            let address = self.plan().event_address(evnt);
+            self.memory.set_byte(address, int.wrapping_add(1));
+        }
+        Flow::Next
+    }
+
+    fn detach(&mut self, evnt: u8) -> Flow {
+        if self.stack.top() {
+            let address = self.plan().event_address(evnt);
+            self.memory.set_byte(address, 0);
+        }
+        self.clear_event(evnt)
+    }
+
+    fn clear_event(&mut self, evnt: u8) -> Flow {
+        if self.stack.top() {
+            let event = self.plan().event(evnt);
+            self.events.clear(event);
+        }
+        Flow::Next
+    }
+
+    fn enable_interrupts(&mut self) -> Flow {
+        if self.stack.top() {
+            self.events.enable(true);
+        }
+        Flow::Next
+    }
+
+    fn disable_interrupts(&mut self) -> Flow {
+        if self.stack.top() {
+            self.events.enable(false);
+        }
+        Flow::Next
+    }
+
+    fn and_eno(&mut self, errors: u8) -> Flow {
+        let failed = self.memory.byte(STATUS) & errors & !MODULE_ENO != 0;
+        let module_failed = errors & MODULE_ENO != 0 && self.memory.byte(ENO) == 0;
+        self.stack.and(!failed && !module_failed);
+        Flow::Next
+    }
+
+    fn module_instruction(&mut self, op: Op, operands: &Operands<'_>, _next: u16) -> Flow {
+        modules::execute(self, op, operands)
     }
 
     fn byte_at(&self, address: u16) -> u8 {

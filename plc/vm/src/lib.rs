@@ -4,20 +4,28 @@
 //! allocation: the caller passes inputs and time in and takes outputs out. No text.
 #![no_std]
 
+mod calls;
 mod clock;
 mod counter;
 mod edge;
 mod environment;
+mod events;
 mod fault;
+pub mod function;
 mod interpreter;
 mod math;
 mod memory;
+mod modules;
+pub mod pid;
 mod plc;
 mod range;
+pub mod real;
 mod special;
 mod timer;
 
+pub use calls::CALLS_MAX;
 pub use environment::{Environment, SCAN_MS_MAX};
+pub use events::Events;
 pub use fault::Fault;
 pub use interpreter::{Exit, Interpreter};
 pub use memory::Memory;

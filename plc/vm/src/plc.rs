@@ -1,12 +1,14 @@
 //! The controller: mode, scan, faults. Reads inputs from the caller, leaves outputs for the caller.
 
 use plc_isa::{
-    ANALOG_INPUTS, AnalogInput, DATA_START, I_START, ImageError, LogicStack, Program, ProgramMemory, Q_START,
-    TimerResolution, verify,
+    ANALOG_INPUTS, AnalogInput, DATA_START, I_START, INITIAL_HEAD_LEN, ImageError, LogicStack, Program, ProgramMemory,
+    Q_START, TimerResolution, verify,
 };
 
+use crate::calls::Calls;
 use crate::clock::Clock;
 use crate::environment::Environment;
+use crate::events::Events;
 use crate::fault::Fault;
 use crate::interpreter::{Exit, Interpreter};
 use crate::memory::Memory;
@@ -60,6 +62,7 @@ pub struct Plc<P> {
     clock: Clock,
     timers: AtScanStart,
     scans: Scans,
+    events: Events,
     /// Bits of SMB0 in the next first scan.
     bits_of_first_scan: u8,
 }
@@ -94,6 +97,7 @@ impl<P: ProgramMemory> Plc<P> {
             clock: Clock::zero(),
             timers: AtScanStart { ms_1: false, ms_10: false },
             scans: Scans::None,
+            events: Events::NONE,
             bits_of_first_scan: special::FIRST_SCAN | special::POWER_UP,
         }
     }
@@ -110,7 +114,32 @@ impl<P: ProgramMemory> Plc<P> {
         self.program = Some(program);
         self.fault = None;
         memory.clear();
+        self.write_initial_values(memory);
         Ok(())
+    }
+
+    /// Gives V memory the values of the program's data block.
+    fn write_initial_values(&self, memory: &mut Memory) {
+        let Some(program) = &self.program else { return };
+        let (plan, image) = (program.plan(), program.memory());
+        let mut at = plan.initial_at;
+        while at < plan.code_at() {
+            let (first, len) = (image.word(at), u16::from(image.byte(at + 2)));
+            let address = plan.v_address(first).unwrap_or(0);
+            for offset in 0..len {
+                memory.set_byte(address + offset, image.byte(at + INITIAL_HEAD_LEN + offset));
+            }
+            at += INITIAL_HEAD_LEN + len;
+        }
+    }
+
+    /// An interrupt event has occurred, by its number (reference 1.9).
+    pub fn occur(&mut self, memory: &Memory, event: u8) {
+        if let Some(program) = &self.program
+            && self.mode == Mode::Run
+        {
+            self.events.occur(event, program.plan(), memory);
+        }
     }
 
     /// The program, if a valid one is loaded.
@@ -140,6 +169,7 @@ impl<P: ProgramMemory> Plc<P> {
             self.mode = Mode::Run;
             self.fault = None;
             self.scans = Scans::None;
+            self.events = Events::NONE;
         }
         self.mode == Mode::Run
     }
@@ -217,8 +247,9 @@ impl<P: ProgramMemory> Plc<P> {
             _ => self.start_scan(memory),
         }
         let first_scan = self.scans == Scans::First;
-        let (program, clock) = (self.program.as_ref()?, &mut self.clock);
-        Some(Interpreter { program, memory, environment, clock, first_scan, stack: LogicStack::EMPTY, exit: Exit::End })
+        let (program, clock, events) = (self.program.as_ref()?, &mut self.clock, &mut self.events);
+        let (stack, calls, exit) = (LogicStack::EMPTY, Calls::NONE, Exit::End);
+        Some(Interpreter { program, memory, environment, clock, first_scan, stack, calls, events, exit })
     }
 
     /// A scan starts at another time than the one before, or is the first or second.
@@ -254,7 +285,12 @@ impl<P: ProgramMemory> Plc<P> {
         self.clock.start();
         special::clear_scan_times(memory);
         if let Some(program) = &self.program {
-            self.timers = timer::start_of_run(memory, program.plan());
+            let plan = program.plan();
+            self.timers = timer::start_of_run(memory, plan);
+            // Nothing is attached yet.
+            for index in 0..plan.header.events {
+                memory.set_byte(plan.event_address(index), 0);
+            }
         }
     }
 
@@ -266,6 +302,8 @@ impl<P: ProgramMemory> Plc<P> {
             Exit::Stop => None,
             Exit::Watchdog => Some(Fault::Watchdog { at }),
             Exit::Undefined => Some(Fault::UndefinedInstruction { at }),
+            Exit::ComparedPointer => Some(Fault::ComparedPointer { at }),
+            Exit::ComparedReal => Some(Fault::ComparedReal { at }),
         };
         self.mode = Mode::Stop;
     }

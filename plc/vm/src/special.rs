@@ -72,3 +72,5 @@ pub(crate) const OVERFLOW: Bit = Bit { address: SM_START + 1, bit: 1 };
 pub(crate) const NEGATIVE: Bit = Bit { address: SM_START + 1, bit: 2 };
 /// SM1.3, division by zero.
 pub(crate) const DIVISION_BY_ZERO: Bit = Bit { address: SM_START + 1, bit: 3 };
+/// SM4.3: a run-time programming problem, such as an illegal pointer.
+pub(crate) const PROGRAMMING_ERROR: Bit = Bit { address: SM_START + 4, bit: 3 };

@@ -1,0 +1,68 @@
+//! Modules: instructions whose machine code comes with the program. What the loader must know of their routines.
+//!
+//! The host executes them itself and takes this from the instruction table; the board finds the same in the module.
+
+use crate::table::{CORE_INSTRUCTIONS, INSTRUCTIONS, Instruction, MODULE_PREFIX, Op};
+use crate::tokens::packed;
+
+/// How many modules there can be.
+pub const MODULES: usize = 8;
+/// The module that all others need: it reads their operands.
+pub const OPERANDS_MODULE: u8 = 7;
+/// The modules' names, by their numbers.
+pub const MODULE_NAMES: [&str; MODULES] =
+    ["general", "real", "function", "text", "table", "inputs_outputs", "communication", "operands"];
+
+/// Kinds of module routines are asked for at [`ProgramMemory::token_table`](crate::ProgramMemory) from here on.
+pub const MODULE_KINDS_AT: u16 = 0x8000;
+
+/// What decoding needs of a module's routine.
+#[derive(Debug, Clone, Copy)]
+pub struct Routine {
+    /// The instruction. On the board, where nobody asks, any of the modules.
+    pub op: Op,
+    /// Its effect on the stack, packed as in the token table.
+    pub stack: u8,
+    /// Where its kinds stand in the token table, a 0 behind the last.
+    pub kinds_at: u16,
+}
+
+/// The instructions of a module in the order of their routines.
+pub fn module_instructions(module: u8) -> impl Iterator<Item = &'static Instruction> {
+    INSTRUCTIONS.iter().skip(CORE_INSTRUCTIONS).filter(move |instruction| instruction.module() == Some(module))
+}
+
+/// Bytes of a routine's kinds on the host: operands and the 0.
+const KINDS_LEN: u16 = 8;
+
+/// Most routines of a module.
+pub const ROUTINES_MAX: usize = 64;
+
+/// For every module and routine the instruction's place in the table; 0: there is none.
+const PLACES: [[u8; ROUTINES_MAX]; MODULES] = {
+    let (mut places, mut index) = ([[0; ROUTINES_MAX]; MODULES], CORE_INSTRUCTIONS);
+    while index < INSTRUCTIONS.len() {
+        let form = &INSTRUCTIONS[index].forms[0];
+        if let Some(prefix) = form.prefix {
+            places[(prefix - MODULE_PREFIX) as usize][form.first_token as usize] = index as u8;
+        }
+        index += 1;
+    }
+    places
+};
+
+/// The routine of a module in the instruction table.
+pub(crate) fn routine(module: u8, routine: u8) -> Option<Routine> {
+    let index = usize::from(*PLACES.get(usize::from(module))?.get(usize::from(routine))?);
+    let instruction = INSTRUCTIONS.get(index).filter(|_| index != 0)?;
+    let kinds_at = MODULE_KINDS_AT + KINDS_LEN * (index - CORE_INSTRUCTIONS) as u16;
+    Some(Routine { op: instruction.op, stack: packed(instruction.stack), kinds_at })
+}
+
+/// The byte at an offset of the modules' kinds.
+pub(crate) fn kind_byte(offset: u16) -> u8 {
+    let index = CORE_INSTRUCTIONS + usize::from(offset / KINDS_LEN);
+    let kinds =
+        INSTRUCTIONS.get(index).and_then(|instruction| instruction.forms.first()).map_or(&[][..], |form| form.kinds);
+    kinds.get(usize::from(offset % KINDS_LEN)).map_or(0, |kind| kind.number())
+}
