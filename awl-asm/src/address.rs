@@ -1,4 +1,4 @@
-//! Addresses as people write them: `I0.0`, `MW3`, `T37`, `AIW0`, `Ain0`; German letters too. No placement.
+//! Addresses as people write them: `I0.0`, `MW3`, `VD8`, `T37`, `AC1`, `AIW0`; German letters too. No placement.
 
 use std::fmt;
 
@@ -30,21 +30,35 @@ pub enum Address {
         /// Number of its first byte.
         byte: u16,
     },
+    /// A double word such as `VD0`, named by its first byte.
+    Double {
+        /// The area.
+        area: Area,
+        /// Number of its first byte.
+        byte: u16,
+    },
     /// A timer: its bit, or its current value where a word is asked for.
     Timer(u8),
     /// A counter: its bit, or its current value where a word is asked for.
     Counter(u8),
     /// An analog input word.
     Analog(AnalogInput),
+    /// An analog output word, `AQW0` or `AQW2`. Holds the channel, 0..=1.
+    AnalogOutput(u8),
+    /// An accumulator, 0..=3: as long as the operand that is asked for.
+    Accumulator(u8),
+    /// The current value of a high-speed counter, 0..=5: a double word.
+    HighSpeedCounter(u8),
 }
+
+/// Analog outputs: AQW0 and AQW2.
+const ANALOG_OUTPUTS: u16 = 2;
 
 /// Why a text is no address.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum AddressError {
     /// It does not look like an address at all: perhaps a symbol.
     NotAnAddress,
-    /// It is an address of an S7-200 that this version does not have.
-    NotSupported(String),
     /// It has the form of an address, but no such address exists. Message, and what may have been meant.
     OutOfRange(String, Option<String>),
 }
@@ -52,7 +66,7 @@ pub enum AddressError {
 impl Address {
     /// Reads an address in any letter case.
     ///
-    /// Area letters: I Q M SM S V T C, German E A Z, AIW and AEW, and Ain0 to Ain5 for raw counts.
+    /// Area letters: I Q M SM S V L T C AC HC AIW AQW, German E A Z HZ AEW AAW, and Ain0 to Ain5 for raw counts.
     pub fn parse(text: &str) -> Result<Address, AddressError> {
         let digits_at = text.find(|c: char| c.is_ascii_digit()).ok_or(AddressError::NotAnAddress)?;
         let (letters, number) = text.split_at(digits_at);
@@ -65,11 +79,14 @@ impl Address {
         }
         let letters = std::str::from_utf8(&upper[..letters.len()]).map_err(|_| AddressError::NotAnAddress)?;
         let (area, size) = match letters {
-            "T" => return numbered(text, number, "timers", "T", Address::Timer),
-            "C" | "Z" => return numbered(text, number, "counters", "C", Address::Counter),
+            "T" => return TIMERS.read(text, number, Address::Timer),
+            "C" | "Z" => return COUNTERS.read(text, number, Address::Counter),
+            "AC" => return ACCUMULATORS.read(text, number, Address::Accumulator),
+            "HC" | "HZ" => return HIGH_SPEED_COUNTERS.read(text, number, Address::HighSpeedCounter),
             "AIN" => return raw_analog(text, number),
             "AIW" | "AI" | "AEW" | "AE" => return scaled_analog(text, number),
-            _ => area_and_size(letters, text)?,
+            "AQW" | "AQ" | "AAW" | "AA" => return analog_output(text, number),
+            _ => area_and_size(letters)?,
         };
         in_area(text, area, size, number)
     }
@@ -80,9 +97,31 @@ enum Size {
     Bit,
     Byte,
     Word,
+    Double,
 }
 
-fn area_and_size(letters: &str, text: &str) -> Result<(Area, Size), AddressError> {
+impl Size {
+    /// Bytes from its first to behind its last; a bit lies in one.
+    fn bytes(self) -> u32 {
+        match self {
+            Size::Bit | Size::Byte => 1,
+            Size::Word => 2,
+            Size::Double => 4,
+        }
+    }
+
+    /// The letter of the size, and what such addresses are called.
+    fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Size::Bit => ("", "bits"),
+            Size::Byte => ("B", "bytes"),
+            Size::Word => ("W", "words"),
+            Size::Double => ("D", "double words"),
+        }
+    }
+}
+
+fn area_and_size(letters: &str) -> Result<(Area, Size), AddressError> {
     let (area, rest) = match letters.as_bytes() {
         [b'S', b'M', rest @ ..] => (Area::Sm, rest),
         [b'I' | b'E', rest @ ..] => (Area::I, rest),
@@ -91,23 +130,16 @@ fn area_and_size(letters: &str, text: &str) -> Result<(Area, Size), AddressError
         [b'M', rest @ ..] => (Area::M, rest),
         [b'S', rest @ ..] => (Area::S, rest),
         [b'V', rest @ ..] => (Area::V, rest),
-        b"AC" => return Err(not_supported(text, "accumulators are")),
-        b"L" | b"LB" | b"LW" | b"LD" => return Err(not_supported(text, "local memory is")),
-        b"HC" | b"HZ" => return Err(not_supported(text, "high-speed counters are")),
-        b"AQ" | b"AQW" | b"AA" | b"AAW" => return Err(not_supported(text, "analog outputs are")),
+        [b'L', rest @ ..] => (Area::L, rest),
         _ => return Err(AddressError::NotAnAddress),
     };
     match rest {
         [] | [b'X'] => Ok((area, Size::Bit)),
         [b'B'] => Ok((area, Size::Byte)),
         [b'W'] => Ok((area, Size::Word)),
-        [b'D'] => Err(not_supported(text, "double words are")),
+        [b'D'] => Ok((area, Size::Double)),
         _ => Err(AddressError::NotAnAddress),
     }
-}
-
-fn not_supported(text: &str, what: &str) -> AddressError {
-    AddressError::NotSupported(format!("{text}: {what} not supported yet"))
 }
 
 fn out_of_range(message: String, suggestion: impl Into<Option<String>>) -> AddressError {
@@ -119,20 +151,29 @@ fn number_of(digits: &str) -> u32 {
     digits.parse().unwrap_or(u32::MAX)
 }
 
-fn numbered(
-    text: &str,
-    number: &str,
-    what: &str,
-    letter: &str,
-    make: fn(u8) -> Address,
-) -> Result<Address, AddressError> {
-    if number.contains('.') {
-        let plain = format!("{letter}{}", number.split('.').next().unwrap_or(""));
-        return Err(out_of_range(format!("{text}: {what} have no bit number"), plain));
-    }
-    match u8::try_from(number_of(number)) {
-        Ok(number) => Ok(make(number)),
-        Err(_) => Err(out_of_range(format!("{text}: {what} are {letter}0 to {letter}255"), None)),
+/// Addresses that are a number behind letters.
+struct Numbered {
+    /// What they are called.
+    what: &'static str,
+    letters: &'static str,
+    last: u8,
+}
+
+const TIMERS: Numbered = Numbered { what: "timers", letters: "T", last: 255 };
+const COUNTERS: Numbered = Numbered { what: "counters", letters: "C", last: 255 };
+const ACCUMULATORS: Numbered = Numbered { what: "accumulators", letters: "AC", last: 3 };
+const HIGH_SPEED_COUNTERS: Numbered = Numbered { what: "high-speed counters", letters: "HC", last: 5 };
+
+impl Numbered {
+    fn read(&self, text: &str, number: &str, make: fn(u8) -> Address) -> Result<Address, AddressError> {
+        let Numbered { what, letters, last } = self;
+        if let Some((number, _)) = number.split_once('.') {
+            return Err(out_of_range(format!("{text}: {what} have no bit number"), format!("{letters}{number}")));
+        }
+        match u8::try_from(number_of(number)) {
+            Ok(number) if number <= *last => Ok(make(number)),
+            _ => Err(out_of_range(format!("{text}: {what} are {letters}0 to {letters}{last}"), None)),
+        }
     }
 }
 
@@ -155,6 +196,15 @@ fn scaled_analog(text: &str, number: &str) -> Result<Address, AddressError> {
             Err(out_of_range(format!("{text}: analog inputs have even addresses"), Some(format!("AIW{}", byte - 1))))
         }
         _ => Err(out_of_range(format!("{text}: the analog inputs are AIW0, AIW2, ... AIW10"), None)),
+    }
+}
+
+fn analog_output(text: &str, number: &str) -> Result<Address, AddressError> {
+    match number_of(number) {
+        byte if byte < 2 * u32::from(ANALOG_OUTPUTS) && byte % 2 == 0 && !number.contains('.') => {
+            Ok(Address::AnalogOutput((byte / 2) as u8))
+        }
+        _ => Err(out_of_range(format!("{text}: the analog outputs are AQW0 and AQW2"), None)),
     }
 }
 
@@ -190,13 +240,19 @@ fn in_area(text: &str, area: Area, size: Size, number: &str) -> Result<Address, 
             format!("{text}: only a bit address has a bit number"),
             Some(format!("{name}{}.{}", byte.min(last), bit_digits.unwrap_or("0"))),
         )),
-        (Size::Byte, None) if byte <= last => Ok(Address::Byte { area, byte: byte as u16 }),
-        (Size::Word, None) if byte < last => Ok(Address::Word { area, byte: byte as u16 }),
-        (Size::Byte, None) => {
-            Err(out_of_range(format!("{text}: {name} has the bytes {name}B0 to {name}B{last}"), None))
-        }
-        (Size::Word, None) => {
-            Err(out_of_range(format!("{text}: {name} has the words {name}W0 to {name}W{}", last - 1), None))
+        (size, None) => {
+            let last = u32::from(area.size()) - size.bytes();
+            if byte > last {
+                let (letter, what) = size.words();
+                let message = format!("{text}: {name} has the {what} {name}{letter}0 to {name}{letter}{last}");
+                return Err(out_of_range(message, None));
+            }
+            let byte = byte as u16;
+            Ok(match size {
+                Size::Word => Address::Word { area, byte },
+                Size::Double => Address::Double { area, byte },
+                Size::Bit | Size::Byte => Address::Byte { area, byte },
+            })
         }
     }
 }
@@ -207,10 +263,63 @@ impl fmt::Display for Address {
             Address::Bit { area, byte, bit } => write!(f, "{}{byte}.{bit}", area.name()),
             Address::Byte { area, byte } => write!(f, "{}B{byte}", area.name()),
             Address::Word { area, byte } => write!(f, "{}W{byte}", area.name()),
+            Address::Double { area, byte } => write!(f, "{}D{byte}", area.name()),
             Address::Timer(number) => write!(f, "T{number}"),
             Address::Counter(number) => write!(f, "C{number}"),
             Address::Analog(AnalogInput::Scaled(channel)) => write!(f, "AIW{}", 2 * channel),
             Address::Analog(AnalogInput::Raw(channel)) => write!(f, "Ain{channel}"),
+            Address::AnalogOutput(channel) => write!(f, "AQW{}", 2 * channel),
+            Address::Accumulator(number) => write!(f, "AC{number}"),
+            Address::HighSpeedCounter(number) => write!(f, "HC{number}"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown(text: &str) -> String {
+        match Address::parse(text) {
+            Ok(address) => address.to_string(),
+            Err(AddressError::OutOfRange(message, _)) => message,
+            Err(AddressError::NotAnAddress) => "none".to_owned(),
+        }
+    }
+
+    #[test]
+    fn every_class_reads_as_it_is_shown() {
+        let bits = "I0.0 Q15.7 M31.7 SM0.1 SM549.7 S31.7 V10239.7 L63.7";
+        let bytes = "IB15 QB0 MB31 SMB549 SB31 VB10239 LB63";
+        let words = "IW14 QW0 MW30 SMW548 SW30 VW10238 LW62 T255 C0 AIW10 Ain5 AQW0 AQW2";
+        let doubles = "ID12 QD0 MD28 SMD546 SD28 VD10236 LD60 AC0 AC3 HC0 HC5";
+        for text in [bits, bytes, words, doubles].into_iter().flat_map(str::split_ascii_whitespace) {
+            assert_eq!(shown(text), text);
+            assert_eq!(shown(&text.to_lowercase()), text);
+        }
+    }
+
+    #[test]
+    fn other_spellings() {
+        let german = [("E0.0", "I0.0"), ("A0.1", "Q0.1"), ("AD0", "QD0"), ("ED4", "ID4"), ("Z5", "C5"), ("HZ3", "HC3")];
+        let short =
+            [("AEW2", "AIW2"), ("AE2", "AIW2"), ("AI2", "AIW2"), ("AAW2", "AQW2"), ("AQ2", "AQW2"), ("VX0.1", "V0.1")];
+        for (text, meant) in german.into_iter().chain(short) {
+            assert_eq!(shown(text), meant);
+        }
+    }
+
+    #[test]
+    fn ends_of_ranges() {
+        assert_eq!(shown("VD10237"), "VD10237: V has the double words VD0 to VD10236");
+        assert_eq!(shown("MD29"), "MD29: M has the double words MD0 to MD28");
+        assert_eq!(shown("L64.0"), "L64.0: L has the bits L0.0 to L63.7");
+        assert_eq!(shown("SMB550"), "SMB550: SM has the bytes SMB0 to SMB549");
+        assert_eq!(shown("AC4"), "AC4: accumulators are AC0 to AC3");
+        assert_eq!(shown("AC0.1"), "AC0.1: accumulators have no bit number");
+        assert_eq!(shown("HC6"), "HC6: high-speed counters are HC0 to HC5");
+        assert_eq!(shown("AQW1"), "AQW1: the analog outputs are AQW0 and AQW2");
+        assert_eq!(shown("VD"), "none");
+        assert_eq!(shown("XD0"), "none");
     }
 }

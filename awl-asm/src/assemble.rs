@@ -3,13 +3,16 @@
 use std::collections::HashSet;
 
 use crate::ast::{Program, Span, Symbol};
-use crate::check::{Depths, Usage, control, span_of, stack, usage};
+use crate::check::{Depths, Usage, control, placement, sequence, span_of, stack, usage};
+use crate::data_block::{DataLine, join};
 use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::encode::{Encoding, Line, encode};
+use crate::encode::{Checked, Encoding, Line, encode};
+use crate::mnemonic_set;
 use crate::parser::parse;
 use crate::plan::{Demand, demand};
 use crate::select::{Selected, select};
 use crate::source::Source;
+use crate::units::Units;
 
 /// Everything known about an assembled program.
 #[derive(Debug)]
@@ -22,6 +25,8 @@ pub struct Assembly {
     pub program: Program,
     /// Its instructions.
     pub code: Vec<Selected>,
+    /// Its units.
+    pub units: Units,
     /// Their bytes, parallel to `code`; empty when there are errors.
     pub lines: Vec<Line>,
     /// The depth of the logic stack after each, parallel to `code`.
@@ -46,21 +51,35 @@ impl Assembly {
 
 /// Assembles a program. `symbols` come from symbol files; the source may declare more.
 pub fn assemble(source: &Source, symbols: Vec<Symbol>) -> Assembly {
-    let (program, mut diagnostics) = parse(source, symbols);
+    assemble_with_data(source, symbols, &[])
+}
+
+/// The same with a data block that is a file of its own, as [`data_block::parse`](crate::data_block::parse) reads it.
+pub fn assemble_with_data(source: &Source, symbols: Vec<Symbol>, data: &[DataLine]) -> Assembly {
+    let (mut program, mut diagnostics) = parse(source, symbols);
+    join(&mut program.data, data, &mut diagnostics);
+    mnemonic_set::check(&source.text, &program, &mut diagnostics);
     let code = select(&program, &mut diagnostics);
-    let control = control(&program, &code, &mut diagnostics);
+    let units = Units::new(&program, &code, &mut diagnostics);
+    let control = control(&program, &code, &units, &mut diagnostics);
+    placement(&program, &code, &units, &mut diagnostics);
+    sequence(&program, &code, &units, &control, &mut diagnostics);
     let depths = stack(&program, &code, &mut diagnostics);
     let usage = usage(&program, &code, &mut diagnostics);
-    let demand = demand(&program, &code, &mut diagnostics);
+    let demand = demand(&program, &code, &units, &mut diagnostics);
     drop_follow_ups(&mut diagnostics);
     let has_errors = diagnostics.iter().any(|diagnostic| diagnostic.severity() == Severity::Error);
     let encoding = match has_errors {
         true => Encoding::default(),
-        false => encode(&program, source.stem(), &code, &control, &demand, &mut diagnostics),
+        false => {
+            let checked =
+                Checked { program: &program, code: &code, units: &units, control: &control, demand: &demand };
+            encode(checked, source.stem(), &mut diagnostics)
+        }
     };
     diagnostics.sort_by_key(|diagnostic| diagnostic.span);
     let image = (!encoding.image.is_empty()).then_some(encoding.image);
-    Assembly { image, diagnostics, program, code, lines: encoding.lines, depths, usage, demand }
+    Assembly { image, diagnostics, program, code, units, lines: encoding.lines, depths, usage, demand }
 }
 
 /// A word that was no instruction is taken for the one it resembles, for the sake of the lines that follow. What is
@@ -69,8 +88,8 @@ fn drop_follow_ups(diagnostics: &mut Vec<Diagnostic>) {
     let is_guess = |diagnostic: &&Diagnostic| matches!(diagnostic.code, Code::UnknownMnemonic | Code::NotSupported);
     let guesses: HashSet<Span> = diagnostics.iter().filter(is_guess).map(|diagnostic| diagnostic.span).collect();
     diagnostics.retain(|diagnostic| is_guess(&diagnostic) || !guesses.contains(&diagnostic.span));
-    // Whether a value is used cannot be told while instructions are missing.
+    // Whether a value or a routine is used cannot be told while instructions are missing.
     if diagnostics.iter().any(|diagnostic| diagnostic.severity() == Severity::Error) {
-        diagnostics.retain(|diagnostic| diagnostic.code != Code::UnusedValue);
+        diagnostics.retain(|diagnostic| !matches!(diagnostic.code, Code::UnusedValue | Code::NeverCalled));
     }
 }

@@ -1,8 +1,11 @@
 //! The parsed program: instructions with their operands and positions. No checks beyond form, no encoding.
 
+use std::fmt;
+
 use plc_isa::{Relation, Settings};
 
 use crate::address::Address;
+use crate::data_block::DataLine;
 
 /// A stretch of the source text, in bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord)]
@@ -38,17 +41,181 @@ pub struct Program {
     pub settings: Settings,
     /// Ranges of `//# retain`.
     pub retained: Vec<RetainedRange>,
+    /// What V memory holds before the first scan: lines in the order of the text, no byte in two of them.
+    pub data: Vec<DataLine>,
+    /// V bytes of `//# memory`: first byte, count, and where they are asked for.
+    pub memory: Vec<(u16, u16, Span)>,
     /// The name of `//# name`.
     pub name: Option<String>,
+}
+
+impl Program {
+    /// The program units in the order of the text, each with the index of its statement. A text without blocks has
+    /// none: all of it is the main program.
+    pub fn units(&self) -> impl Iterator<Item = (usize, &Unit)> {
+        self.statements.iter().enumerate().filter_map(|(index, statement)| match statement {
+            Statement::Unit(unit) => Some((index, unit)),
+            _ => None,
+        })
+    }
 }
 
 /// A statement of the program.
 #[derive(Debug, Clone)]
 pub enum Statement {
+    /// The start of a program unit: what follows up to the next one belongs to it.
+    Unit(Unit),
     /// The start of a network.
     Network(Network),
     /// An instruction.
     Instruction(Instruction),
+}
+
+/// What a program unit is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum UnitKind {
+    /// The main program, OB1.
+    Main,
+    /// A subroutine, SBR0 to SBR255.
+    Subroutine,
+    /// An interrupt routine, INT0 to INT255.
+    Interrupt,
+}
+
+impl UnitKind {
+    /// The letters before the number: `OB`, `SBR`, `INT`.
+    pub fn letters(self) -> &'static str {
+        match self {
+            UnitKind::Main => "OB",
+            UnitKind::Subroutine => "SBR",
+            UnitKind::Interrupt => "INT",
+        }
+    }
+}
+
+/// What names a program unit: its kind and number, as in SBR0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct UnitId {
+    /// Its kind.
+    pub kind: UnitKind,
+    /// Its number; of OB1 it is 1.
+    pub number: u8,
+}
+
+impl fmt::Display for UnitId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}{}", self.kind.letters(), self.number)
+    }
+}
+
+/// The head of a program unit: a block's header and its variables.
+#[derive(Debug, Clone)]
+pub struct Unit {
+    /// Kind and number.
+    pub id: UnitId,
+    /// Its name without quotes, `SBR_0` in `SUBROUTINE_BLOCK SBR_0:SBR0`; empty where there is none.
+    pub name: String,
+    /// The text behind `TITLE=`.
+    pub title: String,
+    /// The local variables in the order of their declaration.
+    pub variables: Vec<Variable>,
+    /// The header.
+    pub span: Span,
+}
+
+/// Which section a local variable is declared in: how it is handed over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Section {
+    /// `VAR_INPUT`: copied in at the call.
+    In,
+    /// `VAR_IN_OUT`: copied in at the call and back at the return.
+    InOut,
+    /// `VAR_OUTPUT`: copied back at the return.
+    Out,
+    /// `VAR`, `VAR_TEMP`: no parameter.
+    Temp,
+}
+
+impl Section {
+    /// As in the manual: `IN`, `IN_OUT`, `OUT`, `TEMP`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Section::In => "IN",
+            Section::InOut => "IN_OUT",
+            Section::Out => "OUT",
+            Section::Temp => "TEMP",
+        }
+    }
+}
+
+/// The type of a local variable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Type {
+    /// One bit.
+    Bool,
+    /// A byte, unsigned.
+    Byte,
+    /// A character: a byte.
+    Char,
+    /// A word, a pattern.
+    Word,
+    /// A word, signed.
+    Int,
+    /// A double word, a pattern.
+    Dword,
+    /// A double word, signed.
+    Dint,
+    /// IEEE single.
+    Real,
+    /// As a parameter, the address of a text (a double word).
+    Text,
+}
+
+impl Type {
+    /// All types with their names; the first of a type is the canonical one.
+    pub const NAMES: [(&'static str, Type); 9] = [
+        ("BOOL", Type::Bool),
+        ("BYTE", Type::Byte),
+        ("CHAR", Type::Char),
+        ("WORD", Type::Word),
+        ("INT", Type::Int),
+        ("DWORD", Type::Dword),
+        ("DINT", Type::Dint),
+        ("REAL", Type::Real),
+        ("STRING", Type::Text),
+    ];
+
+    /// The name in a declaration.
+    pub fn name(self) -> &'static str {
+        Type::NAMES.iter().find(|(_, other)| *other == self).map_or("", |&(name, _)| name)
+    }
+
+    /// Bytes that a variable takes; of a bit 0: up to eight of them share a byte.
+    pub fn bytes(self) -> u8 {
+        match self {
+            Type::Bool => 0,
+            Type::Byte | Type::Char => 1,
+            Type::Word | Type::Int => 2,
+            Type::Dword | Type::Dint | Type::Real | Type::Text => 4,
+        }
+    }
+}
+
+/// A local variable.
+#[derive(Debug, Clone)]
+pub struct Variable {
+    /// Its name, without `#`.
+    pub name: String,
+    /// Its section.
+    pub section: Section,
+    /// Its type.
+    pub kind: Type,
+    /// Its place in local memory, counted from L0.0 of its unit.
+    pub address: Address,
+    /// Its comment.
+    pub comment: String,
+    /// Where its name stands.
+    pub span: Span,
 }
 
 /// A NETWORK line.
@@ -93,6 +260,16 @@ pub enum Value {
     Address(Address),
     /// A number. For NOP, LDS, JMP and LBL too.
     Constant(Constant),
+    /// A real number: the bits of an IEEE single.
+    Real(u32),
+    /// A text in double quotes: its characters in the code page.
+    Text(Vec<u8>),
+    /// What the pointer in this double word points to: `*AC1`, `*VD10`, `*LD0`.
+    Indirect(Address),
+    /// A pointer to this address: `&VB100`.
+    AddressOf(Address),
+    /// A subroutine or interrupt routine.
+    Unit(UnitId),
     /// Something that an error was reported for: silences follow-up errors.
     Invalid,
 }

@@ -1,6 +1,6 @@
-//! The block structure of an exported program: headers, VAR sections, BEGIN and END. Instructions are only let in or not.
+//! The block structure of an exported program: headers, VAR sections, BEGIN and END. What stands in a block is read elsewhere.
 
-use crate::ast::Span;
+use crate::ast::{Section, Span};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::mnemonics::{Block, Keyword};
 
@@ -8,13 +8,14 @@ use crate::mnemonics::{Block, Keyword};
 #[derive(Debug, Default)]
 pub(crate) struct Blocks {
     open: Option<Open>,
-    /// The VAR line of an open section.
-    variables: Option<Variables>,
+    /// An open VAR section with its first line.
+    variables: Option<(Section, Span)>,
     /// The first ORGANIZATION_BLOCK.
     main: Option<Span>,
+    /// The first block that is called from a main program.
+    routine: Option<Span>,
     /// The first instruction or network outside of blocks.
     outside: Option<Span>,
-    has_blocks: bool,
     is_outside_reported: bool,
 }
 
@@ -23,14 +24,6 @@ struct Open {
     block: Block,
     header: Span,
     has_begun: bool,
-    /// Its content has been refused: once is enough.
-    is_refused: bool,
-}
-
-#[derive(Debug)]
-struct Variables {
-    place: Span,
-    is_refused: bool,
 }
 
 /// What a line is, for the block structure.
@@ -40,52 +33,50 @@ pub(crate) enum Content {
     Other,
 }
 
+/// What a line is by the place it stands in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// Code of a program unit.
+    Code,
+    /// A declaration in a VAR section.
+    Declaration(Section),
+    /// A line of a data block.
+    Data,
+}
+
 impl Blocks {
-    /// Whether content at this place belongs to the program; what does not belong is skipped.
-    pub(crate) fn admits(&mut self, content: Content, place: Span, diagnostics: &mut Vec<Diagnostic>) -> bool {
-        match (&mut self.variables, content) {
+    /// What content at this place is.
+    pub(crate) fn place(&mut self, content: Content, place: Span, diagnostics: &mut Vec<Diagnostic>) -> Place {
+        match (self.variables, content) {
             (Some(_), Content::Network) => self.close_variables(diagnostics),
-            (Some(variables), Content::Other) => {
-                let is_main = self.open.as_ref().is_some_and(|open| open.block == Block::Organization);
-                if is_main && !variables.is_refused {
-                    let message = "VAR: local variables are not supported yet";
-                    diagnostics.push(Diagnostic::new(Code::NotSupported, variables.place, message));
-                }
-                variables.is_refused = true;
-                return false;
-            }
+            (Some((section, _)), Content::Other) => return Place::Declaration(section),
             (None, _) => {}
         }
         match &mut self.open {
             None => {
                 self.note_outside(place, diagnostics);
-                true
+                Place::Code
             }
-            Some(open) if open.block == Block::Organization => {
+            Some(open) if open.block == Block::Data => Place::Data,
+            Some(open) => {
                 if !open.has_begun {
-                    let diagnostic =
-                        Diagnostic::new(Code::Block, place, "BEGIN is missing before the first instruction");
+                    let message = "BEGIN is missing before the first instruction";
+                    let diagnostic = Diagnostic::new(Code::Block, place, message);
                     diagnostics.push(diagnostic.related(open.header, "of this block"));
                     open.has_begun = true;
                 }
-                true
-            }
-            Some(open) => {
-                if content == Content::Other && !open.is_refused {
-                    let message = format!("{}: such blocks are not supported yet", open.block.header());
-                    let diagnostic = Diagnostic::new(Code::NotSupported, open.header, message);
-                    diagnostics
-                        .push(diagnostic.help("uno200 runs the main program OB1 only; an empty block does no harm"));
-                    open.is_refused = true;
-                }
-                false
+                Place::Code
             }
         }
     }
 
+    fn has_program_blocks(&self) -> bool {
+        self.main.is_some() || self.routine.is_some()
+    }
+
     fn note_outside(&mut self, place: Span, diagnostics: &mut Vec<Diagnostic>) {
         self.outside.get_or_insert(place);
-        if self.has_blocks && !self.is_outside_reported {
+        if self.has_program_blocks() && !self.is_outside_reported {
             let message = "an instruction stands outside of the blocks";
             diagnostics.push(Diagnostic::new(Code::Block, place, message));
             self.is_outside_reported = true;
@@ -110,9 +101,9 @@ impl Blocks {
                 }
                 error
             }
-            Keyword::Var => {
+            Keyword::Var(section) => {
                 self.close_variables(diagnostics);
-                self.variables = Some(Variables { place, is_refused: false });
+                self.variables = Some((section, place));
                 self.in_header("VAR")
             }
             Keyword::EndVar => match self.variables.take() {
@@ -134,25 +125,28 @@ impl Blocks {
 
     fn header(&mut self, block: Block, place: Span, diagnostics: &mut Vec<Diagnostic>) {
         self.close_variables(diagnostics);
+        let is_first = !self.has_program_blocks();
         if let Some(open) = self.open.take() {
             let message = format!("{}: {} is missing before it", block.header(), open.block.end());
             diagnostics
                 .push(Diagnostic::new(Code::Block, place, message).related(open.header, "this block is still open"));
-        } else if let Some(outside) = self.outside.filter(|_| !self.has_blocks) {
+        } else if let (Some(outside), true) = (self.outside, is_first && block != Block::Data) {
             let message = format!("{}: instructions stand before the first block", block.header());
             diagnostics.push(Diagnostic::new(Code::Block, place, message).related(outside, "this one, for example"));
             self.is_outside_reported = true;
         }
-        match self.main {
-            Some(first) if block == Block::Organization => {
+        match (block, self.main) {
+            (Block::Organization, Some(first)) => {
                 let diagnostic = Diagnostic::new(Code::Block, place, "ORGANIZATION_BLOCK: a program has only one");
                 diagnostics.push(diagnostic.related(first, "the first one"));
             }
-            None if block == Block::Organization => self.main = Some(place),
-            _ => {}
+            (Block::Organization, None) => self.main = Some(place),
+            (Block::Subroutine | Block::Interrupt, _) => {
+                self.routine.get_or_insert(place);
+            }
+            (Block::Data, _) => {}
         }
-        self.has_blocks = true;
-        self.open = Some(Open { block, header: place, has_begun: false, is_refused: false });
+        self.open = Some(Open { block, header: place, has_begun: false });
     }
 
     /// What is wrong with the end of a block.
@@ -169,17 +163,22 @@ impl Blocks {
     }
 
     fn close_variables(&mut self, diagnostics: &mut Vec<Diagnostic>) {
-        if let Some(variables) = self.variables.take() {
-            diagnostics.push(Diagnostic::new(Code::Block, variables.place, "VAR: END_VAR is missing"));
+        if let Some((_, place)) = self.variables.take() {
+            diagnostics.push(Diagnostic::new(Code::Block, place, "VAR: END_VAR is missing"));
         }
     }
 
-    /// Reports what the end of the text leaves open.
+    /// Reports what the end of the text leaves open, or lacks.
     pub(crate) fn finish(&mut self, diagnostics: &mut Vec<Diagnostic>) {
         self.close_variables(diagnostics);
         if let Some(open) = self.open.take() {
             let message = format!("{}: {} is missing", open.block.header(), open.block.end());
             diagnostics.push(Diagnostic::new(Code::Block, open.header, message));
+        }
+        if let (Some(routine), None, None) = (self.routine, self.main, self.outside) {
+            let message = "the program has no main program";
+            let diagnostic = Diagnostic::new(Code::Block, routine, message);
+            diagnostics.push(diagnostic.help("it stands in ORGANIZATION_BLOCK MAIN:OB1"));
         }
     }
 }

@@ -58,6 +58,22 @@ codes! {
     Block = "E0021";
     NotSupported = "E0022";
     TooMany = "E0023";
+    DataBlock = "E0060";
+    UnitHeader = "E0070";
+    Declaration = "E0071";
+    UnknownRoutine = "E0072";
+    ParameterCount = "E0073";
+    ParameterKind = "E0074";
+    Recursion = "E0075";
+    CallDepth = "E0076";
+    LocalMemory = "E0077";
+    ScrPairing = "E0078";
+    ScrContent = "E0079";
+    ScrBit = "E0080";
+    WrongUnit = "E0081";
+    Pointer = "E0082";
+    Event = "E0083";
+    Hardware = "E0084";
     StackOverflow = "W0001";
     OutputTwice = "W0002";
     TimerNeverStarted = "W0003";
@@ -68,6 +84,8 @@ codes! {
     StartedTwice = "W0008";
     JumpIntoLoop = "W0009";
     UnusedValue = "W0010";
+    NeverCalled = "W0020";
+    MixedMnemonics = "W0030";
 }
 
 impl Code {

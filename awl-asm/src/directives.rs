@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::suggest::{Suggester, nearby_address};
 use crate::symbols::{SymbolTable, check_name, read_value};
 
-const WORDS: [&str; 8] = ["pullup", "invert", "retain", "watchdog", "scan", "filter", "name", "symbol"];
+const WORDS: [&str; 9] = ["pullup", "invert", "retain", "memory", "watchdog", "scan", "filter", "name", "symbol"];
 
 /// Whether a comment is a setting, whatever stands before it.
 pub(crate) fn is_setting(comment: &str) -> bool {
@@ -113,6 +113,7 @@ impl Directives {
             () if is("pullup") => points(word, values, targets, pullup),
             () if is("invert") => points(word, values, targets, invert),
             () if is("retain") => retain(word, values, targets),
+            () if is("memory") => memory(word, values, targets),
             () if is("watchdog") => {
                 let ms = time(word, values, 1)?;
                 once(&mut self.watchdog, line, word)?;
@@ -216,7 +217,6 @@ fn address(piece: Piece<'_>) -> Outcome<Address> {
             diagnostic.suggestion = nearby_address(piece.text);
             diagnostic
         }
-        AddressError::NotSupported(message) => Box::new(Diagnostic::new(Code::NotSupported, piece.span(), message)),
         AddressError::OutOfRange(message, suggestion) => {
             let mut diagnostic = Diagnostic::new(Code::AddressRange, piece.span(), message);
             diagnostic.suggestion = suggestion.or_else(|| nearby_address(piece.text));
@@ -306,17 +306,40 @@ fn retain(word: Piece<'_>, list: Piece<'_>, targets: &mut Targets<'_>) {
     }
 }
 
-fn retained(item: Piece<'_>, first: Address, last: Address) -> Outcome<RetainedRange> {
-    // Area, first byte or number, and how many a single one has.
-    let unit = |address| match address {
+/// Reads the ranges of V memory that the program shall have, whether it names them or not.
+fn memory(word: Piece<'_>, list: Piece<'_>, targets: &mut Targets<'_>) {
+    if list.text.is_empty() {
+        targets.diagnostics.push(*word.error("ranges are missing, such as VB0-VB99"));
+        return;
+    }
+    for item in ranges(list) {
+        let outcome = item.and_then(|(item, first, last)| {
+            let (Some((Area::V, from, from_len)), Some((area, to, len))) = (unit(first), unit(last)) else {
+                return Err(item.error("only bytes, words and double words of V memory are asked for"));
+            };
+            check_order(item, area == Area::V && from_len == len, u32::from(from), u32::from(to))?;
+            targets.program.memory.push((from, to - from + len, item.span()));
+            Ok(())
+        });
+        targets.diagnostics.extend(outcome.err().map(|diagnostic| *diagnostic));
+    }
+}
+
+/// Area, first byte or number, and how many of them a value has, where ranges of it are kept.
+fn unit(address: Address) -> Option<(Area, u16, u16)> {
+    match address {
         Address::Byte { area: area @ (Area::V | Area::M), byte } => Some((area, byte, 1)),
         Address::Word { area: area @ (Area::V | Area::M), byte } => Some((area, byte, 2)),
+        Address::Double { area: area @ (Area::V | Area::M), byte } => Some((area, byte, 4)),
         Address::Timer(number) => Some((Area::T, u16::from(number), 1)),
         Address::Counter(number) => Some((Area::C, u16::from(number), 1)),
         _ => None,
-    };
+    }
+}
+
+fn retained(item: Piece<'_>, first: Address, last: Address) -> Outcome<RetainedRange> {
     let (Some((area, from, from_len)), Some((last_area, to, len))) = (unit(first), unit(last)) else {
-        let help = "what can be retained: bytes and words of V and M, timers of TONR, counters";
+        let help = "what can be retained: bytes, words and double words of V and M, timers of TONR, counters";
         return Err(Box::new(item.error("cannot be retained").help(help)));
     };
     check_order(item, area == last_area && from_len == len, u32::from(from), u32::from(to))?;

@@ -1,13 +1,22 @@
 //! From a program image back to AWL that assembles to the same bytes.
 
+mod frames;
+mod operands;
+
 use std::fmt::Write as _;
 
 use plc_isa::{
-    AnalogInput, Area, Bit, DEFAULT_WATCHDOG_MS, Decoded, Group, ImageError, Kind, Op, Operand, Program, ProgramMemory,
-    Region, Retained, STACK_LEVELS, verify,
+    Area, CRC_LEN, DEFAULT_WATCHDOG_MS, Decoded, INITIAL_HEAD_LEN, ImageError, Op, Program, ProgramMemory, Retained, SM_IN_V,
+    STACK_LEVELS, decode, verify,
 };
 
-use crate::address::Address;
+use crate::assemble::assemble;
+use crate::ast::{Section, UnitId, UnitKind};
+use crate::check::is_contact;
+use crate::disassemble::frames::{Frames, Parameter};
+use crate::disassemble::operands::Writer;
+use crate::plan::v_range;
+use crate::source::Source;
 
 /// An instruction as text.
 #[derive(Debug, Clone)]
@@ -16,6 +25,8 @@ pub struct TextLine {
     pub at: u16,
     /// The instruction.
     pub decoded: Decoded,
+    /// The unit it belongs to: 0 is the main program, then the routines in the order of their table.
+    pub unit: u8,
     /// Its AWL, without comment; empty for hidden instructions.
     pub text: String,
 }
@@ -23,10 +34,77 @@ pub struct TextLine {
 /// The whole image as AWL.
 pub fn disassemble(image: &[u8]) -> Result<String, ImageError> {
     let program = verify(image)?;
-    let lines = instructions(&program);
+    let text = whole_text(&program, &[]);
+    // V memory that no operand names must be asked for.
+    let planned: Vec<(u16, u16)> = program.plan().v_ranges().collect();
+    let named = Source::new("disassembly", text.clone()).map(|source| assemble(&source, Vec::new()).demand.v_ranges);
+    Ok(if named.is_ok_and(|named| named == planned) { text } else { whole_text(&program, &planned) })
+}
+
+/// The text with these ranges of V memory asked for.
+fn whole_text<P: ProgramMemory>(program: &Program<P>, memory: &[(u16, u16)]) -> String {
     let mut text = String::new();
-    settings(&program, &mut text);
-    let starts = networks(&lines);
+    settings(program, &mut text);
+    for &(first, len) in memory.iter().filter(|&&(first, _)| first < SM_IN_V) {
+        let _ = writeln!(text, "//# memory {}", v_range(first, len));
+    }
+    let lines = instructions(program);
+    let routines = program.plan().header.routines;
+    let frames = Frames::of(program, &decoded(program));
+    for unit in 0..=routines {
+        let id = unit_id(program, unit);
+        if routines > 0 {
+            header(id, frames.parameters(unit), &mut text);
+        }
+        let start = lines.partition_point(|line| line.unit < unit);
+        let end = lines.partition_point(|line| line.unit <= unit);
+        unit_text(lines.get(start..end).unwrap_or(&[]), &mut text);
+        if routines > 0 {
+            let _ = writeln!(text, "END_{}_BLOCK", block(id));
+        }
+    }
+    data_block(program, &mut text);
+    text
+}
+
+fn unit_id<P: ProgramMemory>(program: &Program<P>, unit: u8) -> UnitId {
+    match unit.checked_sub(1).map(|index| program.plan().routine_name(index)) {
+        None => UnitId { kind: UnitKind::Main, number: 1 },
+        Some((true, number)) => UnitId { kind: UnitKind::Interrupt, number },
+        Some((false, number)) => UnitId { kind: UnitKind::Subroutine, number },
+    }
+}
+
+fn block(id: UnitId) -> &'static str {
+    match id.kind {
+        UnitKind::Main => "ORGANIZATION",
+        UnitKind::Subroutine => "SUBROUTINE",
+        UnitKind::Interrupt => "INTERRUPT",
+    }
+}
+
+/// The header of a block with the declarations of its parameters.
+fn header(id: UnitId, parameters: &[Parameter], text: &mut String) {
+    let name = if id.kind == UnitKind::Main { "MAIN".to_owned() } else { format!("{}_{}", id.kind.letters(), id.number) };
+    let _ = writeln!(text, "\n{}_BLOCK {name}:{id}", block(id));
+    for (section, keyword) in [(Section::In, "VAR_INPUT"), (Section::InOut, "VAR_IN_OUT"), (Section::Out, "VAR_OUTPUT")] {
+        let mut is_open = false;
+        for (number, parameter) in (1..).zip(parameters).filter(|(_, parameter)| parameter.section == section) {
+            if !is_open {
+                let _ = writeln!(text, "{keyword}");
+                is_open = true;
+            }
+            let _ = writeln!(text, "P_{number}:{};", parameter.kind.name());
+        }
+        if is_open {
+            text.push_str("END_VAR\n");
+        }
+    }
+    text.push_str("BEGIN\n");
+}
+
+fn unit_text(lines: &[TextLine], text: &mut String) {
+    let starts = networks(lines);
     let mut number = 0;
     for (index, line) in lines.iter().enumerate().filter(|(_, line)| !line.text.is_empty()) {
         if starts.get(index).copied().unwrap_or(false) {
@@ -36,71 +114,53 @@ pub fn disassemble(image: &[u8]) -> Result<String, ImageError> {
         text.push_str(&line.text);
         text.push('\n');
     }
-    Ok(text)
+}
+
+/// What V memory holds before the first scan.
+fn data_block<P: ProgramMemory>(program: &Program<P>, text: &mut String) {
+    const BYTES_IN_LINE: u16 = 16;
+    let (mut at, end) = (program.plan().initial_at, program.code_at());
+    if at == end {
+        return;
+    }
+    text.push_str("\nDATA_BLOCK\n");
+    while at < end {
+        let (first, len) = (program.memory().word(at), u16::from(program.memory().byte(at + 2)));
+        at += INITIAL_HEAD_LEN;
+        for start in (0..len).step_by(usize::from(BYTES_IN_LINE)) {
+            let bytes = (start..len.min(start + BYTES_IN_LINE)).map(|index| program.memory().byte(at + index).to_string());
+            let _ = writeln!(text, "VB{} {}", first + start, bytes.collect::<Vec<_>>().join(", "));
+        }
+        at += len;
+    }
+    text.push_str("END_DATA_BLOCK\n");
+}
+
+/// The instructions of all units with offset and unit.
+fn decoded<P: ProgramMemory>(program: &Program<P>) -> Vec<(u16, u8, Decoded)> {
+    let end = program.plan().header.total_len - CRC_LEN;
+    let (mut next, mut unit) = (program.code_at(), 0u8);
+    let mut all = Vec::new();
+    // A verified image decodes to its end; machine code is not looked at.
+    while next < end && program.entry().is_none() {
+        let Ok(decoded) = decode(program.memory(), next) else { break };
+        all.push((next, unit, decoded));
+        next += decoded.len;
+        unit += u8::from(matches!(decoded.op, Op::MainEnd | Op::Ret));
+    }
+    all
 }
 
 /// The instructions of a program, hidden ones included.
 pub fn instructions<P: ProgramMemory>(program: &Program<P>) -> Vec<TextLine> {
-    let line = |(at, decoded)| TextLine { at, decoded, text: instruction_text(program, &decoded) };
-    program.instructions().map(line).collect()
-}
-
-/// One instruction as AWL.
-pub fn instruction_text<P: ProgramMemory>(program: &Program<P>, decoded: &Decoded) -> String {
-    let instruction = decoded.op.instruction();
-    if instruction.group == Group::Hidden {
-        return String::new();
-    }
-    let relation = decoded.relation().map_or("", |relation| relation.symbol());
-    let mnemonic = format!("{}{relation}", instruction.mnemonic());
-    let operands: Vec<String> = decoded
-        .operands()
-        .filter(|(kind, _)| kind.is_written())
-        .map(|(kind, operand)| operand_text(program, kind, operand))
-        .collect();
-    if operands.is_empty() { mnemonic } else { format!("{mnemonic:<6} {}", operands.join(", ")) }
-}
-
-fn operand_text<P: ProgramMemory>(program: &Program<P>, kind: Kind, operand: Operand) -> String {
-    match (kind, operand) {
-        (Kind::TimerSlot, Operand::Number(slot)) => format!("T{}", program.plan().timer(slot).number),
-        (Kind::CounterSlot, Operand::Number(slot)) => format!("C{}", program.plan().counter(slot).number),
-        (Kind::TimerNumber, Operand::Number(number)) => format!("T{number}"),
-        (Kind::CounterNumber, Operand::Number(number)) => format!("C{number}"),
-        (Kind::LabelIndex, Operand::Number(index)) => {
-            // The label's number stands behind its token.
-            let at = program.plan().label(index);
-            program.memory().byte(at + 1).to_string()
-        }
-        (_, Operand::Number(number)) => number.to_string(),
-        (Kind::IntConst | Kind::WordConst | Kind::AnyInt, Operand::Constant(value)) => (value as i16).to_string(),
-        (_, Operand::Constant(value)) => value.to_string(),
-        (_, Operand::Bit(bit)) => bit_text(program, bit),
-        (Kind::Byte | Kind::ByteOut | Kind::AnyByte, Operand::Memory(at)) => memory_text(program, at, false),
-        (_, Operand::Memory(at)) => memory_text(program, at, true),
-        (_, Operand::Relation(_) | Operand::Offset(_)) => String::new(),
-    }
-}
-
-fn bit_text<P: ProgramMemory>(program: &Program<P>, bit: Bit) -> String {
-    match program.plan().region(bit.address) {
-        Some(Region::Byte { area: Area::T, byte, .. }) => Address::Timer((byte * 8) as u8 + bit.bit).to_string(),
-        Some(Region::Byte { area: Area::C, byte, .. }) => Address::Counter((byte * 8) as u8 + bit.bit).to_string(),
-        Some(Region::Byte { area, byte, .. }) => Address::Bit { area, byte, bit: bit.bit }.to_string(),
-        _ => String::new(),
-    }
-}
-
-fn memory_text<P: ProgramMemory>(program: &Program<P>, at: u16, word: bool) -> String {
-    let address = match program.plan().region(at) {
-        Some(Region::Byte { area, byte, .. }) if word => Address::Word { area, byte },
-        Some(Region::Byte { area, byte, .. }) => Address::Byte { area, byte },
-        Some(Region::Analog(input @ (AnalogInput::Scaled(_) | AnalogInput::Raw(_)))) => Address::Analog(input),
-        Some(Region::TimerValue(number)) => Address::Timer(number),
-        Some(Region::CounterValue(number)) => Address::Counter(number),
-        None => return String::new(),
+    let decoded = decoded(program);
+    let frames = Frames::of(program, &decoded);
+    let mut writer = Writer::new(program, &frames, &decoded);
+    let line = |&(at, unit, decoded): &(u16, u8, Decoded)| {
+        let text = writer.instruction(unit, &decoded);
+        TextLine { at, decoded, unit, text }
     };
-    address.to_string()
+    decoded.iter().map(line).collect()
 }
 
 fn settings<P: ProgramMemory>(program: &Program<P>, text: &mut String) {
@@ -157,8 +217,7 @@ fn networks(lines: &[TextLine]) -> Vec<bool> {
     let mut after_output = true;
     for (index, line) in lines.iter().enumerate().filter(|(_, line)| !line.text.is_empty()) {
         let (op, stack) = (line.decoded.op, line.decoded.stack);
-        let group = op.instruction().group;
-        let may_start = stack.needs == 0 && (stack.adds > 0 || matches!(op, Op::Lbl | Op::Next));
+        let may_start = stack.needs == 0 && (stack.adds > 0 || matches!(op, Op::Lbl | Op::Next | Op::Scre));
         if after_output && may_start {
             open.push((index, depth));
         }
@@ -172,7 +231,7 @@ fn networks(lines: &[TextLine]) -> Vec<bool> {
         } else {
             depth = depth.saturating_add_signed(i32::from(stack.adds));
         }
-        after_output = !matches!(group, Group::Contact | Group::Compare | Group::Stack);
+        after_output = !is_contact(op);
     }
     settle(&mut open, &mut starts);
     starts

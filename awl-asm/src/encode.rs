@@ -1,25 +1,36 @@
-//! Turns a checked program into an image: header, tables, code, checksum. Finds no faults but size.
+//! Turns a checked program into an image: header, tables, constants, code, checksum. Finds no faults but size.
+
+use std::collections::HashMap;
 
 use plc_isa::{
-    CRC_LEN, Crc32, Encoded, Header, Kind, LABEL_LEN, NAME_LEN_MAX, Op, Operand, SLOT_LEN, TimerResolution,
-    timer_resolution,
+    Bit, CRC_LEN, Crc32, DIRECTORY_AT, Encoded, HEADER_LEN, Header, Kind, LABEL_LEN, MODULES, NAME_LEN_MAX,
+    OPERANDS_MODULE, Op, Operand, ROUTINE_LEN, SLOT_LEN, SLOT_START, TimerResolution, timer_resolution,
 };
 
 use crate::address::Address;
-use crate::ast::Program;
-use crate::check::{Control, span_of};
+use crate::ast::{Program, UnitKind};
+use crate::check::{Control, is_contact, span_of};
+use crate::constants::Pool;
+use crate::data_block::DataLine;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::modules;
 use crate::plan::{Demand, Places};
 use crate::select::{Argument, Selected};
+use crate::units::{Part, Units};
+
+/// The module of arithmetic with reals.
+const REAL_MODULE: u8 = 1;
+/// The module of functions of reals.
+const FUNCTION_MODULE: u8 = 2;
 
 /// The bytes of one instruction of the source.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Line {
     /// Offset of its first byte in the image. Beyond 65,535 only in programs that are too large.
     pub at: u32,
-    /// Its bytes, the hidden instruction before it included.
+    /// Its bytes, the hidden instructions before and behind it included.
     pub len: u8,
-    /// Bytes of that hidden instruction.
+    /// Bytes of the hidden instructions before it.
     pub hidden_len: u8,
 }
 
@@ -32,34 +43,53 @@ pub struct Encoding {
     pub lines: Vec<Line>,
 }
 
+/// What the checks have found out about a program.
+#[derive(Debug, Clone, Copy)]
+pub struct Checked<'a> {
+    /// The parsed program.
+    pub program: &'a Program,
+    /// Its instructions.
+    pub code: &'a [Selected],
+    /// Its units.
+    pub units: &'a Units,
+    /// Its jumps and loops.
+    pub control: &'a Control,
+    /// Its memory plan.
+    pub demand: &'a Demand,
+}
+
 /// Encodes a program. Reports one that is larger than the program slot.
-pub fn encode(
-    program: &Program,
-    name: &str,
-    code: &[Selected],
-    control: &Control,
-    demand: &Demand,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Encoding {
+pub fn encode(checked: Checked<'_>, name: &str, diagnostics: &mut Vec<Diagnostic>) -> Encoding {
+    let Checked { program, code, units, demand, .. } = checked;
     let name = program_name(program.name.as_deref().unwrap_or(name));
-    let mut header = header_of(program, &name, demand);
-    header.labels = control.labels.iter().flatten().count() as u16;
+    let pool = Pool::of(checked);
+    let initial = initial_values(&program.data);
+    let mut header = header_of(checked, &name);
+    let modules = Modules::of(checked);
+    header.modules_len = modules.bytes.len() as u16;
+    header.constants_len = pool.bytes().len() as u16;
+    header.initial_len = initial.len() as u16;
     let mut image = header.to_bytes().to_vec();
+    modules.enter(&mut image);
     image.extend_from_slice(name.as_bytes());
     image.extend(demand.v_ranges.iter().flat_map(|&(first, len)| [first.to_le_bytes(), len.to_le_bytes()]).flatten());
     image.extend(demand.timers.iter().flat_map(|(&number, kind)| [number, kind.code()]));
     image.extend_from_slice(&demand.counters);
-    let labels_at = image.len();
-    image.resize(labels_at + usize::from(LABEL_LEN * header.labels), 0);
+    image.resize(image.len() + usize::from(LABEL_LEN * header.labels), 0);
     image.extend(program.retained.iter().flat_map(|retained| retained.range.to_bytes()));
+    let routines = units.in_image().skip(1);
+    image.extend(routines.flat_map(|part| [0, 0, u8::from(part.id.kind == UnitKind::Interrupt), part.id.number]));
+    image.extend(&demand.events);
+    image.extend_from_slice(pool.bytes());
+    image.extend_from_slice(&initial);
 
     let code_at = image.len();
     let places = Places::new(header, &image);
-    let mut encoder = Encoder::new(image, code, control, places);
-    for (index, selected) in code.iter().enumerate() {
-        encoder.instruction(index, selected);
+    let mut encoder = Encoder::new(image, checked, places, &pool, header);
+    for part in units.in_image() {
+        encoder.unit(part);
     }
-    encoder.finish(labels_at);
+    encoder.finish();
 
     let Encoder { image, lines, .. } = encoder;
     let total_len = image.len() + usize::from(CRC_LEN);
@@ -70,12 +100,70 @@ pub fn encode(
     Encoding { image: seal(header, image, code_at), lines }
 }
 
+/// The machine code that the program's instructions need on the board.
+#[derive(Debug, Default)]
+struct Modules {
+    bytes: Vec<u8>,
+    /// For each module the word address of its jump table in flash; 0: not in the image.
+    directory: [u16; MODULES],
+}
+
+impl Modules {
+    fn of(checked: Checked<'_>) -> Modules {
+        let mut used = [false; MODULES];
+        for selected in checked.units.in_image().flat_map(|part| checked.code.get(part.code.clone()).unwrap_or(&[])) {
+            if let Some(place) = selected.op.instruction().module().and_then(|module| used.get_mut(usize::from(module))) {
+                *place = true;
+            }
+        }
+        let any = used.contains(&true);
+        used[usize::from(OPERANDS_MODULE)] |= any;
+        // Functions compute with the operations of reals.
+        used[usize::from(REAL_MODULE)] |= used[usize::from(FUNCTION_MODULE)];
+        let mut modules = Modules::default();
+        for (number, place) in modules.directory.iter_mut().enumerate().filter(|&(number, _)| used[number]) {
+            let Some(bytes) = modules::bytes(number as u8) else { continue };
+            let at = usize::from(HEADER_LEN) + modules.bytes.len();
+            *place = ((usize::from(SLOT_START) + at + usize::from(modules::jump_table_at(bytes))) / 2) as u16;
+            modules.bytes.extend_from_slice(bytes);
+        }
+        modules
+    }
+
+    /// Writes them behind the header, and where they are into it.
+    fn enter(&self, image: &mut Vec<u8>) {
+        let at = usize::from(DIRECTORY_AT);
+        for (place, word) in image[at..].chunks_exact_mut(2).zip(self.directory) {
+            place.copy_from_slice(&word.to_le_bytes());
+        }
+        image.extend_from_slice(&self.bytes);
+    }
+}
+
+/// The bytes of the data block as ranges: first V byte, length, values; as few ranges as there can be.
+fn initial_values(lines: &[DataLine]) -> Vec<u8> {
+    let mut bytes: Vec<(u16, u8)> =
+        lines.iter().flat_map(|line| (line.first_byte..).zip(line.bytes.iter().copied())).collect();
+    bytes.sort_unstable_by_key(|&(place, _)| place);
+    let mut stored = Vec::new();
+    for run in bytes.chunk_by(|a, b| a.0 + 1 == b.0) {
+        for part in run.chunks(usize::from(u8::MAX)) {
+            stored.extend(part.first().map_or(0, |&(first, _)| first).to_le_bytes());
+            stored.push(part.len() as u8);
+            stored.extend(part.iter().map(|&(_, value)| value));
+        }
+    }
+    stored
+}
+
 /// Completes an image that has everything else: the lengths in the header, and the checksum behind the code.
 pub fn seal(mut header: Header, mut image: Vec<u8>, code_at: usize) -> Vec<u8> {
     header.code_len = (image.len() - code_at) as u16;
     header.total_len = (image.len() + usize::from(CRC_LEN)) as u16;
+    // The directory of modules is there already.
     let head = header.to_bytes();
-    image[..head.len()].copy_from_slice(&head);
+    let directory_at = usize::from(DIRECTORY_AT);
+    image[..directory_at].copy_from_slice(&head[..directory_at]);
     let crc = Crc32::of(&image);
     image.extend_from_slice(&crc.to_le_bytes());
     image
@@ -87,14 +175,18 @@ fn program_name(name: &str) -> String {
     printable.take(usize::from(NAME_LEN_MAX)).collect()
 }
 
-fn header_of(program: &Program, name: &str, demand: &Demand) -> Header {
+fn header_of(checked: Checked<'_>, name: &str) -> Header {
+    let Checked { program, units, control, demand, .. } = checked;
     Header {
         arena_len: demand.arena_len() as u16,
         edges: demand.edges as u16,
         v_ranges: demand.v_ranges.len() as u16,
         timers: demand.timers.len() as u16,
         counters: demand.counters.len() as u16,
+        labels: control.labels_in_image(units) as u16,
         retained: program.retained.len() as u8,
+        routines: units.order.len().saturating_sub(1) as u8,
+        events: demand.events.len() as u8,
         name_len: name.len() as u8,
         settings: program.settings,
         ..Header::default()
@@ -126,65 +218,182 @@ fn too_large(
 
 struct Encoder<'a> {
     image: Vec<u8>,
+    /// Parallel to the code; of units that are left out they are empty.
     lines: Vec<Line>,
-    code: &'a [Selected],
-    control: &'a Control,
+    checked: Checked<'a>,
     places: Places,
-    /// For each label number its index in the label table.
-    label_indices: Vec<u8>,
+    pool: &'a Pool,
+    header: Header,
+    /// For each LBL its index in the label table, which is in the order of the image.
+    label_indices: HashMap<usize, u8>,
+    /// For each JMP its LBL.
+    targets: HashMap<usize, usize>,
     next_edge: u8,
     open_loops: Vec<usize>,
+    /// The CallBegin of a call that is not complete, and the call's statement.
+    open_call: Option<(usize, u32)>,
+    /// The S bit of the segment, as an operand.
+    segment: Option<Operand>,
+    has_interrupts: bool,
 }
 
 impl<'a> Encoder<'a> {
-    fn new(image: Vec<u8>, code: &'a [Selected], control: &'a Control, places: Places) -> Encoder<'a> {
-        // The table lists labels in the order of the code.
-        let mut by_place: Vec<(usize, usize)> =
-            control.labels.iter().enumerate().filter_map(|(number, &place)| Some((place?, number))).collect();
-        by_place.sort_unstable();
-        let mut label_indices = vec![0; control.labels.len()];
-        for (index, &(_, number)) in by_place.iter().enumerate() {
-            label_indices[number] = index as u8;
+    fn new(image: Vec<u8>, checked: Checked<'a>, places: Places, pool: &'a Pool, header: Header) -> Encoder<'a> {
+        let in_image = checked.units.in_image().flat_map(|part| part.code.clone());
+        let labels = in_image.filter(|&index| checked.code.get(index).is_some_and(|selected| selected.op == Op::Lbl));
+        Encoder {
+            image,
+            lines: vec![Line::default(); checked.code.len()],
+            checked,
+            places,
+            pool,
+            header,
+            label_indices: labels.zip(0..).collect(),
+            targets: checked.control.jumps.iter().copied().collect(),
+            next_edge: 0,
+            open_loops: Vec::new(),
+            open_call: None,
+            segment: None,
+            has_interrupts: checked.units.has_interrupts(),
         }
-        let lines = Vec::with_capacity(code.len());
-        Encoder { image, lines, code, control, places, label_indices, next_edge: 0, open_loops: Vec::new() }
     }
 
-    fn instruction(&mut self, index: usize, selected: &Selected) {
+    /// A unit with its end.
+    fn unit(&mut self, part: &Part) {
+        if let Some(index) = self.checked.units.routine_index(part.id) {
+            let entry = self.header.offsets().routines + ROUTINE_LEN * u16::from(index);
+            let offset = (self.image.len() as u16).to_le_bytes();
+            self.patch(usize::from(entry), offset);
+        }
+        let mut before = None;
+        for index in part.code.clone() {
+            self.instruction(part, index, before);
+            before = self.checked.code.get(index).map(|selected| selected.op);
+        }
+        self.end_call(None);
+        self.segment = None;
+        let end = if part.id.kind == UnitKind::Main { Op::MainEnd } else { Op::Ret };
+        self.push(end, &[]);
+    }
+
+    fn patch(&mut self, at: usize, bytes: [u8; 2]) {
+        if let Some(place) = self.image.get_mut(at..at + 2) {
+            place.copy_from_slice(&bytes);
+        }
+    }
+
+    fn instruction(&mut self, part: &Part, index: usize, before: Option<Op>) {
+        let Some(selected) = self.checked.code.get(index) else { return };
+        self.end_call(Some(selected.statement));
         let start = self.image.len();
+        let is_load = is_load(selected.op);
+        if is_load && self.has_interrupts && part.polls && before.is_none_or(|before| !is_contact(before)) {
+            self.push(Op::Poll, &[]);
+        }
         // NEXT reads FINAL of its FOR once more.
         let reader = match (selected.op, self.open_loops.last()) {
-            (Op::Next, Some(&open)) => self.code.get(open).unwrap_or(selected),
+            (Op::Next, Some(&open)) => self.checked.code.get(open).unwrap_or(selected),
             _ => selected,
         };
         if reads_fast_timer(reader) {
             self.push(Op::Refresh, &[]);
         }
         let hidden_len = self.image.len() - start;
-        let mut operands: Vec<Operand> = Vec::with_capacity(4);
-        operands.extend(selected.relation.map(Operand::Relation));
-        for (argument, _) in selected.arguments() {
-            operands.extend(self.places.operand(selected.op, argument));
+        let operands = self.operands(part, index, selected);
+        self.push(selected.op, &operands);
+        if selected.op == Op::CallBegin {
+            self.open_call = Some((self.image.len(), selected.statement));
         }
-        match (selected.op, operands.first_mut()) {
-            (Op::Jmp, Some(Operand::Number(label))) => *label = self.label_indices[usize::from(*label)],
-            (Op::Eu | Op::Ed, _) => {
-                operands.push(Operand::Number(self.next_edge));
-                self.next_edge = self.next_edge.wrapping_add(1);
-            }
-            (Op::For, _) => {
-                operands.push(Operand::Offset(0));
-                self.open_loops.push(index);
-            }
-            (Op::Next, _) => {
-                let start = self.open_loops.pop().and_then(|open| self.lines.get(open));
-                operands.push(Operand::Offset(start.map_or(0, code_offset)));
-            }
+        self.in_segment(part, selected, &operands, is_load);
+        let len = (self.image.len() - start) as u8;
+        self.lines[index] = Line { at: start as u32, len, hidden_len: hidden_len as u8 };
+    }
+
+    /// The offset behind a call with parameters is known when another statement begins.
+    fn end_call(&mut self, statement: Option<u32>) {
+        if let Some((at, _)) = self.open_call.filter(|&(_, call)| Some(call) != statement) {
+            let behind = (self.image.len() as u16).to_le_bytes();
+            self.patch(at - behind.len(), behind);
+            self.open_call = None;
+        }
+    }
+
+    /// Follows the segments of a sequence, in which every load is combined with the SCR bit.
+    fn in_segment(&mut self, part: &Part, selected: &Selected, operands: &[Operand], is_load: bool) {
+        match selected.op {
+            Op::Lscr => self.segment = operands.first().copied(),
+            Op::Scre => self.segment = None,
+            _ if is_load && self.segment.is_some() => self.push(Op::ScrAnd, &[scr_bit(part)]),
             _ => {}
         }
-        self.push(selected.op, &operands);
-        let len = (self.image.len() - start) as u8;
-        self.lines.push(Line { at: start as u32, len, hidden_len: hidden_len as u8 });
+    }
+
+    /// The operands as they are stored, in the order of the kinds.
+    fn operands(&mut self, part: &Part, index: usize, selected: &Selected) -> Vec<Operand> {
+        let mut written = selected.arguments();
+        let mut operands = Vec::with_capacity(selected.kinds.len());
+        for &kind in selected.kinds {
+            let operand = match kind {
+                Kind::Here => None,
+                Kind::Relation | Kind::RelationByte => selected.relation.map(Operand::Relation),
+                Kind::Edge => {
+                    self.next_edge = self.next_edge.wrapping_add(1);
+                    Some(Operand::Number(self.next_edge.wrapping_sub(1)))
+                }
+                Kind::CallEnd => Some(Operand::Offset(0)),
+                Kind::LoopEnd => {
+                    self.open_loops.push(index);
+                    Some(Operand::Offset(0))
+                }
+                Kind::LoopStart => {
+                    let start = self.open_loops.pop().and_then(|open| self.lines.get(open));
+                    Some(Operand::Offset(start.map_or(0, code_offset)))
+                }
+                Kind::ScrBit if selected.op == Op::Scrt => self.segment,
+                Kind::ScrBit => Some(scr_bit(part)),
+                Kind::ErrorMask => Some(Operand::Number(self.error_mask(part, index))),
+                Kind::LabelIndex => {
+                    written.next();
+                    let label = self.targets.get(&index).and_then(|target| self.label_indices.get(target));
+                    Some(Operand::Number(label.copied().unwrap_or(0)))
+                }
+                _ => written.next().and_then(|(argument, _)| self.operand(part, selected, kind, argument)),
+            };
+            operands.extend(operand);
+        }
+        operands
+    }
+
+    fn operand(&self, part: &Part, selected: &Selected, kind: Kind, argument: Argument) -> Option<Operand> {
+        match argument {
+            Argument::Constant(value) => Some(Operand::Constant(value)),
+            Argument::Number(number) => Some(Operand::Number(number)),
+            Argument::Routine(id) => self.checked.units.routine_index(id).map(Operand::Number),
+            Argument::Event(event) => {
+                let index = self.checked.demand.events.iter().position(|&other| other == event)?;
+                Some(Operand::Number(index as u8))
+            }
+            Argument::Literal(_) | Argument::Real(_) | Argument::Text(_) | Argument::Pointer(_) => {
+                let constants_at = self.header.offsets().constants;
+                self.pool.reference(self.checked.program, selected, kind, argument, constants_at).map(Operand::Reference)
+            }
+            _ => self.places.operand(self.checked.units, part, selected.op, kind, argument),
+        }
+    }
+
+    /// What AENO looks at: the errors that the box before it can have.
+    fn error_mask(&self, part: &Part, index: usize) -> u8 {
+        const OVERFLOW: u8 = 1 << 1;
+        const DIVISION_BY_ZERO: u8 = 1 << 3;
+        const MODULE: u8 = 1 << 7;
+        let before = self.checked.code.get(part.code.start..index).unwrap_or(&[]);
+        let Some(last) = before.iter().rev().find(|selected| !is_contact(selected.op)) else { return 0 };
+        match last.op {
+            Op::AddInt | Op::SubInt | Op::Incw | Op::Decw => OVERFLOW,
+            Op::MulInt | Op::DivInt => OVERFLOW | DIVISION_BY_ZERO,
+            op if op.instruction().module().is_some() => MODULE,
+            _ => 0,
+        }
     }
 
     fn push(&mut self, op: Op, operands: &[Operand]) {
@@ -193,25 +402,38 @@ impl<'a> Encoder<'a> {
         self.image.extend_from_slice(encoded.as_ref().map_or(&[], Encoded::bytes));
     }
 
-    /// Ends the program and enters the offsets that were not known before.
-    fn finish(&mut self, labels_at: usize) {
-        self.push(Op::MainEnd, &[]);
-        for (selected, line) in self.code.iter().zip(&self.lines) {
-            if let (Op::Lbl, Argument::Number(label)) = (selected.op, selected.arguments[0]) {
-                let index = u16::from(self.label_indices[usize::from(label)]);
-                let entry = labels_at + usize::from(LABEL_LEN * index);
-                self.image[entry..entry + usize::from(LABEL_LEN)].copy_from_slice(&code_offset(line).to_le_bytes());
-            }
+    /// Enters the offsets that were not known before.
+    fn finish(&mut self) {
+        let labels_at = self.header.offsets().labels;
+        let labels: Vec<(usize, u8)> = self.label_indices.iter().map(|(&label, &index)| (label, index)).collect();
+        for (label, index) in labels {
+            let offset = self.lines.get(label).map_or(0, code_offset).to_le_bytes();
+            self.patch(usize::from(labels_at + LABEL_LEN * u16::from(index)), offset);
         }
-        for &(start, end) in &self.control.loops {
+        for &(start, end) in &self.checked.control.loops {
             let (start, end) = (self.lines[start], self.lines[end]);
+            // A loop in a unit that is left out.
+            if start.len == 0 {
+                continue;
+            }
             let behind_next = (end.at + u32::from(end.len)) as u16;
             // The offset is the last operand of FOR.
             let offset_len = usize::from(Kind::LoopEnd.stored_len());
             let place = start.at as usize + usize::from(start.len) - offset_len;
-            self.image[place..place + offset_len].copy_from_slice(&behind_next.to_le_bytes());
+            self.patch(place, behind_next.to_le_bytes());
         }
     }
+}
+
+/// Whether an instruction pushes a value of its own: what begins a rung, and what a segment powers.
+fn is_load(op: Op) -> bool {
+    let stack = op.instruction().stack;
+    stack.needs == 0 && stack.adds > 0 && op != Op::Lscr
+}
+
+/// The hidden SCR bit of a unit.
+fn scr_bit(part: &Part) -> Operand {
+    Operand::Bit(Bit { address: part.scr, bit: 0 })
 }
 
 /// Offset of the instruction itself, behind what is hidden before it.

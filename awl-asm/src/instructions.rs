@@ -3,21 +3,32 @@
 use plc_isa::{Instruction, Relation};
 
 use crate::address::Address;
-use crate::ast::{self, Operand, Span, Statement, Value};
+use crate::ast::{self, Operand, Span, Statement, UnitKind, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lexer::{Ahead, Cut};
-use crate::mnemonics::{Meaning, comparisons, confused, first_words, meaning};
+use crate::hardware;
+use crate::mnemonics::{Meaning, comparison, comparisons, confused, first_words, meaning, written_operands};
 use crate::parser::Parser;
-use crate::resolve::{Pending, read_plain};
+use crate::locals::PARAMETERS_MAX;
+use crate::resolve::{Pending, read_plain, routine_kind};
 
 /// Operands of one instruction that are looked at.
-const OPERANDS_KEPT: usize = 16;
+const OPERANDS_KEPT: usize = 1 + PARAMETERS_MAX;
 
 impl Parser<'_> {
     /// An instruction of the table.
     pub(crate) fn instruction(&mut self, entry: &'static Instruction, operand_count: usize, word: Span) {
         let mut mnemonic_span = word;
         let is_at_relation = self.lexer.ahead() == Ahead::Text && self.lexer.is_at_relation();
+        let text = word.text(self.text);
+        // OR= compares reals, but there is no OR; LDS is a stack operation, but LDS= compares texts.
+        if entry.has_relation() && !is_at_relation && confused(text).is_some() {
+            return self.unknown(word);
+        }
+        let (entry, operand_count) = match comparison(text) {
+            Some(compares) if is_at_relation && !entry.has_relation() => (compares, written_operands(compares)),
+            _ => (entry, operand_count),
+        };
         let relation = match (entry.has_relation(), is_at_relation) {
             (true, true) => {
                 let sign = self.lexer.relation();
@@ -31,7 +42,7 @@ impl Parser<'_> {
             (false, true) => return self.wrong_relation(word),
             (false, false) => None,
         };
-        let operands = self.operands(operand_count);
+        let operands = self.operands(entry.mnemonic(), operand_count);
         let end = operands.last().map_or(mnemonic_span.end, |operand| operand.span.end);
         let span = Span { start: word.start, end };
         let mnemonic = entry.mnemonic();
@@ -39,17 +50,34 @@ impl Parser<'_> {
         self.program.statements.push(Statement::Instruction(instruction));
     }
 
-    /// An instruction of the S7-200 that this version lacks.
-    pub(crate) fn missing(&mut self, like: Option<&'static Instruction>, word: Span) {
-        let mut span = word;
-        if self.lexer.is_at_relation() {
-            span.end = self.lexer.relation().end;
-        }
-        let message = format!("{} is an S7-200 instruction that uno200 does not have yet", span.text(self.text));
-        self.error(Code::NotSupported, span, message);
+    /// An instruction of the S7-200 that no Uno can execute.
+    pub(crate) fn refused(&mut self, word: Span) {
+        self.diagnostics.extend(hardware::refused(word.text(self.text), word));
         self.lexer.skip_instruction();
-        if let Some(like) = like {
-            self.stand_in(like.mnemonic(), span);
+    }
+
+    /// A return without condition: it stands at the end of its unit, if at all.
+    pub(crate) fn unconditional_return(&mut self, kind: UnitKind, word: Span) {
+        let text = word.text(self.text).to_ascii_uppercase();
+        let unit = self.program.units().last().map(|(_, unit)| unit.id.kind);
+        if unit == Some(kind) {
+            self.unit_end = Some(word);
+        } else {
+            let what = if kind == UnitKind::Interrupt { "an interrupt routine" } else { "a subroutine" };
+            let message = format!("{text} returns from {what} only");
+            let help = "not needed: a unit ends with its last line";
+            self.diagnostics.push(Diagnostic::new(Code::WrongUnit, word, message).help(help));
+        }
+        self.lexer.skip_instruction();
+    }
+
+    /// Reports an unconditional return that something follows.
+    pub(crate) fn behind_return(&mut self) {
+        if let Some(word) = self.unit_end.take() {
+            let text = word.text(self.text).to_ascii_uppercase();
+            let message = format!("{text} returns without condition: what follows is never executed");
+            let help = format!("C{text} returns with power flow");
+            self.diagnostics.push(Diagnostic::new(Code::WrongUnit, word, message).help(help));
         }
     }
 
@@ -57,9 +85,6 @@ impl Parser<'_> {
     pub(crate) fn unknown(&mut self, word: Span) {
         let text = word.text(self.text);
         let has_relation = self.lexer.is_at_relation() && text.starts_with(is_word_start);
-        if has_relation && text.eq_ignore_ascii_case("OR") {
-            return self.missing(compare_like("OW"), word);
-        }
         let mut diagnostic = self.unknown_word(word);
         let mut stand_in = None;
         if has_relation {
@@ -123,10 +148,6 @@ impl Parser<'_> {
     /// A comparison behind an instruction that takes none, such as `LD>=`.
     fn wrong_relation(&mut self, word: Span) {
         let text = word.text(self.text);
-        // LDS is a stack operation, but LDS= compares strings.
-        if text.eq_ignore_ascii_case("LDS") {
-            return self.missing(compare_like("LDW"), word);
-        }
         let sign = self.lexer.relation();
         let span = Span { start: word.start, end: sign.end };
         let message = format!("{}: no such instruction", span.text(self.text));
@@ -175,7 +196,7 @@ impl Parser<'_> {
     }
 
     /// The operands up to the end of the instruction. `count` is how many are expected.
-    fn operands(&mut self, count: usize) -> Vec<Operand> {
+    fn operands(&mut self, mnemonic: &str, count: usize) -> Vec<Operand> {
         let mut operands = Vec::with_capacity(count);
         let mut comma = None;
         loop {
@@ -187,7 +208,7 @@ impl Parser<'_> {
                 }
                 Ahead::Text => {
                     let cut = self.lexer.operand();
-                    let operand = self.operand(cut, operands.len());
+                    let operand = self.operand(cut, mnemonic, operands.len());
                     operands.push(operand);
                     comma = None;
                 }
@@ -211,7 +232,7 @@ impl Parser<'_> {
         operands
     }
 
-    fn operand(&mut self, cut: Cut, index: usize) -> Operand {
+    fn operand(&mut self, cut: Cut, mnemonic: &str, index: usize) -> Operand {
         let span = match cut {
             Cut::Whole(span) => span,
             Cut::Unclosed(span) => {
@@ -220,7 +241,8 @@ impl Parser<'_> {
                 return Operand { span, value: Value::Invalid };
             }
         };
-        let value = read_plain(span.text(self.text)).unwrap_or_else(|| {
+        let plain = if routine_kind(mnemonic, index).is_none() { read_plain(span.text(self.text)) } else { None };
+        let value = plain.unwrap_or_else(|| {
             self.pending.push(Pending { statement: self.program.statements.len(), operand: index });
             Value::Invalid
         });
@@ -255,6 +277,8 @@ fn without_blank(text: &str) -> Option<String> {
     (1..text.len().min(6)).rev().find_map(|len| {
         let (mnemonic, operand) = text.split_at_checked(len)?;
         match (meaning(mnemonic)?, read_plain(operand)?) {
+            // `LDI0.1` is no LDI of a real.
+            (_, Value::Real(_)) => None,
             (Meaning::Instruction(entry, count), _) if count > 0 && !entry.has_relation() => {
                 Some(format!("{} {operand}", mnemonic.to_ascii_uppercase()))
             }

@@ -54,6 +54,11 @@ impl<'a> Lexer<'a> {
         self.at
     }
 
+    /// Goes back to the beginning of a word that was read as something else.
+    pub(crate) fn go_back(&mut self, word: Span) {
+        self.at = (word.start as usize).min(self.at);
+    }
+
     fn peek(&self, ahead: usize) -> u8 {
         self.bytes.get(self.at + ahead).copied().unwrap_or(0)
     }
@@ -149,7 +154,7 @@ impl<'a> Lexer<'a> {
 
     /// Whether `=` is `=I`, not `=` before an address or symbol that begins with I.
     fn is_immediate_output(&self) -> bool {
-        matches!(self.peek(1), b'I' | b'i') && matches!(self.peek(2), b' ' | b'\t')
+        matches!(self.peek(1), b'I' | b'i') && !is_word_byte(self.peek(2))
     }
 
     /// Skips a run of letters, digits and `_`.
@@ -188,7 +193,7 @@ impl<'a> Lexer<'a> {
         if closed { Cut::Whole(span) } else { Cut::Unclosed(span) }
     }
 
-    /// Skips a quoted text; false if the line ends before it. In `'...'` a `$` takes the next character along.
+    /// Skips a quoted text; false if the line ends before it. A `$` takes the next character along.
     fn quoted(&mut self) -> bool {
         let quote = self.peek(0);
         self.at += 1;
@@ -200,7 +205,7 @@ impl<'a> Lexer<'a> {
             if byte == quote {
                 return true;
             }
-            if quote == b'\'' && byte == b'$' && self.bytes.get(self.at).is_some_and(|&next| !is_line_end(next)) {
+            if byte == b'$' && self.bytes.get(self.at).is_some_and(|&next| !is_line_end(next)) {
                 self.at += 1;
                 while !self.text.is_char_boundary(self.at) {
                     self.at += 1;

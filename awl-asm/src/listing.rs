@@ -92,7 +92,7 @@ impl Listing<'_> {
     fn networks(&self) -> HashMap<usize, u32> {
         let networks = self.assembly.program.statements.iter().filter_map(|statement| match statement {
             Statement::Network(Network { span, number, .. }) => Some((span, *number)),
-            Statement::Instruction(_) => None,
+            Statement::Instruction(_) | Statement::Unit(_) => None,
         });
         networks.map(|(span, number)| (self.source.position(span.start as usize).0, number)).collect()
     }

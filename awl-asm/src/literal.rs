@@ -1,22 +1,21 @@
-//! Constants as people write them: `5`, `-5`, `16#FF`, `2#1010_0101`, `W#16#FF`, `'AB'`, `TRUE`. No range of any operand.
+//! Constants as people write them: `5`, `16#FF`, `2#1010_0101`, `W#16#FF`, `3.14`, `'AB'`, `"text"`, `TRUE`. No
+//! range of any operand.
 
-use crate::ast::Constant;
+use crate::ast::{Constant, Value};
 
-/// Why a text that looks like a constant is none.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum LiteralError {
-    /// It is malformed, or larger than its own prefix allows.
-    Malformed(String),
-    /// The S7-200 has it, this version does not.
-    NotSupported(String),
-}
+/// Why a text that looks like a constant is none: a message.
+pub(crate) type LiteralError = String;
 
-/// Whether a text is meant as a constant: by its first character, or by a `#` in it.
+/// Most characters of a text constant (reference 1.10).
+pub(crate) const TEXT_LEN_MAX: usize = 126;
+
+/// Whether a text is meant as a constant: by its first character, or by a `#` in it. A text in double quotes may be a
+/// symbol as well.
 pub(crate) fn looks_like_literal(text: &str) -> bool {
     match text.as_bytes() {
         [b'0'..=b'9' | b'\'', ..] => true,
         [b'+' | b'-', b'0'..=b'9' | b' ' | b'\t', ..] => true,
-        [b'#', ..] => false,
+        [b'#' | b'"', ..] => false,
         bytes => bytes.contains(&b'#'),
     }
 }
@@ -32,30 +31,65 @@ pub(crate) fn truth_value(text: &str) -> Option<Constant> {
     Some(Constant { value, is_pattern: false })
 }
 
-/// Reads a constant. Numbers beyond 64 bits saturate: they are too large everywhere.
-pub(crate) fn parse(text: &str) -> Result<Constant, LiteralError> {
+/// Reads a constant: a number, a real number or a text. Numbers beyond 64 bits saturate: they are too large everywhere.
+pub(crate) fn parse(text: &str) -> Result<Value, LiteralError> {
+    if let Some(inside) = text.strip_prefix('"') {
+        let inside = inside.strip_suffix('"').unwrap_or(inside);
+        return characters(text, inside).and_then(|bytes| match bytes.len() {
+            0..=TEXT_LEN_MAX => Ok(Value::Text(bytes)),
+            len => Err(malformed(text, format!("a text has at most {TEXT_LEN_MAX} characters, this one {len}"))),
+        });
+    }
     match prefix(text)? {
-        Some((prefix, rest)) => prefixed(text, prefix, rest),
-        None => plain(text, text),
+        Some((Prefix::Integer(prefix), rest)) => prefixed(text, prefix, rest).map(Value::Constant),
+        Some((Prefix::Real, rest)) => real(text, rest),
+        None if text.starts_with('\'') => ascii(text, text).map(Value::Constant),
+        None if is_real(without_sign(text)) => real(text, text),
+        None => integer(text, text).map(Value::Constant),
+    }
+}
+
+/// How many bytes the type before the `#` of a whole number has, such as 2 for `W#5`.
+pub(crate) fn prefixed_len(text: &str) -> Option<usize> {
+    match prefix(text) {
+        Ok(Some((Prefix::Integer(prefix), _))) => Some((64 - prefix.pattern_max.leading_zeros() as usize) / 8),
+        _ => None,
     }
 }
 
 /// What a type before `#` allows.
 #[derive(Clone, Copy)]
-struct Prefix {
-    names: [&'static str; 2],
+struct IntegerPrefix {
+    /// Its spellings, the type's name first.
+    names: &'static [&'static str],
     min: i64,
     max: i64,
     is_pattern: bool,
+    /// The largest pattern: the sign bit is a digit of it.
+    pattern_max: i64,
 }
 
-const PREFIXES: [Prefix; 3] = [
-    Prefix { names: ["B", "BYTE"], min: 0, max: 0xFF, is_pattern: true },
-    Prefix { names: ["W", "WORD"], min: 0, max: 0xFFFF, is_pattern: true },
-    Prefix { names: ["INT", "INT"], min: i16::MIN as i64, max: i16::MAX as i64, is_pattern: false },
+#[derive(Clone, Copy)]
+enum Prefix {
+    Integer(IntegerPrefix),
+    Real,
+}
+
+const PREFIXES: [IntegerPrefix; 5] = [
+    unsigned(&["BYTE", "B"], 0xFF),
+    unsigned(&["WORD", "W"], 0xFFFF),
+    unsigned(&["DWORD", "D", "DW"], 0xFFFF_FFFF),
+    signed(&["INT"], i16::MAX as i64),
+    signed(&["DINT", "L"], i32::MAX as i64),
 ];
 
-const DOUBLE_PREFIXES: [&str; 5] = ["D", "DW", "DWORD", "DINT", "L"];
+const fn unsigned(names: &'static [&'static str], max: i64) -> IntegerPrefix {
+    IntegerPrefix { names, min: 0, max, is_pattern: true, pattern_max: max }
+}
+
+const fn signed(names: &'static [&'static str], max: i64) -> IntegerPrefix {
+    IntegerPrefix { names, min: -max - 1, max, is_pattern: false, pattern_max: 2 * max + 1 }
+}
 
 fn prefix(text: &str) -> Result<Option<(Prefix, &str)>, LiteralError> {
     let Some((name, rest)) = text.split_once('#') else { return Ok(None) };
@@ -63,37 +97,37 @@ fn prefix(text: &str) -> Result<Option<(Prefix, &str)>, LiteralError> {
         return Ok(None);
     }
     let is = |other: &str| name.eq_ignore_ascii_case(other);
-    if DOUBLE_PREFIXES.into_iter().any(is) {
-        return Err(not_supported(text, "double words are"));
-    }
     if is("REAL") {
-        return Err(not_supported(text, "real numbers are"));
+        return Ok(Some((Prefix::Real, rest)));
     }
     if ["T", "S5T", "TIME"].into_iter().any(is) {
         return Err(malformed(text, COUNTS_NOT_TIMES));
     }
-    match PREFIXES.into_iter().find(|prefix| prefix.names.into_iter().any(is)) {
-        Some(prefix) => Ok(Some((prefix, rest))),
-        None => Err(malformed(text, format!("{name}# is no prefix of a constant; there are 16#, 2#, B#, W# and INT#"))),
+    match PREFIXES.into_iter().find(|prefix| prefix.names.iter().any(|name| is(name))) {
+        Some(prefix) => Ok(Some((Prefix::Integer(prefix), rest))),
+        None => {
+            let known = "16#, 2#, B#, W#, D#, INT#, DINT# and REAL#";
+            Err(malformed(text, format!("{name}# is no prefix of a constant; there are {known}")))
+        }
     }
 }
 
-fn prefixed(text: &str, prefix: Prefix, rest: &str) -> Result<Constant, LiteralError> {
-    let constant = plain(text, rest)?;
-    // A pattern of 16 bits is an INT with its sign bit as a digit.
-    let max = if constant.is_pattern { prefix.max.max(0xFFFF * i64::from(!prefix.is_pattern)) } else { prefix.max };
+fn prefixed(text: &str, prefix: IntegerPrefix, rest: &str) -> Result<Constant, LiteralError> {
+    let constant = if rest.starts_with('\'') { ascii(text, rest)? } else { integer(text, rest)? };
+    let max = if constant.is_pattern { prefix.pattern_max } else { prefix.max };
     if constant.value < prefix.min || constant.value > max {
-        let name = prefix.names[1];
+        let name = prefix.names.first().unwrap_or(&"");
         return Err(malformed(text, format!("{name} holds {} to {}", prefix.min, prefix.max)));
     }
     Ok(Constant { value: constant.value, is_pattern: constant.is_pattern || prefix.is_pattern })
 }
 
-/// A constant without type; `whole` is how it stands in the text.
-fn plain(whole: &str, text: &str) -> Result<Constant, LiteralError> {
-    if let Some(inside) = text.strip_prefix('\'') {
-        return ascii(whole, inside.strip_suffix('\'').unwrap_or(inside));
-    }
+fn without_sign(text: &str) -> &str {
+    text.strip_prefix(['+', '-']).unwrap_or(text).trim_start_matches([' ', '\t'])
+}
+
+/// A whole number without type; `whole` is how it stands in the text.
+fn integer(whole: &str, text: &str) -> Result<Constant, LiteralError> {
     let signless = text.trim_start_matches(['+', '-']);
     let (radix, digits) = match signless.split_once('#') {
         Some(("16", digits)) => (16, digits),
@@ -108,29 +142,32 @@ fn plain(whole: &str, text: &str) -> Result<Constant, LiteralError> {
     if radix != 10 && text.len() != signless.len() {
         return Err(malformed(whole, "a bit pattern has no sign"));
     }
-    let digits = digits.trim_start_matches([' ', '\t']);
-    if let (Some((byte, bit)), 10) = (digits.split_once('.'), radix)
-        && is_real(digits)
-        && bit.len() == 1
-        && byte.trim_start_matches('0').is_empty()
-        && digits == text
-    {
-        return Err(not_supported(whole, "a bit address has its area before it, such as Q0.1; real numbers are"));
-    }
-    if radix == 10 && is_real(digits) {
-        return Err(not_supported(whole, "real numbers are"));
-    }
-    let value = number(whole, digits, radix)?;
+    let value = number(whole, digits.trim_start_matches([' ', '\t']), radix)?;
     Ok(Constant { value: if negative { -value } else { value }, is_pattern: radix != 10 })
 }
 
-/// `1.5`, `1e5`, `1.5E-3`: reals, not misspelt integers.
+/// `1.5`, `1.`, `1e5`, `1.5E-3`: reals, not misspelt integers.
 fn is_real(digits: &str) -> bool {
     let (mantissa, exponent) = digits.split_once(['e', 'E']).unwrap_or((digits, "0"));
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, "0"));
     let exponent = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
-    let all_digits = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
-    digits.contains(['.', 'e', 'E']) && [whole, fraction, exponent].into_iter().all(all_digits)
+    let all_digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
+    let is_there = !whole.is_empty() && !exponent.is_empty();
+    is_there && digits.contains(['.', 'e', 'E']) && [whole, fraction, exponent].into_iter().all(all_digits)
+}
+
+/// The single-precision number nearest to a text. Behind `REAL#` whole numbers are reals too.
+fn real(whole: &str, text: &str) -> Result<Value, LiteralError> {
+    let digits = without_sign(text);
+    let value = match digits.parse::<f32>() {
+        Ok(value) if digits.starts_with(|c: char| c.is_ascii_digit()) => value,
+        _ => return Err(malformed(whole, "is no real number, such as 1.5 or 1.0E-3")),
+    };
+    if value.is_infinite() {
+        return Err(malformed(whole, "the largest real number is 3.402823E+38"));
+    }
+    let value = if text.starts_with('-') { -value } else { value };
+    Ok(Value::Real(value.to_bits()))
 }
 
 fn number(whole: &str, digits: &str, radix: u32) -> Result<i64, LiteralError> {
@@ -154,47 +191,57 @@ fn number(whole: &str, digits: &str, radix: u32) -> Result<i64, LiteralError> {
     if any { Ok(value) } else { Err(malformed(whole, "the digits are missing")) }
 }
 
-/// One or two characters as the bytes of a pattern.
-fn ascii(whole: &str, inside: &str) -> Result<Constant, LiteralError> {
-    let mut value: i64 = 0;
-    let mut len = 0;
+/// One to four characters in single quotes as the bytes of a pattern.
+fn ascii(whole: &str, text: &str) -> Result<Constant, LiteralError> {
+    let bytes = quoted_characters(whole, text)?;
+    match bytes.len() {
+        0 => Err(malformed(whole, "a character is missing between the quotes")),
+        1..=4 => {
+            let value = bytes.iter().fold(0, |value, &byte| value << 8 | i64::from(byte));
+            Ok(Constant { value, is_pattern: true })
+        }
+        _ => Err(malformed(whole, "a word holds two characters, a double word four")),
+    }
+}
+
+/// The characters of a text in single quotes, however many there are.
+pub(crate) fn quoted_characters(whole: &str, text: &str) -> Result<Vec<u8>, LiteralError> {
+    let inside = text.strip_prefix('\'').unwrap_or(text);
+    characters(whole, inside.strip_suffix('\'').unwrap_or(inside))
+}
+
+/// The bytes of characters, escapes resolved.
+fn characters(whole: &str, inside: &str) -> Result<Vec<u8>, LiteralError> {
+    let mut bytes = Vec::with_capacity(inside.len());
     let mut rest = inside.chars();
     while let Some(character) = rest.next() {
-        let bytes = match character {
-            '$' => escape(whole, &mut rest)?,
-            other => code_page(whole, other)?.into(),
-        };
-        len += if bytes > 0xFF { 2 } else { 1 };
-        value = value << if bytes > 0xFF { 16 } else { 8 } | i64::from(bytes);
-        if len > 2 {
-            return Err(malformed(whole, "a word holds two characters"));
+        match character {
+            '$' => bytes.extend_from_slice(escape(whole, &mut rest)?.as_slice()),
+            other => bytes.push(code_page(whole, other)?),
         }
     }
-    if len == 0 {
-        return Err(malformed(whole, "a character is missing between the quotes"));
-    }
-    Ok(Constant { value, is_pattern: true })
+    Ok(bytes)
 }
 
 /// What stands behind `$`: one byte, or the two of a line end.
-fn escape(whole: &str, rest: &mut std::str::Chars<'_>) -> Result<u16, LiteralError> {
+fn escape(whole: &str, rest: &mut std::str::Chars<'_>) -> Result<Vec<u8>, LiteralError> {
     let first = rest.next().unwrap_or(' ');
     let byte = match first.to_ascii_uppercase() {
-        '$' | '\'' | '"' => first as u16,
+        '$' | '\'' | '"' => first as u8,
         'L' => 0x0A,
-        'N' => 0x0D0A,
+        'N' => return Ok(vec![0x0D, 0x0A]),
         'P' => 0x0C,
         'R' => 0x0D,
         'T' => 0x09,
         _ => {
             let second = rest.next().unwrap_or(' ');
             match (first.to_digit(16), second.to_digit(16)) {
-                (Some(high), Some(low)) => (high << 4 | low) as u16,
+                (Some(high), Some(low)) => (high << 4 | low) as u8,
                 _ => return Err(malformed(whole, "behind $ stands $, ', \", L, N, P, R, T or two hexadecimal digits")),
             }
         }
     };
-    Ok(byte)
+    Ok(vec![byte])
 }
 
 fn code_page(whole: &str, character: char) -> Result<u8, LiteralError> {
@@ -221,11 +268,7 @@ fn foreign_notation(digits: &str) -> Option<&'static str> {
 const COUNTS_NOT_TIMES: &str = "a preset is a number of counts, not a time: with T37, which counts 100 ms, 5 s are 50";
 
 fn malformed(text: &str, why: impl AsRef<str>) -> LiteralError {
-    LiteralError::Malformed(format!("{text}: {}", why.as_ref()))
-}
-
-fn not_supported(text: &str, what: &str) -> LiteralError {
-    LiteralError::NotSupported(format!("{text}: {what} not supported yet"))
+    format!("{text}: {}", why.as_ref())
 }
 
 #[cfg(test)]
@@ -233,15 +276,21 @@ mod tests {
     use super::*;
 
     fn value(text: &str) -> (i64, bool) {
-        let constant = parse(text).unwrap_or_else(|error| panic!("{text}: {error:?}"));
-        (constant.value, constant.is_pattern)
+        match parse(text) {
+            Ok(Value::Constant(constant)) => (constant.value, constant.is_pattern),
+            other => panic!("{text} is {other:?}"),
+        }
+    }
+
+    fn real(text: &str) -> f32 {
+        match parse(text) {
+            Ok(Value::Real(bits)) => f32::from_bits(bits),
+            other => panic!("{text} is {other:?}"),
+        }
     }
 
     fn message(text: &str) -> String {
-        match parse(text) {
-            Err(LiteralError::Malformed(message) | LiteralError::NotSupported(message)) => message,
-            Ok(constant) => panic!("{text} is {constant:?}"),
-        }
+        parse(text).expect_err(text)
     }
 
     #[test]
@@ -270,8 +319,14 @@ mod tests {
         assert_eq!(message("B#256"), "B#256: BYTE holds 0 to 255");
         assert_eq!(message("B#16#100"), "B#16#100: BYTE holds 0 to 255");
         assert_eq!(message("INT#32768"), "INT#32768: INT holds -32768 to 32767");
-        assert_eq!(message("DW#16#1"), "DW#16#1: double words are not supported yet");
-        assert_eq!(message("X#1"), "X#1: X# is no prefix of a constant; there are 16#, 2#, B#, W# and INT#");
+        assert_eq!(value("D#16#FFFF_FFFF"), (0xFFFF_FFFF, true));
+        assert_eq!(value("dword#5"), (5, true));
+        assert_eq!(value("DW#'ABCD'"), (0x4142_4344, true));
+        assert_eq!(value("DINT#-2147483648"), (i64::from(i32::MIN), false));
+        assert_eq!(message("W#'ABC'"), "W#'ABC': WORD holds 0 to 65535");
+        assert_eq!(message("D#4294967296"), "D#4294967296: DWORD holds 0 to 4294967295");
+        assert_eq!(message("DINT#2147483648"), "DINT#2147483648: DINT holds -2147483648 to 2147483647");
+        assert!(message("X#1").starts_with("X#1: X# is no prefix of a constant; there are 16#, 2#, B#, W#, D#, INT#"));
     }
 
     #[test]
@@ -283,7 +338,8 @@ mod tests {
         assert_eq!(value("'$N'"), (0x0D0A, true));
         assert_eq!(value("'$41'"), (0x41, true));
         assert_eq!(value("'ä'"), (0xE4, true));
-        assert_eq!(message("'ABC'"), "'ABC': a word holds two characters");
+        assert_eq!(value("'ABCD'"), (0x4142_4344, true));
+        assert_eq!(message("'ABCDE'"), "'ABCDE': a word holds two characters, a double word four");
         assert_eq!(message("''"), "'': a character is missing between the quotes");
         assert_eq!(message("'$Q'"), "'$Q': behind $ stands $, ', \", L, N, P, R, T or two hexadecimal digits");
         assert_eq!(message("'中'"), "'中': 中 is no character of one byte");
@@ -298,12 +354,38 @@ mod tests {
         assert_eq!(message("16#"), "16#: the digits are missing");
         assert_eq!(message("--5"), "--5: one sign is enough");
         assert_eq!(message("-16#5"), "-16#5: a bit pattern has no sign");
-        assert_eq!(message("1.5"), "1.5: real numbers are not supported yet");
-        assert_eq!(message("-1e5"), "-1e5: real numbers are not supported yet");
-        assert!(message("0.1").starts_with("0.1: a bit address has its area before it"));
         assert_eq!(message("0xFF"), "0xFF: hexadecimal numbers are written 16#FF");
         assert!(message("5s").contains("counts, not a time") && message("T#5s").contains("counts, not a time"));
         assert_eq!(message("1.2.3"), "1.2.3: . is no digit");
+    }
+
+    #[test]
+    fn real_numbers() {
+        assert_eq!(real("3.25"), 3.25);
+        assert_eq!(real("+1.5"), 1.5);
+        assert_eq!(real("-1e5"), -1e5);
+        assert_eq!(real("- 0.5"), -0.5);
+        assert_eq!(real("1.0E-3"), 0.001);
+        assert_eq!(real("1.175495E-38"), 1.175_495e-38);
+        assert_eq!(real("REAL#2"), 2.0);
+        assert_eq!(real("-0.0").to_bits(), 0x8000_0000);
+        assert_eq!(message("1e39"), "1e39: the largest real number is 3.402823E+38");
+        assert_eq!(message("REAL#x"), "REAL#x: is no real number, such as 1.5 or 1.0E-3");
+        assert_eq!(real("1."), 1.0);
+        assert_eq!(real("1.e5"), 1e5);
+    }
+
+    #[test]
+    fn texts() {
+        let text = |text: &str| match parse(text) {
+            Ok(Value::Text(bytes)) => bytes,
+            other => panic!("{text} is {other:?}"),
+        };
+        assert_eq!(text("\"\""), b"");
+        assert_eq!(text("\"Grün $24 $R$L$\"x$\"\""), b"Gr\xFCn $ \r\n\"x\"");
+        assert_eq!(text(&format!("\"{}\"", "x".repeat(126))).len(), 126);
+        assert!(message(&format!("\"{}\"", "x".repeat(127))).ends_with("at most 126 characters, this one 127"));
+        assert_eq!(message("\"中\""), "\"中\": 中 is no character of one byte");
     }
 
     #[test]

@@ -5,12 +5,14 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use awl_asm::assemble::{Assembly, assemble};
+use awl_asm::assemble::{Assembly, assemble_with_data};
 use awl_asm::ast::Symbol;
+use awl_asm::data_block::{self, DataLine};
 use awl_asm::diagnostic::{Code, Diagnostic, Severity};
 use awl_asm::disassemble::disassemble;
 use awl_asm::files::{ensure_distinct, read, read_source, write_whole};
 use awl_asm::flash::flash;
+use awl_asm::format::{first_difference, format};
 use awl_asm::hex::intel_hex;
 use awl_asm::listing::listing;
 use awl_asm::map::map;
@@ -50,9 +52,21 @@ struct Arguments {
     #[arg(long, value_name = "FILE")]
     symbols: Vec<PathBuf>,
 
+    /// Reads a data block: what V memory holds before the first scan, such as `VB0 1, 2, 3`.
+    #[arg(long, value_name = "FILE")]
+    data: Option<PathBuf>,
+
     /// How diagnostics are written.
     #[arg(long, value_enum, default_value_t = MessageFormat::Human)]
     message_format: MessageFormat,
+
+    /// Prints the program in canonical layout, that of Micro/WIN's exports, or writes it to the file behind -o. With
+    /// --check it only says whether the program is in that layout.
+    #[arg(
+        long,
+        conflicts_with_all = ["native", "listing", "map", "symbols", "data", "flash", "disassemble", "explain"]
+    )]
+    fmt: bool,
 
     /// Checks the program and writes nothing.
     #[arg(long)]
@@ -124,12 +138,15 @@ fn run(arguments: &Arguments) -> Result<bool> {
         return disassemble_file(image, arguments.output.as_deref());
     }
     let Some(program) = &arguments.program else { bail!("no program given") };
+    if arguments.fmt {
+        return format_file(program, arguments);
+    }
     assemble_file(program, arguments)
 }
 
 fn explain(code: &str) -> Result<bool> {
     match Code::find(code) {
-        Some(code) => print(code.page()),
+        Some(code) => print(code.page().as_bytes()),
         None => {
             let known: Vec<&str> = Code::ALL.iter().map(|code| code.text()).collect();
             bail!("{code} is no code of a diagnostic; known are {}", known.join(" "))
@@ -138,8 +155,8 @@ fn explain(code: &str) -> Result<bool> {
 }
 
 /// Writes to stdout; a reader that has seen enough is no error.
-fn print(text: &str) -> Result<bool> {
-    match std::io::stdout().write_all(text.as_bytes()) {
+fn print(bytes: &[u8]) -> Result<bool> {
+    match std::io::stdout().write_all(bytes) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error).context("cannot write to stdout"),
         _ => Ok(true),
     }
@@ -152,7 +169,7 @@ fn disassemble_file(path: &Path, output: Option<&Path>) -> Result<bool> {
             ensure_distinct(&[path], &[output])?;
             write_whole(output, text.as_bytes()).map(|()| true)
         }
-        (Ok(text), None) => print(&text),
+        (Ok(text), None) => print(text.as_bytes()),
         (Err(error), _) => {
             eprintln!("error: {}: {} (offset {:#06x})", path.display(), error.fault.message(), error.at);
             Ok(false)
@@ -166,15 +183,17 @@ fn assemble_file(path: &Path, arguments: &Arguments) -> Result<bool> {
         (output, _) => output.clone(),
     };
     let firmware = find_firmware(arguments)?;
-    let inputs = [path].into_iter().chain(arguments.symbols.iter().map(PathBuf::as_path)).chain(firmware.as_deref());
+    let tables = arguments.symbols.iter().chain(&arguments.data).map(PathBuf::as_path);
+    let inputs = [path].into_iter().chain(tables).chain(firmware.as_deref());
     let outputs = [output.as_deref(), arguments.listing.as_deref(), arguments.map.as_deref()];
     if !arguments.check {
         ensure_distinct(&inputs.collect::<Vec<_>>(), &outputs.into_iter().flatten().collect::<Vec<_>>())?;
     }
     let source = read_source(path)?;
-    let mut report = Report { format: arguments.message_format, errors: 0, warnings: 0 };
+    let mut report = Report::new(arguments);
     let symbols = load_symbols(&arguments.symbols, &mut report)?;
-    let mut assembly = assemble(&source, symbols);
+    let data = load_data(arguments.data.as_deref(), &symbols, &mut report)?;
+    let mut assembly = assemble_with_data(&source, symbols, &data);
     let native = if arguments.native { translated(&mut assembly)? } else { None };
     report.show(&source, &assembly.diagnostics);
     report.finish(path);
@@ -229,6 +248,44 @@ fn has_extension(path: &Path, wanted: &str) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
 }
 
+/// Returns whether the program has no errors of form and, with --check, is in canonical layout.
+fn format_file(path: &Path, arguments: &Arguments) -> Result<bool> {
+    let bytes = read(path)?;
+    let source = Source::from_bytes(path.display().to_string(), &bytes)?;
+    if source.encoding.encode(&source.text).as_ref() != Some(&bytes) {
+        bail!("{}: its byte order mark announces an encoding in which it is not written", path.display());
+    }
+    let text = match format(&source) {
+        Ok(text) => text,
+        Err(errors) => {
+            let mut report = Report::new(arguments);
+            report.show(&source, &errors);
+            report.finish(path);
+            return Ok(false);
+        }
+    };
+    if arguments.check {
+        let difference = first_difference(&source.text, &text);
+        if let Some(line) = difference {
+            eprintln!("{}:{line}: not in canonical layout; `awl-asm --fmt` writes it", path.display());
+        }
+        return Ok(difference.is_none());
+    }
+    let bytes = source.encoding.encode(&text).context("a character is not in the file's code page")?;
+    match &arguments.output {
+        Some(output) => write_whole(output, &bytes).map(|()| true),
+        None => print(&bytes),
+    }
+}
+
+fn load_data(path: Option<&Path>, symbols: &[Symbol], report: &mut Report) -> Result<Vec<DataLine>> {
+    let Some(path) = path else { return Ok(Vec::new()) };
+    let source = read_source(path)?;
+    let (lines, diagnostics) = data_block::parse(&source, symbols);
+    report.show(&source, &diagnostics);
+    Ok(lines)
+}
+
 fn load_symbols(paths: &[PathBuf], report: &mut Report) -> Result<Vec<Symbol>> {
     let mut all = Vec::new();
     for path in paths {
@@ -261,6 +318,10 @@ struct Report {
 }
 
 impl Report {
+    fn new(arguments: &Arguments) -> Report {
+        Report { format: arguments.message_format, errors: 0, warnings: 0 }
+    }
+
     fn show(&mut self, source: &Source, diagnostics: &[Diagnostic]) {
         let styled = std::io::stderr().is_terminal();
         let mut text = String::new();

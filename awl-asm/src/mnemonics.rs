@@ -3,7 +3,10 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use plc_isa::{INSTRUCTIONS, Instruction};
+use plc_isa::{INSTRUCTIONS, Instruction, Kind};
+
+use crate::ast::{Section, UnitKind};
+use crate::hardware::refused_words;
 
 /// A kind of block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,6 +35,16 @@ impl Block {
             Block::Data => "END_DATA_BLOCK",
         }
     }
+
+    /// The kind of program unit that such a block is; `None` for data.
+    pub(crate) fn unit_kind(self) -> Option<UnitKind> {
+        match self {
+            Block::Organization => Some(UnitKind::Main),
+            Block::Subroutine => Some(UnitKind::Subroutine),
+            Block::Interrupt => Some(UnitKind::Interrupt),
+            Block::Data => None,
+        }
+    }
 }
 
 /// A word that divides the text.
@@ -42,7 +55,7 @@ pub(crate) enum Keyword {
     Title,
     Begin,
     End(Block),
-    Var,
+    Var(Section),
     EndVar,
 }
 
@@ -58,40 +71,12 @@ const KEYWORDS: [(&str, Keyword); 17] = [
     ("END_SUBROUTINE_BLOCK", Keyword::End(Block::Subroutine)),
     ("END_INTERRUPT_BLOCK", Keyword::End(Block::Interrupt)),
     ("END_DATA_BLOCK", Keyword::End(Block::Data)),
-    ("VAR", Keyword::Var),
-    ("VAR_INPUT", Keyword::Var),
-    ("VAR_IN_OUT", Keyword::Var),
-    ("VAR_OUTPUT", Keyword::Var),
-    ("VAR_TEMP", Keyword::Var),
+    ("VAR", Keyword::Var(Section::Temp)),
+    ("VAR_INPUT", Keyword::Var(Section::In)),
+    ("VAR_IN_OUT", Keyword::Var(Section::InOut)),
+    ("VAR_OUTPUT", Keyword::Var(Section::Out)),
+    ("VAR_TEMP", Keyword::Var(Section::Temp)),
     ("END_VAR", Keyword::EndVar),
-];
-
-/// Instructions of the S7-200 that are missing here and change nothing on the logic stack (reference 1.10).
-const MISSING: &str = "SI RI =I AENO TODR TODW TODRX TODWX XMT RCV NETR NETW GPA SPA \
-    BTI ITB ITD ITS DTI DTR DTS ROUND TRUNC RTS BCDI IBCD ITA DTA RTA ATH HTA STI STD STR DECO ENCO SEG \
-    HDEF HSC PLS +R -R *R /R SQRT SIN COS TAN LN EXP PID +D -D *D /D MUL DIV INCB INCD DECB DECD \
-    INVB INVW INVD ANDB ANDW ANDD ORB ORW ORD XORB XORW XORD UNDB UNDW UNDD MOVD MOVR BMB BMW BMD SWAP BIR BIW \
-    LSCR SCRT SCRE CSCRE DLED SLB SLW SLD SRB SRW SRD RLB RLW RLD RRB RRW RRD SHRB \
-    SLEN SCPY SSCPY SCAT SFND CFND FILL ATT FND LIFO FIFO BITIM CITIM \
-    CALL RET CRET ENI DISI ATCH DTCH CEVNT CEVENT CRETI RETI";
-
-/// Missing instructions that push or combine a bit, with one of the same effect on the logic stack.
-const MISSING_CONTACTS: [(&str, &str); 15] = [
-    ("LDI", "LD"),
-    ("LDNI", "LDN"),
-    ("AI", "A"),
-    ("ANI", "AN"),
-    ("OI", "O"),
-    ("ONI", "ON"),
-    ("LDD", "LDW"),
-    ("LDR", "LDW"),
-    ("AD", "AW"),
-    ("AR", "AW"),
-    ("OD", "OW"),
-    ("UD", "AW"),
-    ("UR", "AW"),
-    ("AS", "AW"),
-    ("OS", "OW"),
 ];
 
 /// What people write who know another controller, and what they mean. Most likely meaning only.
@@ -117,7 +102,6 @@ const CONFUSED: &[(&str, &str)] = &[
     ("RESET", "R"),
     ("ANB", "ALD"),
     ("ANDLD", "ALD"),
-    ("ULD", "ALD"),
     ("ORLD", "OLD"),
     ("MPS", "LPS"),
     ("MRD", "LRD"),
@@ -154,10 +138,7 @@ const CONFUSED: &[(&str, &str)] = &[
     ("CNT", "CTU"),
     ("COUNT", "CTU"),
     ("CU", "CTU"),
-    ("ZV", "CTU"),
     ("CD", "CTD"),
-    ("ZR", "CTD"),
-    ("ZVR", "CTUD"),
     ("JP", "JMP"),
     ("JUMP", "JMP"),
     ("SPB", "JMP"),
@@ -174,8 +155,10 @@ pub(crate) enum Meaning {
     /// An instruction of the table, and how many operands it is written with.
     Instruction(&'static Instruction, usize),
     Keyword(Keyword),
-    /// An S7-200 instruction that is missing here, with one of the same effect on the logic stack.
-    Missing(Option<&'static Instruction>),
+    /// A return without condition, which such a unit ends with by itself.
+    Return(UnitKind),
+    /// An S7-200 instruction that an Uno cannot execute.
+    Refused,
 }
 
 /// Longest word in the table.
@@ -197,10 +180,11 @@ static MEANINGS: LazyLock<HashMap<Key, Meaning>> = LazyLock::new(|| {
         instruction.mnemonics.iter().map(move |&mnemonic| (mnemonic, meaning))
     });
     let keywords = KEYWORDS.iter().map(|&(word, keyword)| (word, Meaning::Keyword(keyword)));
-    let missing = MISSING.split_ascii_whitespace().map(|word| (word, Meaning::Missing(None)));
-    let contacts = MISSING_CONTACTS.iter().map(|&(word, like)| (word, Meaning::Missing(entry_of(like))));
+    let returns = [("RET", UnitKind::Subroutine), ("RETI", UnitKind::Interrupt)];
+    let returns = returns.into_iter().map(|(word, kind)| (word, Meaning::Return(kind)));
+    let refused = refused_words().map(|word| (word, Meaning::Refused));
     let mut meanings = HashMap::new();
-    for (word, meaning) in instructions.chain(keywords).chain(contacts).chain(missing) {
+    for (word, meaning) in instructions.chain(keywords).chain(returns).chain(refused) {
         if let Some(key) = key(word) {
             meanings.entry(key).or_insert(meaning);
         }
@@ -208,12 +192,24 @@ static MEANINGS: LazyLock<HashMap<Key, Meaning>> = LazyLock::new(|| {
     meanings
 });
 
-fn entry_of(mnemonic: &str) -> Option<&'static Instruction> {
-    INSTRUCTIONS.iter().find(|instruction| instruction.mnemonics.contains(&mnemonic))
+/// How many operands an instruction is written with.
+pub(crate) fn written_operands(instruction: &Instruction) -> usize {
+    instruction.forms.first().map_or(0, |form| form.kinds.iter().filter(|kind| kind.is_written()).count())
 }
 
-fn written_operands(instruction: &Instruction) -> usize {
-    instruction.forms.first().map_or(0, |form| form.kinds.iter().filter(|kind| kind.is_written()).count())
+/// Whether an operand of an instruction can be a text.
+pub(crate) fn takes_text(mnemonic: &str, operand: usize) -> bool {
+    let same_name = INSTRUCTIONS.iter().filter(|instruction| instruction.mnemonic() == mnemonic);
+    let kinds = same_name.flat_map(|instruction| instruction.forms).filter_map(|form| {
+        form.kinds.iter().filter(|kind| kind.is_written()).nth(operand)
+    });
+    kinds.into_iter().any(|kind| *kind == Kind::TextIn)
+}
+
+/// The instruction of this name that needs a comparison, where another of the same name needs none: LDS= beside LDS.
+pub(crate) fn comparison(word: &str) -> Option<&'static Instruction> {
+    let named = |instruction: &&Instruction| instruction.mnemonics.iter().any(|name| name.eq_ignore_ascii_case(word));
+    INSTRUCTIONS.iter().filter(|instruction| instruction.has_relation()).find(named)
 }
 
 /// The meaning of a first word, in any letter case.
@@ -247,19 +243,6 @@ mod tests {
     fn every_mnemonic_and_keyword_is_found_in_any_case() {
         for word in first_words() {
             assert!(meaning(&word.to_ascii_lowercase()).is_some(), "{word}");
-        }
-    }
-
-    #[test]
-    fn missing_is_only_what_is_missing() {
-        for word in MISSING.split_ascii_whitespace() {
-            assert!(
-                matches!(meaning(word), Some(Meaning::Missing(None))),
-                "{word} exists, or stands twice in the lists"
-            );
-        }
-        for (word, _) in MISSING_CONTACTS {
-            assert!(matches!(meaning(word), Some(Meaning::Missing(Some(_)))), "{word}");
         }
     }
 

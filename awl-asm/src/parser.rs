@@ -1,11 +1,13 @@
 //! AWL text to syntax tree: lines, networks, keywords. Instructions, operands and blocks have modules of their own.
 
-use crate::ast::{Network, Program, Span, Statement, Symbol};
-use crate::blocks::{Blocks, Content};
+use crate::ast::{Network, Program, Section, Span, Statement, Symbol, Unit, UnitId, UnitKind};
+use crate::blocks::{Blocks, Content, Place};
+use crate::data_block::DataBlock;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::directives::{Directives, Targets, is_setting};
 use crate::lexer::{Ahead, Lexer};
-use crate::mnemonics::{Keyword, Meaning, meaning};
+use crate::locals::{self, is_same_name, unit_id};
+use crate::mnemonics::{Block, Keyword, Meaning, meaning};
 use crate::resolve::{Pending, Resolver};
 use crate::source::Source;
 use crate::suggest::Suggester;
@@ -23,8 +25,10 @@ pub fn parse(source: &Source, symbols: Vec<Symbol>) -> (Program, Vec<Diagnostic>
         symbols: SymbolTable::of_files(symbols),
         suggester: Suggester::default(),
         blocks: Blocks::default(),
+        data: DataBlock::default(),
         directives: Directives::default(),
         network_number: 0,
+        unit_end: None,
         is_title_open: false,
     };
     parser.lines();
@@ -41,8 +45,11 @@ pub(crate) struct Parser<'s> {
     symbols: SymbolTable,
     pub(crate) suggester: Suggester,
     blocks: Blocks,
+    data: DataBlock,
     directives: Directives,
     network_number: u32,
+    /// An unconditional return behind which nothing may stand.
+    pub(crate) unit_end: Option<Span>,
     /// The last network has no title and no instruction yet: a comment is its title.
     is_title_open: bool,
 }
@@ -102,14 +109,19 @@ impl Parser<'_> {
             self.keyword(keyword, word);
             return;
         }
-        if !self.blocks.admits(Content::Other, word, &mut self.diagnostics) {
-            self.lexer.skip_instruction();
-            return;
+        match self.blocks.place(Content::Other, word, &mut self.diagnostics) {
+            Place::Code => {}
+            Place::Declaration(section) => return self.declaration(section, word),
+            Place::Data => return self.data_line(word),
         }
         self.is_title_open = false;
+        if !matches!(meaning, Some(Meaning::Return(_))) {
+            self.behind_return();
+        }
         match meaning {
             Some(Meaning::Instruction(instruction, operands)) => self.instruction(instruction, operands, word),
-            Some(Meaning::Missing(like)) => self.missing(like, word),
+            Some(Meaning::Return(kind)) => return self.unconditional_return(kind, word),
+            Some(Meaning::Refused) => self.refused(word),
             Some(Meaning::Keyword(_)) | None => self.unknown(word),
         }
     }
@@ -124,11 +136,91 @@ impl Parser<'_> {
         match keyword {
             // Free text, in which quotes and comment signs mean nothing.
             Keyword::Title => {
-                self.lexer.rest_of_line();
+                let rest = self.lexer.rest_of_line().text(self.text);
+                if let Some(Statement::Unit(unit)) = self.program.statements.last_mut() {
+                    unit.title = rest.trim_start().trim_start_matches('=').trim().to_owned();
+                }
             }
-            Keyword::Header(_) => self.lexer.skip_instruction(),
+            Keyword::Header(block) => self.header(block, word),
             _ => self.nothing_behind(word),
         }
+    }
+
+    /// The header of a block: what a subroutine or interrupt routine is called.
+    fn header(&mut self, block: Block, word: Span) {
+        let start = self.lexer.position();
+        self.lexer.skip_instruction();
+        let span = self.trimmed(word.start as usize, self.lexer.position());
+        let Some(kind) = block.unit_kind() else { return };
+        let text = self.text.get(start..self.lexer.position()).unwrap_or("").trim();
+        let (name, number) = text.rsplit_once(':').unwrap_or(("", text));
+        // A header that is only a name has one at least.
+        let name = if name.is_empty() && unit_id(number).is_none() { number } else { name };
+        let name = name.trim().trim_matches('"').to_owned();
+        self.network_number = 0;
+        self.unit_end = None;
+        let id = match unit_id(number.trim()).filter(|id| id.kind == kind) {
+            _ if kind == UnitKind::Main => Some(UnitId { kind, number: 1 }),
+            Some(id) => self.is_new(id, &name, span).then_some(id),
+            None => {
+                let (header, letters) = (block.header(), kind.letters());
+                let message = format!("{header}: the header does not say which routine it is");
+                let help = format!("written as `{header} name:{letters}0`, with {letters}0 to {letters}255");
+                self.diagnostics.push(Diagnostic::new(Code::UnitHeader, span, message).help(help));
+                None
+            }
+        };
+        // What is in a block with a wrong header is read all the same.
+        let number = (0..=u8::MAX).rev().find(|&number| !self.has_unit(UnitId { kind, number })).unwrap_or(u8::MAX);
+        let id = id.unwrap_or(UnitId { kind, number });
+        let unit = Unit { id, name, title: String::new(), variables: Vec::new(), span };
+        self.program.statements.push(Statement::Unit(unit));
+    }
+
+    fn has_unit(&self, id: UnitId) -> bool {
+        self.program.units().any(|(_, unit)| unit.id == id)
+    }
+
+    /// Whether neither number nor name is taken; reports it if so.
+    fn is_new(&mut self, id: UnitId, name: &str, span: Span) -> bool {
+        let same_name = |unit: &Unit| !name.is_empty() && is_same_name(&unit.name, name);
+        let taken = |unit: &Unit| unit.id == id || same_name(unit);
+        let Some((_, first)) = self.program.units().find(|(_, unit)| taken(unit)) else { return true };
+        let (is_same, words) = (first.id == id, if first.id == id { id.to_string() } else { name.to_owned() });
+        let diagnostic = Diagnostic::new(Code::UnitHeader, span, format!("{words}: there is such a block already"));
+        let diagnostic = diagnostic.related(first.span, "the first one");
+        self.diagnostics.push(diagnostic);
+        !is_same
+    }
+
+    /// A line of a VAR section.
+    fn declaration(&mut self, section: Section, word: Span) {
+        self.lexer.skip_instruction();
+        let span = self.trimmed(word.start as usize, self.lexer.position());
+        let unit = self.program.statements.iter_mut().rev().find_map(|statement| match statement {
+            Statement::Unit(unit) => Some(unit),
+            _ => None,
+        });
+        let Some(unit) = unit else { return };
+        let count = unit.variables.len();
+        let outcome = locals::declare(unit, section, span.text(self.text), span, &self.suggester);
+        let is_declared = unit.variables.len() > count;
+        self.diagnostics.extend(outcome.err().map(|diagnostic| *diagnostic));
+        if self.lexer.ahead() == Ahead::Semicolon {
+            self.lexer.step();
+        }
+        if self.lexer.ahead() == Ahead::Comment {
+            let comment = title_of(self.lexer.rest_of_line().text(self.text));
+            if let Some(variable) = unit.variables.last_mut().filter(|_| is_declared) {
+                variable.comment = comment;
+            }
+        }
+    }
+
+    /// A line of a data block.
+    fn data_line(&mut self, word: Span) {
+        self.lexer.go_back(word);
+        self.data.line(&mut self.lexer, self.text, &self.symbols, &mut self.diagnostics);
     }
 
     /// Refuses text on the rest of the line.
@@ -149,11 +241,8 @@ impl Parser<'_> {
     }
 
     fn network(&mut self, word: Span) {
-        let is_admitted = self.blocks.admits(Content::Network, word, &mut self.diagnostics);
-        if !is_admitted {
-            self.is_title_open = false;
-            self.lexer.skip_instruction();
-            return;
+        if self.blocks.place(Content::Network, word, &mut self.diagnostics) == Place::Data {
+            return self.data_line(word);
         }
         let number = self.network_number(word);
         self.network_number = number;
@@ -213,9 +302,15 @@ impl Parser<'_> {
             self.error(Code::Syntax, span, message);
         }
         self.blocks.finish(&mut self.diagnostics);
+        for statement in &mut self.program.statements {
+            if let Statement::Unit(unit) = statement {
+                locals::lay_out(unit, &mut self.diagnostics);
+            }
+        }
         let resolver = Resolver { text: self.text, symbols: &self.symbols, suggester: &self.suggester };
         resolver.resolve(&mut self.program, &self.pending, &mut self.diagnostics);
         self.program.symbols = self.symbols.into_symbols();
+        self.program.data = self.data.lines;
         self.diagnostics.sort_by_key(|diagnostic| diagnostic.span);
         (self.program, self.diagnostics)
     }

@@ -39,6 +39,22 @@ fn retained_ranges() {
 }
 
 #[test]
+fn memory_ranges() {
+    let program = good_program("//# memory VB0-VB99, VW200\n//# memory VD300-VD304");
+    let shown: Vec<_> = program.memory.iter().map(|&(first, count, _)| (first, count)).collect();
+    assert_eq!(shown, [(0, 100), (200, 2), (300, 8)]);
+    bad(
+        "//# memory\n//# memory MB0, VB5-VB1, VB0-MB4",
+        &[
+            "E0020 1:5 `memory`: memory: ranges are missing, such as VB0-VB99",
+            "E0020 2:12 `MB0`: MB0: only bytes, words and double words of V memory are asked for",
+            "E0020 2:17 `VB5-VB1`: VB5-VB1: a range begins with its lower address",
+            "E0020 2:26 `VB0-MB4`: VB0-MB4: a range goes from one address to another of the same kind",
+        ],
+    );
+}
+
+#[test]
 fn setting_errors() {
     bad(
         "//# pulup I0.0\n//# pullup\n//# pullup I0.6, Q0.0, IB0, I0.8, I0.x\n//# invert Q0.4-Q1.0, M0.0",

@@ -21,6 +21,11 @@ fn shown(instruction: &Instruction) -> String {
             Value::Address(address) => write!(text, "{address}"),
             Value::Constant(constant) if constant.is_pattern => write!(text, "16#{:X}", constant.value),
             Value::Constant(constant) => write!(text, "{}", constant.value),
+            Value::Real(bits) => write!(text, "{:?}", f32::from_bits(*bits)),
+            Value::Text(bytes) => write!(text, "\"{}\"", bytes.escape_ascii()),
+            Value::Indirect(address) => write!(text, "*{address}"),
+            Value::AddressOf(address) => write!(text, "&{address}"),
+            Value::Unit(unit) => write!(text, "{unit}"),
             Value::Invalid => write!(text, "?"),
         };
     }
@@ -30,6 +35,7 @@ fn shown(instruction: &Instruction) -> String {
 /// The statements one after the other, as the parser understood them.
 fn statements(program: &Program) -> String {
     let statements = program.statements.iter().map(|statement| match statement {
+        Statement::Unit(unit) => format!("{}:{}", unit.name, unit.id),
         Statement::Network(network) => format!("NETWORK {}:{}", network.number, network.title),
         Statement::Instruction(instruction) => shown(instruction),
     });
@@ -128,23 +134,18 @@ fn constants() {
     good("MOVW 99999999999999999999,MW0", "MOVW 9223372036854775807,MW0");
     bad("MOVW 16#G1,MW0", &["E0006 1:6 `16#G1`: 16#G1: G is no hexadecimal digit"]);
     bad("MOVW MW0, 5x", &["E0006 1:11 `5x`: 5x: x is no digit"]);
-    bad("MOVW 1.5,MW0", &["E0022 1:6 `1.5`: 1.5: real numbers are not supported yet"]);
+    good("MOVW 1.5,MW0", "MOVW 1.5,MW0");
     bad("MOVW 'A,MW0", &["E0002 1:6 `'A,MW0`: 'A,MW0: the quote is not closed"]);
-    bad("MOVW DW#16#5,MW0", &["E0022 1:6 `DW#16#5`: DW#16#5: double words are not supported yet"]);
+    good("MOVW DW#16#5,MW0", "MOVW 16#5,MW0");
 }
 
 #[test]
 fn addresses() {
     bad("= Q0.9", &["E0005 1:3 `Q0.9`: Q0.9: a byte has bits 0 to 7 -> Q1.1"]);
-    bad("MOVW AC0,VW0", &["E0022 1:6 `AC0`: AC0: accumulators are not supported yet"]);
-    bad(
-        "MOVW *AC1,&VB0",
-        &[
-            "E0022 1:6 `*AC1`: *AC1: pointers are not supported yet",
-            "E0022 1:11 `&VB0`: &VB0: pointers are not supported yet",
-        ],
-    );
-    bad("LD #x", &["E0022 1:4 `#x`: #x: local variables are not supported yet"]);
+    good("MOVW AC0,VW0", "MOVW AC0,VW0");
+    good("MOVD &VB0,*AC1", "MOVD &VB0,*AC1");
+    bad("MOVW *AC0,MW0", &["E0082 1:6 `*AC0`: AC0 cannot hold a pointer -> *AC1"]);
+    bad("LD #x", &["E0007 1:4 `#x`: #x: no such local variable"]);
     bad("LD IO.0", &["E0007 1:4 `IO.0`: IO.0: no such symbol -> I0.0"]);
     bad("= QO.1", &["E0007 1:3 `QO.1`: QO.1: no such symbol -> Q0.1"]);
     bad("LD I0.O", &["E0007 1:4 `I0.O`: I0.O: no such symbol -> I0.0"]);
@@ -196,7 +197,7 @@ fn unknown_mnemonics() {
         meant(wrong, right);
     }
     bad("XYZZY I0.9,,", &["E0001 1:1 `XYZZY`: XYZZY: no such instruction"]);
-    bad("\n  Motör ?", &["E0001 2:3 `Motör`: Motör: no such instruction"]);
+    bad("\n  Motör ?", &["E0001 2:3 `Motör`: Motör: no such instruction -> MOVR"]);
     bad("M1: LD I0.0", &["E0001 1:1 `M1:`: M1:: no such instruction"]);
     bad("\"x\" = 5", &["E0002 1:1 `\"x\"`: \"x\": an instruction begins with its mnemonic"]);
     bad(") x", &["E0002 1:1 `)`: ): an instruction begins with its mnemonic"]);
@@ -204,13 +205,17 @@ fn unknown_mnemonics() {
 }
 
 #[test]
+fn comparisons_beside_instructions_of_the_same_name() {
+    good("LDS 1\nLDS= VB0,\"ab\"\nOR<> VD0,1.5\nFND< VW0,5,AC0", "LDS 1; LDS= VB0,?; OR<> VD0,?; FND< VW0,5,AC0");
+    bad("OR I0.0", &["E0001 1:1 `OR`: OR: no such instruction -> O"]);
+    bad("LD= 1", &["E0001 1:1 `LD=`: LD=: no such instruction -> LDW="]);
+}
+
+#[test]
 fn missing_instructions() {
-    for word in ["CALL", "LDI", "LDD>=", "AR=", "OR=", "LDS=", "=I", "+R", "/D", "SRB", "fnd<>", "AENO", "LSCR", "UD<"]
-    {
-        let message = format!("E0022 1:1 `{word}`: {word} is an S7-200 instruction that uno200 does not have yet");
-        bad(&format!("{word} VD0,*AC1"), &[&message]);
-    }
-    assert_eq!(understood("LDI I0.0\nLDD>= VD0,5\nCALL SBR0\nOR= VD0,VD4"), "LD ?; LDW= ?,?; OW= ?,?");
+    bad("NETR VB0,0", &["E0084 1:1 `NETR`: NETR: there is no PPI network behind the Uno's serial line"]);
+    bad("todrx VB0", &["E0022 1:1 `todrx`: TODRX is an S7-200 instruction that uno200 does not have"]);
+    bad("RET", &["E0081 1:1 `RET`: RET returns from a subroutine only"]);
 }
 
 #[test]
@@ -240,7 +245,7 @@ fn networks() {
     good("NETWORK 3\nLD I0.0 // no title\n// none either", "NETWORK 3:; LD I0.0");
     let span = |text: &str| match &good_program(text).statements[0] {
         Statement::Network(network) => network.span.text(text).to_owned(),
-        Statement::Instruction(_) => String::new(),
+        Statement::Instruction(_) | Statement::Unit(_) => String::new(),
     };
     assert_eq!(span("Network 1 // x \nLD I0.0"), "Network 1 // x");
     assert_eq!(span("Network 12  \nLD I0.0"), "Network 12");
@@ -283,28 +288,40 @@ END_INTERRUPT_BLOCK\r
 
 #[test]
 fn exported_blocks() {
-    good(EXPORT, "NETWORK 1:First; LD SM0.0; = Q0.0");
-    good(&EXPORT.to_lowercase().replace("\r\n", "\n"), "NETWORK 1:first; LD SM0.0; = Q0.0");
+    let understood = "MAIN:OB1; NETWORK 1:First; LD SM0.0; = Q0.0; SBR_0:SBR0; NETWORK 1:Network Title; \
+        INT_0:INT0; NETWORK 1:Network Title";
+    good(EXPORT, understood);
+    let lower = understood.to_lowercase();
+    let program = good_program(&EXPORT.to_lowercase().replace("\r\n", "\n"));
+    assert_eq!(statements(&program).to_lowercase(), lower);
+    let (_, subroutine) = program.units().nth(1).expect("a subroutine");
+    assert_eq!(subroutine.title, "subroutine comments");
+    let [variable] = subroutine.variables.as_slice() else { panic!("one variable") };
+    assert_eq!((variable.name.as_str(), variable.comment.as_str()), ("x", "input"));
+    assert_eq!(variable.address.to_string(), "L0.0");
 }
 
 #[test]
-fn blocks_with_content_are_refused_once() {
-    let text = EXPORT.replace("Network Title\r\n", "x\r\nLD I0.9\r\nFOO BAR\r\n");
+fn local_variables_have_places() {
+    let text = "SUBROUTINE_BLOCK a:SBR0\nVAR_OUTPUT\no:DINT;\nEND_VAR\nVAR\nt:BYTE;\nEND_VAR\nVAR_INPUT\n\
+        EN:BOOL;\nb0:BOOL; b1:BOOL;\nw:WORD; c:BOOL\nEND_VAR\nVAR_IN_OUT\nd:BOOL;\nEND_VAR\nBEGIN\n\
+        LD #b1\nA b0\n= #D\nMOVW #w,LW2\nEND_SUBROUTINE_BLOCK\nORGANIZATION_BLOCK x:OB1\nEND_ORGANIZATION_BLOCK";
+    let program = good_program(text);
+    let (_, unit) = program.units().next().expect("a subroutine");
+    let places = unit.variables.iter().map(|variable| format!("{} {}", variable.name, variable.address));
+    let places: Vec<String> = places.collect();
+    assert_eq!(places, ["b0 L0.0", "b1 L0.1", "w LW1", "c L3.0", "d L3.1", "o LD4", "t LB8"]);
+    assert_eq!(statements(&program), "a:SBR0; LD L0.1; A L0.0; = L3.1; MOVW LW1,LW2; x:OB1");
+}
+
+#[test]
+fn data_blocks() {
     bad(
-        &text,
+        "DATA_BLOCK x\nBEGIN\nVB0 1, 2\n'ab', 300\nVB2 0\nEND_DATA_BLOCK",
         &[
-            "E0022 12:1 `SUBROUTINE_BLOCK`: SUBROUTINE_BLOCK: such blocks are not supported yet",
-            "E0022 23:1 `INTERRUPT_BLOCK`: INTERRUPT_BLOCK: such blocks are not supported yet",
+            "E0006 4:7 `300`: 300: a byte holds 0 to 255",
+            "E0060 5:1 `VB2 0`: VB2 0: VB2 has a value already (from this line: 4:1 `'ab', 300`)",
         ],
-    );
-    assert_eq!(understood(&text), "NETWORK 1:First; LD SM0.0; = Q0.0");
-    bad(
-        "DATA_BLOCK x\nBEGIN\nVB0 1, 2\nEND_DATA_BLOCK",
-        &["E0022 1:1 `DATA_BLOCK`: DATA_BLOCK: such blocks are not supported yet"],
-    );
-    bad(
-        &EXPORT.replacen("END_VAR", "x:BOOL;\nEND_VAR", 1),
-        &["E0022 4:1 `VAR`: VAR: local variables are not supported yet"],
     );
 }
 
@@ -379,7 +396,6 @@ fn symbol_errors() {
             "E0008 2:12 `x`: x: //# symbol is followed by a name and an address",
             "E0008 3:12 `I0.0`: I0.0: a symbol cannot be named like an address",
             "E0008 4:14 `I0.9`: I0.9: a byte has bits 0 to 7 -> I1.1",
-            "E0022 5:14 `VD0`: VD0: double words are not supported yet",
             "E0008 6:12 `ON`: ON: a symbol cannot be named like a constant",
         ],
     );
@@ -391,7 +407,7 @@ fn symbol_errors() {
 
 #[test]
 fn symbols_of_files() {
-    let (symbols, found) = crate::symbols::load(&source("x,I0.0\nTotal,VD0\ny,I0.1\ny2,I0.1"));
+    let (symbols, found) = crate::symbols::load(&source("x,I0.0\nTotal,OB1\ny,I0.1\ny2,I0.1"));
     assert!(found.is_empty());
     let mut doubled = symbols.clone();
     doubled.extend(crate::symbols::load(&source("Y,I0.2")).0);
@@ -401,7 +417,7 @@ fn symbols_of_files() {
     assert_eq!(
         diagnostics(&program, &found),
         [
-            "E0022 2:6 `total`: total: the symbol stands for something that uno200 does not have yet",
+            "E0022 2:6 `total`: total: the symbol stands for something that uno200 does not have",
             "E0008 3:3 `y`: y: symbol files give it different values",
             "E0008 4:12 `y2`: y2: is already I0.1",
         ]
@@ -430,7 +446,6 @@ fn all_errors_in_one_run_and_in_order() {
             "E0005 1:4 `I0.9`: I0.9: a byte has bits 0 to 7 -> I1.1",
             "E0001 2:2 `FOO`: FOO: no such instruction -> FOR",
             "E0007 3:3 `Motor`: Motor: no such symbol",
-            "E0022 4:6 `1.5`: 1.5: real numbers are not supported yet",
             "E0002 4:10 `,`: ,: an operand is missing before the comma",
         ]
     );

@@ -1,22 +1,25 @@
-//! Plans the board's memory for a program: which V bytes, timers, counters and edges it uses, and where each lives.
+//! Plans the board's memory for a program: which V bytes, timers, counters, edges and events it uses, and where each lives.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use plc_isa::{
-    ARENA_LEN, Area, Bit, COUNTER_SLOT_LEN, Header, Op, Operand, Plan, RETAINED_LEN_MAX, Retained, TIMER_SLOT_LEN,
-    TimerKind, counter_bit, timer_bit,
+    AC_START, AQW_START, ARENA_LEN, Area, Bit, COUNTER_SLOT_LEN, EVENT_LEN, Group, HC0, HC3, Header, Kind, Op, Operand,
+    Place, Plan, RETAINED_LEN_MAX, Reference, Retained, SM_IN_V, TIMER_SLOT_LEN, TimerKind, counter_bit, timer_bit,
 };
 
 use crate::address::Address;
 use crate::ast::{Program, Span};
 use crate::check::{operand_span, span_of};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::extent::extent;
 use crate::select::{Argument, Selected};
+use crate::units::{Part, Units};
 
 /// What a program uses of the arena.
 #[derive(Debug, Clone, Default)]
 pub struct Demand {
-    /// Ranges of V memory: first byte and length, ascending.
+    /// Ranges of V memory: first byte and length, ascending. Behind them special memory from SMB32 on, with
+    /// [`SM_IN_V`] added to the number of the byte.
     pub v_ranges: Vec<(u16, u16)>,
     /// Timers that need a slot, with how they are started.
     pub timers: BTreeMap<u8, TimerKind>,
@@ -24,12 +27,21 @@ pub struct Demand {
     pub counters: Vec<u8>,
     /// Edge instructions.
     pub edges: usize,
+    /// Interrupt events that the program names.
+    pub events: BTreeSet<u8>,
+    /// Bytes of local memory; they are not in the arena.
+    pub local_len: usize,
     /// Bytes that are retained. A copy of them stands behind the plan while it is saved.
     pub retained_len: usize,
 }
 
 impl Demand {
-    /// Bytes of V memory.
+    /// Bytes of the events' routines.
+    pub fn events_len(&self) -> usize {
+        self.events.len() * usize::from(EVENT_LEN)
+    }
+
+    /// Bytes of V memory, and of special memory beside it.
     pub fn v_len(&self) -> usize {
         self.v_ranges.iter().map(|&(_, len)| usize::from(len)).sum()
     }
@@ -51,7 +63,7 @@ impl Demand {
 
     /// Bytes of the plan.
     pub fn arena_len(&self) -> usize {
-        self.v_len() + self.timers_len() + self.counters_len() + self.edges_len()
+        self.v_len() + self.timers_len() + self.counters_len() + self.edges_len() + self.events_len()
     }
 
     /// Bytes of the arena that the program takes: the plan and the copy of what is retained.
@@ -77,30 +89,49 @@ impl Demand {
             1..=6 => ranges.join(", "),
             count => format!("{}, ... ({count} ranges)", ranges[..5].join(", ")),
         };
-        vec![
+        let mut lines = vec![
             format!("V memory   {:>5} bytes  {shown}", self.v_len()),
             format!("timers     {:>5} bytes  {} x {TIMER_SLOT_LEN}", self.timers_len(), self.timers.len()),
             format!("counters   {:>5} bytes  {} x {COUNTER_SLOT_LEN}", self.counters_len(), self.counters.len()),
             format!("edges      {:>5} bytes  {}, a bit each", self.edges_len(), self.edges),
             format!("retained   {:>5} bytes  a copy of what is retained", self.retained_len),
             format!("together   {:>5} of {ARENA_LEN} bytes", self.together_len()),
-        ]
+        ];
+        if !self.events.is_empty() {
+            lines.insert(4, format!("events     {:>5} bytes  one each", self.events_len()));
+        }
+        if self.local_len > 0 {
+            lines.push(format!("local      {:>5} of {} bytes", self.local_len, Area::L.size()));
+        }
+        lines
     }
 }
 
-/// `VB0-VB9` or `VB3`.
+/// `VB0-VB9`, `VB3` or `SMB34-SMB35`.
 pub fn v_range(first: u16, len: u16) -> String {
+    if let Some(first) = first.checked_sub(SM_IN_V) {
+        return if len == 1 { format!("SMB{first}") } else { format!("SMB{first}-SMB{}", first + len - 1) };
+    }
     if len == 1 { format!("VB{first}") } else { format!("VB{first}-VB{}", first + len - 1) }
 }
 
 /// Adds up the demand of a program. Reports the first place where the board is full.
-pub fn demand(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnostic>) -> Demand {
+pub fn demand(program: &Program, code: &[Selected], units: &Units, diagnostics: &mut Vec<Diagnostic>) -> Demand {
     let mut collect = Collect::new();
+    collect.demand.local_len = units.local_len;
+    for line in &program.data {
+        collect.v_bytes(line.first_byte, line.bytes.len() as u16);
+        collect.note_if_full(|| line.span);
+    }
+    for &(first, count, span) in &program.memory {
+        collect.v_bytes(first, count);
+        collect.note_if_full(|| span);
+    }
     for retained in program.retained.iter().filter(|retained| retained.range.area == Area::V) {
         collect.v_bytes(retained.range.first, retained.range.count);
         collect.note_if_full(|| retained.span);
     }
-    for selected in code {
+    for selected in units.in_image().flat_map(|part| code.get(part.code.clone()).unwrap_or(&[])) {
         collect.instruction(program, selected);
         if collect.demand.edges == usize::from(plc_isa::EDGES_MAX) + 1 && is_edge(selected.op) {
             let message = format!("this is one edge too many: a program can have {} EU and ED", plc_isa::EDGES_MAX);
@@ -135,8 +166,11 @@ fn add_retained(program: &Program, demand: &mut Demand) -> Option<Span> {
 }
 
 struct Collect {
-    v_used: Vec<bool>,
+    /// Bytes of V in use, and behind them those of SM.
+    used: Vec<bool>,
     v_len: usize,
+    /// The program reaches V memory by ways that its text does not show: all of it must lie together.
+    is_one_span: bool,
     demand: Demand,
     counters: [bool; 256],
     full_at: Option<Span>,
@@ -145,8 +179,9 @@ struct Collect {
 impl Collect {
     fn new() -> Collect {
         Collect {
-            v_used: vec![false; usize::from(Area::V.size())],
+            used: vec![false; usize::from(Area::V.size() + Area::Sm.size())],
             v_len: 0,
+            is_one_span: false,
             demand: Demand::default(),
             counters: [false; 256],
             full_at: None,
@@ -154,9 +189,35 @@ impl Collect {
     }
 
     fn v_bytes(&mut self, first: u16, len: u16) {
-        for used in self.v_used.iter_mut().skip(usize::from(first)).take(usize::from(len)) {
+        let len = len.min(Area::V.size().saturating_sub(first));
+        self.bytes(first, len);
+    }
+
+    /// Bytes of special memory; those in the bit page need no place.
+    fn sm_bytes(&mut self, first: u16, len: u16) {
+        let end = (first + len).min(Area::Sm.size());
+        let first = first.max(Area::Sm.page_len());
+        self.bytes(Area::V.size() + first, end.saturating_sub(first));
+    }
+
+    fn bytes(&mut self, first: u16, len: u16) {
+        for used in self.used.iter_mut().skip(usize::from(first)).take(usize::from(len)) {
             self.v_len += usize::from(!*used);
             *used = true;
+        }
+    }
+
+    fn area_bytes(&mut self, address: Address, len: u16) {
+        match address {
+            Address::Bit { area: Area::V, byte, .. }
+            | Address::Byte { area: Area::V, byte }
+            | Address::Word { area: Area::V, byte }
+            | Address::Double { area: Area::V, byte } => self.v_bytes(byte, len),
+            Address::Bit { area: Area::Sm, byte, .. }
+            | Address::Byte { area: Area::Sm, byte }
+            | Address::Word { area: Area::Sm, byte }
+            | Address::Double { area: Area::Sm, byte } => self.sm_bytes(byte, len),
+            _ => {}
         }
     }
 
@@ -177,59 +238,88 @@ impl Collect {
     fn instruction(&mut self, program: &Program, selected: &Selected) {
         self.demand.edges += usize::from(is_edge(selected.op));
         self.note_if_full(|| span_of(program, selected));
+        self.special_memory(selected);
+        self.is_one_span |= matches!(selected.op.instruction().group, Group::Text | Group::Table);
         for (index, (argument, _)) in selected.arguments().enumerate() {
             match argument {
-                Argument::Bit(Address::Bit { area: Area::V, byte, bit }) => {
-                    let bits = u16::from(bit) + reach(selected);
-                    self.v_bytes(byte, bits.div_ceil(8));
-                }
-                Argument::Memory(Address::Byte { area: Area::V, byte }) => self.v_bytes(byte, 1),
-                Argument::Memory(Address::Word { area: Area::V, byte }) => self.v_bytes(byte, 2),
-                Argument::Memory(Address::Timer(number)) => {
+                Argument::Memory(Address::Timer(number)) | Argument::Pointer(Address::Timer(number)) => {
                     self.demand.timers.entry(number).or_insert(TimerKind::NotStarted);
                 }
-                Argument::Memory(Address::Counter(number)) => self.counter(number),
+                Argument::Memory(Address::Counter(number)) | Argument::Pointer(Address::Counter(number)) => {
+                    self.counter(number);
+                }
+                Argument::Bit(address) | Argument::Memory(address) => {
+                    self.area_bytes(address, extent(program, selected, index));
+                }
+                Argument::Indirect(address) => {
+                    self.is_one_span = true;
+                    self.area_bytes(address, 4);
+                }
+                Argument::Pointer(address) => self.area_bytes(address, 1),
                 Argument::Timer(number) => {
                     if let Some(kind) = TimerKind::started_by(selected.op) {
                         self.demand.timers.insert(number, kind);
                     }
                 }
                 Argument::Counter(number) if selected.op != Op::ResetCounters => self.counter(number),
+                Argument::Event(event) => {
+                    self.demand.events.insert(event);
+                }
                 _ => {}
             }
             self.note_if_full(|| operand_span(program, selected, index));
         }
     }
 
-    fn finish(mut self) -> (Option<Span>, Demand) {
-        let mut at = 0;
-        while let Some(first) = self.v_used.iter().skip(at).position(|&used| used).map(|skipped| at + skipped) {
-            let len = self.v_used.iter().skip(first).take_while(|&&used| used).count();
-            self.demand.v_ranges.push((first as u16, len as u16));
-            at = first + len;
+    /// Special memory through which an instruction is told what to do, beyond what stands in the bit page.
+    fn special_memory(&mut self, selected: &Selected) {
+        let ranges: &[(u16, u16)] = match (selected.op, selected.arguments) {
+            (Op::Hdef | Op::Hsc, [Argument::Number(0), ..]) => &[(36, 10)],
+            (Op::Hdef | Op::Hsc, [Argument::Number(3), ..]) => &[(136, 10)],
+            (Op::Pls, [Argument::Number(0), ..]) => &[(66, 10), (166, 4)],
+            (Op::Pls, [Argument::Number(1), ..]) => &[(76, 10), (176, 4)],
+            (Op::Rcv, _) => &[(86, 9)],
+            (Op::Atch, [_, Argument::Event(10), ..]) => &[(34, 1)],
+            (Op::Atch, [_, Argument::Event(11), ..]) => &[(35, 1)],
+            _ => &[],
+        };
+        for &(first, len) in ranges {
+            self.sm_bytes(first, len);
         }
+    }
+
+    fn finish(mut self) -> (Option<Span>, Demand) {
+        let (v, sm) = self.used.split_at_mut(usize::from(Area::V.size()));
+        if let (true, Some(first), Some(last)) =
+            (self.is_one_span, v.iter().position(|&used| used), v.iter().rposition(|&used| used))
+        {
+            v[first..last].fill(true);
+        }
+        self.demand.v_ranges = runs(v).chain(runs(sm).map(|(first, len)| (SM_IN_V + first, len))).collect();
         self.demand.counters.sort_unstable();
         (self.full_at, self.demand)
     }
 }
 
 fn is_edge(op: Op) -> bool {
-    matches!(op, Op::Eu | Op::Ed)
+    matches!(op, Op::Eu | Op::Ed | Op::Pid)
 }
 
-/// How many bits an instruction can touch from its bit operand on: what a count at run time can reach is
-/// part of the plan.
-fn reach(selected: &Selected) -> u16 {
-    match (selected.op, selected.arguments[1]) {
-        (Op::Set | Op::Reset, Argument::Constant(count)) => count,
-        (Op::Set | Op::Reset, _) => 255,
-        _ => 1,
-    }
+/// Runs of what is in use: first and length.
+fn runs(used: &[bool]) -> impl Iterator<Item = (u16, u16)> {
+    let mut at = 0;
+    std::iter::from_fn(move || {
+        let first = at + used.iter().skip(at).position(|&used| used)?;
+        let len = used.iter().skip(first).take_while(|&&used| used).count();
+        at = first + len;
+        Some((first as u16, len as u16))
+    })
 }
 
 /// Data addresses of a planned program.
 pub struct Places {
     v: Vec<u16>,
+    sm: Vec<u16>,
     timers: BTreeMap<u8, (u8, u16)>,
     counters: BTreeMap<u8, (u8, u16)>,
 }
@@ -239,9 +329,14 @@ impl Places {
     pub fn new(header: Header, tables: &[u8]) -> Places {
         let plan = Plan::trusted(tables, header);
         let mut v = vec![0; usize::from(Area::V.size())];
+        let mut sm = vec![0; usize::from(Area::Sm.size())];
         let mut address = plc_isa::ARENA_START;
         for (first, len) in plan.v_ranges() {
-            for place in v.iter_mut().skip(usize::from(first)).take(usize::from(len)) {
+            let (places, first) = match first.checked_sub(SM_IN_V) {
+                Some(byte) => (&mut sm, byte),
+                None => (&mut v, first),
+            };
+            for place in places.iter_mut().skip(usize::from(first)).take(usize::from(len)) {
                 *place = address;
                 address += 1;
             }
@@ -250,40 +345,81 @@ impl Places {
         let (timers, counters) = ((0..=u8::MAX).zip(plan.timers()), (0..=u8::MAX).zip(plan.counters()));
         let timers = timers.map(|(index, slot)| (slot.number, (index, slot.address))).collect();
         let counters = counters.map(|(index, slot)| (slot.number, (index, slot.address))).collect();
-        Places { v, timers, counters }
+        Places { v, sm, timers, counters }
     }
 
-    fn byte(&self, area: Area, byte: u16) -> Option<u16> {
-        match area.page_start() {
-            Some(start) => Some(start + byte),
-            None => self.v.get(usize::from(byte)).copied().filter(|&address| address != 0),
+    fn byte(&self, unit: &Part, area: Area, byte: u16) -> Option<u16> {
+        let planned = |places: &[u16]| places.get(usize::from(byte)).copied().filter(|&address| address != 0);
+        match area {
+            Area::V => planned(&self.v),
+            Area::Sm if byte >= area.page_len() => planned(&self.sm),
+            Area::L => unit.local(byte),
+            _ => Some(area.page_start()? + byte),
         }
     }
 
-    /// The operand that is stored for an argument.
-    pub fn operand(&self, op: Op, argument: Argument) -> Option<Operand> {
-        Some(match argument {
-            Argument::Bit(Address::Bit { area, byte, bit }) => {
-                Operand::Bit(Bit { address: self.byte(area, byte)?, bit })
+    /// The data address of a value of `len` bytes.
+    fn memory(&self, unit: &Part, address: Address, len: u16) -> Option<u16> {
+        match address {
+            Address::Byte { area, byte } | Address::Word { area, byte } | Address::Double { area, byte } => {
+                self.byte(unit, area, byte)
             }
-            Argument::Bit(Address::Timer(number)) => Operand::Bit(timer_bit(number)),
-            Argument::Bit(Address::Counter(number)) => Operand::Bit(counter_bit(number)),
-            Argument::Memory(Address::Byte { area, byte } | Address::Word { area, byte }) => {
-                Operand::Memory(self.byte(area, byte)?)
+            Address::Timer(number) => Some(self.timers.get(&number)?.1),
+            Address::Counter(number) => Some(self.counters.get(&number)?.1),
+            Address::Analog(input) => Some(input.address()),
+            Address::AnalogOutput(channel) => Some(AQW_START + 2 * u16::from(channel)),
+            // A byte or word of an accumulator is its low end.
+            Address::Accumulator(number) => Some(AC_START + 4 * u16::from(number) + 4 - len),
+            Address::HighSpeedCounter(0) => Some(HC0),
+            Address::HighSpeedCounter(3) => Some(HC3),
+            Address::HighSpeedCounter(_) | Address::Bit { .. } => None,
+        }
+    }
+
+    fn bit(&self, unit: &Part, address: Address) -> Option<Operand> {
+        Some(Operand::Bit(match address {
+            Address::Bit { area, byte, bit } => Bit { address: self.byte(unit, area, byte)?, bit },
+            Address::Timer(number) => timer_bit(number),
+            Address::Counter(number) => counter_bit(number),
+            _ => return None,
+        }))
+    }
+
+    /// The operand that is stored for an argument that names memory, of an instruction in `unit`; `None` for another.
+    pub fn operand(&self, units: &Units, unit: &Part, op: Op, kind: Kind, argument: Argument) -> Option<Operand> {
+        let len = if kind.is_reference() { kind.value_len() } else { core_len(kind) };
+        let memory = |unit: &Part, address: Address| {
+            let address = self.memory(unit, address, len)?;
+            Some(if kind.is_reference() {
+                Operand::Reference(Reference::to(Place::Direct(address)))
+            } else {
+                Operand::Memory(address)
+            })
+        };
+        match argument {
+            Argument::Bit(address) => self.bit(unit, address),
+            Argument::Memory(address) => memory(unit, address),
+            Argument::Parameter(id, address @ Address::Bit { .. }) => self.bit(units.find(id)?, address),
+            Argument::Parameter(id, address) => memory(units.find(id)?, address),
+            Argument::Indirect(address) => {
+                Some(Operand::Reference(Reference::to(Place::Indirect(self.memory(unit, address, 4)?))))
             }
-            Argument::Memory(Address::Timer(number)) => Operand::Memory(self.timers.get(&number)?.1),
-            Argument::Memory(Address::Counter(number)) => Operand::Memory(self.counters.get(&number)?.1),
-            Argument::Memory(Address::Analog(input)) => Operand::Memory(input.address()),
             Argument::Timer(number) | Argument::Counter(number)
                 if matches!(op, Op::ResetTimers | Op::ResetCounters) =>
             {
-                Operand::Number(number)
+                Some(Operand::Number(number))
             }
-            Argument::Timer(number) => Operand::Number(self.timers.get(&number)?.0),
-            Argument::Counter(number) => Operand::Number(self.counters.get(&number)?.0),
-            Argument::Constant(value) => Operand::Constant(value),
-            Argument::Number(number) => Operand::Number(number),
-            Argument::Bit(_) | Argument::Memory(_) | Argument::None => return None,
-        })
+            Argument::Timer(number) => Some(Operand::Number(self.timers.get(&number)?.0)),
+            Argument::Counter(number) => Some(Operand::Number(self.counters.get(&number)?.0)),
+            _ => None,
+        }
+    }
+}
+
+/// Bytes of the value of a core instruction's operand.
+fn core_len(kind: Kind) -> u16 {
+    match kind {
+        Kind::Byte | Kind::ByteOut | Kind::AnyByte => 1,
+        _ => 2,
     }
 }

@@ -1,4 +1,4 @@
-//! A source text with its name and line starts: decoding, and offsets to lines and columns. No parsing.
+//! A source text with its name and line starts: decoding and encoding, and offsets to lines and columns. No parsing.
 
 use std::fmt;
 
@@ -11,7 +11,66 @@ pub struct Source {
     pub name: String,
     /// The whole text, without byte order mark.
     pub text: String,
+    /// How the file is encoded.
+    pub encoding: Encoding,
     line_starts: Vec<u32>,
+}
+
+/// How the characters of a file are encoded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Encoding {
+    /// UTF-8 without byte order mark; ASCII too.
+    Utf8,
+    /// UTF-8 with byte order mark.
+    Utf8Marked,
+    /// UTF-16, low byte first, with byte order mark.
+    Utf16LittleEndian,
+    /// UTF-16, high byte first, with byte order mark.
+    Utf16BigEndian,
+    /// The code page 1252 of Windows, as Micro/WIN writes it in western Europe.
+    Windows1252,
+}
+
+impl Encoding {
+    /// A byte order mark decides; without one it is UTF-8 where that is valid, otherwise Windows-1252.
+    fn of(bytes: &[u8]) -> Encoding {
+        match bytes {
+            [0xEF, 0xBB, 0xBF, ..] => Encoding::Utf8Marked,
+            [0xFF, 0xFE, ..] => Encoding::Utf16LittleEndian,
+            [0xFE, 0xFF, ..] => Encoding::Utf16BigEndian,
+            _ if std::str::from_utf8(bytes).is_ok() => Encoding::Utf8,
+            _ => Encoding::Windows1252,
+        }
+    }
+
+    fn decode(self, bytes: &[u8]) -> String {
+        let (encoding, mark_len) = match self {
+            Encoding::Utf8 => (encoding_rs::UTF_8, 0),
+            Encoding::Utf8Marked => (encoding_rs::UTF_8, 3),
+            Encoding::Utf16LittleEndian => (encoding_rs::UTF_16LE, 2),
+            Encoding::Utf16BigEndian => (encoding_rs::UTF_16BE, 2),
+            Encoding::Windows1252 => (encoding_rs::WINDOWS_1252, 0),
+        };
+        encoding.decode_without_bom_handling(bytes.get(mark_len..).unwrap_or(&[])).0.into_owned()
+    }
+
+    /// The bytes of a text, with the byte order mark of its encoding; `None` if that lacks a character of it.
+    pub fn encode(self, text: &str) -> Option<Vec<u8>> {
+        let units = |bytes_of: fn(u16) -> [u8; 2]| {
+            let mark_and_text = std::iter::once(0xFEFF).chain(text.encode_utf16());
+            Some(mark_and_text.flat_map(bytes_of).collect())
+        };
+        match self {
+            Encoding::Utf8 => Some(text.as_bytes().to_vec()),
+            Encoding::Utf8Marked => Some([b"\xEF\xBB\xBF", text.as_bytes()].concat()),
+            Encoding::Utf16LittleEndian => units(u16::to_le_bytes),
+            Encoding::Utf16BigEndian => units(u16::to_be_bytes),
+            Encoding::Windows1252 => {
+                let (bytes, _, has_failed) = encoding_rs::WINDOWS_1252.encode(text);
+                (!has_failed).then(|| bytes.into_owned())
+            }
+        }
+    }
 }
 
 /// Why bytes are no source text.
@@ -42,7 +101,7 @@ impl Source {
             return Err(SourceError::TooLong { name });
         }
         let line_starts = line_starts(text.as_bytes());
-        Ok(Source { name, text, line_starts })
+        Ok(Source { name, text, encoding: Encoding::Utf8, line_starts })
     }
 
     /// A source from the bytes of a file: a byte order mark decides; without one UTF-8 where it is valid,
@@ -52,7 +111,8 @@ impl Source {
         if u32::try_from(bytes.len()).is_err() {
             return Err(SourceError::TooLong { name });
         }
-        Source::new(name, decode(bytes))
+        let encoding = Encoding::of(bytes);
+        Ok(Source { encoding, ..Source::new(name, encoding.decode(bytes))? })
     }
 
     /// The name without folders and extension.
@@ -116,17 +176,6 @@ fn line_starts(text: &[u8]) -> Vec<u32> {
     starts
 }
 
-fn decode(bytes: &[u8]) -> String {
-    if let Some((encoding, mark_len)) = encoding_rs::Encoding::for_bom(bytes) {
-        let behind = bytes.get(mark_len..).unwrap_or(&[]);
-        return encoding.decode_without_bom_handling(behind).0.into_owned();
-    }
-    match std::str::from_utf8(bytes) {
-        Ok(text) => text.to_owned(),
-        Err(_) => encoding_rs::WINDOWS_1252.decode_without_bom_handling(bytes).0.into_owned(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -180,5 +229,37 @@ mod tests {
         assert_eq!(text(b"\xFF\xFEL\0D\0"), "LD");
         assert_eq!(text(b"\xFE\xFF\0L\0D"), "LD");
         assert_eq!(text(b"\xEF\xBB\xBF\xFF"), "\u{FFFD}", "a mark wins");
+    }
+
+    #[test]
+    fn what_was_read_is_written_back() {
+        let all: Vec<u8> = (0x80..=0xFF).collect();
+        let files: [&[u8]; 6] = [
+            b"",
+            "// für €".as_bytes(),
+            b"\xEF\xBB\xBFLD",
+            b"\xFF\xFEL\0\xAC\x20=\xD8\x00\xDE",
+            b"\xFE\xFF\0L\x20\xAC",
+            &all,
+        ];
+        for file in files {
+            let source = Source::from_bytes("t", file).unwrap();
+            assert_eq!(source.encoding.encode(&source.text).as_deref(), Some(file), "{:?}", source.encoding);
+        }
+        assert_eq!(Encoding::Windows1252.encode("中"), None);
+    }
+
+    #[test]
+    fn columns_are_those_of_the_decoded_text() {
+        let files: [&[u8]; 3] = [
+            b"// \xE4\xF6\r\nLD x",
+            b"\xEF\xBB\xBF// \xC3\xA4\xC3\xB6\r\nLD x",
+            b"\xFF\xFE/\0/\0 \0\xE4\0\xF6\0\r\0\n\0L\0D\0 \0x\0",
+        ];
+        for file in files {
+            let source = Source::from_bytes("t", file).unwrap();
+            assert_eq!(source.position(source.text.find('ö').unwrap()), (1, 5));
+            assert_eq!(source.position(source.text.find('x').unwrap()), (2, 4));
+        }
     }
 }

@@ -73,11 +73,11 @@ pub(crate) fn nearby_address(text: &str) -> Option<String> {
         return None;
     }
     let text = text.trim_start_matches('%').to_ascii_uppercase();
-    let letters = ["AIW", "AEW", "AIN", "SMB", "SMW", "SM"];
-    let letters_len = letters
-        .iter()
-        .find(|letters| text.starts_with(**letters))
-        .map_or_else(|| 1 + usize::from(matches!(text.as_bytes(), [_, b'B' | b'W', ..])), |letters| letters.len());
+    let letters = ["AIW", "AEW", "AIN", "AQW", "SMB", "SMW", "SMD", "SM", "AC", "HC"];
+    let letters_len = letters.iter().find(|letters| text.starts_with(**letters)).map_or_else(
+        || 1 + usize::from(matches!(text.as_bytes(), [_, b'B' | b'W' | b'D', ..])),
+        |letters| letters.len(),
+    );
     let (area, number) = text.split_at_checked(letters_len)?;
     if number.is_empty() {
         return None;
@@ -145,6 +145,9 @@ mod tests {
         assert_eq!(meant("%i0.1"), "I0.1");
         assert_eq!(meant("MWO"), "MW0");
         assert_eq!(meant("SMO.1"), "SM0.1");
+        assert_eq!(meant("VDI0"), "VD10");
+        assert_eq!(meant("ACI"), "AC1");
+        assert_eq!(meant("L0,3"), "L0.3");
         assert_eq!(meant("T3Z"), "");
         assert_eq!(meant("ä"), "");
         assert_eq!(meant("Motor"), "");

@@ -4,17 +4,16 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 
 use crate::address::{Address, AddressError};
-use crate::ast::{Span, Symbol, Value};
+use crate::ast::{Span, Symbol, UnitKind, Value};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::literal::{self, LiteralError};
+use crate::literal;
+use crate::locals::unit_id;
 use crate::resolve::is_german;
 use crate::source::Source;
 use crate::suggest::nearby_address;
 
-/// Reads a symbol file: a symbol a line, with name, address or constant, and comment, separated by tabs, commas or
-/// semicolons. The spans of the diagnostics are places in this source.
-///
-/// A symbol whose address this version lacks is kept with [`Value::Invalid`]: only using it is an error.
+/// Reads a symbol file: a symbol a line, with name, address, routine or constant, and comment, separated by tabs, commas
+/// or semicolons, as Micro/WIN copies and shows its table. The spans of the diagnostics are places in this source.
 pub fn load(source: &Source) -> (Vec<Symbol>, Vec<Diagnostic>) {
     let mut table = SymbolTable::default();
     let mut diagnostics = Vec::new();
@@ -57,7 +56,7 @@ pub(crate) enum Found<'t> {
     Symbol(&'t Symbol),
     /// A symbol to which two files give different values.
     Ambiguous,
-    /// A symbol of a file, for something that this version lacks.
+    /// A symbol of a file for something that is no operand.
     Unusable,
 }
 
@@ -130,7 +129,11 @@ fn words_of(value: &Value) -> String {
     match value {
         Value::Address(address) => address.to_string(),
         Value::Constant(constant) => constant.value.to_string(),
-        Value::Invalid => "defined".to_owned(),
+        Value::Unit(unit) => unit.to_string(),
+        Value::Real(bits) => format!("{:?}", f32::from_bits(*bits)),
+        Value::Indirect(address) => format!("*{address}"),
+        Value::AddressOf(address) => format!("&{address}"),
+        Value::Text(_) | Value::Invalid => "defined".to_owned(),
     }
 }
 
@@ -155,28 +158,29 @@ pub(crate) fn read_value(text: &str, place: Span) -> Result<Value, Box<Diagnosti
     let error = |code, message: String| Box::new(Diagnostic::new(code, place, message));
     if literal::looks_like_literal(text) {
         return match literal::parse(text) {
-            Ok(constant) => Ok(Value::Constant(constant)),
-            Err(LiteralError::Malformed(message)) => Err(error(Code::SymbolDefinition, message)),
-            Err(LiteralError::NotSupported(message)) => Err(error(Code::NotSupported, message)),
+            Ok(value) => Ok(value),
+            Err(message) => Err(error(Code::SymbolDefinition, message)),
         };
     }
     match Address::parse(text) {
         Ok(address) => Ok(Value::Address(address)),
-        Err(AddressError::NotSupported(message)) => Err(error(Code::NotSupported, message)),
         Err(AddressError::OutOfRange(message, suggestion)) => {
             let mut diagnostic = error(Code::SymbolDefinition, message);
             diagnostic.suggestion = suggestion.or_else(|| nearby_address(text));
             Err(diagnostic)
         }
-        Err(AddressError::NotAnAddress) => match literal::truth_value(text) {
-            Some(constant) => Ok(Value::Constant(constant)),
-            None => {
-                let mut diagnostic =
-                    error(Code::SymbolDefinition, format!("{text}: a symbol stands for an address or a constant"));
-                diagnostic.suggestion = nearby_address(text);
-                Err(diagnostic)
+        Err(AddressError::NotAnAddress) => {
+            match (literal::truth_value(text), unit_id(text).filter(|unit| unit.kind != UnitKind::Main)) {
+                (Some(constant), _) => Ok(Value::Constant(constant)),
+                (None, Some(unit)) => Ok(Value::Unit(unit)),
+                (None, None) => {
+                    let mut diagnostic =
+                        error(Code::SymbolDefinition, format!("{text}: a symbol stands for an address or a constant"));
+                    diagnostic.suggestion = nearby_address(text);
+                    Err(diagnostic)
+                }
             }
-        },
+        }
     }
 }
 
@@ -201,8 +205,8 @@ fn read_line(line: &str, start: usize, is_first: bool) -> LineResult {
     };
     let value = match read_value(&address.text, address.span) {
         Ok(value) => value,
-        Err(_) if is_block_name(&address.text) => Value::Invalid,
-        Err(diagnostic) if diagnostic.code == Code::NotSupported => Value::Invalid,
+        // The main program is no operand: the symbol is kept, and only using it is an error.
+        Err(_) if address.text.eq_ignore_ascii_case("OB1") => Value::Invalid,
         Err(_) if is_first && is_header_word(&address.text) => return Ok(None),
         // The comment was taken for the address: the name is what is missing.
         Err(_) if padding > 0 && Address::parse(&name.text).is_ok() => return missing_name(name),
@@ -219,19 +223,10 @@ fn missing_name(address: &Field<'_>) -> LineResult {
 
 /// A second field such as `Address` or `Adresse`: no address, nor one that is misspelt.
 fn is_header_word(text: &str) -> bool {
-    !literal::looks_like_literal(text)
+    text.starts_with(char::is_alphabetic)
+        && !literal::looks_like_literal(text)
         && Address::parse(text) == Err(AddressError::NotAnAddress)
         && nearby_address(text).is_none()
-}
-
-/// `SBR0`, `INT3`, `OB1`: Micro/WIN lists its blocks among the symbols.
-fn is_block_name(text: &str) -> bool {
-    let digits_at = text.find(|c: char| c.is_ascii_digit()).unwrap_or(text.len());
-    text.split_at_checked(digits_at).is_some_and(|(letters, number)| {
-        ["SBR", "INT", "OB"].iter().any(|block| letters.eq_ignore_ascii_case(block))
-            && !number.is_empty()
-            && number.bytes().all(|byte| byte.is_ascii_digit())
-    })
 }
 
 #[derive(Debug)]
@@ -347,8 +342,27 @@ mod tests {
     }
 
     #[test]
-    fn blocks_and_unsupported_addresses_are_kept_unusable() {
-        assert_eq!(good("x,I0.0\nTotal,VD0,sum\nSBR_0,SBR0"), ["x=I0.0=", "Total=defined=sum", "SBR_0=defined="]);
+    fn every_kind_of_address() {
+        assert_eq!(
+            good(
+                "Sum\tVD0\t\r\nPointer\tAC1\r\nStep\tL0.1\r\nLocal\tLW2\r\nCount\tHC0\r\nOut\tAQW2\r\nClock\tSMB34\r\n"
+            ),
+            ["Sum=VD0=", "Pointer=AC1=", "Step=L0.1=", "Local=LW2=", "Count=HC0=", "Out=AQW2=", "Clock=SMB34="]
+        );
+        assert_eq!(
+            good("Pi\t3.14\nMask\t16#FFFF_FFFF\nFill\tSBR0\nTick\tint3\nMAIN\tOB1\ttop"),
+            ["Pi=3.14=", "Mask=4294967295=", "Fill=SBR0=", "Tick=INT3=", "MAIN=defined=top"]
+        );
+        let wrong = loaded("p\t*AC1\nq\t&VB0\nr\tAC4\ns\tSBR256").1;
+        assert_eq!(
+            wrong,
+            [
+                "1:3 E0008 *AC1: a symbol stands for an address or a constant",
+                "2:3 E0008 &VB0: a symbol stands for an address or a constant",
+                "3:3 E0008 AC4: accumulators are AC0 to AC3",
+                "4:3 E0008 SBR256: a symbol stands for an address or a constant",
+            ]
+        );
     }
 
     #[test]

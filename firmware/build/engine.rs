@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use plc_isa::{
-    C_BITS_START, COUNTER_SLOT_LEN, DATA_END, DATA_START, Form, INSTRUCTIONS, Instruction, Kind, NATIVE_VECTORS,
-    Relation, SLOT_START, SM_START, T_BITS_START, TIMER_SLOT_LEN, WIDE_PREFIX,
+    C_BITS_START, CORE_INSTRUCTIONS, COUNTER_SLOT_LEN, DATA_END, DATA_START, Form, INSTRUCTIONS, Instruction, Kind, MODULE_PREFIX, NATIVE_VECTORS,
+    Relation, SLOT_START, SM_START, T_BITS_START, TIMER_SLOT_LEN,
 };
 
 /// Where the jump table lies in flash: `ijmp` takes the token as the low byte of a word address.
@@ -14,7 +14,7 @@ pub const TABLE_START: u16 = 0x0200;
 
 /// A form as the handlers name it: `Ldw Relation Word Word`, `wide Ldw Relation AnyInt AnyInt`.
 fn name(instruction: &Instruction, form: &Form) -> String {
-    let mut name = if form.wide { "wide ".to_string() } else { String::new() };
+    let mut name = if form.prefix.is_some() { "wide ".to_string() } else { String::new() };
     let _ = write!(name, "{:?}", instruction.op);
     for kind in form.kinds {
         let _ = write!(name, " {kind:?}");
@@ -77,9 +77,9 @@ impl Table {
         let of = |instruction: &'static Instruction| instruction.forms.iter().map(move |form| (instruction, form));
         let named = |(instruction, form)| (name(instruction, form), (instruction, form));
         Table {
-            forms: INSTRUCTIONS.iter().flat_map(of).map(named).collect(),
+            forms: core().flat_map(of).map(named).collect(),
             handled: BTreeSet::new(),
-            entries: vec!["rest".to_string(); 256],
+            entries: (0..=u8::MAX).map(|token| entry_without_handler(token).to_string()).collect(),
             wide: 0,
         }
     }
@@ -114,11 +114,11 @@ impl Table {
     }
 
     fn lead(&mut self, form: &Form, token: u8, label: String) {
-        if form.wide {
+        if form.prefix.is_some() {
             assert!(token == self.wide, "tokens behind the prefix have handlers in order, from the first on");
             self.wide += 1;
         }
-        self.entries[usize::from(if form.wide { WIDE_PREFIX } else { token })] = label;
+        self.entries[usize::from(form.prefix.unwrap_or(token))] = label;
     }
 
     /// The instructions of which all forms have handlers.
@@ -126,12 +126,22 @@ impl Table {
         let is_handled = |instruction: &&Instruction| {
             instruction.forms.iter().all(|form| self.handled.contains(&name(instruction, form)))
         };
-        INSTRUCTIONS.iter().filter(is_handled).fold(0, |set, instruction| set | 1 << instruction.op as u32)
+        core().filter(is_handled).fold(0, |set, instruction| set | 1 << instruction.op as u32)
     }
 }
 
+/// Where a token leads that no handler is for.
+fn entry_without_handler(token: u8) -> &'static str {
+    if token & !7 == MODULE_PREFIX { "module" } else { "rest" }
+}
+
+/// The instructions that the firmware has itself. Those of modules come with the program.
+fn core() -> impl Iterator<Item = &'static Instruction> {
+    INSTRUCTIONS.iter().take(CORE_INSTRUCTIONS)
+}
+
 fn label(instruction: &Instruction, form: &Form, token: u8) -> String {
-    format!("{:?}_{}{token:02X}", instruction.op, if form.wide { "FE" } else { "" })
+    format!("{:?}_{}{token:02X}", instruction.op, if form.prefix.is_some() { "FE" } else { "" })
 }
 
 /// The engine: its assembly text, and the instructions it executes in all their forms, a bit each in the order of the

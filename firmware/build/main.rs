@@ -16,6 +16,7 @@ fn main() {
     let memory = Path::new(env!("CARGO_MANIFEST_DIR")).join("../memory.x");
     println!("cargo:rerun-if-changed={}", memory.display());
     write_engine();
+    write_modules();
     for argument in [
         "-mmcu=atmega328p".to_string(),
         // Short calls where they reach.
@@ -36,6 +37,25 @@ fn main() {
     println!("cargo:rustc-link-lib=dylib=c");
 }
 
+/// Writes what the board knows its modules by.
+fn write_modules() {
+    let known = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../awl-asm/modules").join(name).with_extension("bin");
+        println!("cargo:rerun-if-changed={}", path.display());
+        let bytes = fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let checksum = plc_isa::Crc32::of(&bytes);
+        let table = bytes.get(4..6).map_or(0, |word| u16::from_le_bytes([word[0], word[1]]));
+        format!("[{}, {}, {table}, {}]", checksum & 0xFFFF, checksum >> 16, bytes.len())
+    };
+    let text = format!("[{}]", plc_isa::MODULE_NAMES.map(known).join(", "));
+    write("modules.rs", &text);
+}
+
+fn write(name: &str, text: &str) {
+    let target = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    fs::write(target.join(name), text).unwrap_or_else(|error| panic!("{name}: {error}"));
+}
+
 /// Writes the engine's assembly and the set of instructions it executes to where the firmware includes them.
 fn write_engine() {
     let source = |name: &str| {
@@ -44,8 +64,6 @@ fn write_engine() {
         fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
     };
     let engine = engine::generate(&source("engine.s"), &source("handlers.s"));
-    let target = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
-    for (name, text) in [("engine.s", engine.text), ("executed.rs", format!("{:#x}", engine.executed))] {
-        fs::write(target.join(name), text).unwrap_or_else(|error| panic!("{name}: {error}"));
-    }
+    write("engine.s", &engine.text);
+    write("executed.rs", &format!("{:#x}", engine.executed));
 }

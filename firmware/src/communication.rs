@@ -88,6 +88,7 @@ impl Communication {
         None
     }
 
+    #[inline(never)]
     fn obey(&mut self) -> Option<Request> {
         if self.command_len == 0 {
             return None;

@@ -1,6 +1,10 @@
 //! Time and supervision of a running program, by the tick.
 
 use plc_isa::LogicStack;
+#[cfg(feature = "engine")]
+use plc_isa::{Plan, ProgramMemory, TimerResolution};
+#[cfg(feature = "engine")]
+use plc_vm::Memory;
 use plc_vm::{Environment, SCAN_MS_MAX};
 
 use crate::board::{clock, watchdog};
@@ -42,6 +46,13 @@ impl Environment for ScanTime {
     fn is_overdue(&mut self, _bytes: u16) -> bool {
         watchdog::feed(clock::now_ms());
         self.is_over()
+    }
+
+    #[cfg(feature = "engine")]
+    fn advance_timers<P: ProgramMemory>(_: &mut Memory, _: &Plan<P>, resolution: TimerResolution, ticks: u16) {
+        if ticks != 0 {
+            engine::advance_timers(resolution, ticks);
+        }
     }
 
     fn retrigger_watchdog(&mut self) {

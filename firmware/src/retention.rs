@@ -157,6 +157,7 @@ impl Retention {
         }
     }
 
+    #[inline(never)]
     fn enter(&mut self, phase: Phase) {
         self.phase = phase;
         self.done = 0;

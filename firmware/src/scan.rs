@@ -402,6 +402,7 @@ impl Uno {
     }
 
     /// The fault in force; none in RUN, which clears it.
+    #[inline(never)]
     fn fault_bytes(&self) -> [u8; 4] {
         self.plc.fault().map_or(Fault::NONE, Fault::to_bytes)
     }

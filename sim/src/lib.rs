@@ -3,11 +3,13 @@
 //! A [`machine::Machine`] is driven by [`run::run`] through a [`scenario::Scenario`], beside it a [`plant::Plant`];
 //! what happened comes out as a [`run::Outcome`] with a [`trace::Trace`].
 
+pub mod action;
 pub mod machine;
 pub mod open;
 pub mod operand;
 pub mod plant;
 pub mod problem;
+pub mod pulse;
 pub mod run;
 pub mod scenario;
 pub mod symbols;

@@ -1,11 +1,11 @@
-//! What can be set, expected and traced: an address, or the current value of a timer or counter. No access to it.
+//! What can be set, expected and traced: an address, the current value of a timer or counter, a real. No access to it.
 
 use std::fmt;
 use std::ops::RangeInclusive;
 
 use awl_asm::Address;
 use awl_asm::address::AddressError;
-use plc_isa::AnalogInput;
+use plc_isa::{AnalogInput, Area};
 
 use crate::symbols::Symbols;
 
@@ -18,6 +18,10 @@ pub enum Operand {
     TimerCurrent(u8),
     /// The current value of a counter, written `C5.cv`.
     CounterCurrent(u8),
+    /// A double word or accumulator that holds a real, written `VD20:real`.
+    Real(Address),
+    /// The part of the time in thousandths that output Q0.n is on, written `Q0.1.duty`: what PLS makes of it.
+    Duty(u8),
 }
 
 /// How wide the value of an operand is.
@@ -29,6 +33,10 @@ pub enum Width {
     Byte,
     /// 16 bits, signed.
     Word,
+    /// 32 bits, signed.
+    Double,
+    /// The 32 bits of an IEEE single.
+    Real,
 }
 
 /// Why a text is no operand.
@@ -43,7 +51,7 @@ pub struct OperandError {
 impl Operand {
     /// Reads an operand: an address, a symbol (quoted or not), or either with `.cv` behind it. Any letter case.
     pub fn parse(text: &str, symbols: &Symbols) -> Result<Operand, OperandError> {
-        if let Some(stem) = strip_current(text) {
+        if let Some(stem) = strip_ending(text, ".cv") {
             return match address(stem, symbols)? {
                 Address::Timer(number) => Ok(Operand::TimerCurrent(number)),
                 Address::Counter(number) => Ok(Operand::CounterCurrent(number)),
@@ -53,15 +61,50 @@ impl Operand {
                 }),
             };
         }
+        if let Some(stem) = strip_ending(text, ":real") {
+            let operand = Operand::At(address(stem, symbols)?);
+            return operand.as_real().ok_or_else(|| OperandError {
+                message: format!("{text}: only double words and accumulators hold a real"),
+                suggestion: Some(stem.to_string()),
+            });
+        }
+        if let Some(stem) = strip_ending(text, ".duty") {
+            return match address(stem, symbols)? {
+                Address::Bit { area: Area::Q, byte: 0, bit } => Ok(Operand::Duty(bit)),
+                _ => Err(OperandError {
+                    message: format!("{text}: only the outputs Q0.0 to Q0.7 have a duty cycle"),
+                    suggestion: Some("Q0.1.duty".to_string()),
+                }),
+            };
+        }
         address(text, symbols).map(Operand::At)
+    }
+
+    /// The same bits as a real, where there are 32 of them.
+    pub fn as_real(self) -> Option<Operand> {
+        match self {
+            Operand::At(address @ (Address::Double { .. } | Address::Accumulator(_))) => Some(Operand::Real(address)),
+            Operand::Real(_) => Some(self),
+            _ => None,
+        }
+    }
+
+    /// A value of this operand as people write it.
+    pub fn text(self, value: i32) -> String {
+        match self.width() {
+            // With a point or exponent, as reals are written.
+            Width::Real => format!("{:?}", real_of(value)),
+            _ => value.to_string(),
+        }
     }
 
     /// The address, for a current value that of its timer or counter.
     pub fn address(self) -> Address {
         match self {
-            Operand::At(address) => address,
+            Operand::At(address) | Operand::Real(address) => address,
             Operand::TimerCurrent(number) => Address::Timer(number),
             Operand::CounterCurrent(number) => Address::Counter(number),
+            Operand::Duty(bit) => Address::Bit { area: Area::Q, byte: 0, bit },
         }
     }
 
@@ -70,27 +113,46 @@ impl Operand {
         match self {
             Operand::At(Address::Bit { .. } | Address::Timer(_) | Address::Counter(_)) => Width::Bit,
             Operand::At(Address::Byte { .. }) => Width::Byte,
-            Operand::At(Address::Word { .. } | Address::Analog(_)) => Width::Word,
-            Operand::TimerCurrent(_) | Operand::CounterCurrent(_) => Width::Word,
+            Operand::At(Address::Double { .. } | Address::Accumulator(_) | Address::HighSpeedCounter(_)) => {
+                Width::Double
+            }
+            Operand::At(Address::Word { .. } | Address::Analog(_) | Address::AnalogOutput(_)) => Width::Word,
+            Operand::Real(_) => Width::Real,
+            Operand::TimerCurrent(_) | Operand::CounterCurrent(_) | Operand::Duty(_) => Width::Word,
         }
     }
 
-    /// The values it can have, words signed.
+    /// The values it can have, words and double words signed; of a real the bits.
     pub fn range(self) -> RangeInclusive<i32> {
         match (self, self.width()) {
             (Operand::At(Address::Analog(AnalogInput::Raw(_))), _) => 0..=i32::from(AnalogInput::RAW_MAX),
             (Operand::At(Address::Analog(AnalogInput::Scaled(_))), _) => 0..=i32::from(AnalogInput::SCALED_MAX),
+            (Operand::Duty(_), _) => 0..=DUTY_MAX,
             (_, Width::Bit) => 0..=1,
             (_, Width::Byte) => 0..=255,
             (_, Width::Word) => i32::from(i16::MIN)..=i32::from(i16::MAX),
+            (_, Width::Double | Width::Real) => i32::MIN..=i32::MAX,
         }
     }
 }
 
-fn strip_current(text: &str) -> Option<&str> {
-    let stem_len = text.len().checked_sub(3)?;
+/// The duty cycle of an output that is on all the time.
+pub const DUTY_MAX: i32 = 1000;
+
+/// The real in a value.
+pub fn real_of(value: i32) -> f32 {
+    f32::from_bits(value as u32)
+}
+
+/// The value that holds a real.
+pub fn value_of(real: f32) -> i32 {
+    real.to_bits() as i32
+}
+
+fn strip_ending<'a>(text: &'a str, ending: &str) -> Option<&'a str> {
+    let stem_len = text.len().checked_sub(ending.len())?;
     let tail = text.get(stem_len..)?;
-    tail.eq_ignore_ascii_case(".cv").then(|| &text[..stem_len])
+    tail.eq_ignore_ascii_case(ending).then(|| &text[..stem_len])
 }
 
 fn address(text: &str, symbols: &Symbols) -> Result<Address, OperandError> {
@@ -108,7 +170,6 @@ fn address(text: &str, symbols: &Symbols) -> Result<Address, OperandError> {
             },
             suggestion: symbols.nearest(name).map(str::to_string),
         },
-        AddressError::NotSupported(message) => OperandError { message, suggestion: None },
         AddressError::OutOfRange(message, suggestion) => OperandError { message, suggestion },
     })
 }
@@ -119,6 +180,8 @@ impl fmt::Display for Operand {
             Operand::At(address) => address.fmt(f),
             Operand::TimerCurrent(number) => write!(f, "T{number}.cv"),
             Operand::CounterCurrent(number) => write!(f, "C{number}.cv"),
+            Operand::Real(address) => write!(f, "{address}:real"),
+            Operand::Duty(bit) => write!(f, "Q0.{bit}.duty"),
         }
     }
 }
@@ -176,5 +239,30 @@ mod tests {
         assert_eq!(range("QB0"), 0..=255);
         assert_eq!(range("T37"), 0..=1);
         assert_eq!(range("T37.cv"), -32768..=32767);
+        assert_eq!(range("AQW2"), -32768..=32767);
+        for double in ["VD8", "AC3", "HC0", "LD4", "SMD38"] {
+            assert_eq!(range(double), i32::MIN..=i32::MAX, "{double}");
+        }
+    }
+
+    #[test]
+    fn outputs_have_a_duty_cycle() {
+        let symbols = symbols();
+        let duty = Operand::parse("lift up.DUTY", &symbols).unwrap();
+        assert_eq!((duty.to_string(), duty.range()), ("Q0.1.duty".to_string(), 0..=1000));
+        assert!(Operand::parse("I0.1.duty", &symbols).is_err() && Operand::parse("Q1.0.duty", &symbols).is_err());
+    }
+
+    #[test]
+    fn double_words_as_reals() {
+        let symbols = symbols();
+        let real = Operand::parse("vd8:REAL", &symbols).unwrap();
+        assert_eq!((real.to_string(), real.width()), ("VD8:real".to_string(), Width::Real));
+        assert_eq!(Operand::parse("AC1:real", &symbols).map(Operand::width), Ok(Width::Real));
+        assert_eq!(Operand::parse("VD8", &symbols).unwrap().as_real(), Some(real));
+        let error = Operand::parse("VW8:real", &symbols).unwrap_err();
+        assert_eq!(error.suggestion.as_deref(), Some("VW8"));
+        let texts = [1.5, -0.1, 3.0, 1e20, f32::NAN].map(|number| real.text(value_of(number)));
+        assert_eq!(texts, ["1.5", "-0.1", "3.0", "1e20", "NaN"]);
     }
 }

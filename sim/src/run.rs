@@ -6,6 +6,7 @@
 
 mod outcome;
 
+use crate::action::Action;
 use crate::machine::{Machine, MachineError, Mode};
 use crate::operand::Operand;
 use crate::plant::{Inputs, Plant, Report};
@@ -97,7 +98,8 @@ fn scans(length: Length, scenario: &Scenario, scan_ms: u64) -> u64 {
             // An expectation needs the scans before it, a value the scan that sees it.
             let checks = scenario.expectations.iter().map(|expectation| boundary(expectation.at_ms, scan_ms));
             let sets = scenario.settings.iter().map(|setting| boundary(setting.at_ms, scan_ms) + 1);
-            checks.chain(sets).max().unwrap_or(0)
+            let actions = scenario.actions.iter().map(|action| boundary(action.end_ms(), scan_ms) + 1);
+            checks.chain(sets).chain(actions).max().unwrap_or(0)
         }
     }
 }
@@ -106,8 +108,10 @@ fn scans(length: Length, scenario: &Scenario, scan_ms: u64) -> u64 {
 struct Schedule<'a> {
     scan_ms: u64,
     settings: Vec<&'a Setting>,
+    actions: Vec<&'a Action>,
     expectations: Vec<&'a Expectation>,
     set: usize,
+    begun: usize,
     checked: usize,
 }
 
@@ -117,8 +121,10 @@ impl<'a> Schedule<'a> {
         let mut expectations: Vec<_> = scenario.expectations.iter().collect();
         // Stable: what stands at the same time stays in the order of the file.
         settings.sort_by_key(|setting| setting.at_ms);
+        let mut actions: Vec<_> = scenario.actions.iter().collect();
+        actions.sort_by_key(|action| action.at_ms());
         expectations.sort_by_key(|expectation| expectation.at_ms);
-        Schedule { scan_ms, settings, expectations, set: 0, checked: 0 }
+        Schedule { scan_ms, settings, actions, expectations, set: 0, begun: 0, checked: 0 }
     }
 
     fn check(
@@ -146,12 +152,19 @@ impl<'a> Schedule<'a> {
             self.set += 1;
             machine.write(setting.operand, setting.value)?;
         }
+        while let Some(action) = self.actions.get(self.begun) {
+            if boundary(action.at_ms(), self.scan_ms) > scan {
+                break;
+            }
+            self.begun += 1;
+            machine.act(action)?;
+        }
         Ok(())
     }
 
     fn count_unreached(&self, outcome: &mut Outcome) {
         outcome.unreached_expectations = self.expectations.len() - self.checked;
-        outcome.unreached_settings = self.settings.len() - self.set;
+        outcome.unreached_settings = self.settings.len() - self.set + self.actions.len() - self.begun;
     }
 }
 

@@ -4,7 +4,9 @@
 //! scan 1ms                      # length of one scan
 //! plant station1 noise=2        # a plant model that drives inputs
 //! at 0ms    I0.1 = 1, Ain0 = 207
-//! at 500ms  expect Q0.1 = 0, MW3 = 200..210
+//! at 500ms  expect Q0.1 = 0, MW3 = 200..210, VD8 = 1.5..1.6
+//! at 600ms  pulse I0.0 1000Hz for 2s
+//! at 700ms  clock 2026-11-21 15:00:00
 //! run 5s
 //! ```
 
@@ -13,8 +15,9 @@ mod value;
 
 use std::ops::RangeInclusive;
 
+use crate::action::Action;
 use crate::machine::MachineError;
-use crate::operand::Operand;
+use crate::operand::{Operand, Width, real_of};
 use crate::plant::PlantSpec;
 use crate::problem::Problems;
 use crate::symbols::Symbols;
@@ -35,6 +38,8 @@ pub struct Scenario {
     pub plant: Option<PlantSpec>,
     /// `at T operand = value`, in the order of the file.
     pub settings: Vec<Setting>,
+    /// What else happens, in the order of the file.
+    pub actions: Vec<Action>,
     /// `at T expect operand = value`, in the order of the file.
     pub expectations: Vec<Expectation>,
 }
@@ -46,7 +51,7 @@ pub struct Setting {
     pub at_ms: u64,
     /// What.
     pub operand: Operand,
-    /// The value, in the operand's range, words signed.
+    /// The value, in the operand's range, words signed; of a real its bits.
     pub value: i32,
 }
 
@@ -61,8 +66,18 @@ pub struct Expectation {
     pub operand: Operand,
     /// The operand as written.
     pub name: String,
-    /// The values that are right, words signed.
+    /// The values that are right, words signed; of a real the bits of the least and the greatest.
     pub values: RangeInclusive<i32>,
+}
+
+impl Expectation {
+    /// Whether a value of the operand is right.
+    pub fn is_met_by(&self, value: i32) -> bool {
+        match self.operand.width() {
+            Width::Real => (real_of(*self.values.start())..=real_of(*self.values.end())).contains(&real_of(value)),
+            _ => self.values.contains(&value),
+        }
+    }
 }
 
 /// What a scenario is read against.
@@ -85,7 +100,7 @@ impl Scenario {
     pub fn last_ms(&self) -> u64 {
         let settings = self.settings.iter().map(|setting| setting.at_ms);
         let expectations = self.expectations.iter().map(|expectation| expectation.at_ms);
-        settings.chain(expectations).max().unwrap_or(0)
+        settings.chain(expectations).chain(self.actions.iter().map(Action::end_ms)).max().unwrap_or(0)
     }
 }
 

@@ -1,6 +1,6 @@
 //! The forms of the instruction table as they stand in an image: to count them, and to exchange them.
 
-use plc_isa::{Form, Header, INSTRUCTIONS, Instruction, Kind, Op, WIDE_PREFIX, decode};
+use plc_isa::{Form, Header, INSTRUCTIONS, Instruction, Kind, Op, Relation, decode};
 
 use crate::image::signed;
 
@@ -18,8 +18,10 @@ pub struct Row {
 pub struct Place {
     /// What stands there.
     pub row: Row,
-    /// Offset of its token, behind the prefix of a wide one.
+    /// Offset of its token, behind the prefix if there is one.
     pub token_at: usize,
+    /// Its comparison.
+    pub relation: Option<Relation>,
 }
 
 /// Every form of every instruction.
@@ -44,27 +46,34 @@ impl Row {
     pub fn is_sibling(&self, other: &Row) -> bool {
         let span = |form: &Form| form.last_token - form.first_token;
         !self.is(other)
-            && self.form.wide == other.form.wide
+            && self.form.prefix == other.form.prefix
             && span(self.form) == span(other.form)
             && self.stored().eq(other.stored())
             && self.instruction.stack == other.instruction.stack
     }
 
-    fn first(&self) -> (bool, u8) {
-        (self.form.wide, self.form.first_token)
+    fn first(&self) -> (Option<u8>, u8) {
+        (self.form.prefix, self.form.first_token)
     }
 
     fn stored(&self) -> impl Iterator<Item = u8> {
         self.form.kinds.iter().map(|kind| kind.stored_len()).filter(|&len| len > 0)
     }
 
-    fn holds(&self, wide: bool, token: u8) -> bool {
-        self.form.wide == wide && (self.form.first_token..=self.form.last_token).contains(&token)
+    fn holds(&self, prefix: Option<u8>, token: u8) -> bool {
+        self.form.prefix == prefix && (self.form.first_token..=self.form.last_token).contains(&token)
     }
 
-    /// Whether the comparison is in the token.
-    pub fn has_relation(&self) -> bool {
-        self.form.kinds.contains(&Kind::Relation)
+    /// The comparisons that the form can be written with; `None` alone if it has none. Strings are equal or not, and a
+    /// table is searched for four relations (reference 1.2, 1.7).
+    pub fn relations(&self) -> Vec<Option<Relation>> {
+        let known = match self.instruction.op {
+            _ if !self.instruction.has_relation() => return vec![None],
+            Op::LoadText | Op::AndText | Op::OrText => 2,
+            Op::Fnd => 4,
+            _ => Relation::ALL.len(),
+        };
+        Relation::ALL[..known].iter().copied().map(Some).collect()
     }
 }
 
@@ -76,31 +85,42 @@ pub fn places(image: &[u8]) -> Vec<Place> {
     let header = Header::read(&image).expect("a valid header");
     let rows = rows();
     let (mut at, mut places) = (header.code_at(), Vec::new());
-    loop {
+    while at < header.code_end() {
         let decoded = decode(&image, at).expect("a valid instruction");
-        let wide = image[usize::from(at)] == WIDE_PREFIX;
-        let token_at = usize::from(at) + usize::from(wide);
-        let row = rows.iter().find(|row| row.holds(wide, image[token_at])).expect("a token of the table");
-        places.push(Place { row: *row, token_at });
+        let first = image[usize::from(at)];
+        let prefix = rows.iter().find_map(|row| row.form.prefix.filter(|&prefix| prefix == first));
+        let token_at = usize::from(at) + usize::from(prefix.is_some());
+        let row = rows.iter().find(|row| row.holds(prefix, image[token_at])).expect("a token of the table");
+        places.push(Place { row: *row, token_at, relation: decoded.relation() });
         at += decoded.len;
-        if decoded.op == Op::MainEnd {
-            return places;
-        }
     }
+    places
 }
 
-/// The image with other tokens; `exchange` gets the row and the token's distance from the row's first, and gives a
-/// token to put there. `None` if nothing has changed.
-pub fn with_tokens(image: &[u8], exchange: impl Fn(&Row, u8) -> Option<u8>) -> Option<Vec<u8>> {
+/// The image with one row of the table in the place of another; `None` if it does not occur.
+pub fn with_row(image: &[u8], from: &Row, to: &Row) -> Option<Vec<u8>> {
+    changed(image, |place, bytes| {
+        if place.row.is(from) {
+            bytes[0] = bytes[0] - from.form.first_token + to.form.first_token;
+        }
+    })
+}
+
+/// The image with one comparison of a row in the place of another; `None` if it does not occur.
+pub fn with_relation(image: &[u8], row: &Row, from: Relation, to: Relation) -> Option<Vec<u8>> {
+    let has_own_byte = row.form.kinds.contains(&Kind::RelationByte);
+    changed(image, |place, bytes| match place.relation {
+        Some(relation) if place.row.is(row) && relation == from && has_own_byte => bytes[1] = to as u8,
+        Some(relation) if place.row.is(row) && relation == from => bytes[0] = row.form.first_token + to as u8,
+        _ => {}
+    })
+}
+
+/// The image after `change` has seen each of its instructions with its bytes from the token on.
+fn changed(image: &[u8], change: impl Fn(&Place, &mut [u8])) -> Option<Vec<u8>> {
     let mut changed = image.to_vec();
     for place in places(image) {
-        let offset = image[place.token_at] - place.row.form.first_token;
-        if let Some(token) = exchange(&place.row, offset) {
-            changed[place.token_at] = token;
-        }
+        change(&place, &mut changed[place.token_at..]);
     }
-    if changed == image {
-        return None;
-    }
-    Some(signed(changed))
+    (changed != image).then(|| signed(changed))
 }

@@ -8,22 +8,18 @@ use tests::forms::{places, rows};
 
 #[test]
 fn every_form_has_a_case() {
+    let name = |name: String, relation: Option<Relation>| match relation {
+        Some(relation) => format!("{name} {}", relation.symbol()),
+        None => name,
+    };
     let mut seen = BTreeSet::new();
     for case in Prepared::all() {
-        for place in places(&case.image) {
-            let offset = case.image[place.token_at] - place.row.form.first_token;
-            seen.insert((place.row.name(), if place.row.has_relation() { offset } else { 0 }));
-        }
+        seen.extend(places(&case.image).iter().map(|place| name(place.row.name(), place.relation)));
     }
-    let mut missing = Vec::new();
-    for row in rows() {
-        let relations = if row.has_relation() { &Relation::ALL[..] } else { &Relation::ALL[..1] };
-        for (&relation, offset) in relations.iter().zip(0..) {
-            if !seen.contains(&(row.name(), offset)) {
-                let sign = if row.has_relation() { relation.symbol() } else { "" };
-                missing.push(format!("{} {sign}", row.name()));
-            }
-        }
-    }
+    let forms = rows().into_iter().flat_map(|row| row.relations().into_iter().map(move |found| (row, found)));
+    let missing: Vec<String> = forms
+        .map(|(row, relation)| name(row.name(), relation))
+        .filter(|form| !seen.contains(form))
+        .collect();
     assert!(missing.is_empty(), "no case for\n{}", missing.join("\n"));
 }

@@ -7,6 +7,7 @@ mod budgets;
 mod demo;
 mod docs;
 mod firmware;
+mod modules;
 mod packages;
 mod process;
 mod rules;
@@ -39,6 +40,12 @@ enum Task {
     Bench,
     /// Builds the firmware for the Uno: target/firmware/uno200.elf and uno200.hex.
     Firmware,
+    /// Assembles the modules of firmware/modules into awl-asm/modules, from where the assembler takes them.
+    Modules {
+        /// Only compare, and fail if it would change.
+        #[arg(long)]
+        check: bool,
+    },
     /// Flash, SRAM and stack of the firmware, compared with their budgets.
     Size,
     /// Starts a virtual Uno on a pseudo-terminal and prints its port.
@@ -61,6 +68,7 @@ fn main() -> ExitCode {
         Task::Test { host_only } => test::run(host_only),
         Task::Bench => bench::run(),
         Task::Firmware => firmware::build().map(|elf| println!("{} and .hex", elf.display())),
+        Task::Modules { check } => modules::run(check),
         Task::Size => size::run(),
         Task::Board { with_firmware } => board::start(with_firmware),
         Task::Docs { check } => docs::run(check),

@@ -1,4 +1,7 @@
-//! Jumps, labels and loops: whether they pair, and which instructions a scan can skip or repeat.
+//! Jumps, labels and loops: whether they pair, and which instructions a scan can skip or repeat. Each unit has its own.
+
+use std::collections::HashMap;
+use std::ops::Range;
 
 use plc_isa::{LOOPS_MAX, Op};
 
@@ -6,12 +9,13 @@ use crate::ast::{Program, Span};
 use crate::check::{operand_span, span_of};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::select::{Argument, Selected};
+use crate::units::Units;
 
 /// The control structure of a program; indices are those of the selected instructions.
 #[derive(Debug, Default)]
 pub struct Control {
-    /// For each label number the instruction LBL, in the order of their numbers.
-    pub labels: Vec<Option<usize>>,
+    /// The labels: LBL instructions in the order of the text.
+    pub labels: Vec<usize>,
     /// Pairs of FOR and NEXT.
     pub loops: Vec<(usize, usize)>,
     /// For each instruction the FOR of the innermost loop whose body it is in.
@@ -22,12 +26,29 @@ pub struct Control {
     pub jumps: Vec<(usize, usize)>,
 }
 
+impl Control {
+    /// How many labels the units of the image have.
+    pub fn labels_in_image(&self, units: &Units) -> usize {
+        let in_image = |label: &&usize| units.in_image().any(|part| part.code.contains(label));
+        self.labels.iter().filter(in_image).count()
+    }
+}
+
 /// Finds the control structure and reports what is wrong with it.
-pub fn control(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnostic>) -> Control {
-    let mut control = Control { labels: vec![None; 256], ..Control::default() };
-    find_labels(program, code, &mut control, diagnostics);
-    find_loops(program, code, &mut control, diagnostics);
-    find_jumps(program, code, &mut control, diagnostics);
+pub fn control(program: &Program, code: &[Selected], units: &Units, diagnostics: &mut Vec<Diagnostic>) -> Control {
+    let mut control = Control { innermost: vec![None; code.len()], ..Control::default() };
+    for part in &units.parts {
+        let labels = find_labels(program, code, part.code.clone(), diagnostics);
+        find_loops(program, code, part.code.clone(), &mut control, diagnostics);
+        find_jumps(program, code, part.code.clone(), &labels, &mut control, diagnostics);
+        let before = control.labels.len();
+        control.labels.extend(labels.iter().flatten());
+        if let Some(one_too_many) = labels.iter().flatten().nth(LABELS_MAX.saturating_sub(before)) {
+            let message = format!("this is one label too many: a program can have {LABELS_MAX} in all its units");
+            let span = span_of(program, &code[*one_too_many]);
+            diagnostics.push(Diagnostic::new(Code::TooMany, span, message));
+        }
+    }
     timers_not_every_scan(program, code, &control, diagnostics);
     control
 }
@@ -39,10 +60,25 @@ fn number(selected: &Selected) -> Option<u8> {
     }
 }
 
-fn find_labels(program: &Program, code: &[Selected], control: &mut Control, diagnostics: &mut Vec<Diagnostic>) {
-    for (index, selected) in code.iter().enumerate().filter(|(_, selected)| selected.op == Op::Lbl) {
+/// Most labels of a program: a jump has a byte for the index of its label.
+const LABELS_MAX: usize = 256;
+
+/// The instructions of a unit with their indices.
+fn in_range(code: &[Selected], range: Range<usize>) -> impl Iterator<Item = (usize, &Selected)> {
+    code.iter().enumerate().take(range.end).skip(range.start)
+}
+
+/// For each label number the instruction LBL.
+fn find_labels(
+    program: &Program,
+    code: &[Selected],
+    range: Range<usize>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Vec<Option<usize>> {
+    let mut labels = vec![None; LABELS_MAX];
+    for (index, selected) in in_range(code, range).filter(|(_, selected)| selected.op == Op::Lbl) {
         let Some(label) = number(selected) else { continue };
-        match control.labels[usize::from(label)] {
+        match labels[usize::from(label)] {
             Some(first) => diagnostics.push(
                 Diagnostic::new(
                     Code::DuplicateLabel,
@@ -51,16 +87,22 @@ fn find_labels(program: &Program, code: &[Selected], control: &mut Control, diag
                 )
                 .related(span_of(program, &code[first]), "first here"),
             ),
-            None => control.labels[usize::from(label)] = Some(index),
+            None => labels[usize::from(label)] = Some(index),
         }
     }
+    labels
 }
 
-fn find_loops(program: &Program, code: &[Selected], control: &mut Control, diagnostics: &mut Vec<Diagnostic>) {
+fn find_loops(
+    program: &Program,
+    code: &[Selected],
+    range: Range<usize>,
+    control: &mut Control,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
     let mut open: Vec<usize> = Vec::new();
-    control.innermost = Vec::with_capacity(code.len());
-    for (index, selected) in code.iter().enumerate() {
-        control.innermost.push(open.last().copied());
+    for (index, selected) in in_range(code, range) {
+        control.innermost[index] = open.last().copied();
         match selected.op {
             Op::For => {
                 if open.len() == LOOPS_MAX {
@@ -89,26 +131,32 @@ fn find_loops(program: &Program, code: &[Selected], control: &mut Control, diagn
     }
 }
 
-fn find_jumps(program: &Program, code: &[Selected], control: &mut Control, diagnostics: &mut Vec<Diagnostic>) {
+fn find_jumps(
+    program: &Program,
+    code: &[Selected],
+    range: Range<usize>,
+    labels: &[Option<usize>],
+    control: &mut Control,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
     // A label whose number was wrong may have been the one.
-    let has_unknown_label = code.iter().any(|selected| selected.op == Op::Lbl && number(selected).is_none());
-    let known = known_labels(&control.labels);
+    let is_unknown = |selected: &Selected| selected.op == Op::Lbl && number(selected).is_none();
+    let has_unknown_label = in_range(code, range.clone()).any(|(_, selected)| is_unknown(selected));
+    let known = known_labels(labels);
     // A FOR without NEXT reaches to the end.
-    let mut ends = vec![usize::MAX; code.len()];
-    for &(start, end) in &control.loops {
-        ends[start] = end;
-    }
-    for (index, selected) in code.iter().enumerate().filter(|(_, selected)| selected.op == Op::Jmp) {
+    let ends: HashMap<usize, usize> = control.loops.iter().copied().collect();
+    let end_of = |start: usize| ends.get(&start).copied().unwrap_or(usize::MAX);
+    for (index, selected) in in_range(code, range).filter(|(_, selected)| selected.op == Op::Jmp) {
         let Some(label) = number(selected) else { continue };
         let span = operand_span(program, selected, 0);
-        let Some(target) = control.labels[usize::from(label)] else {
+        let Some(target) = labels[usize::from(label)] else {
             if !has_unknown_label {
                 diagnostics.push(missing_label(label, span, &known));
             }
             continue;
         };
         control.jumps.push((index, target));
-        if let Some(start) = control.innermost[target].filter(|&start| !(start..=ends[start]).contains(&index)) {
+        if let Some(start) = control.innermost[target].filter(|&start| !(start..=end_of(start)).contains(&index)) {
             diagnostics.push(
                 Diagnostic::new(
                     Code::JumpIntoLoop,

@@ -1,9 +1,9 @@
 //! Depth of the logic stack before and after every instruction: underflow, overflow, networks that start without a load.
 
-use plc_isa::{Group, Instruction, Op, STACK_LEVELS};
+use plc_isa::{Instruction, Op, STACK_LEVELS};
 
 use crate::ast::{Program, Span, Statement};
-use crate::check::span_of;
+use crate::check::{is_contact, source_of, span_of};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::select::{Argument, Selected};
 
@@ -30,8 +30,10 @@ pub fn stack(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
     follow.network(Span::default(), 1);
     for selected in code {
         for passed in &program.statements[statement..selected.statement as usize] {
-            if let Statement::Network(network) = passed {
-                follow.network(network.span, network.number);
+            match passed {
+                Statement::Network(network) => follow.network(network.span, network.number),
+                Statement::Unit(_) => follow.network(Span::default(), 1),
+                Statement::Instruction(_) => {}
             }
         }
         statement = selected.statement as usize;
@@ -85,7 +87,7 @@ impl Follow<'_> {
         }
         self.check_needs(selected, instruction, needs);
         self.at_start = None;
-        self.after_output = !matches!(instruction.group, Group::Contact | Group::Compare | Group::Stack);
+        self.after_output = !is_contact(selected.op);
         match selected.op {
             // A copy is as good as used, and so is what is read where it stands.
             Op::Lps => self.copies += 1,
@@ -113,7 +115,11 @@ impl Follow<'_> {
 
     fn check_needs(&mut self, selected: &Selected, instruction: &Instruction, needs: u8) {
         let span = || span_of(self.program, selected);
-        let name = instruction.mnemonic();
+        // What is hidden in a call has its name.
+        let name = match instruction.mnemonic() {
+            "" => source_of(self.program, selected).map_or("", |source| source.mnemonic),
+            name => name,
+        };
         if let (Some((network, number)), 1..) = (self.at_start, needs) {
             let mut diagnostic = Diagnostic::new(
                 Code::NetworkStart,
@@ -153,6 +159,8 @@ impl Follow<'_> {
             return;
         }
         match instruction.stack.adds {
+            // The bit of a segment is there for the whole segment.
+            1.. if selected.op == Op::Lscr => {}
             1.. => {
                 self.loads.push(span_of(self.program, selected));
                 self.after_label = false;

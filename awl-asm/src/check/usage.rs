@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use plc_isa::{Area, DIGITAL_INPUTS, DIGITAL_OUTPUTS, Op, TimerKind};
+use plc_isa::{Area, Group, DIGITAL_INPUTS, DIGITAL_OUTPUTS, Op, TimerKind};
 
 use crate::address::Address;
 use crate::ast::{Program, Span};
@@ -36,6 +36,7 @@ pub fn usage(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
     for (index, selected) in code.iter().enumerate() {
         for (operand, (argument, written)) in selected.arguments().enumerate() {
             if let Some((address, reads, writes)) = access_of(selected.op, argument, written) {
+                let operand = selected.parameter.map_or(operand, usize::from);
                 let access = Access { instruction: index, operand, writes, reads };
                 usage.accesses.entry(address).or_default().push(access);
             }
@@ -51,16 +52,39 @@ pub fn usage(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
 /// The address an argument names, and whether the instruction reads and writes it.
 fn access_of(op: Op, argument: Argument, written: bool) -> Option<(Address, bool, bool)> {
     match argument {
+        // Local memory is another one in each unit.
+        Argument::Bit(address) | Argument::Memory(address) | Argument::Indirect(address) if is_local(address) => None,
         Argument::Bit(address) | Argument::Memory(address) => Some((address, !written || updates(op), written)),
+        Argument::Indirect(address) => Some((address, true, false)),
+        Argument::Pointer(address) => Some((address, false, false)),
         Argument::Timer(number) => Some((Address::Timer(number), false, true)),
         Argument::Counter(number) => Some((Address::Counter(number), false, true)),
-        Argument::Constant(_) | Argument::Number(_) | Argument::None => None,
+        Argument::Parameter(..)
+        | Argument::Constant(_)
+        | Argument::Literal(_)
+        | Argument::Real(_)
+        | Argument::Text(_)
+        | Argument::Number(_)
+        | Argument::Routine(_)
+        | Argument::Event(_)
+        | Argument::None => None,
     }
+}
+
+fn is_local(address: Address) -> bool {
+    matches!(
+        address,
+        Address::Bit { area: Area::L, .. }
+            | Address::Byte { area: Area::L, .. }
+            | Address::Word { area: Area::L, .. }
+            | Address::Double { area: Area::L, .. }
+    )
 }
 
 /// Instructions whose output is also an input: OUT := OUT op IN1.
 fn updates(op: Op) -> bool {
-    op.instruction().group == plc_isa::Group::Math
+    matches!(op.instruction().group, Group::Math | Group::Logic | Group::Shift)
+        || matches!(op, Op::AddReal | Op::SubReal | Op::MulReal | Op::DivReal | Op::Scat | Op::Swap | Op::Bcdi | Op::Ibcd)
 }
 
 struct Check<'a> {
@@ -99,7 +123,8 @@ impl Check<'_> {
             }
             Address::Bit { area: Area::I, .. }
             | Address::Byte { area: Area::I | Area::Q, .. }
-            | Address::Word { area: Area::I | Area::Q, .. } => self.pin(address, accesses, diagnostics),
+            | Address::Word { area: Area::I | Area::Q, .. }
+            | Address::Double { area: Area::I | Area::Q, .. } => self.pin(address, accesses, diagnostics),
             _ => {}
         }
     }
@@ -186,7 +211,7 @@ impl Check<'_> {
     fn pin(&self, address: Address, accesses: &[Access], diagnostics: &mut Vec<Diagnostic>) {
         let (area, byte, bit) = match address {
             Address::Bit { area, byte, bit } => (area, byte, bit),
-            Address::Byte { area, byte } | Address::Word { area, byte } => (area, byte, 0),
+            Address::Byte { area, byte } | Address::Word { area, byte } | Address::Double { area, byte } => (area, byte, 0),
             _ => return,
         };
         let (count, direction, effect) = match area {

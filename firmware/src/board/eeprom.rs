@@ -20,6 +20,7 @@ impl Eeprom {
     }
 
     /// The byte at an address below 1,024. Only when ready.
+    #[inline(never)]
     pub fn read(&self, address: u16) -> u8 {
         self.registers.eear().write(|w| w.set(address));
         self.registers.eecr().write(|w| w.eere().set_bit());

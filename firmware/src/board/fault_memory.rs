@@ -15,6 +15,7 @@ fn check_of(fault: [u8; 4], holds: u8) -> u8 {
     fault.iter().fold(0x5A ^ holds, |sum, &byte| sum.rotate_left(1) ^ byte)
 }
 
+#[inline(never)]
 fn write(bytes: [u8; RECORD_LEN]) {
     // SAFETY: written by the main program with nothing else running, or by an interrupt that never returns.
     unsafe { (&raw mut RECORD).cast::<[u8; RECORD_LEN]>().write_volatile(bytes) };

@@ -27,6 +27,7 @@ impl Ports {
     }
 
     /// Switches the pull-up resistors of the inputs on, a bit each.
+    #[inline(never)]
     pub fn set_pullups(&self, pullups: u8) {
         // SAFETY: every value is a valid choice of pull-ups; the pins of the serial line keep theirs.
         self.inputs

@@ -21,6 +21,7 @@ const UNLOCK: u8 = 1 << 4 | 1 << 3;
 /// More than a byte: a scan of just 256 ms must not look like a clock that stands still.
 static LAST_MS: Mutex<Cell<u16>> = Mutex::new(Cell::new(0));
 
+#[inline(never)]
 fn set(value: u8) {
     interrupt::free(|_| {
         avr_device::asm::wdr();

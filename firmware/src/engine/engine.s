@@ -12,6 +12,11 @@
 .equ SYSTEM_BITS, SM_START
 .equ FIRST_SCAN, 1
 .equ RESULT_BITS, SM_START + 1
+; SMB4 with the bit for a run-time programming problem.
+.equ ERROR_BITS, SM_START + 4
+.equ PROGRAMMING_ERROR, 3
+; In the image's table of timers.
+.equ STARTED_BY_TOF, 1
 
 ; ---- dispatch
 
@@ -147,6 +152,9 @@ uno200_vectors:
     rjmp count_up
     rjmp count_down
     rjmp count_up_down
+; What modules leave by.
+    rjmp module_done
+    rjmp module_fault
 
 ; ---- entry and exit
 
@@ -175,6 +183,7 @@ uno200_vectors:
     in r19, STACK_HIGH
     sts CONTEXT + STACK, r18
     sts CONTEXT + STACK + 1, r19
+    sts CONTEXT + DEPTH, r1
     ; The watchdog has nothing to say before the clock moves.
     lds r18, UNO200_TICK
     sts CONTEXT + TICK, r18
@@ -361,6 +370,58 @@ compare_any:
 uno200_table:
     ENTRIES
 
+; ---- instructions of modules
+
+; r2: the token, which names the module; r26: its routine; Y at the operands.
+module:
+    sts CONTEXT + LEFT_AT, r28
+    sts CONTEXT + LEFT_AT + 1, r29
+    mov r30, r2
+    andi r30, 7
+    lsl r30
+    subi r30, lo8(-(DIRECTORY_AT))
+    ldi r31, hi8(SLOT_START)
+    lpm r24, Z+
+    lpm r25, Z
+    ; The word address of the jump table. Before it a byte for each routine: the length of its operands, and in bit 7
+    ; whether it is executed without power flow.
+    movw r30, r24
+    lsl r30
+    rol r31
+    sbiw r30, 1
+    sub r30, r26
+    sbc r31, r1
+    lpm r18, Z
+    mov r19, r18
+    andi r19, 0x7F
+    add r28, r19
+    adc r29, r1
+    brts 1f
+    sbrs r18, 7
+    rjmp 2f
+1:  push r28
+    push r29
+    sub r28, r19
+    sbc r29, r1
+    ldi r18, 1
+    sts ENO, r18
+    movw r30, r24
+    add r30, r26
+    adc r31, r1
+    ijmp
+; Without power flow.
+2:  sts ENO, r1
+    rjmp next_x
+module_done:
+    pop r29
+    pop r28
+    FOR_HANDLERS
+    rjmp next
+; r24: 1 for an illegal pointer, 2 for an illegal real.
+module_fault:
+    subi r24, lo8(-(LEFT_BY_UNDEFINED))
+    jmp leave_here
+
 ; ---- the rest of the dispatch
 
 ; The place comes as an offset in the bytecode.
@@ -440,21 +501,9 @@ next:
 next_one_byte:
     NEXT_ONE_BYTE
 
-; Whatever has no handler: plc-vm executes it, or says that it is undefined.
+; What is not in the instruction table.
 rest:
-    movw r24, r28
-    sbiw r24, 2
-    clr r22
-    bld r22, 0
-    bld r17, 0
-    call uno200_execute_rest
-    bst r17, 0
-    adiw r24, 0
-    breq 1f
-    movw r28, r24
-    rjmp next_x
-1:  ldi r24, LEFT_BY_UNDEFINED
-    rjmp leave
+    jmp outside
 
 ; ---- timers
 
@@ -535,6 +584,8 @@ add_ticks:
     ret
     lds r20, CONTEXT + TICKS_100
     lds r21, CONTEXT + TICKS_100 + 1
+; The time r20 and r21 to the value r22 and r23, neither above 32,767.
+add_time:
     sbrs r21, 7
     rjmp 1f
     ldi r20, 0xFF
@@ -569,7 +620,9 @@ off_delay:
     ret
     sbiw r26, 4
     rcall add_ticks
-3:  ; The value is r22 and r23, X at its low byte.
+; The value is r22 and r23, X at its low byte.
+3:
+off_delay_counts:
     cp r22, r24
     cpc r23, r25
     brge 4f
@@ -708,6 +761,29 @@ far_bit:
     inc r27
     rcall check_end
     ld r24, X
+    ret
+
+; The same with the bit in T, and r26 and Y at the operand behind it.
+take_far_bit:
+    rcall load_far_bit
+    and r24, r19
+    clt
+    breq 1f
+    set
+1:  movw r28, r30
+at_operand:
+    movw r30, r28
+    lpm r26, Z+
+    movw r28, r30
+    ret
+
+; T to the bit that r26 and Y are at. Z behind it.
+assign_second:
+    rcall load_far_bit
+    or r24, r19
+    brts 1f
+    eor r24, r19
+1:  st X, r24
     ret
 
 ; Remembers T in edge memory r26. Not zero: it was remembered before, or this is the first scan, where r19 bit 1 is set.
@@ -853,13 +929,7 @@ timer_constant:
 
 ; Timer in slot r26: X slot, Z byte of its bit, r18 mask of its bit, r19 bit 0: counts in 100 ms.
 place_timer:
-    lds r30, CONTEXT + TIMERS_IN_FLASH
-    lds r31, CONTEXT + TIMERS_IN_FLASH + 1
-    add r30, r26
-    adc r31, r1
-    add r30, r26
-    adc r31, r1
-    lpm r20, Z
+    rcall look_timer_up
     SLOT_ADDRESS TIMERS_START, TIMER_SLOT_LEN
     cpi r27, hi8(DATA_END)
     brsh slot_outside
@@ -910,6 +980,68 @@ slot_outside:
     ldi r21, lo8(T_BITS_START)
     rjmp place_bit
 
+; Timer in slot r26: its number in r20, how it is started in r19.
+look_timer_up:
+    lds r30, CONTEXT + TIMERS_IN_FLASH
+    lds r31, CONTEXT + TIMERS_IN_FLASH + 1
+    add r30, r26
+    adc r31, r1
+    add r30, r26
+    adc r31, r1
+    lpm r20, Z+
+    lpm r19, Z
+    ret
+
+; void uno200_advance_timers(u8 is_10_ms, u16 ticks): the running timers of 1 ms or 10 ms count on.
+.global uno200_advance_timers
+uno200_advance_timers:
+    push r16
+    push r17
+    push r28
+    push r29
+    mov r17, r24
+    movw r28, r22
+    lds r16, CONTEXT + TIMERS
+1:  subi r16, 1
+    brcs 3f
+    mov r26, r16
+    rcall look_timer_up
+    cpi r20, 101
+    brsh 1b
+    mov r18, r20
+    andi r18, 31
+    cpi r18, 5
+    brsh 1b
+    ; 0 for 1 ms, 1 for 10 ms.
+    cpse r18, r1
+    ldi r18, 1
+    cpse r18, r17
+    rjmp 1b
+    SLOT_ADDRESS TIMERS_START, TIMER_SLOT_LEN
+    ldi r21, lo8(T_BITS_START)
+    rcall place_bit
+    ld r23, X+
+    ld r22, X+
+    ld r25, X+
+    ld r24, X+
+    ld r20, X
+    sbiw r26, 3
+    sbrs r20, 0
+    rjmp 1b
+    movw r20, r28
+    rcall add_time
+    cpi r19, STARTED_BY_TOF
+    breq 2f
+    rcall store_value
+    rjmp 1b
+2:  rcall off_delay_counts
+    rjmp 1b
+3:  pop r29
+    pop r28
+    pop r17
+    pop r16
+    ret
+
 counter_word:
     PRESET_WORD
     rjmp place_counter
@@ -944,7 +1076,7 @@ set_bits:
     brcc 1b
     eor r24, r21
     st X+, r24
-    rcall check_end
+    call check_end
     ld r24, X
     eor r24, r21
     ldi r19, 1

@@ -7,11 +7,11 @@ use core::arch::global_asm;
 use core::mem::offset_of;
 use core::ptr;
 
-use plc_isa::{Execute, Flow, SLOT_START};
-use plc_vm::{Environment, Exit, Interpreter};
+use plc_isa::{DIRECTORY_AT, ENO, Execute, SLOT_START, TimerResolution};
+use plc_vm::{CALLS_MAX, Environment, Exit, Interpreter};
 
 use crate::board::flash::ProgramSlot;
-use crate::board::{clock, watchdog};
+use crate::board::clock;
 use crate::environment::ScanTime;
 
 /// The firmware's interface to native programs.
@@ -32,6 +32,7 @@ struct Context {
     timers_in_flash: u16,
     counters_in_flash: u16,
     labels_in_flash: u16,
+    routines_in_flash: u16,
     /// Data addresses of the plan's memory.
     timers_start: u16,
     counters_start: u16,
@@ -47,6 +48,8 @@ struct Context {
     stack: u16,
     /// The low byte of the clock when the watchdog was asked last.
     tick: u8,
+    /// How many routines are being executed.
+    depth: u8,
 }
 
 static mut CONTEXT: Context = Context {
@@ -55,6 +58,7 @@ static mut CONTEXT: Context = Context {
     timers_in_flash: 0,
     counters_in_flash: 0,
     labels_in_flash: 0,
+    routines_in_flash: 0,
     timers_start: 0,
     counters_start: 0,
     edges_start: 0,
@@ -64,6 +68,7 @@ static mut CONTEXT: Context = Context {
     left_at: 0,
     stack: 0,
     tick: 0,
+    depth: 0,
 };
 
 /// The execution that the assembly is in.
@@ -73,11 +78,19 @@ const LEFT_AT_END: u8 = 0;
 const LEFT_BY_STOP: u8 = 1;
 const LEFT_BY_WATCHDOG: u8 = 2;
 const LEFT_BY_UNDEFINED: u8 = 3;
+/// Behind the last: modules count from it.
+const LEFT_BY_POINTER: u8 = 4;
+const LEFT_BY_REAL: u8 = 5;
 
 global_asm!(
     ".equ TIMERS_IN_FLASH, {timers_in_flash}",
     ".equ COUNTERS_IN_FLASH, {counters_in_flash}",
     ".equ LABELS_IN_FLASH, {labels_in_flash}",
+    ".equ ROUTINES_IN_FLASH, {routines_in_flash}",
+    ".equ DEPTH, {depth}",
+    ".equ CALLS_MAX, {calls_max}",
+    ".equ DIRECTORY_AT, {directory_at}",
+    ".equ ENO, {eno}",
     ".equ TIMERS_START, {timers_start}",
     ".equ COUNTERS_START, {counters_start}",
     ".equ EDGES_START, {edges_start}",
@@ -95,6 +108,11 @@ global_asm!(
     timers_in_flash = const offset_of!(Context, timers_in_flash),
     counters_in_flash = const offset_of!(Context, counters_in_flash),
     labels_in_flash = const offset_of!(Context, labels_in_flash),
+    routines_in_flash = const offset_of!(Context, routines_in_flash),
+    depth = const offset_of!(Context, depth),
+    calls_max = const CALLS_MAX,
+    directory_at = const DIRECTORY_AT,
+    eno = const ENO,
     timers_start = const offset_of!(Context, timers_start),
     counters_start = const offset_of!(Context, counters_start),
     edges_start = const offset_of!(Context, edges_start),
@@ -115,6 +133,14 @@ global_asm!(include_str!(concat!(env!("OUT_DIR"), "/engine.s")), options(raw));
 unsafe extern "C" {
     fn uno200_run(address: u16) -> u8;
     fn uno200_run_native(word_address: u16) -> u8;
+    fn uno200_advance_timers(is_10_ms: u8, ticks: u16);
+}
+
+/// Advances the running timers of 1 ms or 10 ms. In the scan that begins a RUN there are none.
+pub fn advance_timers(resolution: TimerResolution, ticks: u16) {
+    // SAFETY: the context is that of the program in force, whose plan has been checked; the assembly changes memory of
+    // its timers and their bits and keeps what the calling convention asks for.
+    unsafe { uno200_advance_timers(u8::from(resolution == TimerResolution::Ms10), ticks) }
 }
 
 /// Executes the program. Returns why it was left, and the offset of the instruction that left it.
@@ -134,6 +160,8 @@ pub fn run(mut execution: Execution<'_>) -> (Exit, u16) {
         LEFT_AT_END => Exit::End,
         LEFT_BY_STOP => Exit::Stop,
         LEFT_BY_WATCHDOG => Exit::Watchdog,
+        LEFT_BY_POINTER => Exit::ComparedPointer,
+        LEFT_BY_REAL => Exit::ComparedReal,
         _ => Exit::Undefined,
     };
     (exit, at.wrapping_sub(SLOT_START + 2))
@@ -154,6 +182,7 @@ fn enter(execution: &mut Execution<'_>) {
             (*context).timers_in_flash = SLOT_START + plan.timers_at;
             (*context).counters_in_flash = SLOT_START + plan.counters_at;
             (*context).labels_in_flash = SLOT_START + plan.labels_at;
+            (*context).routines_in_flash = SLOT_START + plan.routines_at;
             (*context).timers_start = plan.timers_start;
             (*context).counters_start = plan.counters_start;
             (*context).edges_start = plan.edges_start;
@@ -171,17 +200,6 @@ fn with_execution<T>(act: impl FnOnce(&mut Execution<'_>) -> T) -> T {
     // SAFETY: the assembly has called, which `run` has called with this execution and which waits; `run` does not touch
     // it before the assembly returns, and none of the callers calls another.
     unsafe { act(&mut *EXECUTION) }
-}
-
-/// Executes the instruction at this address of flash, which may take long. Returns the address of the next one, 0 when
-/// the program is left.
-#[unsafe(no_mangle)]
-extern "C" fn uno200_execute_rest(address: u16, top: u8) -> u16 {
-    watchdog::feed(clock::now_ms());
-    match with_execution(|execution| execution.execute_one(address.wrapping_sub(SLOT_START), top != 0)) {
-        Flow::Jump(next) => SLOT_START + next,
-        Flow::Next | Flow::Leave => 0,
-    }
 }
 
 /// Brings the timers of 1 ms up to date.

@@ -63,6 +63,8 @@
     and r24, r19
     rjmp top_from_flag
 
+; Within a sequence segment: the SCR bit.
+% ScrAnd FarBit
 % A FarBit
     rcall load_far_bit
     rjmp 1f
@@ -118,12 +120,139 @@
     NEXT
 
 % Assign FarBitOut
+assign_far:
     rcall load_far_bit
     or r24, r19
     brts 1f
     eor r24, r19
 1:  st X, r24
     rjmp next_z_x
+
+; The bit in T, as it stood before the bit was loaded in r17; Y and r26 at the next operand.
+% BitCopy FarBit FarBitOut
+    bld r17, 0
+    rcall take_far_bit
+    rcall assign_second
+    bst r17, 0
+    rjmp next_z_x
+
+; ---- sequence control
+
+% Lscr FarBit ScrBit
+    lsl r16
+    bld r16, 0
+    rcall take_far_bit
+    rjmp assign_far
+
+% Scrt FarBitOut ScrBit
+    brts 1f
+    rjmp skip_3
+; Its own S bit first: it may be the other one, too.
+1:  movw r20, r28
+    mov r22, r26
+    adiw r28, 1
+    rcall at_operand
+    clt
+    rcall assign_second
+    movw r0, r30
+    movw r28, r20
+    mov r26, r22
+    set
+    rcall assign_second
+    movw r30, r0
+    clr r1
+    rjmp next_z_x
+
+% Cscre ScrBit
+    brts 1f
+    rjmp skip_1
+1:  clt
+    rcall assign_second
+    set
+    rjmp next_z_x
+
+% Scre
+    NEXT_ONE_BYTE
+
+; ---- subroutines
+
+% CallBegin CallEnd
+    brtc 1f
+    rjmp skip_1
+1:  movw r30, r28
+    lpm r31, Z
+    mov r30, r26
+    subi r31, hi8(-(SLOT_START))
+    rjmp next_z
+
+% Call Routine Here
+    brtc 2f
+    lds r18, CONTEXT + DEPTH
+    cpi r18, CALLS_MAX
+    brsh 1f
+    inc r18
+    sts CONTEXT + DEPTH, r18
+    push r28
+    push r29
+    push r16
+    clr r16
+    lds r30, CONTEXT + ROUTINES_IN_FLASH
+    lds r31, CONTEXT + ROUTINES_IN_FLASH + 1
+    mov r24, r26
+    clr r25
+    lsl r24
+    rol r25
+    lsl r24
+    rol r25
+    add r30, r24
+    adc r31, r25
+    lpm r24, Z+
+    lpm r25, Z
+    movw r30, r24
+    subi r31, hi8(-(SLOT_START))
+    rjmp next_z
+; Too deep: SM4.3.
+1:  lds r18, ERROR_BITS
+    ori r18, 1 << PROGRAMMING_ERROR
+    sts ERROR_BITS, r18
+2:  rjmp next
+
+% Cret
+% Creti
+    brts 1f
+    NEXT_ONE_BYTE
+% Ret
+1:  lds r18, CONTEXT + DEPTH
+    dec r18
+    sts CONTEXT + DEPTH, r18
+    pop r16
+    pop r29
+    pop r28
+    set
+    rjmp next
+
+; ---- ENO
+
+% Aeno ErrorMask
+    lds r24, RESULT_BITS
+    and r24, r26
+    andi r24, 0x7F
+    brne 1f
+    lds r24, ENO
+    sbrc r26, 7
+    cpse r24, r1
+    rjmp 2f
+1:  clt
+2:  rjmp next
+
+; Events: no program that names one is loaded.
+% Poll Here
+% Atch Routine Event
+% Dtch Event
+% Cevnt Event
+% Eni
+% Disi
+    jmp outside
 
 % Set PageBitOut One
     brtc pass

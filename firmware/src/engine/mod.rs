@@ -4,7 +4,7 @@
 #[cfg(feature = "engine")]
 mod fast;
 #[cfg(feature = "engine")]
-pub use fast::{EXECUTED, NATIVE_INTERFACE, run};
+pub use fast::{EXECUTED, NATIVE_INTERFACE, advance_timers, run};
 
 #[cfg(not(feature = "engine"))]
 pub use plain::{EXECUTED, NATIVE_INTERFACE, run};

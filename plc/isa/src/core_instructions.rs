@@ -55,13 +55,11 @@ macro_rules! core_instructions {
             Set set(bit: Bit, n: ByteSource) ["S"] Coil, needs 1, adds 0, Needed {
                 0x38..=0x3F (PageBitOut, One);
                 0x4F..=0x4F (FarBitOut, Count);
-                0x51..=0x51 (FarBitOut, Byte);
             }
             /// Reset: resets N consecutive bits.
             Reset reset(bit: Bit, n: ByteSource) ["R"] Coil, needs 1, adds 0, Needed {
                 0x40..=0x47 (PageBitReset, One);
                 0x50..=0x50 (FarBitReset, Count);
-                0x52..=0x52 (FarBitReset, Byte);
             }
             /// Reset timers: bit and current value of N consecutive timers become 0.
             ResetTimers reset_timers(first: u8, n: ByteSource) ["R"] Coil, needs 1, adds 0, Needed {
@@ -78,7 +76,7 @@ macro_rules! core_instructions {
                 0x63..=0x63 (Number);
             }
             /// And Load: combines the two top levels with AND into one.
-            Ald and_load() ["ALD"] Stack, needs 2, adds -1, Always {
+            Ald and_load() ["ALD" "ULD"] Stack, needs 2, adds -1, Always {
                 0x64..=0x64 ();
             }
             /// Or Load: combines the two top levels with OR into one.
@@ -191,17 +189,17 @@ macro_rules! core_instructions {
                 0x95..=0x95 (TimerSlot, IntConst);
             }
             /// Count up: S1 counts on its rising edge, S0 resets; the bit is 1 from the preset on. Stops at 32767.
-            Ctu count_up(counter: u8, pv: WordSource) ["CTU"] Counter, needs 2, adds 0, Always {
+            Ctu count_up(counter: u8, pv: WordSource) ["CTU" "ZV"] Counter, needs 2, adds 0, Always {
                 0x98..=0x98 (CounterSlot, Word);
                 0x99..=0x99 (CounterSlot, IntConst);
             }
             /// Count down: S1 counts on its rising edge, S0 loads the preset; the bit is 1 at zero, where it stops.
-            Ctd count_down(counter: u8, pv: WordSource) ["CTD"] Counter, needs 2, adds 0, Always {
+            Ctd count_down(counter: u8, pv: WordSource) ["CTD" "ZR"] Counter, needs 2, adds 0, Always {
                 0x9A..=0x9A (CounterSlot, Word);
                 0x9B..=0x9B (CounterSlot, IntConst);
             }
             /// Count up and down: S2 counts up, S1 counts down, S0 resets; the bit is 1 from the preset on. Wraps at the ends.
-            Ctud count_up_down(counter: u8, pv: WordSource) ["CTUD"] Counter, needs 3, adds 0, Always {
+            Ctud count_up_down(counter: u8, pv: WordSource) ["CTUD" "ZVR"] Counter, needs 3, adds 0, Always {
                 0x9C..=0x9C (CounterSlot, Word);
                 0x9D..=0x9D (CounterSlot, IntConst);
             }
@@ -302,7 +300,7 @@ macro_rules! core_instructions {
                 0x7E..=0x7E ();
             }
             /// And ENO: combines the top of the stack with ENO of the box before by AND.
-            Aeno and_eno(errors: u8) ["AENO"] Stack, needs 1, adds 0, Always {
+            Aeno and_eno(errors: u8) ["AENO" "UENO"] Stack, needs 1, adds 0, Always {
                 0x7F..=0x7F (ErrorMask);
             }
             /// Brings the 1 ms timers up to date, before an instruction that reads one.

@@ -5,7 +5,7 @@
 //! Numbers are little-endian. Offsets count from the first byte of the image.
 
 use crate::crc::Crc32;
-use crate::modules::{self, MODULE_KINDS_AT, MODULES, Routine};
+use crate::modules::{self, MODULE_KINDS_AT, Routine};
 use crate::settings::{Retained, Settings};
 use crate::tokens::{TOKEN_TABLE, TOKEN_TABLE_LEN};
 
@@ -30,6 +30,9 @@ pub const NATIVE_INTERFACE: u8 = 1;
 pub trait ProgramMemory {
     /// The firmware interface that machine code finds here; 0: none, machine code is refused.
     const NATIVE_INTERFACE: u8 = 0;
+
+    /// Whether this machine has interrupt events.
+    const HAS_EVENTS: bool = true;
 
     /// Bytes that can be read.
     fn len(&self) -> u16;
@@ -238,8 +241,6 @@ pub struct Header {
     pub routines: u8,
     /// Interrupt events that the program names.
     pub events: u8,
-    /// For each module the word address of its jump table in flash; 0: not in the image.
-    pub directory: [u16; MODULES],
 }
 
 /// Where the parts of an image begin.
@@ -285,7 +286,7 @@ pub(crate) fn entry_at(start: u16, index: u16, len: u16) -> u16 {
 }
 
 impl Header {
-    /// The header as bytes.
+    /// The header as bytes, with an empty directory of modules.
     pub fn to_bytes(&self) -> [u8; HEADER_LEN as usize] {
         let mut bytes = [0; HEADER_LEN as usize];
         bytes[..4].copy_from_slice(&MAGIC);
@@ -321,9 +322,6 @@ impl Header {
             place.copy_from_slice(&word.to_le_bytes());
         }
         bytes[38..40].copy_from_slice(&[self.routines, self.events]);
-        for (place, word) in bytes[usize::from(DIRECTORY_AT)..].chunks_exact_mut(2).zip(self.directory) {
-            place.copy_from_slice(&word.to_le_bytes());
-        }
         bytes
     }
 
@@ -389,9 +387,6 @@ impl Header {
         header.initial_len = memory.word(36);
         header.routines = memory.byte(38);
         header.events = memory.byte(39);
-        for (at, module) in (DIRECTORY_AT..).step_by(2).zip(&mut header.directory) {
-            *module = memory.word(at);
-        }
         header
     }
 

@@ -5,6 +5,7 @@
 //! nothing and allocates nothing.
 #![no_std]
 
+mod access;
 mod area;
 mod core_instructions;
 mod crc;
@@ -23,6 +24,7 @@ mod table;
 mod tokens;
 mod verify;
 
+pub use access::Access;
 pub use area::{AnalogInput, Area, TimerFamily, TimerResolution, timer_family, timer_resolution};
 pub use crc::Crc32;
 pub use decode::{DecodeError, Decoded, decode};
@@ -32,7 +34,7 @@ pub use image::{
 };
 pub use layout::*;
 pub use modules::{
-    MODULE_KINDS_AT, MODULE_NAMES, MODULES, OPERANDS_MODULE, ROUTINES_MAX, Routine, module_instructions,
+    MODULE_KINDS_AT, MODULE_NAMES, MODULES, OPERANDS_MODULE, ROUTINES_MAX, Routine, kind_numbers, module_instructions, packed_stack,
 };
 pub use operand::{Bit, ByteSource, Kind, Operand, OperandKind, OperandReader, Relation, WordSource, kinds};
 pub use plan::{CounterSlot, Plan, Region, SM_IN_V, TimerKind, TimerSlot, counter_bit, timer_bit};

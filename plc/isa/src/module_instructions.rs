@@ -134,6 +134,10 @@ macro_rules! module_instructions {
                 OrDouble (relation, in1, in2) ["OD"] Compare, needs 1, adds 0, Always { 0xF0 0x3E (RelationByte, DoubleIn, DoubleIn); }
                 /// Shift register: moves DATA into the abs(N) bits from S_BIT on, at S_BIT for a positive N, at the other end for a negative one. The bit that leaves is in SM1.1.
                 Shrb (data, s_bit, n) ["SHRB"] Shift, needs 1, adds 0, Needed { 0xF0 0x3F (FarBit, FarBitOut, ByteIn); }
+                /// Set: sets N consecutive bits.
+                SetAny (bit, n) ["S"] Coil, needs 1, adds 0, Needed { 0xF0 0x40 (FarBitOut, ByteIn); }
+                /// Reset: resets N consecutive bits.
+                ResetAny (bit, n) ["R"] Coil, needs 1, adds 0, Needed { 0xF0 0x41 (FarBitReset, ByteIn); }
                 /// Adds reals: OUT := OUT + IN1. Sets SM1.0 zero, SM1.1 overflow or illegal value, SM1.2 negative.
                 AddReal (in1, out) ["+R"] Real, needs 1, adds 0, Needed { 0xF1 0x00 (RealIn, RealTo); }
                 /// Subtracts reals: OUT := OUT - IN1. Sets SM1.0 zero, SM1.1 overflow or illegal value, SM1.2 negative.

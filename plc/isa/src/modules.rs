@@ -32,11 +32,22 @@ pub fn module_instructions(module: u8) -> impl Iterator<Item = &'static Instruct
     INSTRUCTIONS.iter().skip(CORE_INSTRUCTIONS).filter(move |instruction| instruction.module() == Some(module))
 }
 
+/// What a module says of an instruction's operands: their kinds as bytes, a 0 behind the last.
+pub fn kind_numbers(instruction: &Instruction) -> impl Iterator<Item = u8> {
+    let kinds = instruction.forms.first().map_or(&[][..], |form| form.kinds);
+    kinds.iter().map(|kind| kind.number()).chain([0])
+}
+
+/// What a module says of an instruction's effect on the stack.
+pub fn packed_stack(instruction: &Instruction) -> u8 {
+    packed(instruction.stack)
+}
+
 /// Bytes of a routine's kinds on the host: operands and the 0.
 const KINDS_LEN: u16 = 8;
 
 /// Most routines of a module.
-pub const ROUTINES_MAX: usize = 64;
+pub const ROUTINES_MAX: usize = 80;
 
 /// For every module and routine the instruction's place in the table; 0: there is none.
 const PLACES: [[u8; ROUTINES_MAX]; MODULES] = {

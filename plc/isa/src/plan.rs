@@ -275,6 +275,7 @@ impl<P: ProgramMemory> Plan<P> {
     }
 
     /// Offset of a routine's first instruction.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn routine(&self, index: u8) -> u16 {
         self.memory.word(self.routines_at + ROUTINE_LEN * u16::from(index))
     }
@@ -311,10 +312,11 @@ impl<P: ProgramMemory> Plan<P> {
 
     /// The program's name, byte by byte.
     pub fn name(&self) -> impl Iterator<Item = u8> + '_ {
-        (0..u16::from(self.header.name_len)).map(|index| self.memory.byte(crate::image::HEADER_LEN + index))
+        (0..u16::from(self.header.name_len)).map(|index| self.memory.byte(crate::image::HEADER_LEN + self.header.modules_len + index))
     }
 
     /// Data address of a byte of V memory.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn v_address(&self, byte: u16) -> Option<u16> {
         let mut start = ARENA_START;
         for (first, len) in self.v_ranges() {
@@ -364,27 +366,34 @@ impl<P: ProgramMemory> Plan<P> {
         if address < self.timers_start {
             return self.v_region(address - ARENA_START);
         }
-        if address < self.counters_start {
-            return self
-                .number_at(address, self.timers_start, TIMER_SLOT_LEN, self.timers_at, TIMER_LEN)
-                .map(Region::TimerValue);
-        }
-        if address < self.edges_start {
-            return self
-                .number_at(address, self.counters_start, COUNTER_SLOT_LEN, self.counters_at, COUNTER_LEN)
-                .map(Region::CounterValue);
-        }
-        None
+        let region = if address < self.counters_start { Region::TimerValue } else { Region::CounterValue };
+        self.number_at(address).map(region)
     }
 
-    /// The number of the timer or counter whose slot is at `address`: only the first word of a slot can be named.
-    fn number_at(&self, address: u16, start: u16, slot_len: u16, table_at: u16, entry_len: u16) -> Option<u8> {
-        let (mut slot_at, mut at) = (start, table_at);
+    /// The number of the timer or counter whose current value is at an address.
+    pub(crate) fn number_at(&self, address: u16) -> Option<u8> {
+        let (mut slot_at, slot_len, mut at, entry_len) = if address < self.counters_start {
+            (self.timers_start, TIMER_SLOT_LEN, self.timers_at, TIMER_LEN)
+        } else {
+            (self.counters_start, COUNTER_SLOT_LEN, self.counters_at, COUNTER_LEN)
+        };
         while slot_at < address {
             slot_at += slot_len;
             at += entry_len;
         }
-        (slot_at == address).then(|| self.memory.byte(at))
+        // Only the first word of a slot can be named.
+        (slot_at == address && address < self.edges_start).then(|| self.memory.byte(at))
+    }
+
+    /// Bytes from an address in V memory to the end of its range.
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    pub(crate) fn room_in_v(&self, address: u16) -> u16 {
+        let (mut end, mut at) = (ARENA_START, self.v_ranges_at + 2);
+        while end <= address {
+            end += self.memory.word(at);
+            at += V_RANGE_LEN;
+        }
+        end - address
     }
 
     fn v_region(&self, mut offset: u16) -> Option<Region> {

@@ -65,10 +65,6 @@ impl Reference {
 
 impl OfRaw for Reference {
     #[inline]
-    fn raw(self) -> Raw {
-        Raw { tag: 0, value: self.0 }
-    }
-    #[inline]
     fn of_raw(raw: Raw) -> Reference {
         Reference(raw.value)
     }

@@ -4,7 +4,7 @@ use crate::area::Area;
 use crate::crc::Crc32;
 use crate::image::{COUNTER_LEN, ProgramMemory, TIMER_LEN};
 use crate::layout::{COUNTER_SLOT_LEN, M_START, TIMER_SLOT_LEN};
-use crate::plan::{Plan, Region};
+use crate::plan::Plan;
 use crate::settings::Retained;
 
 /// Bytes of a current value.
@@ -84,11 +84,10 @@ impl<P: ProgramMemory> Plan<P> {
     /// Values that were saved under another one belong to something else.
     pub fn retained_identity(&self) -> Crc32 {
         let mut crc = Crc32::new();
-        crc.bytes(&self.memory, self.retained_at, self.code_at());
+        crc.bytes(&self.memory, self.retained_at, self.routines_at);
         let mut walk = RetainedWalk::START;
         while let Some((address, len)) = walk.next(self, u16::MAX) {
-            let region = self.region(address).filter(|_| len > 0);
-            if let Some(Region::TimerValue(number) | Region::CounterValue(number)) = region {
+            if let Some(number) = self.number_at(address).filter(|_| len > 0) {
                 crc.byte(number);
             }
         }

@@ -4,36 +4,64 @@
 //! and hands out byte by byte ([`ProgramMemory::token_table`]).
 
 use crate::image::ProgramMemory;
-use crate::operand::{Kind, OperandReader, Raw};
-use crate::table::{CORE_INSTRUCTIONS, Form, INSTRUCTIONS, MODULE_PREFIX, Op, StackEffect, WIDE_PREFIX};
+use crate::operand::{KIND_RULES_LEN, Kind, OperandReader, Raw, read_raw};
+use crate::table::{CORE_INSTRUCTIONS, Form, INSTRUCTIONS, Instruction, MODULE_PREFIX, Op, StackEffect, WIDE_PREFIX};
 
 /// Most operands of an instruction.
 pub(crate) const OPERANDS_MAX: usize = 4;
 
-/// Tokens behind [`WIDE_PREFIX`] that the table has room for.
-const WIDE_TOKENS: usize = 64;
 /// Bytes of an entry: first token, instruction, effect on the stack, where its kinds stand.
 const ENTRY_LEN: usize = 4;
-/// Where the entries begin: behind an index byte for every token and every wide token.
-const ENTRIES_AT: usize = 256 + WIDE_TOKENS;
+/// The instruction in entries for tokens that are not defined.
+const UNDEFINED: u8 = 0xFF;
+/// Entries for tokens, then for those behind the prefix: an entry is for its first token and all up to that of the next.
+const TOKEN_ENTRIES: usize = entries(false);
+const WIDE_ENTRIES: usize = entries(true);
 /// Where the lists of kinds begin, each ended by 0.
-const KINDS_AT: usize = ENTRIES_AT + FORMS * ENTRY_LEN;
+const KINDS_AT: usize = (TOKEN_ENTRIES + WIDE_ENTRIES) * ENTRY_LEN;
 
-/// How many forms the instructions of the core have together.
-const FORMS: usize = {
-    let (mut forms, mut index) = (0, 0);
+/// The form that a token of the core belongs to, and its instruction.
+const fn form_of(token: u8, is_wide: bool) -> Option<(&'static Instruction, &'static Form)> {
+    let (mut index, mut found) = (0, None);
     while index < CORE_INSTRUCTIONS {
-        forms += INSTRUCTIONS[index].forms.len();
+        let instruction = &INSTRUCTIONS[index];
+        let mut form = 0;
+        while form < instruction.forms.len() {
+            let candidate = &instruction.forms[form];
+            let has_token = candidate.first_token <= token && token <= candidate.last_token;
+            if has_token && candidate.prefix.is_some() == is_wide {
+                assert!(found.is_none(), "a token belongs to two forms");
+                found = Some((instruction, candidate));
+            }
+            form += 1;
+        }
         index += 1;
     }
-    forms
-};
+    found
+}
+
+/// Whether an entry begins with this token: with each form, and with each gap between forms.
+const fn begins_entry(token: u8, is_wide: bool) -> bool {
+    match form_of(token, is_wide) {
+        Some((_, form)) => form.first_token == token,
+        None => token == 0 || form_of(token - 1, is_wide).is_some(),
+    }
+}
+
+const fn entries(is_wide: bool) -> usize {
+    let (mut count, mut token) = (0, 0);
+    while token < 256 {
+        count += begins_entry(token as u8, is_wide) as usize;
+        token += 1;
+    }
+    count
+}
 
 /// Bytes of the token table.
 pub const TOKEN_TABLE_LEN: usize = LONG_TABLE.1;
 
-/// The token table: for every token the number of its entry, 0 for undefined tokens; then the entries, then the lists of
-/// kinds, which many forms share.
+/// The token table: the entries by ascending tokens, then those behind the prefix, then the lists of kinds, which many
+/// forms share, then the rules for the kinds.
 pub const TOKEN_TABLE: [u8; TOKEN_TABLE_LEN] = {
     let (mut table, mut at) = ([0; TOKEN_TABLE_LEN], 0);
     while at < TOKEN_TABLE_LEN {
@@ -44,24 +72,38 @@ pub const TOKEN_TABLE: [u8; TOKEN_TABLE_LEN] = {
 };
 
 /// More than the table can take.
-const LONG_TABLE_LEN: usize = KINDS_AT + 256;
+const LONG_TABLE_LEN: usize = KINDS_AT + 256 + KIND_RULES_LEN * Kind::ALL.len();
+/// Where the rules for the kinds begin, two bytes each.
+const RULES_AT: usize = TOKEN_TABLE_LEN - KIND_RULES_LEN * Kind::ALL.len();
+
+/// Where the rules stand for the kind with this number.
+pub(crate) fn rules_at(number: u8) -> u16 {
+    RULES_AT as u16 + (KIND_RULES_LEN as u16) * u16::from(number - 1)
+}
 
 /// The table with room behind it, and its length.
 const LONG_TABLE: ([u8; LONG_TABLE_LEN], usize) = {
     let (mut table, mut end) = ([0; LONG_TABLE_LEN], KINDS_AT);
-    let (mut index, mut entry) = (0, 0);
-    while index < CORE_INSTRUCTIONS {
-        let instruction = &INSTRUCTIONS[index];
-        let mut form = 0;
-        while form < instruction.forms.len() {
-            let kinds_at;
-            (table, kinds_at, end) = with_kinds(table, end, instruction.forms[form].kinds);
-            let head = [instruction.op as u8, packed(instruction.stack), kinds_at];
-            table = with_entry(table, entry, head, &instruction.forms[form]);
-            entry += 1;
-            form += 1;
+    // Tokens, then tokens behind the prefix.
+    let (mut number, mut at) = (0, 0);
+    while number < 512 {
+        let (token, is_wide) = (number as u8, number >= 256);
+        if begins_entry(token, is_wide) {
+            let (mut op, mut stack, mut kinds_at) = (UNDEFINED, 0, 0);
+            if let Some((instruction, form)) = form_of(token, is_wide) {
+                (op, stack) = (instruction.op as u8, packed(instruction.stack));
+                (table, kinds_at, end) = with_kinds(table, end, form.kinds);
+            }
+            (table[at], table[at + 1], table[at + 2], table[at + 3]) = (token, op, stack, kinds_at);
+            at += ENTRY_LEN;
         }
-        index += 1;
+        number += 1;
+    }
+    let mut kind = 0;
+    while kind < Kind::ALL.len() {
+        (table[end], table[end + 1]) = (Kind::ALL[kind].rules()[0], Kind::ALL[kind].rules()[1]);
+        end += KIND_RULES_LEN;
+        kind += 1;
     }
     (table, end)
 };
@@ -100,26 +142,6 @@ const fn with_kinds(mut table: [u8; LONG_TABLE_LEN], end: usize, kinds: &[Kind])
     (table, (end - KINDS_AT) as u8, end + kinds.len() + 1)
 }
 
-const fn with_entry(
-    mut table: [u8; LONG_TABLE_LEN],
-    entry: usize,
-    [op, stack, kinds_at]: [u8; 3],
-    form: &Form,
-) -> [u8; LONG_TABLE_LEN] {
-    assert!(entry < 255);
-    let first_index = if form.prefix.is_some() { 256 } else { 0 };
-    let mut token = form.first_token as usize;
-    assert!(form.prefix.is_none() || (form.last_token as usize) < WIDE_TOKENS);
-    while token <= form.last_token as usize {
-        assert!(table[first_index + token] == 0, "a token belongs to two forms");
-        table[first_index + token] = entry as u8 + 1;
-        token += 1;
-    }
-    let at = ENTRIES_AT + entry * ENTRY_LEN;
-    (table[at], table[at + 1], table[at + 2], table[at + 3]) = (form.first_token, op, stack, kinds_at);
-    table
-}
-
 /// An instruction as it stands in the code: what its token says, and its operands. Filled in place, because on the
 /// board every copy costs more than what is copied.
 #[derive(Debug, Clone, Copy)]
@@ -149,24 +171,23 @@ impl Fetched {
 
     /// Fetches the instruction at `pc`. Returns whether its token is in the table.
     pub fn fetch<P: ProgramMemory>(&mut self, code: &P, pc: u16) -> bool {
-        let (mut token, mut operands_at, mut index_at) = (code.byte(pc), pc.wrapping_add(1), 0);
+        let (mut token, mut operands_at) = (code.byte(pc), pc.wrapping_add(1));
         if token & !7 == MODULE_PREFIX {
             let Some(routine) = code.routine(token - MODULE_PREFIX, code.byte(operands_at)) else { return false };
             (self.op, self.stack) = (routine.op, unpacked(routine.stack));
             self.operands(code, routine.kinds_at, OperandReader::new(code, pc, pc.wrapping_add(2), 0));
             return true;
         }
+        let (mut at, mut left) = (0, TOKEN_ENTRIES as u8);
         if token == WIDE_PREFIX {
-            (token, operands_at, index_at) = (code.byte(operands_at), pc.wrapping_add(2), 256);
-            if usize::from(token) >= WIDE_TOKENS {
-                return false;
-            }
+            (token, operands_at) = (code.byte(operands_at), pc.wrapping_add(2));
+            (at, left) = ((TOKEN_ENTRIES * ENTRY_LEN) as u16, WIDE_ENTRIES as u8);
         }
-        let entry = code.token_table(index_at + u16::from(token));
-        if entry == 0 {
-            return false;
+        // The last entry that does not begin behind the token.
+        while left > 1 && code.token_table(at + ENTRY_LEN as u16) <= token {
+            at += ENTRY_LEN as u16;
+            left -= 1;
         }
-        let at = ENTRIES_AT as u16 + u16::from(entry - 1) * ENTRY_LEN as u16;
         let Some(op) = Op::of_number(code.token_table(at + 1)) else { return false };
         self.op = op;
         self.stack = unpacked(code.token_table(at + 2));
@@ -180,10 +201,11 @@ impl Fetched {
     #[cfg_attr(target_arch = "avr", inline(never))]
     fn operands<P: ProgramMemory>(&mut self, code: &P, mut kinds_at: u16, mut reader: OperandReader<'_, P>) {
         for (operand, kind) in self.operands.iter_mut().zip(&mut self.kinds) {
-            *kind = Kind::of_number(code.token_table(kinds_at));
+            let number = code.token_table(kinds_at);
+            *kind = Kind::of_number(number);
             // The 0 that ends the list is read again for every operand that there is not.
-            if let Some(kind) = *kind {
-                *operand = kind.read_raw(&mut reader);
+            if number != 0 {
+                *operand = read_raw(code.token_table(rules_at(number)), &mut reader);
                 kinds_at += 1;
             }
         }

@@ -4,6 +4,7 @@
 //! cannot be led outside the plan. One pass over the code, constant memory. Machine code is taken on trust but for its
 //! entry: it was made from an image that has passed.
 
+use crate::access::Access;
 use crate::area::{Area, TimerFamily, timer_family};
 use crate::decode::{Decoded, decode};
 use crate::image::{
@@ -11,12 +12,15 @@ use crate::image::{
     ProgramMemory, TIMER_LEN,
 };
 use crate::layout::*;
-use crate::operand::{Kind, MODE_MEMORY, Raw};
-use crate::plan::{Plan, Region, SM_IN_V, TimerKind};
+use crate::operand::{
+    CONSTANT, Kind, LIMIT_COUNTERS, LIMIT_EDGES, LIMIT_EVENTS, LIMIT_LABELS, LIMIT_NUMBERS, LIMIT_ROUTINES,
+    LIMIT_TIMERS, MODE_MEMORY, NOT_NUMBERED, REFERENCE, Raw, TEXT, len_of_rule,
+};
+use crate::plan::{Plan, SM_IN_V};
 use crate::reference::{Place, Reference};
 use crate::stack::STACK_LEVELS;
 use crate::table::Op;
-use crate::tokens::Fetched;
+use crate::tokens::{Fetched, rules_at};
 
 /// Deepest nesting of FOR (reference 1.8).
 pub const LOOPS_MAX: usize = 8;
@@ -123,6 +127,7 @@ fn check_tables<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageFault> {
     ensure(header.settings.is_valid(), ImageFault::Settings)?;
     ensure(v_ranges_are_valid(plan), ImageFault::VRanges)?;
     ensure(timers_are_valid(plan), ImageFault::Timers)?;
+    ensure(P::HAS_EVENTS || header.events == 0, ImageFault::Event)?;
     ensure(is_ascending(&plan.memory, plan.counters_at, COUNTER_LEN, header.counters), ImageFault::Counters)?;
     ensure(header.edges <= EDGES_MAX && header.labels <= 256, ImageFault::Plan)?;
     ensure(events_are_valid(plan), ImageFault::Event)?;
@@ -161,11 +166,13 @@ fn is_ascending<P: ProgramMemory>(memory: &P, at: u16, step: u16, count: u16) ->
 fn v_ranges_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
     let mut least = 0;
     plan.v_ranges().all(|(first, len)| {
-        let in_area = match first.checked_sub(SM_IN_V) {
-            Some(byte) => byte >= Area::Sm.page_len() && is_within(byte, len, Area::Sm.size()),
-            None => is_within(first, len, Area::V.size()),
-        };
-        let valid = first >= least && in_area;
+        let mut size = Area::V.size();
+        if first >= SM_IN_V {
+            // What is in the bit page is not in V memory.
+            least = least.max(SM_IN_V + Area::Sm.page_len());
+            size = SM_IN_V + Area::Sm.size();
+        }
+        let valid = first >= least && is_within(first, len, size);
         // Adjacent ranges would be one range.
         least = first.wrapping_add(len).wrapping_add(1);
         valid
@@ -176,14 +183,18 @@ fn events_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
     is_ascending(&plan.memory, plan.events_at, EVENT_LEN, u16::from(plan.header.events))
 }
 
+/// Whether V memory has these bytes side by side.
+#[cfg_attr(target_arch = "avr", inline(never))]
+fn is_in_v<P: ProgramMemory>(plan: &Plan<P>, first: u16, len: u16) -> bool {
+    plan.v_address(first).is_some_and(|address| plan.room_in_v(address) >= len)
+}
+
 /// Whether the initial values are ranges of V memory one behind the other.
 fn initial_is_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
     let mut at = plan.initial_at;
     while at < plan.code_at() {
         let (first, len) = (plan.memory.word(at), u16::from(plan.memory.byte(at + 2)));
-        let in_range =
-            |(start, room): (u16, u16)| first >= start && first - start < room && len <= room - (first - start);
-        if len == 0 || !plan.v_ranges().any(in_range) {
+        if len == 0 || !is_in_v(plan, first, len) {
             return false;
         }
         at += INITIAL_HEAD_LEN + len;
@@ -213,7 +224,7 @@ fn retained_is_valid<P: ProgramMemory>(plan: &Plan<P>, index: u16) -> bool {
     }
     let end = range.first + range.count;
     match range.area {
-        Area::V => plan.v_ranges().any(|(first, len)| range.first >= first && end <= first + len),
+        Area::V => is_in_v(plan, range.first, range.count),
         Area::T => (range.first..end).all(|number| timer_family(number as u8) == TimerFamily::Tonr),
         _ => true,
     }
@@ -291,7 +302,7 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
         let mut count = 1;
         for (&kind, &raw) in fetched.kinds.iter().zip(&fetched.operands).rev() {
             let Some(kind) = kind else { continue };
-            self.operand(fetched.op, kind, raw, count)?;
+            self.operand(kind, raw, count)?;
             match kind {
                 Kind::Count => count = raw.value,
                 Kind::Level => needs += raw.value as u8,
@@ -307,77 +318,76 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
         self.control(fetched, at)
     }
 
-    fn operand(&self, op: Op, kind: Kind, raw: Raw, count: u16) -> Result<(), ImageFault> {
-        let header = &self.plan.header;
-        let value = raw.value;
-        let holds = match kind {
-            Kind::PageBit | Kind::FarBit | Kind::Byte | Kind::ByteOut => return self.memory(kind, value, 1),
-            Kind::Word | Kind::WordOut => return self.memory(kind, value, 2),
-            Kind::ScrBit | Kind::InputPoint | Kind::OutputPoint => return self.memory(kind, value, 1),
-            _ if kind.is_reference() => return self.reference(kind, Reference(value)),
-            Kind::PageBitOut | Kind::PageBitReset | Kind::FarBitOut | Kind::FarBitReset => {
-                return self.memory(kind, value, (u16::from(raw.tag) + count - 1) / 8 + 1);
+    /// Checks an operand by the rules for its kind.
+    fn operand(&self, kind: Kind, raw: Raw, count: u16) -> Result<(), ImageFault> {
+        let memory = &self.plan.memory;
+        let rules_at = rules_at(kind.number());
+        let (storage, rule) = (memory.token_table(rules_at), memory.token_table(rules_at + 1));
+        let (wants, detail) = (rule & 0x0F, rule >> 4);
+        if wants == 0 {
+            return ensure(self.is_below_limit(detail, raw.value, count), ImageFault::Operand);
+        }
+        let len = len_of_rule(storage);
+        if storage & REFERENCE != 0 {
+            return self.reference(wants, detail, len, raw.value);
+        }
+        if matches!(kind, Kind::AnyByte | Kind::AnyInt) {
+            ensure(kind.is_canonical(raw), ImageFault::Malformed)?;
+            if raw.tag != MODE_MEMORY {
+                return Ok(());
             }
-            Kind::AnyByte | Kind::AnyInt => {
-                ensure(kind.is_canonical(raw), ImageFault::Malformed)?;
-                let len = if kind == Kind::AnyByte { 1 } else { 2 };
-                return if raw.tag == MODE_MEMORY { self.memory(kind, value, len) } else { Ok(()) };
-            }
-            Kind::Count => value >= 1,
-            Kind::Level => value < u16::from(STACK_LEVELS),
-            Kind::TimerSlot => {
-                value < header.timers && TimerKind::started_by(op) == Some(self.plan.timer(value as u8).kind)
-            }
-            Kind::CounterSlot => value < header.counters,
-            Kind::TimerNumber | Kind::CounterNumber => value + count <= 256,
-            Kind::Edge => value < header.edges,
-            Kind::LabelIndex => value < header.labels && self.is_in_unit(self.plan.label(value as u8)),
-            // Only routines behind this one: none can call itself, by whatever way.
-            Kind::Routine => {
-                value < u16::from(header.routines) && (op != Op::Call || value >= u16::from(self.next_routine))
-            }
-            Kind::Event => value < u16::from(header.events),
-            Kind::Loop => value < 8,
-            Kind::RelationByte => return ensure(kind.is_canonical(raw), ImageFault::Malformed),
-            _ => true,
-        };
-        ensure(holds, ImageFault::Operand)
+        }
+        // Bits have no length; those that are counted reach into the bytes that follow.
+        let len = if len == 0 { (u16::from(raw.tag) + count - 1) / 8 + 1 } else { len };
+        self.memory(wants, detail, len, raw.value)
     }
 
-    /// An operand that names `len` bytes of memory, or bits in them.
-    fn memory(&self, kind: Kind, address: u16, len: u16) -> Result<(), ImageFault> {
-        let region = self.plan.region(address).ok_or(ImageFault::Operand)?;
-        let fits = match kind {
-            Kind::PageBit | Kind::PageBitOut | Kind::FarBit | Kind::FarBitOut => region.holds_bits(len),
-            Kind::ScrBit => matches!(region, Region::Byte { area: Area::L, .. }),
-            Kind::InputPoint => matches!(region, Region::Byte { area: Area::I, .. }),
-            Kind::OutputPoint => matches!(region, Region::Byte { area: Area::Q, .. }),
-            // The reset of a timer or counter does more than to write bits.
-            Kind::PageBitReset | Kind::FarBitReset => {
-                region.holds_bits(len) && !matches!(region, Region::Byte { area: Area::T | Area::C, .. })
+    /// Whether a number is below what the rule says.
+    fn is_below_limit(&self, limit: u8, value: u16, count: u16) -> bool {
+        let header = &self.plan.header;
+        value
+            < match limit {
+                0 => return true,
+                LIMIT_NUMBERS => 257 - count,
+                LIMIT_TIMERS => header.timers,
+                LIMIT_COUNTERS => header.counters,
+                LIMIT_EDGES => header.edges,
+                LIMIT_LABELS => header.labels,
+                LIMIT_ROUTINES => u16::from(header.routines),
+                LIMIT_EVENTS => u16::from(header.events),
+                most => u16::from(most),
             }
-            _ => region.holds_value(len),
+    }
+
+    /// Whether `len` bytes at an address are what the rule wants.
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    fn memory(&self, wants: u8, detail: u8, len: u16, address: u16) -> Result<(), ImageFault> {
+        let access = self.plan.access(address);
+        let missing = wants & !access.traits;
+        let in_area = match detail {
+            NOT_NUMBERED => access.area != Access::NUMBERED,
+            Access::INPUT..=Access::NUMBERED => access.area == detail,
+            _ => true,
         };
+        let is_whole = access.traits & Access::WHOLE == 0 || len == access.room;
+        let fits = len <= access.room && is_whole && in_area && missing & !Access::WRITE == 0;
         ensure(fits, ImageFault::Operand)?;
-        ensure(kind.is_output() || region.is_readable(), ImageFault::Operand)?;
-        ensure(!kind.is_output() || region.is_writable(), ImageFault::ReadOnly)
+        ensure(missing == 0, ImageFault::ReadOnly)
     }
 
     /// An operand of a module instruction.
-    fn reference(&self, kind: Kind, reference: Reference) -> Result<(), ImageFault> {
-        let len = kind.value_len();
-        let holds = match reference.place().ok_or(ImageFault::Malformed)? {
-            Place::Direct(address) => return self.memory(kind, address, len),
-            Place::Indirect(address) => match self.plan.region(address) {
-                Some(Region::Byte { area: Area::V | Area::L, room, .. }) => room >= 4,
-                Some(Region::Accumulator { number: 1.., room }) => room == 4,
-                _ => false,
-            },
-            Place::Constant(_) => kind.takes_constants(),
-            Place::Pool(offset) => {
-                let (start, end) = (self.plan.constants_at, self.plan.initial_at);
-                let text = if kind == Kind::TextIn { u16::from(self.plan.memory.byte(offset)) } else { 0 };
-                (kind.takes_constants() || kind == Kind::TextIn) && offset >= start && offset + len + text <= end
+    fn reference(&self, wants: u8, detail: u8, len: u16, reference: u16) -> Result<(), ImageFault> {
+        let holds = match Reference(reference).place() {
+            None => return Err(ImageFault::Malformed),
+            Some(Place::Direct(address)) => return self.memory(wants, 0, len, address),
+            Some(Place::Indirect(address)) => {
+                let access = self.plan.access(address);
+                access.traits & Access::POINTER != 0 && access.room >= 4
+            }
+            Some(Place::Constant(_)) => detail == CONSTANT,
+            Some(Place::Pool(offset)) => {
+                let text = if detail == TEXT { u16::from(self.plan.memory.byte(offset)) } else { 0 };
+                detail >= CONSTANT && offset >= self.plan.constants_at && offset + len + text <= self.plan.initial_at
             }
         };
         ensure(holds, ImageFault::Operand)
@@ -395,7 +405,15 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
     }
 
     fn control(&mut self, fetched: &Fetched, at: u16) -> Result<(), ImageFault> {
+        let [first, ..] = fetched.operands;
         match fetched.op {
+            Op::Ton | Op::Tof | Op::Tonr => {
+                let kind = self.plan.memory.byte(self.plan.timers_at + TIMER_LEN * first.value + 1);
+                ensure(fetched.op as u8 - Op::Ton as u8 == kind, ImageFault::Operand)
+            }
+            Op::Jmp => ensure(self.is_in_unit(self.plan.label(first.value as u8)), ImageFault::Operand),
+            // Only routines behind this one: none can call itself, by whatever way.
+            Op::Call => ensure(first.value >= u16::from(self.next_routine), ImageFault::Routine),
             Op::Lbl => {
                 let listed = self.next_label < self.plan.header.labels && self.plan.label(self.next_label as u8) == at;
                 self.next_label += 1;
@@ -411,17 +429,15 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
             Op::Next => {
                 self.open_loops = self.open_loops.wrapping_sub(1);
                 let open = self.loops.get(usize::from(self.open_loops));
-                let [start, ..] = fetched.operands;
-                ensure(open.is_some_and(|open| open.end == fetched.next && open.start == start.value), ImageFault::Loop)
+                ensure(open.is_some_and(|open| open.end == fetched.next && open.start == first.value), ImageFault::Loop)
             }
             Op::CallBegin => {
-                let [end, ..] = fetched.operands;
-                ensure(self.call_end == 0 && end.value > at, ImageFault::Routine)?;
-                self.call_end = end.value;
+                ensure(self.call_end == 0 && first.value > at, ImageFault::Routine)?;
+                self.call_end = first.value;
                 Ok(())
             }
-            Op::MainEnd => ensure(self.next_routine == 0, ImageFault::Routine),
-            Op::Ret => ensure(self.next_routine != 0, ImageFault::Routine),
+            Op::MainEnd | Op::End => ensure(self.next_routine == 0, ImageFault::Routine),
+            Op::Ret | Op::Cret | Op::Creti => ensure(self.next_routine != 0, ImageFault::Routine),
             _ => Ok(()),
         }
         .and_then(|()| self.within_call(fetched))

@@ -2,10 +2,9 @@
 
 use plc_isa::{AC_START, ACCUMULATORS, ENO, LogicStack, SM_START};
 
+use crate::interpreter::CALLS_MAX;
 use crate::memory::Memory;
 
-/// Deepest nesting of subroutine calls from the main program (reference 1.8).
-pub const CALLS_MAX: usize = 8;
 /// An interrupt routine and the subroutine that it may call come on top.
 const FRAMES: usize = CALLS_MAX + 2;
 /// Bytes of the accumulators.

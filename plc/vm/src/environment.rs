@@ -1,6 +1,9 @@
 //! What the interpreter needs from outside while a program runs: time and supervision.
 
-use plc_isa::LogicStack;
+use plc_isa::{LogicStack, Plan, ProgramMemory, TimerResolution};
+
+use crate::memory::Memory;
+use crate::timer;
 
 /// However often a program executes WDR, a scan ends after this time in milliseconds.
 pub const SCAN_MS_MAX: u32 = 60_000;
@@ -22,6 +25,18 @@ pub trait Environment {
 
     /// WDR: the watchdog time of this scan starts again.
     fn retrigger_watchdog(&mut self);
+
+    /// Advances every running timer of this resolution, 1 ms or 10 ms, by so many ticks. For an engine that does the same
+    /// in another way.
+    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    fn advance_timers<P: ProgramMemory>(
+        memory: &mut Memory,
+        plan: &Plan<P>,
+        resolution: TimerResolution,
+        ticks: u16,
+    ) {
+        timer::advance(memory, plan, resolution, ticks);
+    }
 
     /// Called by the interpreter's own loop after every instruction, with its offset and the stack it left. For monitors and tests.
     #[cfg_attr(not(target_arch = "avr"), inline(always))]

@@ -1,10 +1,12 @@
 //! Interrupt events: which wait for their routines, and in which order they are served (reference 1.9).
 //!
-//! Not here: when an event occurs. Who knows says so by [`Events::occur`].
+//! Time and timers cause events here, inputs those of their edges and of the high-speed counters. Everybody else who
+//! knows of an event says so by [`Events::occur`].
 
-use plc_isa::{Plan, ProgramMemory};
+use plc_isa::{Area, Bit, Plan, ProgramMemory, SM_START, TimerKind, timer_bit};
 
 use crate::memory::Memory;
+use crate::modules::hardware::Hardware;
 
 /// The groups of events, the most urgent first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,14 +77,55 @@ impl Queue {
     }
 }
 
+/// SMB4: the state of interrupts.
+const STATE: u16 = SM_START + 4;
+/// SM4.4: ENI is in force.
+const ENABLED: Bit = Bit { address: STATE, bit: 4 };
+/// SM4.0 to SM4.2: a queue was too short.
+const OVERFLOWS: u8 = 0b111;
+
+/// The first of the timed interrupts, and the byte of special memory with its period.
+const TIMED: (u8, u16) = (10, 34);
+/// The events of these timers reaching their presets.
+const TIMER_EVENTS: [(u8, u8); 2] = [(21, 32), (22, 96)];
+/// Inputs with events for both edges, from I0.0 on.
+const EDGE_INPUTS: u8 = 4;
+/// So many milliseconds at most go into timed interrupts: the longest scan.
+const PASSED_MS_MAX: u32 = 60_000;
+
+/// A timed interrupt.
+#[derive(Debug, Clone, Copy)]
+struct Timed {
+    /// As it was when the routine was attached; 0: never.
+    period_ms: u8,
+    /// Since it occurred last.
+    passed_ms: u8,
+}
+
+impl Timed {
+    const NEVER: Timed = Timed { period_ms: 0, passed_ms: 0 };
+
+    /// A millisecond passes. Whether it occurs.
+    fn tick(&mut self) -> bool {
+        self.passed_ms += 1;
+        let occurs = self.passed_ms == self.period_ms;
+        if occurs || self.period_ms == 0 {
+            self.passed_ms = 0;
+        }
+        occurs
+    }
+}
+
 /// The events of a controller.
 #[derive(Debug, Clone)]
 pub struct Events {
     /// ENI has been executed, and no DISI since.
     enabled: bool,
     queues: [Queue; Group::ALL.len()],
-    /// A bit for each group that more events wanted to wait in than can.
-    overflow: u8,
+    timed: [Timed; 2],
+    /// The bits of T32 and T96 as they were last.
+    timer_bits: [bool; 2],
+    pub(crate) hardware: Hardware,
 }
 
 impl Default for Events {
@@ -92,20 +135,107 @@ impl Default for Events {
 }
 
 impl Events {
-    /// None waits, and none is served: as after the change to RUN.
-    pub const NONE: Events = Events { enabled: false, queues: [Queue::EMPTY; Group::ALL.len()], overflow: 0 };
+    /// None waits, and none is served.
+    pub const NONE: Events = Events {
+        enabled: false,
+        queues: [Queue::EMPTY; Group::ALL.len()],
+        timed: [Timed::NEVER; 2],
+        timer_bits: [false; 2],
+        hardware: Hardware::NEW,
+    };
+
+    /// The change to RUN: no event waits, and none is served.
+    pub(crate) fn restart(&mut self, memory: &mut Memory) {
+        self.hardware.restart();
+        *self = Events { hardware: self.hardware.clone(), ..Events::NONE };
+        memory.set_bit(ENABLED, false);
+        memory.set_byte(STATE, memory.byte(STATE) & !OVERFLOWS);
+    }
 
     /// An event has occurred, by its number. It waits when a routine is attached to it.
-    pub fn occur<P: ProgramMemory>(&mut self, event: u8, plan: &Plan<P>, memory: &Memory) {
+    pub(crate) fn occur<P: ProgramMemory>(&mut self, event: u8, plan: &Plan<P>, memory: &mut Memory) {
         let is_attached = index_of(event, plan).is_some_and(|index| memory.byte(plan.event_address(index)) != 0);
         let group = Group::of(event);
         if is_attached && !self.queues[group as usize].push(event, group.queue_len()) {
-            self.overflow |= 1 << group.overflow_bit();
+            memory.set_bit(Bit { address: STATE, bit: group.overflow_bit() }, true);
         }
     }
 
-    /// The routine of the event that is served next.
-    pub(crate) fn take<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &Memory) -> Option<u8> {
+    /// IB0 is now this: every change of a bit is an edge. Low bits first.
+    pub(crate) fn see_inputs<P: ProgramMemory>(&mut self, levels: u8, plan: &Plan<P>, memory: &mut Memory) {
+        let changed = levels ^ self.hardware.levels;
+        for input in (0..8).filter(|input| changed >> input & 1 != 0) {
+            let falls = u8::from(levels >> input & 1 == 0);
+            if input < EDGE_INPUTS {
+                self.occur(2 * input + falls, plan, memory);
+            }
+            for event in self.hardware.edge(input, plan, memory).into_iter().flatten().flatten() {
+                self.occur(event, plan, memory);
+            }
+        }
+    }
+
+    /// The same outside of RUN: edges have no effect.
+    pub(crate) fn note_inputs(&mut self, levels: u8) {
+        self.hardware.levels = levels;
+    }
+
+    /// A scan starts so many milliseconds after the last one.
+    pub(crate) fn pass<P: ProgramMemory>(&mut self, passed_ms: u32, now_ms: u32, plan: &Plan<P>, memory: &mut Memory) {
+        self.hardware.clock.now(now_ms);
+        for event in self.hardware.pulses.pass(passed_ms, plan, memory).into_iter().flatten() {
+            self.occur(event, plan, memory);
+        }
+        if plan.header.events == 0 {
+            return;
+        }
+        for _ in 0..passed_ms.min(PASSED_MS_MAX) {
+            for index in 0..self.timed.len() {
+                if self.timed[index].tick() {
+                    self.occur(TIMED.0 + index as u8, plan, memory);
+                }
+            }
+        }
+        self.look_at_timers(plan, memory);
+    }
+
+    /// T32 or T96 may have reached its preset: an on-delay when its bit comes, an off-delay when it goes by itself.
+    pub(crate) fn look_at_timers<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory) {
+        if plan.header.events == 0 {
+            return;
+        }
+        for (index, (event, number)) in TIMER_EVENTS.into_iter().enumerate() {
+            let bit = memory.bit(timer_bit(number));
+            if core::mem::replace(&mut self.timer_bits[index], bit) == bit {
+                continue;
+            }
+            let reached = plan.timer_slot(number).is_some_and(|slot| match slot.kind {
+                TimerKind::OffDelay => !bit && (1..=memory.int(slot.address)).contains(&memory.int(slot.address + 2)),
+                _ => bit,
+            });
+            if reached {
+                self.occur(event, plan, memory);
+            }
+        }
+    }
+
+    /// The outputs of QB0 that PLS drives, and their levels.
+    pub(crate) fn driven_outputs(&self) -> (u8, u8) {
+        self.hardware.pulses.levels()
+    }
+
+    /// ATCH: a timed interrupt takes its period.
+    pub(crate) fn attach<P: ProgramMemory>(&mut self, event: u8, plan: &Plan<P>, memory: &Memory) {
+        let Some(index) = event.checked_sub(TIMED.0) else { return };
+        if let Some(timed) = self.timed.get_mut(usize::from(index)) {
+            let period = plan.byte_address(Area::Sm, TIMED.1 + u16::from(index));
+            *timed = Timed { period_ms: period.map_or(0, |address| memory.byte(address)), passed_ms: 0 };
+        }
+    }
+
+    /// The routine of the event that is served next. When none is left, the main program goes on, and queues that were
+    /// too short are forgotten.
+    pub(crate) fn take<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory) -> Option<u8> {
         if !self.enabled {
             return None;
         }
@@ -120,22 +250,17 @@ impl Events {
                 }
             }
         }
+        let state = memory.byte(STATE);
+        if state & OVERFLOWS != 0 {
+            memory.set_byte(STATE, state & !OVERFLOWS);
+        }
         None
     }
 
     /// ENI and DISI.
-    pub(crate) fn enable(&mut self, enabled: bool) {
+    pub(crate) fn enable(&mut self, enabled: bool, memory: &mut Memory) {
         self.enabled = enabled;
-    }
-
-    /// Whether ENI is in force: SM4.4.
-    pub fn is_enabled(&self) -> bool {
-        self.enabled
-    }
-
-    /// Takes the bits of SMB4 for queues that were too short.
-    pub fn take_overflow(&mut self) -> u8 {
-        core::mem::take(&mut self.overflow)
+        memory.set_bit(ENABLED, enabled);
     }
 
     /// CEVNT and DTCH: forgets the waiting ones.

@@ -61,10 +61,10 @@ pub fn sqrt(x: f32) -> Option<f32> {
         return None;
     }
     let odd = parts.exponent & 1;
-    // 25 bits: the last one rounds, and is never half-way, as no square of 25 bits has 24.
+    // 25 bits: the last one rounds. It is never half-way, as the square of an odd number of 25 bits has more than 24.
     let root = (u64::from(parts.mantissa) << (17 + odd)).isqrt() as u32;
     let exponent = (parts.exponent - odd) / 2;
-    pack(false, root << 7, exponent + 1)
+    pack(false, root << 7 | 1, exponent + 1)
 }
 
 /// SIN of an angle in radians.
@@ -224,19 +224,11 @@ fn parts(x: f32) -> Option<Parts> {
     (mantissa != 0).then(|| Parts { negative: x.is_sign_negative(), mantissa, exponent: field.max(1) - 127 - places })
 }
 
-/// ± `fraction` * 2^`exponent`, rounded to nearest. `None` when too large; 0.0 when too small.
+/// ± `fraction` / 2^32 * 2^`exponent`, rounded to nearest even. `None` when too large; 0.0 when too small.
 fn pack(negative: bool, fraction: u32, exponent: i32) -> Option<f32> {
-    let (mut mantissa, places) = normalize(u64::from(fraction) << 32);
-    let mut field = exponent - places + 126;
-    if field < 1 {
-        mantissa = mantissa.checked_shr((1 - field) as u32).unwrap_or(0);
-        field = 1;
-    } else if field > 254 {
-        return None;
-    }
-    let significand = ((u64::from(mantissa) + 0x80) >> 8) as u32;
-    // The leading bit of a normal number adds one to the exponent, so does the carry of the rounding.
-    let magnitude = f32::from_bits((((field - 1) as u32) << 23) + significand);
+    // Exact in double precision, so that it is rounded once.
+    let unit = f64::from_bits(((1023 + exponent - 32) as u64) << 52);
+    let magnitude = (f64::from(fraction) * unit) as f32;
     magnitude.is_finite().then_some(if negative { -magnitude } else { magnitude })
 }
 

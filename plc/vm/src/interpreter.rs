@@ -13,10 +13,9 @@ use crate::environment::Environment;
 use crate::events::Events;
 use crate::math;
 use crate::memory::Memory;
-use crate::modules;
 use crate::range;
 use crate::special::PROGRAMMING_ERROR;
-use crate::timer::{self, Timer};
+use crate::timer::Timer;
 
 /// Why the program was left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,6 +33,9 @@ pub enum Exit {
     /// A comparison read an illegal real.
     ComparedReal,
 }
+
+/// Deepest nesting of subroutine calls from the main program (reference 1.8).
+pub const CALLS_MAX: usize = 8;
 
 /// Bytes of CALL.
 const CALL_LEN: u16 = 2;
@@ -81,13 +83,6 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
                 }
             }
         }
-    }
-
-    /// Executes one instruction for an engine that leaves it out, with this top of the stack. Only for instructions that
-    /// do not change the stack.
-    pub fn execute_one(&mut self, pc: u16, top: bool) -> Flow {
-        self.stack.set_top(top);
-        execute_compact(self, self.program.memory(), pc)
     }
 
     /// The program.
@@ -165,12 +160,14 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
             TimerResolution::Ms100 => self.clock.ticks_100,
         };
         Timer { memory: self.memory, slot }.execute(self.stack.top(), preset, ticks);
+        self.events.look_at_timers(self.program.plan(), self.memory);
         Flow::Next
     }
 
     fn refresh(&mut self) {
         let passed = self.clock.take_fast_ms(self.environment.now_ms());
-        timer::advance(self.memory, self.program.plan(), TimerResolution::Ms1, passed);
+        E::advance_timers(self.memory, self.program.plan(), TimerResolution::Ms1, passed);
+        self.events.look_at_timers(self.program.plan(), self.memory);
     }
 
     fn counter(&mut self, slot: u8) -> Counter<'_> {
@@ -607,6 +604,8 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         if self.stack.top() {
             let address = self.plan().event_address(evnt);
             self.memory.set_byte(address, int.wrapping_add(1));
+            let event = self.plan().event(evnt);
+            self.events.attach(event, self.program.plan(), self.memory);
         }
         Flow::Next
     }
@@ -629,14 +628,14 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
 
     fn enable_interrupts(&mut self) -> Flow {
         if self.stack.top() {
-            self.events.enable(true);
+            self.events.enable(true, self.memory);
         }
         Flow::Next
     }
 
     fn disable_interrupts(&mut self) -> Flow {
         if self.stack.top() {
-            self.events.enable(false);
+            self.events.enable(false, self.memory);
         }
         Flow::Next
     }
@@ -648,8 +647,15 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         Flow::Next
     }
 
+    #[cfg(not(target_arch = "avr"))]
     fn module_instruction(&mut self, op: Op, operands: &Operands<'_>, _next: u16) -> Flow {
-        modules::execute(self, op, operands)
+        crate::modules::execute(self, op, operands)
+    }
+
+    /// On the board they are machine code.
+    #[cfg(target_arch = "avr")]
+    fn module_instruction(&mut self, _op: Op, _operands: &Operands<'_>, _next: u16) -> Flow {
+        self.leave(Exit::Undefined)
     }
 
     fn byte_at(&self, address: u16) -> u8 {

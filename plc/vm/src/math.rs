@@ -17,7 +17,8 @@ pub(crate) fn write_wrapped(memory: &mut Memory, out: u16, (value, overflow): (i
     write_status(memory, value, overflow);
 }
 
-fn write_status(memory: &mut Memory, value: i16, overflow: bool) {
+/// SM1.0 and SM1.2 of a value, SM1.1 when it overflowed.
+pub(crate) fn write_status(memory: &mut Memory, value: i16, overflow: bool) {
     memory.set_bit(ZERO, value == 0);
     memory.set_bit(OVERFLOW, overflow);
     memory.set_bit(NEGATIVE, value < 0);

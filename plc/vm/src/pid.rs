@@ -8,12 +8,15 @@ use crate::real::{add, divide, multiply, subtract};
 /// in seconds, integral time Ti and derivative time Td in minutes, bias MX (the integral sum), and PVn-1.
 pub type LoopTable = [f32; 9];
 
+/// 2^113: an integral time from here on has no effect.
+const NO_INTEGRAL: f32 = f32::from_bits(0x7800_0000);
+
 /// Executes PID once; `is_start` when power flow has come since the last scan: the setpoint then starts at the process
 /// variable and the bias at the output, so that the output does not jump.
 ///
-/// A gain of zero means no proportional action, and 1 as the gain of the other two. An integral time that is infinite
-/// or zero means no integral action: the bias is part of the output and stays what it is. A derivative time of zero
-/// means no derivative action. The output is kept within 0.0 to 1.0, and so is the bias; at a limit the bias becomes
+/// A gain of zero means no proportional action, and 1 as the gain of the other two. An integral time that is zero, very
+/// large or infinite means no integral action: the bias is part of the output and stays what it is. A derivative time of
+/// zero means no derivative action. The output is kept within 0.0 to 1.0, and so is the bias; at a limit the bias becomes
 /// what the output lacks (anti-windup). `None` when an operation has no result: the table then is as it was.
 pub fn execute(table: &LoopTable, is_start: bool) -> Option<LoopTable> {
     let [process, mut setpoint, output, gain, sample_time, integral_time, derivative_time, mut bias, mut last] = *table;
@@ -24,9 +27,9 @@ pub fn execute(table: &LoopTable, is_start: bool) -> Option<LoopTable> {
     let other_gain = if gain == 0.0 { 1.0 } else { gain };
 
     let mut sum = bias;
-    let integrates = integral_time.abs() != f32::INFINITY && integral_time != 0.0;
+    let integrates = integral_time != 0.0 && integral_time.abs() < NO_INTEGRAL;
     if integrates {
-        let share = divide(divide(multiply(other_gain, sample_time)?, 60.0)?, integral_time)?;
+        let share = divide(multiply(other_gain, sample_time)?, multiply(integral_time, 60.0)?)?;
         sum = add(multiply(share, error)?, bias)?;
     }
     let mut rest = multiply(gain, error)?;
@@ -69,17 +72,17 @@ mod tests {
 
     #[test]
     fn proportional_and_integral() {
-        let sum = 0.25 + 2.0 / 60.0 / 10.0 * 0.25;
+        let sum = 0.25 + 2.0 / 600.0 * 0.25;
         assert_eq!(output_and_bias(TABLE), Some((sum + 0.5, sum)));
         assert_eq!(execute(&TABLE, false).map(|table| table[8]), Some(0.5), "PVn-1");
     }
 
     #[test]
     fn each_action_can_be_left_out() {
-        for none in [f32::INFINITY, 0.0] {
+        for none in [f32::INFINITY, f32::MAX, 0.0] {
             assert_eq!(output_and_bias(with(&[(5, none)])), Some((0.75, 0.25)), "no I");
         }
-        let sum = 0.25 + 1.0 / 60.0 / 10.0 * 0.25;
+        let sum = 0.25 + 1.0 / 600.0 * 0.25;
         assert_eq!(output_and_bias(with(&[(3, 0.0)])), Some((sum, sum)), "no P: the gain of I is 1");
         let derivative = output_and_bias(with(&[(5, f32::INFINITY), (6, 0.01), (8, 0.625)]));
         assert_eq!(derivative, Some((2.0 * (0.01 * 60.0) * 0.125 + 0.5 + 0.25, 0.25)));

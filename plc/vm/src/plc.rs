@@ -119,6 +119,7 @@ impl<P: ProgramMemory> Plc<P> {
     }
 
     /// Gives V memory the values of the program's data block.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     fn write_initial_values(&self, memory: &mut Memory) {
         let Some(program) = &self.program else { return };
         let (plan, image) = (program.plan(), program.memory());
@@ -133,13 +134,25 @@ impl<P: ProgramMemory> Plc<P> {
         }
     }
 
-    /// An interrupt event has occurred, by its number (reference 1.9).
-    pub fn occur(&mut self, memory: &Memory, event: u8) {
-        if let Some(program) = &self.program
-            && self.mode == Mode::Run
-        {
-            self.events.occur(event, program.plan(), memory);
+    /// IB0 has become this since it was seen last: for interrupts and high-speed counters, between two scans.
+    #[cfg(not(target_arch = "avr"))]
+    pub fn see_inputs(&mut self, memory: &mut Memory, levels: u8) {
+        match &self.program {
+            Some(program) if self.mode == Mode::Run => self.events.see_inputs(levels, program.plan(), memory),
+            _ => self.events.note_inputs(levels),
         }
+    }
+
+    /// The part of the time in thousandths that output Q0.`output` is on, where PLS drives it.
+    #[cfg(not(target_arch = "avr"))]
+    pub fn duty(&self, output: u8) -> Option<u16> {
+        self.events.hardware.pulses.duty(output).filter(|_| self.mode == Mode::Run)
+    }
+
+    /// The software clock is set from outside, at this time in milliseconds.
+    #[cfg(not(target_arch = "avr"))]
+    pub fn set_clock(&mut self, time: crate::TimeOfDay, now_ms: u32) {
+        self.events.hardware.clock.set(time, now_ms);
     }
 
     /// The program, if a valid one is loaded.
@@ -169,7 +182,6 @@ impl<P: ProgramMemory> Plc<P> {
             self.mode = Mode::Run;
             self.fault = None;
             self.scans = Scans::None;
-            self.events = Events::NONE;
         }
         self.mode == Mode::Run
     }
@@ -244,7 +256,7 @@ impl<P: ProgramMemory> Plc<P> {
                 special::write_no_scan_time(memory);
                 special::toggle_scan_clock(memory);
             }
-            _ => self.start_scan(memory),
+            _ => self.start_scan::<E>(memory),
         }
         let first_scan = self.scans == Scans::First;
         let (program, clock, events) = (self.program.as_ref()?, &mut self.clock, &mut self.events);
@@ -254,7 +266,7 @@ impl<P: ProgramMemory> Plc<P> {
 
     /// A scan starts at another time than the one before, or is the first or second.
     #[cfg_attr(target_arch = "avr", inline(never))]
-    fn start_scan(&mut self, memory: &mut Memory) {
+    fn start_scan<E: Environment>(&mut self, memory: &mut Memory) {
         let mut bits = 0;
         if self.scans == Scans::None {
             self.start_run(memory);
@@ -273,23 +285,27 @@ impl<P: ProgramMemory> Plc<P> {
         let plan = program.plan();
         let fast_ms = self.clock.take_fast_ms(self.clock.now_ms);
         if self.timers.ms_1 {
-            timer::advance(memory, plan, TimerResolution::Ms1, fast_ms);
+            E::advance_timers(memory, plan, TimerResolution::Ms1, fast_ms);
         }
         if self.timers.ms_10 {
-            timer::advance(memory, plan, TimerResolution::Ms10, self.clock.ticks_10);
+            E::advance_timers(memory, plan, TimerResolution::Ms10, self.clock.ticks_10);
         }
+        self.events.pass(passed_ms, self.clock.now_ms, plan, memory);
     }
 
     #[cfg_attr(target_arch = "avr", inline(never))]
     fn start_run(&mut self, memory: &mut Memory) {
         self.clock.start();
         special::clear_scan_times(memory);
+        self.events.restart(memory);
         if let Some(program) = &self.program {
             let plan = program.plan();
             self.timers = timer::start_of_run(memory, plan);
             // Nothing is attached yet.
-            for index in 0..plan.header.events {
-                memory.set_byte(plan.event_address(index), 0);
+            if P::HAS_EVENTS {
+                for index in 0..plan.header.events {
+                    memory.set_byte(plan.event_address(index), 0);
+                }
             }
         }
     }
@@ -313,7 +329,9 @@ impl<P: ProgramMemory> Plc<P> {
         match self.mode {
             // Between the change to RUN and the end of the first scan the image is that of an earlier RUN.
             Mode::Run if self.scans != Scans::None && usize::from(byte) < IMAGE_BYTES => {
-                memory.bytes().get(OUTPUTS + usize::from(byte)).copied().unwrap_or(0)
+                let image = memory.bytes().get(OUTPUTS + usize::from(byte)).copied().unwrap_or(0);
+                let (driven, levels) = if byte == 0 { self.events.driven_outputs() } else { (0, 0) };
+                image & !driven | levels
             }
             _ => 0,
         }

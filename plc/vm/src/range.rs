@@ -23,7 +23,8 @@ pub(crate) fn write<P: ProgramMemory>(memory: &mut Memory, plan: &Plan<P>, first
     }
 }
 
-fn fits<P: ProgramMemory>(plan: &Plan<P>, first: Bit, end: u16) -> bool {
+/// Whether the bits from the first byte's bit 0 up to `end` are in one area.
+pub(crate) fn fits<P: ProgramMemory>(plan: &Plan<P>, first: Bit, end: u16) -> bool {
     match plan.region(first.address) {
         Some(Region::Byte { room, .. }) => end <= room.saturating_mul(8),
         _ => false,

@@ -6,6 +6,7 @@ use awl_asm::Address;
 use plc_isa::{AnalogInput, Area};
 
 use super::{Machine, MachineError, Mode};
+use crate::action::Action;
 use crate::operand::Operand;
 use crate::symbols::Symbols;
 
@@ -74,6 +75,11 @@ impl Machine for Fake {
             }
             _ => Ok(self.memory.0.get(&operand).copied().unwrap_or(0)),
         }
+    }
+
+    fn act(&mut self, action: &Action) -> Result<(), MachineError> {
+        self.calls.push(format!("act {}", action.at_ms()));
+        Ok(())
     }
 
     fn scan(&mut self, now_ms: u64) {

@@ -13,6 +13,12 @@ pub(super) fn text(fault: Fault, limit_ms: u64, place_of: &PlaceOf) -> String {
             format!("watchdog: the scan took longer than {limit_ms} ms; the program was {}", place(at, place_of))
         }
         Fault::UndefinedInstruction { at } => format!("there is no instruction {}", place(at, place_of)),
+        Fault::ComparedPointer { at } => {
+            format!("a comparison read through a pointer that leads to no value (0011) {}", place(at, place_of))
+        }
+        Fault::ComparedReal { at } => {
+            format!("a comparison read a real that is no number (0012) {}", place(at, place_of))
+        }
         Fault::ProgramChanged => "self-test: the program in flash has changed".to_string(),
         Fault::StackOverflow => "self-test: the stack has grown into the firmware's variables".to_string(),
         Fault::Hang => "the hardware watchdog: the firmware or its clock stood still".to_string(),

@@ -5,7 +5,9 @@ use plc_vm::{Environment, Fault, Inputs, Memory, Plc, SCAN_MS_MAX};
 
 use super::points::{self, Points, input_byte, output_byte, replaced};
 use super::{Machine, MachineError, Mode, PlaceOf, fault};
+use crate::action::Action;
 use crate::operand::Operand;
+use crate::pulse::{Edge, NS_PER_MS, Pulses};
 
 /// Bytes of looped code that count as a millisecond of execution: 20 cycles of the board for an
 /// instruction of 2.5 bytes, at 16 MHz.
@@ -51,6 +53,7 @@ pub struct Host {
     inputs: Inputs,
     time: VirtualTime,
     clock_start_ms: u32,
+    pulses: Pulses,
     place_of: PlaceOf,
 }
 
@@ -63,6 +66,7 @@ impl Host {
             inputs: Inputs::default(),
             time: VirtualTime { now_ms: 0, looped_bytes: 0, looped_bytes_max: 0, scan_bytes: 0 },
             clock_start_ms: 0,
+            pulses: Pulses::default(),
             place_of,
         };
         if host.plc.load(&mut host.memory, image).is_ok() {
@@ -101,6 +105,21 @@ impl Host {
         self.plc.fault()
     }
 
+    /// The PLC's time, which has 32 bits and wraps.
+    fn clock_ms(&self, now_ms: u64) -> u32 {
+        self.clock_start_ms.wrapping_add(now_ms as u32)
+    }
+
+    /// Shows the PLC every edge since the last scan, one after the other.
+    fn pass_edges(&mut self, now_ms: u64) {
+        while let Some(Edge { input, level, .. }) = self.pulses.take(now_ms * NS_PER_MS) {
+            let byte = &mut self.inputs.digital[0];
+            *byte = replaced(*byte, 1 << input, u8::from(level) << input);
+            self.plc.see_inputs(&mut self.memory, self.inputs.digital[0]);
+        }
+        self.plc.see_inputs(&mut self.memory, self.inputs.digital[0]);
+    }
+
     fn watchdog_ms(&self) -> u64 {
         self.plan().map_or(0, |plan| u64::from(plan.header.settings.watchdog_ms))
     }
@@ -127,6 +146,10 @@ impl Points for Host {
         }
     }
 
+    fn duty(&self, output: u8) -> Option<u16> {
+        self.plc.duty(output)
+    }
+
     fn set(&mut self, address: u16, mask: u8, value: u8) -> Result<(), MachineError> {
         match input_byte(address) {
             Some(byte) => self.inputs.digital[byte] = replaced(self.inputs.digital[byte], mask, value),
@@ -145,9 +168,17 @@ impl Machine for Host {
         points::read(self, operand)
     }
 
+    fn act(&mut self, action: &Action) -> Result<(), MachineError> {
+        match *action {
+            Action::Pulse(pulse) => self.pulses.begin(pulse),
+            Action::SetClock { at_ms, time } => self.plc.set_clock(time, self.clock_ms(at_ms)),
+        }
+        Ok(())
+    }
+
     fn scan(&mut self, now_ms: u64) {
-        // The PLC's clock has 32 bits and wraps.
-        self.time.now_ms = self.clock_start_ms.wrapping_add(now_ms as u32);
+        self.time.now_ms = self.clock_ms(now_ms);
+        self.pass_edges(now_ms);
         (self.time.looped_bytes, self.time.scan_bytes) = (0, 0);
         self.plc.scan(&mut self.memory, &self.inputs, &mut self.time);
     }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::action::Action;
 use crate::operand::Operand;
 
 #[cfg(test)]
@@ -47,13 +48,23 @@ pub trait Machine {
     ///
     /// Inputs and analog inputs are signals of the plant: they stay until changed, and the program sees them from the
     /// next scan on. A digital input is given as a logical value; where the program inverts it, the pin gets the other
-    /// level. Everything else is memory, written once, before the next scan. Words take -32768..=65535.
+    /// level. Everything else is memory, written once, before the next scan. Words take -32768..=65535,
+    /// reals their bits.
     fn write(&mut self, operand: Operand, value: i32) -> Result<(), MachineError>;
 
-    /// The value of an operand as the last scan left it; words signed.
+    /// The value of an operand as the last scan left it; words and double words signed, of a real its bits.
     ///
     /// I and Q are the physical points as logical values, in STOP Q is 0.
     fn read(&mut self, operand: Operand) -> Result<i32, MachineError>;
+
+    /// Something happens that is no value. What begins before the next scan has done so when that scan starts.
+    fn act(&mut self, action: &Action) -> Result<(), MachineError> {
+        let what = match action {
+            Action::Pulse(_) => "pulses",
+            Action::SetClock { .. } => "setting of the clock",
+        };
+        Err(MachineError(format!("this machine takes no {what}")))
+    }
 
     /// Runs one scan that starts at `now_ms`. Times never decrease.
     ///

@@ -1,11 +1,11 @@
 //! Operands as they are seen from outside, the same for every machine: which bytes hold a value, and where they are.
 
 use awl_asm::Address;
-use plc_isa::{AnalogInput, Area, Bit, Plan, counter_bit, timer_bit};
+use plc_isa::{AC_START, AQW_START, AnalogInput, Area, Bit, HC0, HC3, Plan, Q_START, counter_bit, timer_bit};
 use plc_vm::Inputs;
 
 use super::MachineError;
-use crate::operand::Operand;
+use crate::operand::{DUTY_MAX, Operand};
 
 /// A machine's side: its bytes, by data address.
 pub(super) trait Points {
@@ -21,6 +21,9 @@ pub(super) trait Points {
     /// A byte as it is outside: I and Q are the physical points. Not asked for analog inputs.
     fn byte(&self, address: u16) -> u8;
 
+    /// The part of the time in thousandths that output Q0.`output` is on, where it is modulated.
+    fn duty(&self, output: u8) -> Option<u16>;
+
     /// Sets the bits of `mask` in a byte as it is outside.
     fn set(&mut self, address: u16, mask: u8, value: u8) -> Result<(), MachineError>;
 }
@@ -31,14 +34,17 @@ enum Place {
     Byte(u16),
     /// High byte and low byte: V bytes are planned one by one.
     Word(u16, u16),
+    /// The bytes from the highest to the lowest.
+    Double([u16; 4]),
 }
 
 impl Place {
     /// Where the operand is; `None` where the program has no memory for it.
     fn of(operand: Operand, plan: Option<&Plan<Vec<u8>>>) -> Option<Place> {
+        // Without a program there is still the bit page.
         let byte_address = |area: Area, byte: u16| match area.page_start() {
-            Some(start) => Some(start + byte),
-            None => plan?.v_address(byte),
+            Some(start) if byte < area.page_len() => Some(start + byte),
+            _ => plan?.byte_address(area, byte),
         };
         Some(match operand {
             Operand::TimerCurrent(number) => Place::word(plan?.timer_slot(number)?.address),
@@ -53,24 +59,48 @@ impl Place {
             Operand::At(Address::Timer(number)) => Place::Bit(timer_bit(number)),
             Operand::At(Address::Counter(number)) => Place::Bit(counter_bit(number)),
             Operand::At(Address::Analog(input)) => Place::word(input.address()),
+            Operand::At(Address::AnalogOutput(channel)) => Place::word(AQW_START + 2 * u16::from(channel)),
+            Operand::At(Address::Double { area, byte }) | Operand::Real(Address::Double { area, byte }) => {
+                Place::Double([
+                    byte_address(area, byte)?,
+                    byte_address(area, byte + 1)?,
+                    byte_address(area, byte + 2)?,
+                    byte_address(area, byte + 3)?,
+                ])
+            }
+            Operand::At(Address::Accumulator(number)) | Operand::Real(Address::Accumulator(number)) => {
+                Place::double(AC_START + 4 * u16::from(number))
+            }
+            Operand::At(Address::HighSpeedCounter(0)) => Place::double(HC0),
+            Operand::At(Address::HighSpeedCounter(3)) => Place::double(HC3),
+            Operand::At(Address::HighSpeedCounter(_)) | Operand::Real(_) | Operand::Duty(_) => return None,
         })
     }
 
     fn word(address: u16) -> Place {
         Place::Word(address, address + 1)
     }
+
+    fn double(address: u16) -> Place {
+        Place::Double([0, 1, 2, 3].map(|offset| address + offset))
+    }
 }
 
-/// The value of an operand; words signed.
+/// The value of an operand; words and double words signed, of a real its bits.
 pub(super) fn read(points: &impl Points, operand: Operand) -> Result<i32, MachineError> {
     if let Operand::At(Address::Analog(input)) = operand {
         return Ok(i32::from(analog(points.inputs(), input)));
+    }
+    if let Operand::Duty(output) = operand {
+        let is_on = points.byte(Q_START) >> (output & 7) & 1 != 0;
+        return Ok(points.duty(output).map_or(if is_on { DUTY_MAX } else { 0 }, i32::from));
     }
     let place = Place::of(operand, points.plan()).ok_or_else(|| not_used(operand))?;
     Ok(match place {
         Place::Bit(Bit { address, bit }) => i32::from(points.byte(address) >> bit & 1),
         Place::Byte(address) => i32::from(points.byte(address)),
         Place::Word(high, low) => i32::from(i16::from_be_bytes([points.byte(high), points.byte(low)])),
+        Place::Double(addresses) => i32::from_be_bytes(addresses.map(|address| points.byte(address))),
     })
 }
 
@@ -80,6 +110,9 @@ pub(super) fn write(points: &mut impl Points, operand: Operand, value: i32) -> R
         set_analog(points.inputs_mut(), input, value as u16);
         return Ok(());
     }
+    if let Operand::Duty(_) = operand {
+        return Err(MachineError(format!("{operand} is what the program makes of it: it cannot be set")));
+    }
     match Place::of(operand, points.plan()).ok_or_else(|| not_used(operand))? {
         Place::Bit(Bit { address, bit }) => points.set(address, 1 << bit, u8::from(value != 0) << bit),
         Place::Byte(address) => points.set(address, 0xFF, value as u8),
@@ -88,6 +121,10 @@ pub(super) fn write(points: &mut impl Points, operand: Operand, value: i32) -> R
             points.set(high_address, 0xFF, high)?;
             points.set(low_address, 0xFF, low)
         }
+        Place::Double(addresses) => addresses
+            .into_iter()
+            .zip(value.to_be_bytes())
+            .try_for_each(|(address, byte)| points.set(address, 0xFF, byte)),
     }
 }
 

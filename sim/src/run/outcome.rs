@@ -4,6 +4,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 use crate::machine::Machine;
+use crate::operand::Operand;
 use crate::plant::Report;
 use crate::scenario::Expectation;
 use crate::time::format_time;
@@ -18,6 +19,8 @@ pub struct Failure {
     pub at_ms: u64,
     /// The operand as written.
     pub name: String,
+    /// The operand.
+    pub operand: Operand,
     /// The values that would have been right.
     pub expected: RangeInclusive<i32>,
     /// The value it had.
@@ -26,12 +29,13 @@ pub struct Failure {
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (low, high) = (self.expected.start(), self.expected.end());
+        let [low, high, got] =
+            [*self.expected.start(), *self.expected.end(), self.got].map(|value| self.operand.text(value));
         write!(f, "at {} expected {} = {low}", format_time(self.at_ms), self.name)?;
         if low != high {
             write!(f, "..{high}")?;
         }
-        write!(f, ", got {}", self.got)
+        write!(f, ", got {got}")
     }
 }
 
@@ -75,7 +79,7 @@ impl Outcome {
     }
 
     pub(super) fn compare(&mut self, expectation: &Expectation, got: i32) {
-        if expectation.values.contains(&got) {
+        if expectation.is_met_by(got) {
             self.met += 1;
             return;
         }
@@ -83,6 +87,7 @@ impl Outcome {
             line: expectation.line,
             at_ms: expectation.at_ms,
             name: expectation.name.clone(),
+            operand: expectation.operand,
             expected: expectation.values.clone(),
             got,
         });

@@ -1,16 +1,24 @@
 //! Reads scenario text, line by line. Finds all errors, runs nothing.
 
+mod actions;
+
 use std::ops::Range;
 
-use super::value::{parse_value, parse_values};
+use super::value::{meant, parse_value, parse_values, text_bytes};
 use super::{Context, Expectation, SCAN_MS, Scenario, Setting};
+use crate::action::Action;
 use crate::operand::Operand;
 use crate::plant::{self, Signals};
 use crate::problem::{Problem, Problems};
 use crate::time::{format_time, parse_time};
+use awl_asm::Address;
 use awl_asm::suggest::nearest;
 
 const STATEMENTS: [&str; 4] = ["scan", "at", "run", "plant"];
+/// Most characters of a string.
+const TEXT_MAX: usize = 254;
+/// What can follow a time beside an assignment.
+const WORDS_AFTER_TIME: [&str; 3] = ["expect", "pulse", "clock"];
 
 /// A stretch of the text that knows where it stands.
 #[derive(Clone, Copy)]
@@ -65,6 +73,7 @@ struct Parser<'a, 'c> {
     /// Where the names of set operands and of expected ones stand, parallel to those lists.
     setting_spans: Vec<Range<usize>>,
     expectation_spans: Vec<Range<usize>>,
+    action_spans: Vec<Range<usize>>,
     seen: Vec<&'a str>,
 }
 
@@ -75,6 +84,7 @@ pub(super) fn parse(origin: &str, text: &str, context: Context<'_>) -> Result<Sc
         problems: Vec::new(),
         setting_spans: Vec::new(),
         expectation_spans: Vec::new(),
+        action_spans: Vec::new(),
         seen: Vec::new(),
     };
     let mut start = 0;
@@ -184,8 +194,14 @@ impl<'a> Parser<'a, '_> {
 
     fn at(&mut self, rest: Piece<'a>, line: usize) {
         let (time_word, rest) = rest.split_word();
-        let time = self.time(time_word);
+        // With a wrong time the rest is still checked; the time is reported already.
+        let at_ms = self.time(time_word).unwrap_or(0);
         let (word, after_word) = rest.split_word();
+        match word.text.to_ascii_lowercase().as_str() {
+            "pulse" => return self.pulse(after_word, at_ms),
+            "clock" => return self.clock(after_word, at_ms),
+            _ => {}
+        }
         let is_expect = word.text.eq_ignore_ascii_case("expect");
         let list = if is_expect { after_word } else { rest };
         if list.text.is_empty() {
@@ -193,17 +209,26 @@ impl<'a> Parser<'a, '_> {
             return self.fail(list, format!("nothing is {what} here: write operand = value"));
         }
         for piece in list.split(',') {
-            // With a wrong time the rest is still checked; the time is reported already.
-            self.assignment(piece, is_expect, time.unwrap_or(0), line);
+            self.assignment(piece, is_expect, at_ms, line);
         }
     }
 
     fn assignment(&mut self, piece: Piece<'a>, is_expect: bool, at_ms: u64, line: usize) {
         let sides = piece.split('=');
         let [name, value] = sides[..] else {
+            let (first, rest) = piece.split_word();
+            let misspelt = if rest.text.is_empty() { None } else { nearest(first.text, WORDS_AFTER_TIME) };
+            if let Some(word) = misspelt {
+                let problem = Problem::new(first.span(), format!("unknown word {}", first.text));
+                return self.problems.push(problem.did_you_mean(Some(word)));
+            }
             return self.fail(piece, "write operand = value, several separated by commas");
         };
         let Some(operand) = self.operand(name) else { return };
+        if value.text.starts_with('"') {
+            return self.text(name, value, operand, is_expect, at_ms, line);
+        }
+        let operand = meant(value.text, operand);
         if is_expect {
             match parse_values(value.text, operand) {
                 Ok(values) => {
@@ -227,6 +252,33 @@ impl<'a> Parser<'a, '_> {
         }
     }
 
+    /// A string is its length and its characters, byte by byte from the operand on.
+    fn text(&mut self, name: Piece<'a>, value: Piece<'a>, operand: Operand, is_expect: bool, at_ms: u64, line: usize) {
+        let Operand::At(Address::Byte { area, byte }) = operand else {
+            return self.fail(value, format!("a string stands in bytes, and {operand} is none"));
+        };
+        let bytes = match text_bytes(value.text) {
+            Ok(bytes) if bytes.len() <= TEXT_MAX => bytes,
+            Ok(_) => return self.fail(value, format!("a string has at most {TEXT_MAX} characters")),
+            Err(message) => return self.fail(value, message),
+        };
+        for (number, value) in (byte..).zip([bytes.len() as u8].into_iter().chain(bytes)) {
+            let operand = Operand::At(Address::Byte { area, byte: number });
+            if let Err(error) = (self.context.has_operand)(operand) {
+                return self.fail(name, error.to_string());
+            }
+            let value = i32::from(value);
+            if is_expect {
+                self.expectation_spans.push(name.span());
+                let name = if number == byte { name.text.to_string() } else { operand.to_string() };
+                self.scenario.expectations.push(Expectation { line, at_ms, operand, name, values: value..=value });
+            } else {
+                self.setting_spans.push(name.span());
+                self.scenario.settings.push(Setting { at_ms, operand, value });
+            }
+        }
+    }
+
     fn operand(&mut self, name: Piece<'a>) -> Option<Operand> {
         if name.text.is_empty() {
             self.fail(name, "an operand is missing");
@@ -239,7 +291,7 @@ impl<'a> Parser<'a, '_> {
             },
             Err(error) => {
                 let (first, rest) = name.split_word();
-                let misspelt = if rest.text.is_empty() { None } else { nearest(first.text, ["expect"]) };
+                let misspelt = if rest.text.is_empty() { None } else { nearest(first.text, WORDS_AFTER_TIME) };
                 let problem = match misspelt {
                     Some(word) => {
                         Problem::new(first.span(), format!("unknown word {}", first.text)).did_you_mean(Some(word))
@@ -272,6 +324,13 @@ impl<'a> Parser<'a, '_> {
         for (setting, span) in self.scenario.settings.iter().zip(&self.setting_spans) {
             if signals.contain(setting.operand) {
                 let message = format!("{} is driven by the plant {}", setting.operand, spec.name);
+                self.problems.push(Problem::new(span.clone(), message).help("drive the inputs that the plant leaves"));
+            }
+        }
+        for (action, span) in self.scenario.actions.iter().zip(&self.action_spans) {
+            let Action::Pulse(pulse) = action else { continue };
+            if (0..8).any(|input| signals.digital >> input & 1 == 1 && pulse.drives(input)) {
+                let message = format!("inputs of these pulses are driven by the plant {}", spec.name);
                 self.problems.push(Problem::new(span.clone(), message).help("drive the inputs that the plant leaves"));
             }
         }

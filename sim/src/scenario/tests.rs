@@ -1,6 +1,9 @@
 //! Reading scenarios: what is understood, and the exact place of every error.
 
+use plc_vm::TimeOfDay;
+
 use super::*;
+use crate::pulse::Pulse;
 
 fn symbols() -> Symbols {
     let mut symbols = Symbols::new();
@@ -59,6 +62,98 @@ fn numbers_in_three_bases_and_comments_behind_them() {
     let scenario = parse("at 0s MW0 = 16#FFFF, MB2 = 2#1010_0101, MW4 = -7#.\nat 0s MW6 = 65535 # c").unwrap();
     let values: Vec<_> = scenario.settings.iter().map(|setting| setting.value).collect();
     assert_eq!(values, [-1, 165, -7, -1]);
+}
+
+#[test]
+fn double_words_and_reals() {
+    let text = "at 0s VD0 = 16#FFFFFFFF, AC0 = -70000, VD4 = 1.5, VD8:real = 3, AC1 = 1e3, VD12 = -2.5e-1\n\
+                at 1s expect VD4 = 1.4..1.6, HC0 = 5, VD8:real = 2..4, VD12 = -0.25";
+    let scenario = parse(text).unwrap();
+    let settings: Vec<_> =
+        scenario.settings.iter().map(|set| (set.operand.to_string(), set.operand.text(set.value))).collect();
+    let expected = [
+        ("VD0", "-1"),
+        ("AC0", "-70000"),
+        ("VD4:real", "1.5"),
+        ("VD8:real", "3.0"),
+        ("AC1:real", "1000.0"),
+        ("VD12:real", "-0.25"),
+    ];
+    assert_eq!(settings, expected.map(|(name, value)| (name.to_string(), value.to_string())));
+    let met = |index: usize, real: f32| scenario.expectations[index].is_met_by(real.to_bits() as i32);
+    assert!(met(0, 1.4) && met(0, 1.6) && !met(0, 1.39) && !met(0, f32::NAN) && !met(0, -1.5));
+    assert!(met(3, -0.25) && !met(3, 0.25));
+    assert!(scenario.expectations[1].is_met_by(5));
+    let expected = [
+        "1:13 4294967296 is out of range: VD0 has 32 bits, -2147483648 to 2147483647 or a bit pattern up to 16#FFFFFFFF",
+        "2:13 1e39 is out of range: reals reach to 3.402823e38",
+        "3:20 -1.5..-2.5 holds no value: -1.5 is more than -2.5",
+        "4:13 1.5 is no value: write 207, 16#CF or 2#1100_1111; 1.5 or 2e-3 for a real",
+        "5:7 VW0:real: only double words and accumulators hold a real",
+    ];
+    let text = "at 0s VD0 = 4294967296\nat 0s VD0 = 1e39\nat 0s expect VD0 = -1.5..-2.5\nat 0s VW0 = 1.5\n\
+                at 0s VW0:real = 1";
+    assert_eq!(errors(text), expected);
+}
+
+#[test]
+fn strings_are_length_and_characters() {
+    let scenario = parse("at 0s VB9 = \"a,=#\\xFF\\n\"\nat 1s expect VB9 = \"\", VB20 = \"ü\"").unwrap();
+    let settings: Vec<_> =
+        scenario.settings.iter().map(|setting| (setting.operand.to_string(), setting.value)).collect();
+    let expected = [("VB9", 6), ("VB10", 97), ("VB11", 44), ("VB12", 61), ("VB13", 35), ("VB14", 255), ("VB15", 10)];
+    assert_eq!(settings, expected.map(|(name, value)| (name.to_string(), value)));
+    let expected = [("VB9", 0), ("VB20", 1), ("VB21", 252)];
+    let expectations = scenario.expectations.iter();
+    let expectations: Vec<_> = expectations.map(|e| (&*e.name, *e.values.start(), *e.values.end())).collect();
+    assert_eq!(expectations, expected.map(|(name, value)| (name, value, value)));
+    let expected = [
+        "1:13 a string stands in bytes, and VW0 is none",
+        "2:13 \"a does not end with a quote",
+        "3:13 \\q begins with no character of a byte",
+    ];
+    assert_eq!(errors("at 0s VW0 = \"a\"\nat 0s VB0 = \"a\nat 0s VB0 = \"\\q\""), expected[..]);
+}
+
+#[test]
+fn pulses_and_the_clock() {
+    let text = "at 100ms pulse start 1000Hz for 2s # a symbol\nat 1s PULSE I0.2 0.5kHz 500 times\n\
+                at 0s pulse I0.0, I0.1 12.5Hz for 1s\nat 0s pulse I0.0,\"a, b = c # d\" 1Hz 1 times reverse\n\
+                at 3s clock 2026-11-21 15:00:00";
+    let scenario = parse(text).unwrap();
+    let pulse =
+        |at_ms, input, second, millihertz, count| Action::Pulse(Pulse { at_ms, input, second, millihertz, count });
+    let expected = [
+        pulse(100, 0, None, 1_000_000, 2000),
+        pulse(1000, 2, None, 500_000, 500),
+        pulse(0, 0, Some(1), 12_500, 12),
+        pulse(0, 1, Some(0), 1_000, 1),
+        Action::SetClock { at_ms: 3000, time: TimeOfDay::new([26, 11, 21], [15, 0, 0]).unwrap() },
+    ];
+    assert_eq!(scenario.actions, expected);
+    assert_eq!(scenario.last_ms(), 3000);
+}
+
+#[test]
+fn malformed_pulses_and_clocks() {
+    let text = "at 0s pulse I0.0 for 2s\nat 0s pulse Q0.0 1Hz for 2s\nat 0s pulse I0.0 1Hz\n\
+                at 0s pulse I0.0 1Hz for 2\nat 0s pulse I0.0 10Hz for 50ms\nat 0s pulse I0.0, I0.0 1Hz for 2s\n\
+                at 0s pulse I0.0 1Hz for 2s reverse\nat 0s pulse I0.0 300kHz for 1s\n\
+                at 0s pulse I0.0, I0.1, I0.2 1Hz for 1s\nat 0s clock 2026-02-29 00:00:00\nat 0s plse I0.0 1Hz for 1s";
+    let expected = [
+        "1:13 a frequency such as 1000Hz is missing",
+        "2:13 Q0.0 is none of the inputs I0.0 to I0.7, which pulses can come at",
+        "3:21 how long the pulses last is missing",
+        "4:26 2: a time needs its unit: 2ms or 2s",
+        "5:27 no whole pulse fits into this time",
+        "6:19 an encoder has two different inputs",
+        "7:29 only pulses at two inputs have a direction",
+        "8:18 300kHz: a frequency is 0.001Hz to 200kHz",
+        "9:13 pulses come at one input or at two",
+        "10:13 this is no date of 2000 to 2099 with a time",
+        "11:7 unknown word plse",
+    ];
+    assert_eq!(errors(text), expected);
 }
 
 #[test]
@@ -141,7 +236,8 @@ fn no_text_makes_it_panic() {
     let parts = [
         "at", "expect", "scan", "run", "plant", "tank", "station1", "pieces", " ", " ", " ", "\n", "\r\n", "\t", "=",
         ",", "..", "#", "16#", "2#", "\"", "-", "0", "7", "70000", "1s", "5ms", "1.5s", "I0.0", "MW3", "T37", ".cv",
-        "Ain0", "ü", "日本", "\u{a0}", "\u{0}", "🦀",
+        "Ain0", "pulse", "1000Hz", "for", "times", "reverse", "clock", "VD4", ":real", "1e5", "ü", "日本", "\u{a0}",
+        "\u{0}", "🦀",
     ];
     let mut random = fastrand::Rng::with_seed(1);
     let mut failed = 0;

@@ -1,16 +1,31 @@
-//! Values of a scenario: decimal, `16#`, `2#`, and ranges of them. Which operand they are for decides the limits.
+//! Values of a scenario: decimal, `16#`, `2#`, reals, and ranges of them. Which operand they are for decides the limits.
 
 use std::ops::RangeInclusive;
 
-use crate::operand::{Operand, Width};
+use crate::operand::{Operand, Width, real_of, value_of};
 
 /// Largest bit pattern of a word.
 const PATTERN_MAX: i32 = 0xFFFF;
 
-/// Reads a value for an operand; words come out signed.
+/// The operand that is meant: a number with a point or exponent makes a double word a real.
+pub(super) fn meant(text: &str, operand: Operand) -> Operand {
+    let first = text.split("..").next().unwrap_or(text);
+    let is_real = !first.contains('#') && first.contains(['.', 'e', 'E']);
+    operand.as_real().filter(|_| is_real).unwrap_or(operand)
+}
+
+/// Reads a value for an operand; words and double words come out signed, of reals the bits.
 pub(super) fn parse_value(text: &str, operand: Operand) -> Result<i32, String> {
+    if operand.width() == Width::Real && !text.contains('#') {
+        return parse_real(text).map(value_of);
+    }
     let number = parse_number(text)?;
     let range = operand.range();
+    if operand.width() == Width::Double
+        && let Ok(pattern) = u32::try_from(number)
+    {
+        return Ok(pattern as i32);
+    }
     match i32::try_from(number) {
         Ok(value) if range.contains(&value) => Ok(value),
         Ok(value) if is_signed_word(&range) && (0..=PATTERN_MAX).contains(&value) => Ok(value - PATTERN_MAX - 1),
@@ -26,10 +41,18 @@ pub(super) fn parse_values(text: &str, operand: Operand) -> Result<RangeInclusiv
     };
     let low = parse_value(low_text.trim(), operand)?;
     let high = parse_value(high_text.trim(), operand)?;
-    if low > high {
+    if !is_ascending(operand, low, high) {
+        let [low, high] = [low, high].map(|value| operand.text(value));
         return Err(format!("{text} holds no value: {low} is more than {high}"));
     }
     Ok(low..=high)
+}
+
+fn is_ascending(operand: Operand, low: i32, high: i32) -> bool {
+    match operand.width() {
+        Width::Real => real_of(low) <= real_of(high),
+        _ => low <= high,
+    }
 }
 
 fn is_signed_word(range: &RangeInclusive<i32>) -> bool {
@@ -45,6 +68,9 @@ fn out_of_range(text: &str, operand: Operand, range: &RangeInclusive<i32>) -> St
             format!("{text} is out of range: {operand} is a word, {low} to {high} or a bit pattern up to 16#FFFF")
         }
         Width::Word => format!("{text} is out of range: {operand} takes {low} to {high}"),
+        Width::Double | Width::Real => {
+            format!("{text} is out of range: {operand} has 32 bits, {low} to {high} or a bit pattern up to 16#FFFFFFFF")
+        }
     }
 }
 
@@ -65,9 +91,39 @@ fn parse_number(text: &str) -> Result<i64, String> {
     Ok(i64::from_str_radix(&digits.replace('_', ""), radix).unwrap_or(i64::MAX))
 }
 
+fn parse_real(text: &str) -> Result<f32, String> {
+    let is_well_formed = text.starts_with(|c: char| c.is_ascii_digit() || "+-".contains(c))
+        && text.chars().all(|c| c.is_ascii_digit() || "+-.eE".contains(c));
+    match text.parse::<f32>() {
+        Ok(real) if is_well_formed && real.is_finite() => Ok(real),
+        Ok(_) if is_well_formed => Err(format!("{text} is out of range: reals reach to 3.402823e38")),
+        _ => Err(not_a_number(text)),
+    }
+}
+
 fn not_a_number(text: &str) -> String {
     match text {
         "" => "a value is missing".to_string(),
-        _ => format!("{text} is no value: write 207, 16#CF or 2#1100_1111"),
+        _ => format!("{text} is no value: write 207, 16#CF or 2#1100_1111; 1.5 or 2e-3 for a real"),
     }
+}
+
+/// The bytes of a text in quotes: Latin-1, with `\r`, `\n`, `\\` and `\x1B`.
+pub(super) fn text_bytes(quoted: &str) -> Result<Vec<u8>, String> {
+    let inner = quoted.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
+    let mut rest = inner.filter(|_| quoted.len() > 1).ok_or_else(|| format!("{quoted} does not end with a quote"))?;
+    let mut bytes = Vec::new();
+    while let Some(c) = rest.chars().next() {
+        let (byte, len) = match (c, rest.as_bytes().get(1)) {
+            ('\\', Some(b'r')) => (Some(b'\r'), 2),
+            ('\\', Some(b'n')) => (Some(b'\n'), 2),
+            ('\\', Some(b'\\')) => (Some(b'\\'), 2),
+            ('\\', Some(b'x')) => (rest.get(2..4).and_then(|digits| u8::from_str_radix(digits, 16).ok()), 4),
+            ('\\', _) => (None, 1),
+            _ => (u8::try_from(u32::from(c)).ok(), c.len_utf8()),
+        };
+        bytes.push(byte.ok_or_else(|| format!("{rest} begins with no character of a byte"))?);
+        rest = rest.get(len..).unwrap_or("");
+    }
+    Ok(bytes)
 }

@@ -13,7 +13,7 @@ pub enum Rows {
     Changes,
 }
 
-/// Writes the trace. `time_ms` is the start of the scan, scans count from 1, words are signed.
+/// Writes the trace. `time_ms` is the start of the scan, scans count from 1, words are signed, reals have a point or exponent.
 pub fn write(trace: &Trace, rows: Rows, out: &mut dyn Write) -> io::Result<()> {
     write!(out, "time_ms,scan")?;
     for signal in trace.signals() {
@@ -28,8 +28,8 @@ pub fn write(trace: &Trace, rows: Rows, out: &mut dyn Write) -> io::Result<()> {
     let mut values = Vec::new();
     while let Some(scan) = steps.advance() {
         values.clear();
-        for value in steps.values() {
-            write!(values, ",{value}")?;
+        for text in steps.texts() {
+            write!(values, ",{text}")?;
         }
         values.push(b'\n');
         let until = match rows {

@@ -47,7 +47,7 @@ impl Signal {
 pub struct Change {
     /// The scan after which it is so, counted from 0.
     pub scan: u64,
-    /// The value, words signed.
+    /// The value, words signed; of a real its bits.
     pub value: i32,
 }
 
@@ -137,6 +137,11 @@ impl Steps<'_> {
     /// The values from this scan on, in the order of the signals.
     pub fn values(&self) -> &[i32] {
         &self.values
+    }
+
+    /// The same as people write them.
+    pub fn texts(&self) -> impl Iterator<Item = String> {
+        self.trace.signals.iter().zip(&self.values).map(|(signal, &value)| signal.operand.text(value))
     }
 }
 

@@ -101,7 +101,7 @@ fn signal_row(trace: &Trace, index: usize, signal: &Signal, row: &Row, layout: &
     let changes = trace.changes(index);
     match signal.operand.width() {
         Width::Bit => group.add(wave::draw(changes, trace, row, layout, ink)),
-        Width::Byte | Width::Word => group.add(curve::draw(changes, trace, row, layout, ink)),
+        _ => group.add(curve::draw(signal.operand, changes, trace, row, layout)),
     }
 }
 

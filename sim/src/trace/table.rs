@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use super::{Steps, Trace};
+use crate::operand::Width;
 
 /// Writes the trace. Time is in seconds, that of the start of the scan; scans count from 1.
 pub fn write(trace: &Trace, out: &mut dyn Write) -> io::Result<()> {
@@ -30,9 +31,12 @@ fn widths(trace: &Trace) -> Vec<usize> {
     let mut widths = vec![seconds(last * trace.scan_ms()).len().max(6), trace.scans().to_string().len().max(4)];
     for (index, signal) in trace.signals().iter().enumerate() {
         let values = trace.changes(index).iter().map(|change| change.value);
-        // The longest number is the largest or the smallest.
-        let extremes = [values.clone().min(), values.max()];
-        let longest = extremes.into_iter().flatten().map(|value| value.to_string().len()).max().unwrap_or(0);
+        let longest = match signal.operand.width() {
+            Width::Real => values.map(|value| signal.operand.text(value).len()).max(),
+            // The longest number is the largest or the smallest.
+            _ => [values.clone().min(), values.max()].into_iter().flatten().map(|value| value.to_string().len()).max(),
+        };
+        let longest = longest.unwrap_or(0);
         widths.push(longest.max(signal.name.chars().count()));
     }
     widths
@@ -40,7 +44,7 @@ fn widths(trace: &Trace) -> Vec<usize> {
 
 fn write_scan(out: &mut dyn Write, trace: &Trace, steps: &Steps<'_>, scan: u64, widths: &[usize]) -> io::Result<()> {
     let mut cells = vec![seconds(scan * trace.scan_ms()), (scan + 1).to_string()];
-    cells.extend(steps.values().iter().map(i32::to_string));
+    cells.extend(steps.texts());
     write_row(out, cells.iter().map(String::as_str), widths)
 }
 

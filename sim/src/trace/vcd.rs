@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use vcd::{IdCode, TimescaleUnit, Value, VarType, Writer};
 
 use super::{Signal, Trace};
-use crate::operand::Width;
+use crate::operand::{Width, real_of};
 
 /// Writes the trace. Values stand at the start of the scan that made them; words are two's complement.
 pub fn write(trace: &Trace, out: &mut dyn Write) -> io::Result<()> {
@@ -51,6 +51,8 @@ fn declare(writer: &mut Writer<&mut dyn Write>, signals: &[Signal]) -> io::Resul
             Width::Byte => (VarType::Reg, 8),
             // Viewers show integers as signed decimals.
             Width::Word => (VarType::Integer, 16),
+            Width::Double => (VarType::Integer, 32),
+            Width::Real => (VarType::Real, 64),
         };
         codes.push(writer.add_var(kind, bits, &name, None)?);
         names.push(name);
@@ -68,6 +70,8 @@ fn change(writer: &mut Writer<&mut dyn Write>, code: IdCode, width: Width, value
         Width::Bit => return writer.change_scalar(code, Value::from(value != 0)),
         Width::Byte => 8,
         Width::Word => 16,
+        Width::Double => 32,
+        Width::Real => return writer.change_real(code, f64::from(real_of(value))),
     };
     writer.change_vector(code, (0..bits).rev().map(|bit| Value::from(value >> bit & 1 == 1)))
 }
@@ -79,7 +83,10 @@ mod tests {
 
     #[test]
     fn exact_text() {
-        let trace = trace(10, &[("Q0.1", &[0, 1, 1]), ("MW3", &[-2, -2, 5]), ("MB9", &[255, 255, 255])]);
+        let trace = trace(
+            10,
+            &[("Q0.1", &[0, 1, 1]), ("MW3", &[-2, -2, 5]), ("MB9", &[255, 255, 255]), ("MD4:real", &[0x3FC0_0000; 3])],
+        );
         let mut out = Vec::new();
         write(&trace, &mut out).unwrap();
         let expected = "\
@@ -91,6 +98,7 @@ $scope module plc $end
 $var wire 1 ! Q0_1 $end
 $var integer 16 \" MW3 $end
 $var reg 8 # MB9 $end
+$var real 64 $ MD4_real $end
 $upscope $end
 $enddefinitions $end
 #0
@@ -98,6 +106,7 @@ $dumpvars
 0!
 b1111111111111110 \"
 b11111111 #
+r1.5 $
 $end
 #10
 1!

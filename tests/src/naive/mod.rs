@@ -83,7 +83,7 @@ impl Naive {
     pub fn new(program: Program) -> Naive {
         let instructions = program.statements.into_iter().filter_map(|statement| match statement {
             Statement::Instruction(instruction) => Some(instruction),
-            Statement::Network(_) => None,
+            Statement::Network(_) | Statement::Unit(_) => None,
         });
         let areas = [(Area::I, 16), (Area::Q, 16), (Area::M, 32), (Area::S, 32), (Area::Sm, 32), (Area::V, 10240)];
         Naive {

@@ -93,7 +93,7 @@ impl Generator<'_> {
             Kind::Number => Place::constant(self.rng.u8(..).to_string()),
             // Labels are placed by the functions above, the others are not written.
             Kind::LabelIndex | Kind::LabelNumber => return None,
-            Kind::Edge | Kind::LoopEnd | Kind::LoopStart | Kind::Relation | Kind::Here => return None,
+            _ => return None,
         };
         Some(place.text)
     }
@@ -192,7 +192,7 @@ impl Generator<'_> {
             Area::S => &[0, 1, 30, 31],
             Area::Sm => &[0, 0, 1, 1, 22, 23, 24, 26, 29, 30, 31],
             Area::V => &[0, 0, 1, 1, 2, 3, 4, 5, 6, 7, 30, 62, 63, 1000, 1001, 10_238, 10_239],
-            Area::T | Area::C => &[],
+            Area::T | Area::C | Area::L => &[],
         };
         let byte = self.rng.choice(pool.iter().copied())?;
         (!is_written || byte >= area.first_writable()).then_some(byte)

@@ -9,14 +9,14 @@ fn is_logic(instruction: &Instruction) -> bool {
     match instruction.group {
         Group::Contact | Group::Stack | Group::Compare => true,
         Group::Coil | Group::Math | Group::Move | Group::Timer | Group::Counter | Group::Control => false,
-        Group::Hidden => false,
+        _ => false,
     }
 }
 
 /// Whether an instruction can stand anywhere in a rung and do no harm.
 fn is_plain(instruction: &Instruction) -> bool {
     let special = matches!(instruction.op, Op::For | Op::Next | Op::Jmp | Op::Lbl | Op::End | Op::Stop);
-    instruction.group != Group::Hidden && !special
+    instruction.group != Group::Hidden && !special && instruction.module().is_none()
 }
 
 impl Generator<'_> {

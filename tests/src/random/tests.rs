@@ -34,7 +34,7 @@ fn classify(value: &Value) -> Classified {
         Value::Address(Address::Counter(_)) => (Class::Counter, 0),
         Value::Address(Address::Analog(AnalogInput::Scaled(_))) => (Class::Scaled, 0),
         Value::Address(Address::Analog(AnalogInput::Raw(_))) => (Class::Raw, 0),
-        Value::Invalid => panic!("an invalid operand"),
+        other => panic!("{other:?} is no operand"),
     }
 }
 
@@ -78,7 +78,7 @@ fn takes_class(kind: Kind, (class, value): Classified) -> bool {
         Kind::ByteConst | Kind::Number | Kind::LabelIndex | Kind::LabelNumber => constant_in(0..=255),
         Kind::TimerSlot | Kind::TimerNumber => class == Class::Timer,
         Kind::CounterSlot | Kind::CounterNumber => class == Class::Counter,
-        Kind::Edge | Kind::LoopEnd | Kind::LoopStart | Kind::Relation | Kind::Here => false,
+        _ => false,
     }
 }
 
@@ -131,7 +131,7 @@ fn possible_usages() -> BTreeSet<Usage> {
 fn instructions(program: &Program) -> impl Iterator<Item = &awl_asm::ast::Instruction> {
     program.statements.iter().filter_map(|statement| match statement {
         Statement::Instruction(instruction) => Some(instruction),
-        Statement::Network(_) => None,
+        Statement::Network(_) | Statement::Unit(_) => None,
     })
 }
 

@@ -7,6 +7,7 @@ use plc_vm::{Fault, Inputs};
 use simavr::{Avr, LoadError, Pin, Reset, Stopped};
 
 use super::firmware::{Firmware, Places};
+use super::pulses::BoardPulses;
 
 /// Cycles in a millisecond.
 pub const MS: u64 = Avr::FREQUENCY / 1000;
@@ -21,6 +22,13 @@ const FIRST_OUTPUT: u8 = 8;
 
 /// Enables the interrupt that counts the milliseconds: register and bit.
 const TICK_INTERRUPT: (usize, u8) = (0x6E, 1 << 1);
+
+/// Timer 1: TCCR1A and TCCR1B, the bits of the latter that let it run, and ICR1.
+const TIMER_1_MODE: [u16; 2] = [0x80, 0x81];
+const TIMER_1_CLOCK: u8 = 0b111;
+const TIMER_1_TOP: u16 = 0x86;
+/// For Q0.1 and Q0.2 the bits of TCCR1A that connect the pin, and the compare register.
+const MODULATED: [(u8, u16); 2] = [(0b1100_0000, 0x88), (0b0011_0000, 0x8A)];
 
 /// Longest time from power to the start of the first scan.
 pub const BOOT_MAX: u64 = 5_000 * MS;
@@ -43,6 +51,9 @@ pub struct Board {
     /// The chip.
     pub avr: Avr,
     pub(super) places: Places,
+    pub(super) pulses: BoardPulses,
+    /// Inputs whose pins have the other level than the program sees.
+    pub(super) inverted_inputs: u8,
     scan_start: u64,
 }
 
@@ -51,7 +62,7 @@ impl Board {
     pub fn new(firmware: &Firmware) -> Result<Board, LoadError> {
         let mut avr = Avr::new();
         avr.load_elf(&firmware.elf)?;
-        Ok(Board { avr, places: firmware.places, scan_start: 0 })
+        Ok(Board { avr, places: firmware.places, pulses: BoardPulses::default(), inverted_inputs: 0, scan_start: 0 })
     }
 
     /// Writes the program slot, as far as it reaches; the rest of it is erased.
@@ -87,15 +98,31 @@ impl Board {
 
     /// Runs for so many cycles, to the next mark if that comes first. Whether it has come to one: its number.
     pub fn run(&mut self, cycles: u64) -> Result<Option<u8>, Broken> {
-        match self.avr.run_to_mark(cycles) {
-            Stopped::Limit => Ok(None),
-            Stopped::Mark(mark) => {
-                if mark == Mark::ScanStart as u8 {
-                    self.scan_start = self.avr.cycles();
+        let end = self.avr.cycles() + cycles;
+        loop {
+            self.drive_pulses();
+            let until = self.pulses.next_cycle().map_or(end, |cycle| cycle.min(end));
+            match self.avr.run_to_mark(until.saturating_sub(self.avr.cycles())) {
+                Stopped::Limit if until < end => {}
+                Stopped::Limit => return Ok(None),
+                Stopped::Mark(mark) => {
+                    if mark == Mark::ScanStart as u8 {
+                        self.scan_start = self.avr.cycles();
+                    }
+                    return Ok(Some(mark));
                 }
-                Ok(Some(mark))
+                Stopped::Crash { pc } => return Err(crashed(pc)),
             }
-            Stopped::Crash { pc } => Err(crashed(pc)),
+        }
+    }
+
+    /// Applies the edges that are due.
+    fn drive_pulses(&mut self) {
+        while let Some(edge) = self.pulses.take(self.avr.cycles()) {
+            if edge.input < DIGITAL_INPUTS {
+                let is_high = edge.level != (self.inverted_inputs >> edge.input & 1 != 0);
+                self.avr.drive(Pin::of_uno(FIRST_INPUT + edge.input), is_high);
+            }
         }
     }
 
@@ -166,6 +193,16 @@ impl Board {
         let is_high = |output: &u8| self.avr.level(Pin::of_uno(FIRST_OUTPUT + output));
         let levels = (0..DIGITAL_OUTPUTS).filter(is_high).fold(0, |bits, output| bits | 1 << output);
         levels & driven | off_levels & !driven
+    }
+
+    /// The part of the time in thousandths that the pin of output Q0.`output` is high, where timer 1 modulates it up to
+    /// ICR1.
+    pub fn duty(&self, output: u8) -> Option<u16> {
+        let (mode_bits, compare) = *MODULATED.get(usize::from(output).checked_sub(1)?)?;
+        let [mode_a, mode_b] = TIMER_1_MODE.map(|register| self.byte(register));
+        let word = |low: u16| u32::from(u16::from_le_bytes([self.byte(low), self.byte(low + 1)]));
+        let is_modulated = mode_a & mode_bits != 0 && mode_b & TIMER_1_CLOCK != 0;
+        is_modulated.then(|| (1000 * (word(compare) + 1).min(word(TIMER_1_TOP) + 1) / (word(TIMER_1_TOP) + 1)) as u16)
     }
 
     /// Sets the voltages at the analog inputs.

@@ -17,6 +17,7 @@ impl Uno {
             let started = self.board.power_up();
             self.arrive(At::ScanStart, started);
             self.first_scan = self.board.scan_start();
+            self.board.pulses.origin = Some(self.first_scan);
         }
         self.run_free(now_ms);
         if self.at == At::ScanStart {
@@ -31,6 +32,7 @@ impl Uno {
         while self.at == At::ScanStart && self.board.scan_start() - self.first_scan < until_ms * MS {
             let scanned = self.one_free_scan();
             self.arrive(At::ScanStart, scanned);
+            self.inputs.digital[0] = self.board.pulses.changed(self.inputs.digital[0]);
         }
     }
 

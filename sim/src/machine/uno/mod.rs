@@ -7,6 +7,7 @@ mod board;
 mod firmware;
 mod free_running;
 mod lock_step;
+mod pulses;
 
 use anyhow::Result;
 use awl_asm::native::{TranslateError, translate};
@@ -16,11 +17,13 @@ use simavr::Avr;
 
 use super::points::{self, Points, input_byte, output_byte, replaced};
 use super::{Machine, MachineError, Mode, PlaceOf, fault};
+use crate::action::Action;
 use crate::operand::Operand;
 pub use board::{Board, Broken, MS, Mark, SRAM};
 pub use firmware::Firmware;
 
 use board::STACK_PAINT;
+use pulses::BoardPulses;
 
 /// Inputs I0.0 to I0.5 have a pin.
 const INPUT_PINS: u8 = (1 << DIGITAL_INPUTS) - 1;
@@ -120,6 +123,8 @@ impl Uno {
         self.board.renew();
         self.board.insert(translated.as_ref().unwrap_or(&image));
         self.program = program;
+        self.board.pulses = BoardPulses::default();
+        self.board.inverted_inputs = self.settings().invert_inputs;
         self.at = At::Off;
         self.inputs = Inputs::default();
         self.writes.clear();
@@ -240,6 +245,10 @@ impl Points for Uno {
         }
     }
 
+    fn duty(&self, output: u8) -> Option<u16> {
+        self.board.duty(output)
+    }
+
     fn set(&mut self, address: u16, mask: u8, value: u8) -> Result<(), MachineError> {
         let Some(byte) = input_byte(address) else {
             self.writes.push(Write { address, mask, value });
@@ -262,6 +271,21 @@ impl Machine for Uno {
 
     fn read(&mut self, operand: Operand) -> Result<i32, MachineError> {
         points::read(self, operand)
+    }
+
+    fn act(&mut self, action: &Action) -> Result<(), MachineError> {
+        let error = |message: &str| Err(MachineError(message.to_string()));
+        match *action {
+            _ if self.clock == Clock::LockStep => error("only a board with its own clock takes pulses"),
+            Action::Pulse(pulse) if (0..8).any(|input| pulse.drives(input) && INPUT_PINS >> input & 1 == 0) => {
+                error("the inputs with a pin on the Uno, which pulses can come at, are I0.0 to I0.5")
+            }
+            Action::Pulse(pulse) => {
+                self.board.pulses.begin(pulse);
+                Ok(())
+            }
+            Action::SetClock { .. } => error("the board's clock is set by its program (TODW)"),
+        }
     }
 
     fn scan(&mut self, now_ms: u64) {

@@ -15,15 +15,19 @@ pub(super) const AXIS: &str = "#8593a3";
 /// The colour of an operand's wave.
 pub(super) fn of(operand: Operand) -> &'static str {
     match operand.address() {
-        Address::Bit { area, .. } | Address::Byte { area, .. } | Address::Word { area, .. } => match area {
+        Address::Bit { area, .. }
+        | Address::Byte { area, .. }
+        | Address::Word { area, .. }
+        | Address::Double { area, .. } => match area {
             Area::I => "#1f5fb4",
             Area::Q => "#c2410c",
             Area::T => "#7a3ea1",
             Area::C => "#8a6100",
-            Area::M | Area::Sm | Area::S | Area::V => "#2f7d3b",
+            Area::M | Area::Sm | Area::S | Area::V | Area::L => "#2f7d3b",
         },
         Address::Timer(_) => "#7a3ea1",
-        Address::Counter(_) => "#8a6100",
-        Address::Analog(_) => "#0f7286",
+        Address::Counter(_) | Address::HighSpeedCounter(_) => "#8a6100",
+        Address::Analog(_) | Address::AnalogOutput(_) => "#0f7286",
+        Address::Accumulator(_) => "#2f7d3b",
     }
 }

@@ -1,4 +1,4 @@
-//! A word as a step curve: the limits of its scale at the left, values where they stand long enough to be read.
+//! A word or real as a step curve: the limits of its scale at the left, values where they stand long enough to be read.
 
 use svg::node::element::{Group, Path as Shape};
 
@@ -7,6 +7,7 @@ use super::layout::{Layout, Row, VALUE_SIZE};
 use super::path::{Path, Stretch, stretches};
 use super::text::{Anchor, label, width};
 use super::wave::{LINE, outline};
+use crate::operand::{Operand, Width, real_of};
 use crate::trace::{Change, Trace};
 
 /// Above the curve there is place for a value.
@@ -19,8 +20,9 @@ const VALUE_ROOM: f64 = 10.0;
 /// A band no higher than this is a steep slope, drawn like the line.
 const SLOPE: f64 = 12.0;
 
-/// The vertical scale of a word.
+/// The vertical scale of a word. Values of reals are here by their rank.
 struct Scale {
+    operand: Operand,
     lowest: i32,
     highest: i32,
     top: f64,
@@ -29,23 +31,54 @@ struct Scale {
 
 impl Scale {
     fn y(&self, value: i32) -> f64 {
-        // A word that never changes runs along the bottom.
-        let span = (self.highest - self.lowest).max(1);
-        self.bottom - (self.bottom - self.top) * f64::from(value - self.lowest) / f64::from(span)
+        let [number, lowest, highest] = [value, self.lowest, self.highest].map(|value| self.number(value));
+        // What never changes runs along the bottom.
+        let span = if highest > lowest { highest - lowest } else { 1.0 };
+        self.bottom - (self.bottom - self.top) * (number - lowest) / span
+    }
+
+    fn number(&self, value: i32) -> f64 {
+        match self.operand.width() {
+            // The curve has no place for infinity.
+            Width::Real => Some(real_of(rank(value))).filter(|real| real.is_finite()).map_or(0.0, f64::from),
+            _ => f64::from(value),
+        }
+    }
+
+    fn text(&self, value: i32) -> String {
+        match self.operand.width() {
+            Width::Real => self.operand.text(rank(value)),
+            _ => self.operand.text(value),
+        }
     }
 }
 
-pub(super) fn draw(changes: &[Change], trace: &Trace, row: &Row, layout: &Layout, ink: &str) -> Group {
+/// The bits of reals as numbers in the order of the reals; applied twice, the bits again.
+fn rank(bits: i32) -> i32 {
+    if bits < 0 { bits ^ i32::MAX } else { bits }
+}
+
+pub(super) fn draw(operand: Operand, changes: &[Change], trace: &Trace, row: &Row, layout: &Layout) -> Group {
+    if operand.width() != Width::Real {
+        return draw_ranked(operand, changes, trace, row, layout);
+    }
+    let ranked: Vec<_> = changes.iter().map(|change| Change { value: rank(change.value), ..*change }).collect();
+    draw_ranked(operand, &ranked, trace, row, layout)
+}
+
+fn draw_ranked(operand: Operand, changes: &[Change], trace: &Trace, row: &Row, layout: &Layout) -> Group {
+    let ink = colour::of(operand);
     let values = changes.iter().map(|change| change.value);
     let (Some(lowest), Some(highest)) = (values.clone().min(), values.max()) else { return Group::new() };
-    let scale = Scale { lowest, highest, top: row.top + PADDING_TOP, bottom: row.top + row.height - PADDING_BOTTOM };
+    let (top, bottom) = (row.top + PADDING_TOP, row.top + row.height - PADDING_BOTTOM);
+    let scale = Scale { operand, lowest, highest, top, bottom };
     let list = stretches(changes, |scan| layout.scan_x(scan), layout.scan_x(trace.scans()), COLUMN);
     let mut group = limits(&scale, layout);
     for shape in shapes(&list, &scale, ink) {
         group = group.add(shape);
     }
     for (x, stretch_width, value) in plateaus(&list) {
-        let text = value.to_string();
+        let text = scale.text(value);
         if width(&text, VALUE_SIZE) + VALUE_ROOM <= stretch_width {
             group = group.add(label(&text, x + 5.0, scale.y(value) - 5.0, VALUE_SIZE, ink, Anchor::Start));
         }
@@ -59,7 +92,7 @@ fn limits(scale: &Scale, layout: &Layout) -> Group {
     let limits = if scale.lowest == scale.highest { vec![scale.lowest] } else { vec![scale.lowest, scale.highest] };
     for value in limits {
         let y = scale.y(value) + 4.0;
-        group = group.add(label(&value.to_string(), x, y, VALUE_SIZE, colour::FAINT_INK, Anchor::End));
+        group = group.add(label(&scale.text(value), x, y, VALUE_SIZE, colour::FAINT_INK, Anchor::End));
     }
     group
 }

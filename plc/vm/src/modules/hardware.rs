@@ -1,0 +1,94 @@
+//! The hardware functions: their state that is not in data memory, and the instructions that use it.
+
+use plc_isa::{Op, Plan, ProgramMemory};
+
+use super::clock::{BUFFER_LEN, SoftwareClock, TimeOfDay};
+use super::high_speed::{HighSpeedCounters, Occurred};
+use super::pulse::PulseOutputs;
+use super::{Execution, Failure};
+use crate::environment::Environment;
+use crate::memory::Memory;
+use crate::references::Width;
+
+/// State of the hardware functions.
+#[derive(Debug, Clone)]
+pub(crate) struct Hardware {
+    /// IB0 as it was seen last.
+    pub levels: u8,
+    pub counters: HighSpeedCounters,
+    pub pulses: PulseOutputs,
+    pub clock: SoftwareClock,
+    /// DLED: the diagnosis LED is on.
+    pub diagnosis_led: bool,
+}
+
+impl Hardware {
+    /// Just switched on.
+    pub const NEW: Hardware = Hardware {
+        levels: 0,
+        counters: HighSpeedCounters::UNDEFINED,
+        pulses: PulseOutputs::NONE,
+        clock: SoftwareClock::NOT_SET,
+        diagnosis_led: false,
+    };
+
+    /// The change to RUN: only the clock goes on.
+    pub fn restart(&mut self) {
+        *self = Hardware { levels: self.levels, clock: self.clock, ..Hardware::NEW };
+    }
+
+    /// Bit `input` of IB0 has changed. The events that it causes.
+    pub fn edge<P: ProgramMemory>(&mut self, input: u8, plan: &Plan<P>, memory: &mut Memory) -> [Occurred; 2] {
+        self.levels ^= 1 << input;
+        self.counters.edge(input, self.levels, plan, memory)
+    }
+}
+
+impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
+    /// High-speed counters, pulses, the clock, the serial line.
+    pub(super) fn hardware(&mut self, op: Op) -> Result<(), Failure> {
+        let (number, mode) = (self.operands.number(0), self.operands.number(1));
+        match op {
+            Op::Hdef => {
+                let interpreter = &mut *self.interpreter;
+                let Hardware { counters, levels, .. } = &mut interpreter.events.hardware;
+                done(counters.define(number, mode, *levels, interpreter.program.plan(), interpreter.memory))
+            }
+            Op::Hsc => {
+                let interpreter = &mut *self.interpreter;
+                let counters = &mut interpreter.events.hardware.counters;
+                done(counters.activate(number, interpreter.program.plan(), interpreter.memory))
+            }
+            Op::Pls => {
+                let interpreter = &mut *self.interpreter;
+                let pulses = &mut interpreter.events.hardware.pulses;
+                done(pulses.activate(number, interpreter.program.plan(), interpreter.memory))
+            }
+            Op::Dled => {
+                self.interpreter.events.hardware.diagnosis_led = self.read(0, Width::Byte)? > 0;
+                Ok(())
+            }
+            Op::Todr => {
+                let now_ms = self.interpreter.clock.now_ms;
+                let time = self.interpreter.events.hardware.clock.now(now_ms).ok_or(Failure::Operand)?;
+                let buffer = self.target(0, Width::Byte, BUFFER_LEN)?;
+                self.put_bytes(buffer, &time.to_buffer());
+                Ok(())
+            }
+            Op::Todw => {
+                let buffer = self.source(0, Width::Byte, BUFFER_LEN)?;
+                let bytes = [0, 1, 2, 3, 4, 5, 6, 7].map(|offset| self.interpreter.memory.byte(buffer + offset));
+                let time = TimeOfDay::from_buffer(bytes).ok_or(Failure::Operand)?;
+                let now_ms = self.interpreter.clock.now_ms;
+                self.interpreter.events.hardware.clock.set(time, now_ms);
+                Ok(())
+            }
+            _ => Err(Failure::Undefined),
+        }
+    }
+}
+
+/// What cannot be done is a programming error.
+fn done(is_done: bool) -> Result<(), Failure> {
+    if is_done { Ok(()) } else { Err(Failure::Operand) }
+}

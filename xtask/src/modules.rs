@@ -1,0 +1,145 @@
+//! `cargo xtask modules`: from the sources in firmware/modules to the blobs in awl-asm/modules, which the assembler puts
+//! into images. They are committed: hosts without the AVR toolchain assemble programs, too.
+//!
+//! A blob: u16 length, u8 number, u8 routines N, u16 offset of the jump table; N x effect on the stack and offset of the
+//! operands' kinds; lists of kinds; N x length of the operands, the last routine's first; jump table; code.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, bail, ensure};
+use plc_isa::{
+    Instruction, MODULE_NAMES, OPERANDS_MODULE, PowerFlow, kind_numbers, module_instructions, packed_stack,
+};
+
+use crate::packages;
+use crate::process::{root, run as run_command};
+
+/// Bytes before the entries of the routines.
+const HEAD_LEN: usize = 6;
+/// Bit in the length of a routine's operands: executed without power flow, too.
+const ALWAYS: u8 = 0x80;
+
+/// What modules let each other call, in the order of their jump tables, behind the routines.
+fn subroutines(number: u8) -> &'static [&'static str] {
+    match number {
+        REAL_MODULE => {
+            &["real_add", "real_sub", "real_mul", "real_div", "real_from_int", "real_to_int", "real_status"]
+        }
+        OPERANDS_MODULE => &["entry"],
+        _ => &[],
+    }
+}
+
+const REAL_MODULE: u8 = 1;
+
+/// Writes the modules whose sources are there, or only compares them.
+pub fn run(check: bool) -> Result<()> {
+    packages::ensure_installed(packages::AVR_LINKER)?;
+    let mut failed = Vec::new();
+    for (number, name) in (0..).zip(MODULE_NAMES) {
+        let source = sources().join(name).with_extension("s");
+        if source.exists()
+            && let Err(error) = build(number, &source).and_then(|blob| keep(name, &blob, check))
+        {
+            eprintln!("{name}: {error:#}");
+            failed.push(name);
+        }
+    }
+    ensure!(failed.is_empty(), "not built: {}", failed.join(", "));
+    Ok(())
+}
+
+fn sources() -> PathBuf {
+    root().join("firmware/modules")
+}
+
+fn keep(name: &str, blob: &[u8], check: bool) -> Result<()> {
+    let path = root().join("awl-asm/modules").join(name).with_extension("bin");
+    if check {
+        let kept = fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
+        ensure!(kept == blob, "{} is not what its source says: run `cargo xtask modules`", path.display());
+        return Ok(());
+    }
+    println!("{name}: {} bytes", blob.len());
+    fs::create_dir_all(path.parent().unwrap_or(&path))?;
+    fs::write(&path, blob).with_context(|| format!("cannot write {}", path.display()))
+}
+
+fn build(number: u8, source: &Path) -> Result<Vec<u8>> {
+    let text = text(number, source)?;
+    let blob = assemble(&text, 0)?;
+    // Programs differ in what stands before a module.
+    ensure!(blob == assemble(&text, 0x1000)?, "the code is not position independent");
+    Ok(blob)
+}
+
+/// The module as assembly: what the loader and the engine read, and then the source.
+fn text(number: u8, source: &Path) -> Result<String> {
+    let instructions: Vec<_> = module_instructions(number).collect();
+    let (entries, kinds) = entries(&instructions)?;
+    let mut head = [entries, kinds].concat();
+    if !(head.len() + instructions.len()).is_multiple_of(2) {
+        head.push(0);
+    }
+    head.extend(instructions.iter().rev().map(|instruction| operands_len(instruction)));
+    let mut text = format!(
+        "module:\n.word module_end - module\n.byte {number}, {}\n.word jump_table - module\n",
+        instructions.len()
+    );
+    for byte in head {
+        let _ = writeln!(text, ".byte {byte}");
+    }
+    text.push_str("jump_table:\n");
+    for instruction in &instructions {
+        let _ = writeln!(text, "rjmp {:?}", instruction.op);
+    }
+    for subroutine in subroutines(number) {
+        let _ = writeln!(text, "rjmp {subroutine}");
+    }
+    let _ = writeln!(text, ".include {:?}\n.balign 2, 0\nmodule_end:", source);
+    Ok(text)
+}
+
+/// The entries of the routines and the lists of kinds behind them, which many routines share.
+fn entries(instructions: &[&Instruction]) -> Result<(Vec<u8>, Vec<u8>)> {
+    let kinds_at = HEAD_LEN + 2 * instructions.len();
+    let (mut entries, mut kinds) = (Vec::new(), Vec::new());
+    for (routine, instruction) in instructions.iter().enumerate() {
+        let form = instruction.forms.first().context("an instruction without a form")?;
+        ensure!(usize::from(form.first_token) == routine, "the routines are not numbered from 0 on");
+        let list: Vec<u8> = kind_numbers(instruction).collect();
+        let at = kinds.windows(list.len()).position(|window| window == list).unwrap_or_else(|| {
+            kinds.extend_from_slice(&list);
+            kinds.len() - list.len()
+        });
+        entries.extend([packed_stack(instruction), u8::try_from(kinds_at + at).context("too many kinds")?]);
+    }
+    Ok((entries, kinds))
+}
+
+fn operands_len(instruction: &Instruction) -> u8 {
+    let len: u8 = instruction.forms.iter().flat_map(|form| form.kinds).map(|kind| kind.stored_len()).sum();
+    if instruction.power_flow == PowerFlow::Always { len | ALWAYS } else { len }
+}
+
+/// The bytes of an assembly text that begins at an address of flash.
+fn assemble(text: &str, start: u16) -> Result<Vec<u8>> {
+    let folder = root().join("target/modules");
+    fs::create_dir_all(&folder)?;
+    let [text_file, elf, bytes] = ["module.s", "module.elf", "module.bin"].map(|name| folder.join(name));
+    fs::write(&text_file, text)?;
+    let mut gcc = Command::new("avr-gcc");
+    gcc.args(["-mmcu=atmega328p", "-nostartfiles", "-nostdlib", "-x", "assembler"]);
+    gcc.arg(format!("-Wl,-Ttext={start:#x},--entry={start:#x}"));
+    gcc.arg(format!("-Wa,-I{}", sources().display())).arg(&text_file).arg("-o").arg(&elf);
+    run_command(&mut gcc)?;
+    run_command(Command::new("avr-objcopy").args(["-O", "binary", "-j", ".text"]).args([&elf, &bytes]))?;
+    let bytes = fs::read(&bytes)?;
+    if bytes.is_empty() {
+        bail!("nothing was assembled");
+    }
+    Ok(bytes)
+}
