@@ -42,8 +42,9 @@ pub fn listing(source: &Source, assembly: &Assembly) -> String {
 /// The cycles of a network so far.
 struct NetworkCost {
     number: u32,
-    interpreted: Cycles,
-    /// `None` where the program is too large to be translated.
+    /// `None` where the costs of an instruction are unknown.
+    interpreted: Option<Cycles>,
+    /// `None` where the program is not translated, too.
     native: Option<Cycles>,
 }
 
@@ -74,7 +75,7 @@ impl Listing<'_> {
             if let Some(network) = networks.get(&number) {
                 self.end_network();
                 let native = self.cost.and_then(|cost| cost.translated).map(|_| Cycles::default());
-                self.network = Some(NetworkCost { number: *network, interpreted: Cycles::default(), native });
+                self.network = Some(NetworkCost { number: *network, interpreted: Some(Cycles::default()), native });
             }
             let mut shown = false;
             while self.is_in_line(number) {
@@ -113,10 +114,10 @@ impl Listing<'_> {
         let at = encoded.at as usize;
         let bytes = self.image.get(at..at + usize::from(encoded.len)).unwrap_or(&[]);
         let depth = self.assembly.depths.get(self.next).copied().unwrap_or(0);
-        let interpreted = self.ways(encoded, |cost| Some(cost.interpreted));
+        let interpreted = self.ways(encoded, |cost| Some(cost.interpreted).filter(|ways| ways.is_known()));
         let native = self.ways(encoded, |cost| cost.translated);
         if let Some(network) = &mut self.network {
-            network.interpreted = network.interpreted.then(interpreted.unwrap_or_default().all());
+            network.interpreted = network.interpreted.zip(interpreted).map(|(sum, ways)| sum.then(ways.all()));
             network.native = network.native.zip(native).map(|(sum, native)| sum.then(native.all()));
         }
         self.row([
@@ -145,7 +146,8 @@ impl Listing<'_> {
         if self.cost.is_some() {
             let native = network.native.map_or(String::new(), range);
             let title = format!("network {}", network.number);
-            self.row(["", "", &title, "", &range(network.interpreted), &native, ""]);
+            let interpreted = network.interpreted.map_or(String::new(), range);
+            self.row(["", "", &title, "", &interpreted, &native, ""]);
         }
     }
 
@@ -161,22 +163,20 @@ impl Listing<'_> {
                 Longest::Depends(at) => {
                     format!("it depends on how often the loop is repeated that closes in line {}", self.line_of(at))
                 }
+                Longest::Unknown(at) => format!("the cycles of the instruction in line {} are not known", self.line_of(at)),
             };
             let _ = writeln!(self.text, "longest scan, {name}: {text}");
         }
         if cost.translated.is_none() {
-            self.text += "native: the program is too large to be translated\n";
+            self.text += "native: the program cannot be translated\n";
         }
     }
 
     /// The source line of an instruction by its offset.
     fn line_of(&self, at: u16) -> usize {
-        let lines = &self.assembly.lines;
-        let index = lines.partition_point(|line| line.at + u32::from(line.len) <= u32::from(at));
-        self.assembly
-            .code
-            .get(index)
-            .map_or(0, |selected| self.source.position(span_of(&self.assembly.program, selected).start as usize).0)
+        let holds = |line: &Line| (line.at..line.at + u32::from(line.len)).contains(&u32::from(at));
+        let index = self.assembly.lines.iter().position(holds);
+        index.and_then(|index| self.assembly.code.get(index)).map_or(0, |selected| self.source.position(span_of(&self.assembly.program, selected).start as usize).0)
     }
 }
 

@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 use std::fs;
 
 use anyhow::{Context, Result, bail};
-use plc_isa::{Form, Group, INSTRUCTIONS, Instruction, Kind, PowerFlow};
+use awl_asm::cost::of_form;
+use plc_isa::{Form, Group, INSTRUCTIONS, Instruction, Kind, MODULE_NAMES, PowerFlow, WIDE_PREFIX};
 
 use crate::demo;
 use crate::process::root;
@@ -26,17 +27,47 @@ fn generated(file: &str, contents: &[u8], check: bool) -> Result<()> {
     Ok(())
 }
 
-const GROUPS: [(Group, &str); 9] = [
+const GROUPS: [(Group, &str); 20] = [
     (Group::Contact, "Contacts"),
     (Group::Coil, "Coils"),
     (Group::Stack, "Logic stack"),
     (Group::Compare, "Comparisons"),
     (Group::Math, "Integer arithmetic"),
+    (Group::Real, "Reals"),
+    (Group::Logic, "Logic operations"),
+    (Group::Shift, "Shifts and rotations"),
     (Group::Move, "Moves"),
+    (Group::Conversion, "Conversions"),
+    (Group::Table, "Tables and blocks"),
+    (Group::Text, "Strings and ASCII"),
     (Group::Timer, "Timers"),
     (Group::Counter, "Counters"),
     (Group::Control, "Program control"),
+    (Group::Call, "Subroutines"),
+    (Group::Sequence, "Sequence control"),
+    (Group::Interrupt, "Interrupts"),
+    (Group::InputOutput, "Points, high-speed counters, pulses"),
+    (Group::Communication, "Clock and serial line"),
 ];
+
+/// What Micro/WIN accepts (reference 1.10). `x` stands for = <> >= <= > <.
+const MICRO_WIN: &str = "LD A O LDN AN ON LDI AI OI LDNI ANI ONI NOT EU ED ALD OLD LPS LDS LRD LPP = =I S SI R RI AENO NOP \
+    TODR TODW TODRX TODWX XMT RCV NETR NETW GPA SPA LDBx ABx OBx LDWx AWx OWx LDDx ADx ODx LDRx ARx ORx LDSx ASx OSx \
+    BTI ITB ITD ITS DTI DTR DTS ROUND TRUNC RTS BCDI IBCD ITA DTA RTA ATH HTA STI STD STR DECO ENCO SEG CTU CTD CTUD \
+    HDEF HSC PLS +R -R *R /R SQRT SIN COS TAN LN EXP PID +I -I *I /I +D -D *D /D MUL DIV INCB INCW INCD DECB DECW DECD \
+    INVB INVW INVD ANDB ANDW ANDD ORB ORW ORD XORB XORW XORD MOVB MOVW MOVD MOVR BMB BMW BMD SWAP BIR BIW FOR NEXT JMP \
+    LBL LSCR SCRT SCRE CSCRE END STOP WDR DLED SLB SLW SLD SRB SRW SRD RLB RLW RLD RRB RRW RRD SHRB SLEN SCPY SSCPY SCAT \
+    SFND CFND FILL ATT FNDx LIFO FIFO TON TONR TOF BITIM CITIM CALL ENI DISI ATCH DTCH CEVNT CRET CRETI";
+
+/// Why an instruction of [`MICRO_WIN`] is missing.
+fn reason(mnemonic: &str) -> &'static str {
+    match mnemonic {
+        "TODRX" | "TODWX" => "the clock of an Uno is software and knows no daylight saving time; TODR and TODW work",
+        "NETR" | "NETW" => "PPI master: an Uno has one serial line, which is the programming port; XMT and RCV work on it",
+        "GPA" | "SPA" => "station addresses belong to PPI, which an Uno does not speak",
+        _ => "",
+    }
+}
 
 fn page() -> String {
     let mut text = String::from(
@@ -44,18 +75,47 @@ fn page() -> String {
          Generated from the instruction table by `cargo xtask docs`; do not edit.\n\n\
          *Stack*: values an instruction needs on the logic stack, and what it adds or removes.\n\
          *Box*: executed only while the top of the stack is 1, which it keeps.\n\
-         *Bytes*: length of each encoded form, in the order the assembler tries them.\n\n\
-         Operands: **bit** I Q M SM S V T C; **byte** IB QB MB SMB SB VB; **word** IW QW MW SMW SW VW T C AIW Ain.\n\
-         Outputs exclude inputs and SMB0 to SMB29.\n",
+         *Bytes*: length of each encoded form, in the order the assembler tries them.\n\
+         *Cycles*: of each form on the board with power flow, 16 to the microsecond; the name of a module where the instruction\n\
+         belongs to one ([docs/image.md](image.md)).\n\n\
+         Operands: **bit** I Q M SM S V T C L; **byte** IB QB MB SMB SB VB LB AC; **word** IW QW MW SMW SW VW LW T C AC AIW Ain;\n\
+         **double word** and **real** ID QD MD SMD SD VD LD AC HC. Operands of module instructions can also be pointers (`*AC1`,\n\
+         `*VD10`, `*LD0`). Outputs exclude inputs and SMB0 to SMB29.\n",
     );
     for (group, title) in GROUPS {
         let _ = write!(text, "\n## {title}\n\n");
-        text.push_str("| AWL | also | operands | meaning | stack | bytes |\n|---|---|---|---|---|---|\n");
+        text.push_str("| AWL | also | operands | meaning | stack | bytes | cycles |\n|---|---|---|---|---|---|---|\n");
         for instruction in INSTRUCTIONS.iter().filter(|instruction| instruction.group == group) {
             row(instruction, &mut text);
         }
     }
+    coverage(&mut text);
     text
+}
+
+/// How much of what Micro/WIN accepts there is.
+fn coverage(text: &mut String) {
+    let has = |name: &str| {
+        let is = |instruction: &Instruction, mnemonic: &str| match name.strip_suffix('x') {
+            Some(stem) => stem == mnemonic && instruction.has_relation(),
+            None => name == mnemonic && !instruction.has_relation(),
+        };
+        INSTRUCTIONS.iter().any(|row| row.mnemonics.iter().any(|mnemonic| is(row, mnemonic)))
+    };
+    let names: Vec<&str> = MICRO_WIN.split_ascii_whitespace().collect();
+    let missing: Vec<&str> = names.iter().copied().filter(|name| !has(name)).collect();
+    let _ = write!(
+        text,
+        "\n## Coverage\n\n{} of the {} mnemonics that Micro/WIN accepts (comparisons counted once for all relations).\n",
+        names.len() - missing.len(),
+        names.len()
+    );
+    if !missing.is_empty() {
+        text.push_str("\n| missing | why |\n|---|---|\n");
+    }
+    for name in missing {
+        let _ = writeln!(text, "| `{name}` | {} |", reason(name));
+    }
 }
 
 fn row(instruction: &Instruction, text: &mut String) {
@@ -66,7 +126,7 @@ fn row(instruction: &Instruction, text: &mut String) {
     let stack = instruction.stack;
     let _ = writeln!(
         text,
-        "| `{}{relation}` | {} | {} | {}{boxed} | needs {}, {:+} | {} |",
+        "| `{}{relation}` | {} | {} | {}{boxed} | needs {}, {:+} | {} | {} |",
         instruction.mnemonic(),
         also.join(" "),
         operands(instruction).replace('|', "\\|"),
@@ -74,7 +134,21 @@ fn row(instruction: &Instruction, text: &mut String) {
         stack.needs,
         stack.adds,
         forms.join(", "),
+        cycles(instruction),
     );
+}
+
+/// Cycles of each form, or the module.
+fn cycles(instruction: &Instruction) -> String {
+    if let Some(module) = instruction.module() {
+        return format!("*{}*", MODULE_NAMES.get(usize::from(module)).copied().unwrap_or_default());
+    }
+    let of_form = |form: &Form| match of_form(instruction.op, form.kinds) {
+        Some([least, most]) if least == most => least.to_string(),
+        Some([least, most]) => format!("{least} to {most}"),
+        None => "-".to_owned(),
+    };
+    instruction.forms.iter().map(of_form).collect::<Vec<_>>().join(", ")
 }
 
 /// Each operand with what its forms accept.
@@ -83,7 +157,7 @@ fn operands(instruction: &Instruction) -> String {
     for (index, name) in instruction.operand_names.iter().enumerate() {
         let mut accepted: Vec<String> = Vec::new();
         // Wide forms are general: they accept what the short forms accept.
-        let short = instruction.forms.iter().filter(|form| !form.wide);
+        let short = instruction.forms.iter().filter(|form| form.prefix != Some(WIDE_PREFIX));
         for words in short.filter_map(|form| kind_at(form, index)).filter_map(words) {
             if !accepted.contains(&words) {
                 accepted.push(words);
@@ -111,6 +185,20 @@ fn words(kind: Kind) -> Option<String> {
         Kind::AnyByte => format!("byte or {}", range(Kind::ByteConst)?),
         Kind::TimerSlot | Kind::TimerNumber => "T0 to T255".into(),
         Kind::CounterSlot | Kind::CounterNumber => "C0 to C255".into(),
+        Kind::InputPoint => "bit of I".into(),
+        Kind::OutputPoint => "bit of Q".into(),
+        Kind::ByteIn => "byte or constant".into(),
+        Kind::WordIn => "word or constant".into(),
+        Kind::DoubleIn => "double word or constant".into(),
+        Kind::RealIn => "real or constant".into(),
+        Kind::TextIn => "string or constant".into(),
+        Kind::ByteTo | Kind::BytesAt => "byte".into(),
+        Kind::WordTo | Kind::WordsAt => "word".into(),
+        Kind::DoubleTo | Kind::DoublesAt => "double word".into(),
+        Kind::RealTo => "real".into(),
+        Kind::TextTo => "string".into(),
+        Kind::Routine => "SBRn or INTn".into(),
+        Kind::Event => "number of an event".into(),
         // The count that a short form leaves out stands in another form.
         Kind::One => return None,
         other => return range(other),

@@ -12,6 +12,8 @@ pub enum Longest {
     Cycles(u64),
     /// It depends on how often the loop is repeated that closes here: offset of a NEXT or of a JMP back.
     Depends(u16),
+    /// It is not known what the instruction at this offset takes.
+    Unknown(u16),
 }
 
 /// A loop: from behind FOR to behind its NEXT, and how often it is passed.
@@ -24,6 +26,9 @@ struct Loop {
 /// Adds up the most cycles of each instruction. A jump forward skips what is counted here all the same: the sum is
 /// never too low. `each_ms` is what jumps back and timers of 1 ms take more whenever a millisecond has passed.
 pub fn longest(program: &Program<&[u8]>, code: &[(u16, Decoded)], start: u32, each_ms: u32, ways: &[Ways]) -> Longest {
+    if let Some(((at, _), _)) = code.iter().zip(ways).find(|(_, ways)| !ways.is_known()) {
+        return Longest::Unknown(*at);
+    }
     let mut loops = Vec::new();
     for (index, (at, decoded)) in code.iter().enumerate() {
         match decoded.op {
@@ -122,7 +127,7 @@ mod tests {
     fn cycles(text: &str) -> u64 {
         match cost_of(text).interpreted {
             Longest::Cycles(cycles) => cycles,
-            Longest::Depends(at) => panic!("{text} depends on {at}"),
+            Longest::Depends(at) | Longest::Unknown(at) => panic!("{text} depends on {at}"),
         }
     }
 

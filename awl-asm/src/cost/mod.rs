@@ -4,6 +4,7 @@
 pub mod interpreter;
 mod longest;
 
+pub use interpreter::of_form;
 use plc_isa::{Area, Decoded, Op, Operand, Plan, PowerFlow, ProgramMemory, TimerResolution, timer_resolution, verify};
 
 pub use crate::native::Cycles;
@@ -46,6 +47,11 @@ impl Ways {
         either(self.off, self.on)
     }
 
+    /// Whether there are figures: they are missing for instructions that have not been measured.
+    pub fn is_known(self) -> bool {
+        self != Ways::default()
+    }
+
     /// The least and the most of all.
     pub fn all(self) -> Cycles {
         either(self.next(), self.away).unwrap_or_default()
@@ -59,7 +65,7 @@ pub struct InstructionCost {
     pub at: u16,
     /// Interpreted.
     pub interpreted: Ways,
-    /// Translated; `None` where the program is too large for that.
+    /// Translated; `None` where the program is not translated, or nothing is known of the instruction.
     pub translated: Option<Ways>,
 }
 
@@ -82,13 +88,16 @@ pub fn cost(image: &[u8]) -> Option<ProgramCost> {
     let code: Vec<(u16, Decoded)> = program.instructions().collect();
     let interpreted: Vec<Ways> =
         code.iter().map(|(_, decoded)| interpreter::ways(decoded, program.plan(), image, None)).collect();
-    // A valid program can only be too large for it.
     let translated = translate(image).ok();
-    let native = translated.as_ref().map(|translated| native_ways(translated, program.plan(), &code));
+    let mut native = translated.as_ref().map(|translated| native_ways(translated, program.plan(), &code));
+    // What the firmware executes for machine code costs what it costs the interpreter.
+    for (native, _) in native.iter_mut().flatten().zip(&interpreted).filter(|(_, interpreted)| !interpreted.is_known()) {
+        *native = Ways::default();
+    }
     let instructions = code.iter().enumerate().map(|(index, &(at, _))| InstructionCost {
         at,
         interpreted: interpreted.get(index).copied().unwrap_or_default(),
-        translated: native.as_ref().and_then(|ways| ways.get(index).copied()),
+        translated: native.as_ref().and_then(|ways| ways.get(index).copied()).filter(|ways| ways.is_known()),
     });
     let timers = u32::from(program.plan().header.timers);
     let longest = |start: u32, ways: &[Ways]| {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use plc_isa::{C_BITS_START, Decoded, Kind, L_START, Op, Operand, Plan, ProgramMemory, SM_START, T_BITS_START};
+use plc_isa::{C_BITS_START, DATA_END, DATA_START, Decoded, Kind, L_START, Op, Operand, Plan, ProgramMemory, SM_START, T_BITS_START};
 
 /// SMB1, where arithmetic leaves its results' properties.
 pub const STATUS: u16 = SM_START + 1;
@@ -27,6 +27,11 @@ impl Effects {
     /// Of a bytecode instruction.
     pub fn of<P: ProgramMemory>(decoded: &Decoded, plan: &Plan<P>) -> Effects {
         let mut effects = Effects::default();
+        // Pointers, texts and tables lead anywhere.
+        if decoded.op.instruction().module().is_some() {
+            let all = DATA_START..DATA_END;
+            return Effects { reads: vec![all.clone()], writes: vec![all] };
+        }
         let len = bits_len(decoded);
         for (kind, operand) in decoded.operands() {
             let range = match (kind, operand) {

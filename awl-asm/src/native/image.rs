@@ -4,7 +4,10 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::ops::Range;
 
-use plc_isa::{CRC_LEN, ENTRY_LEN, Header, ImageError, NATIVE_INTERFACE, Plan, Program, SLOT_LEN, SLOT_START, verify};
+use plc_isa::{
+    CRC_LEN, Decoded, ENTRY_LEN, Group, Header, ImageError, NATIVE_INTERFACE, Op, Plan, Program, SLOT_LEN, SLOT_START,
+    verify,
+};
 
 use super::code::PlacedCode;
 use super::cost::{Cycles, either, ways};
@@ -60,6 +63,13 @@ pub struct TranslatedInstruction {
 pub enum TranslateError {
     /// The image is not valid.
     Invalid(ImageError),
+    /// There is no machine code for this instruction yet: its offset in the bytecode image, and what it belongs to.
+    Missing {
+        /// Its offset in the bytecode image.
+        at: u16,
+        /// What cannot be translated.
+        what: &'static str,
+    },
     /// Machine code takes several times the room of bytecode; here it is too much.
     TooLarge {
         /// Bytes that the translated image would have.
@@ -75,6 +85,7 @@ impl fmt::Display for TranslateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             TranslateError::Invalid(error) => write!(f, "{} (offset {:#06x})", error.fault.message(), error.at),
+            TranslateError::Missing { what, .. } => write!(f, "{what} cannot be translated to machine code yet"),
             TranslateError::TooLarge { total_len, .. } => {
                 write!(f, "translated the program needs {total_len} bytes, the program slot has {SLOT_LEN}")
             }
@@ -92,6 +103,10 @@ pub fn translate(image: &[u8]) -> Result<Translated, TranslateError> {
 /// The same with a say in how.
 pub fn translate_with(image: &[u8], options: Options) -> Result<Translated, TranslateError> {
     let program = verify(image).map_err(TranslateError::Invalid)?;
+    let missing = program.instructions().find_map(|(at, decoded)| Some((at, untranslated(&decoded)?)));
+    if let Some((at, what)) = missing {
+        return Err(TranslateError::Missing { at, what });
+    }
     let source = source_of(image, &program);
     let (plain, traffic) = attempt(&source, program.plan(), &[], BTreeSet::new());
     if !options.pins {
@@ -103,6 +118,22 @@ pub fn translate_with(image: &[u8], options: Options) -> Result<Translated, Tran
     // Which bytes deserve a register was estimated; what counts is what has become of it.
     let best = if with_pins.rank() <= plain.rank() { with_pins } else { plain };
     best.finish()
+}
+
+/// What an instruction belongs to that cannot be translated.
+fn untranslated(decoded: &Decoded) -> Option<&'static str> {
+    let instruction = decoded.op.instruction();
+    match decoded.op {
+        Op::CallBegin | Op::Call => Some("subroutines"),
+        Op::Lscr | Op::Scrt | Op::Scre | Op::Cscre | Op::ScrAnd => Some("sequence control"),
+        Op::Poll | Op::Atch | Op::Dtch | Op::Cevnt | Op::Eni | Op::Disi => Some("interrupts"),
+        Op::Aeno => Some("AENO"),
+        // Boxes are left to the firmware, but not what works on the logic stack.
+        _ if instruction.module().is_none() => None,
+        _ if instruction.group == Group::Compare => Some("comparisons of double words, reals, texts and pointers"),
+        Op::Ldi | Op::Ldni | Op::Ai | Op::Ani | Op::Oi | Op::Oni => Some("immediate contacts"),
+        _ => None,
+    }
 }
 
 /// A program that has been translated in one way, and may be too large.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use plc_isa::{Decoded, Group, Op, Operand, PowerFlow};
+use plc_isa::{Decoded, Group, LABEL_LEN, Op, Operand, Place, PowerFlow, Reference};
 
 use super::avr::{OfBit, Reg};
 use super::bits::{ALWAYS_ON, Combine};
@@ -178,6 +178,7 @@ impl<'a> Translator<'a> {
         let at = self.source.offsets.get(self.index).copied().unwrap_or(0);
         let bytes = image.get(usize::from(at)..usize::from(at + decoded.len));
         let mut piece = bytes.unwrap_or(&[]).to_vec();
+        move_constants(decoded, &mut piece, LABEL_LEN * plan.header.labels);
         piece.extend(Op::MainEnd.instruction().encode(&[]).iter().flat_map(|encoded| encoded.bytes()));
         let cycles = bytecode_cycles(decoded, plan, image);
         let call = |emitter: &mut Emitter<'_>| {
@@ -213,5 +214,20 @@ impl<'a> Translator<'a> {
     /// Whether the value that this instruction pushes down is read later.
     pub(super) fn is_needed(&self) -> bool {
         self.needed.get(self.index).copied().unwrap_or(true)
+    }
+}
+
+/// The constants of a native image begin earlier: it has no labels.
+fn move_constants(decoded: &Decoded, piece: &mut [u8], by: u16) {
+    let operands_len: usize = decoded.operands().map(|(kind, _)| usize::from(kind.stored_len())).sum();
+    let mut at = piece.len().saturating_sub(operands_len);
+    for (kind, operand) in decoded.operands() {
+        let len = usize::from(kind.stored_len());
+        if let (Operand::Reference(reference), Some(place)) = (operand, piece.get_mut(at..at + len))
+            && let Some(Place::Pool(offset)) = reference.place()
+        {
+            place.copy_from_slice(&Reference::to(Place::Pool(offset - by)).0.to_le_bytes());
+        }
+        at += len;
     }
 }

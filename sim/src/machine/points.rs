@@ -43,6 +43,7 @@ impl Place {
     fn of(operand: Operand, plan: Option<&Plan<Vec<u8>>>) -> Option<Place> {
         // Without a program there is still the bit page.
         let byte_address = |area: Area, byte: u16| match area.page_start() {
+            Some(_) if area == Area::L => None,
             Some(start) if byte < area.page_len() => Some(start + byte),
             _ => plan?.byte_address(area, byte),
         };
@@ -178,5 +179,13 @@ fn set_analog(inputs: &mut Inputs, input: AnalogInput, value: u16) {
 }
 
 fn not_used(operand: Operand) -> MachineError {
+    if let Address::Bit { area: Area::L, .. }
+    | Address::Byte { area: Area::L, .. }
+    | Address::Word { area: Area::L, .. }
+    | Address::Double { area: Area::L, .. } = operand.address()
+    {
+        let address = operand.address();
+        return MachineError(format!("{address} is another place in every unit of the program: copy it to V or M to see it"));
+    }
     MachineError(format!("the program does not use {}", operand.address()))
 }

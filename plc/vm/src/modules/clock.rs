@@ -54,7 +54,7 @@ impl TimeOfDay {
         days -= days_before_year(year);
         let month = (1..=12).rev().find(|&month| days_before_month(year, month) <= days).unwrap_or(1);
         days -= days_before_month(year, month);
-        let bcd = |number: u32| (number / 10 % 10 << 4 | number % 10) as u8;
+        let bcd = |number: u32| (number / 10 % 10 * 16 + number % 10) as u8;
         let (hour, minute, second) = (rest / 3600, rest / 60 % 60, rest % 60);
         [bcd(year.into()), bcd(month.into()), bcd(days + 1), bcd(hour), bcd(minute), bcd(second), 0, weekday as u8]
     }
