@@ -72,8 +72,7 @@ pub fn assemble_with_data(source: &Source, symbols: Vec<Symbol>, data: &[DataLin
     let encoding = match has_errors {
         true => Encoding::default(),
         false => {
-            let checked =
-                Checked { program: &program, code: &code, units: &units, control: &control, demand: &demand };
+            let checked = Checked { program: &program, code: &code, units: &units, control: &control, demand: &demand };
             encode(checked, source.stem(), &mut diagnostics)
         }
     };

@@ -107,7 +107,8 @@ impl Copy<'_> {
     fn wrong(&self) -> Option<Diagnostic> {
         let (parameter, operand) = (self.parameter, self.operand);
         let error = |message: String| Diagnostic::new(Code::ParameterKind, operand.span, message);
-        let is_constant = matches!(operand.value, Value::Constant(_) | Value::Real(_) | Value::Text(_) | Value::AddressOf(_));
+        let is_constant =
+            matches!(operand.value, Value::Constant(_) | Value::Real(_) | Value::Text(_) | Value::AddressOf(_));
         if is_constant && parameter.section != Section::In {
             let message = format!("{} comes back from {}: a constant cannot take it", parameter.name, self.unit);
             return Some(error(message).help(format!("the parameter is {}", described(parameter))));

@@ -6,8 +6,8 @@ mod operands;
 use std::fmt::Write as _;
 
 use plc_isa::{
-    Area, CRC_LEN, DEFAULT_WATCHDOG_MS, Decoded, INITIAL_HEAD_LEN, ImageError, Op, Program, ProgramMemory, Retained, SM_IN_V,
-    STACK_LEVELS, decode, verify,
+    Area, CRC_LEN, DEFAULT_WATCHDOG_MS, Decoded, INITIAL_HEAD_LEN, ImageError, Op, Program, ProgramMemory, Retained,
+    SM_IN_V, STACK_LEVELS, decode, verify,
 };
 
 use crate::assemble::assemble;
@@ -85,9 +85,11 @@ fn block(id: UnitId) -> &'static str {
 
 /// The header of a block with the declarations of its parameters.
 fn header(id: UnitId, parameters: &[Parameter], text: &mut String) {
-    let name = if id.kind == UnitKind::Main { "MAIN".to_owned() } else { format!("{}_{}", id.kind.letters(), id.number) };
+    let name =
+        if id.kind == UnitKind::Main { "MAIN".to_owned() } else { format!("{}_{}", id.kind.letters(), id.number) };
     let _ = writeln!(text, "\n{}_BLOCK {name}:{id}", block(id));
-    for (section, keyword) in [(Section::In, "VAR_INPUT"), (Section::InOut, "VAR_IN_OUT"), (Section::Out, "VAR_OUTPUT")] {
+    for (section, keyword) in [(Section::In, "VAR_INPUT"), (Section::InOut, "VAR_IN_OUT"), (Section::Out, "VAR_OUTPUT")]
+    {
         let mut is_open = false;
         for (number, parameter) in (1..).zip(parameters).filter(|(_, parameter)| parameter.section == section) {
             if !is_open {
@@ -128,7 +130,8 @@ fn data_block<P: ProgramMemory>(program: &Program<P>, text: &mut String) {
         let (first, len) = (program.memory().word(at), u16::from(program.memory().byte(at + 2)));
         at += INITIAL_HEAD_LEN;
         for start in (0..len).step_by(usize::from(BYTES_IN_LINE)) {
-            let bytes = (start..len.min(start + BYTES_IN_LINE)).map(|index| program.memory().byte(at + index).to_string());
+            let bytes =
+                (start..len.min(start + BYTES_IN_LINE)).map(|index| program.memory().byte(at + index).to_string());
             let _ = writeln!(text, "VB{} {}", first + start, bytes.collect::<Vec<_>>().join(", "));
         }
         at += len;

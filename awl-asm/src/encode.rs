@@ -112,7 +112,8 @@ impl Modules {
     fn of(checked: Checked<'_>) -> Modules {
         let mut used = [false; MODULES];
         for selected in checked.units.in_image().flat_map(|part| checked.code.get(part.code.clone()).unwrap_or(&[])) {
-            if let Some(place) = selected.op.instruction().module().and_then(|module| used.get_mut(usize::from(module))) {
+            if let Some(place) = selected.op.instruction().module().and_then(|module| used.get_mut(usize::from(module)))
+            {
                 *place = true;
             }
         }
@@ -375,7 +376,9 @@ impl<'a> Encoder<'a> {
             }
             Argument::Literal(_) | Argument::Real(_) | Argument::Text(_) | Argument::Pointer(_) => {
                 let constants_at = self.header.offsets().constants;
-                self.pool.reference(self.checked.program, selected, kind, argument, constants_at).map(Operand::Reference)
+                self.pool
+                    .reference(self.checked.program, selected, kind, argument, constants_at)
+                    .map(Operand::Reference)
             }
             _ => self.places.operand(self.checked.units, part, selected.op, kind, argument),
         }

@@ -118,11 +118,7 @@ fn is_byte(address: Address) -> bool {
 fn is_word(address: Address) -> bool {
     matches!(
         address,
-        Address::Word { .. }
-            | Address::Analog(_)
-            | Address::Timer(_)
-            | Address::Counter(_)
-            | Address::Accumulator(_)
+        Address::Word { .. } | Address::Analog(_) | Address::Timer(_) | Address::Counter(_) | Address::Accumulator(_)
     )
 }
 

@@ -5,11 +5,11 @@ use plc_isa::{Instruction, Relation};
 use crate::address::Address;
 use crate::ast::{self, Operand, Span, Statement, UnitKind, Value};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::lexer::{Ahead, Cut};
 use crate::hardware;
+use crate::lexer::{Ahead, Cut};
+use crate::locals::PARAMETERS_MAX;
 use crate::mnemonics::{Meaning, comparison, comparisons, confused, first_words, meaning, written_operands};
 use crate::parser::Parser;
-use crate::locals::PARAMETERS_MAX;
 use crate::resolve::{Pending, read_plain, routine_kind};
 
 /// Operands of one instruction that are looked at.

@@ -163,7 +163,9 @@ impl Listing<'_> {
                 Longest::Depends(at) => {
                     format!("it depends on how often the loop is repeated that closes in line {}", self.line_of(at))
                 }
-                Longest::Unknown(at) => format!("the cycles of the instruction in line {} are not known", self.line_of(at)),
+                Longest::Unknown(at) => {
+                    format!("the cycles of the instruction in line {} are not known", self.line_of(at))
+                }
             };
             let _ = writeln!(self.text, "longest scan, {name}: {text}");
         }
@@ -176,7 +178,9 @@ impl Listing<'_> {
     fn line_of(&self, at: u16) -> usize {
         let holds = |line: &Line| (line.at..line.at + u32::from(line.len)).contains(&u32::from(at));
         let index = self.assembly.lines.iter().position(holds);
-        index.and_then(|index| self.assembly.code.get(index)).map_or(0, |selected| self.source.position(span_of(&self.assembly.program, selected).start as usize).0)
+        index
+            .and_then(|index| self.assembly.code.get(index))
+            .map_or(0, |selected| self.source.position(span_of(&self.assembly.program, selected).start as usize).0)
     }
 }
 

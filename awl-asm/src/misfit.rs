@@ -9,7 +9,8 @@ use crate::fit::{Class, class_of, fit, written_kinds};
 
 /// Why no form of the candidates fits.
 pub(crate) fn misfit(source: &ast::Instruction, candidates: &[&'static Instruction]) -> Diagnostic {
-    let forms = || candidates.iter().flat_map(|instruction| instruction.forms.iter().map(move |form| (instruction, form)));
+    let forms =
+        || candidates.iter().flat_map(|instruction| instruction.forms.iter().map(move |form| (instruction, form)));
     let counts: Vec<usize> = forms().map(|(_, form)| written_kinds(form.kinds).count()).collect();
     let (name, given) = (source.mnemonic, source.operands.len());
     if !counts.contains(&given) {
@@ -20,7 +21,9 @@ pub(crate) fn misfit(source: &ast::Instruction, candidates: &[&'static Instructi
     let mut position = given.saturating_sub(1);
     for (index, operand) in source.operands.iter().enumerate() {
         let fits = |instruction, form: &'static Form| {
-            written_kinds(form.kinds).nth(index).is_some_and(|kind| fit(instruction, kind, index, &operand.value).is_some())
+            written_kinds(form.kinds)
+                .nth(index)
+                .is_some_and(|kind| fit(instruction, kind, index, &operand.value).is_some())
         };
         if !forms().any(|(instruction, form)| fits(instruction, form)) {
             position = index;
@@ -140,4 +143,3 @@ pub fn operand_name(name: &str) -> String {
         other => other.to_ascii_uppercase(),
     }
 }
-

@@ -200,9 +200,9 @@ pub(crate) fn written_operands(instruction: &Instruction) -> usize {
 /// Whether an operand of an instruction can be a text.
 pub(crate) fn takes_text(mnemonic: &str, operand: usize) -> bool {
     let same_name = INSTRUCTIONS.iter().filter(|instruction| instruction.mnemonic() == mnemonic);
-    let kinds = same_name.flat_map(|instruction| instruction.forms).filter_map(|form| {
-        form.kinds.iter().filter(|kind| kind.is_written()).nth(operand)
-    });
+    let kinds = same_name
+        .flat_map(|instruction| instruction.forms)
+        .filter_map(|form| form.kinds.iter().filter(|kind| kind.is_written()).nth(operand));
     kinds.into_iter().any(|kind| *kind == Kind::TextIn)
 }
 

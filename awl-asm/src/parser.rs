@@ -120,7 +120,7 @@ impl Parser<'_> {
         }
         match meaning {
             Some(Meaning::Instruction(instruction, operands)) => self.instruction(instruction, operands, word),
-            Some(Meaning::Return(kind)) => return self.unconditional_return(kind, word),
+            Some(Meaning::Return(kind)) => self.unconditional_return(kind, word),
             Some(Meaning::Refused) => self.refused(word),
             Some(Meaning::Keyword(_)) | None => self.unknown(word),
         }

@@ -206,7 +206,10 @@ fn unknown_mnemonics() {
 
 #[test]
 fn comparisons_beside_instructions_of_the_same_name() {
-    good("LDS 1\nLDS= VB0,\"ab\"\nOR<> VD0,1.5\nFND< VW0,5,AC0", "LDS 1; LDS= VB0,\"ab\"; OR<> VD0,1.5; FND< VW0,5,AC0");
+    good(
+        "LDS 1\nLDS= VB0,\"ab\"\nOR<> VD0,1.5\nFND< VW0,5,AC0",
+        "LDS 1; LDS= VB0,\"ab\"; OR<> VD0,1.5; FND< VW0,5,AC0",
+    );
     bad("OR I0.0", &["E0001 1:1 `OR`: OR: no such instruction -> O"]);
     bad("LD= 1", &["E0001 1:1 `LD=`: LD=: no such instruction -> LDW="]);
 }

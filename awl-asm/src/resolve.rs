@@ -6,8 +6,8 @@ use crate::address::{Address, AddressError};
 use crate::ast::{Instruction, Program, Span, Statement, Unit, UnitId, UnitKind, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::literal;
-pub(crate) use crate::locals::unit_id;
 use crate::locals::is_same_name;
+pub(crate) use crate::locals::unit_id;
 use crate::mnemonics::{Meaning, confused, meaning, takes_text};
 use crate::suggest::{Suggester, nearby_address};
 use crate::symbols::{Found, SymbolTable};
@@ -74,17 +74,19 @@ fn pointer(span: Span, inner: Value) -> Result<Value, Box<Diagnostic>> {
     let error = |message: &str| Diagnostic::new(Code::Pointer, span, message);
     let double = |area, byte: u16| format!("*{}", Address::Double { area, byte });
     Err(Box::new(match inner {
-        Value::Address(address @ Address::Double { area: Area::V | Area::L, .. }) => return Ok(Value::Indirect(address)),
+        Value::Address(address @ Address::Double { area: Area::V | Area::L, .. }) => {
+            return Ok(Value::Indirect(address));
+        }
         Value::Address(address @ Address::Accumulator(1..)) => return Ok(Value::Indirect(address)),
         Value::Address(Address::Accumulator(_)) => {
             error("AC0 cannot hold a pointer").suggest("*AC1").help("pointers are held by AC1, AC2 and AC3")
         }
         Value::Address(
-            Address::Byte { area: area @ (Area::V | Area::L), byte } | Address::Word { area: area @ (Area::V | Area::L), byte },
+            Address::Byte { area: area @ (Area::V | Area::L), byte }
+            | Address::Word { area: area @ (Area::V | Area::L), byte },
         ) => error("a pointer is a double word").suggest(double(area, byte)),
         Value::Invalid => return Ok(Value::Invalid),
-        _ => error("a pointer is held by V or L memory or by AC1, AC2 or AC3")
-            .help("such as *VD10, *LD0 or *AC1"),
+        _ => error("a pointer is held by V or L memory or by AC1, AC2 or AC3").help("such as *VD10, *LD0 or *AC1"),
     }))
 }
 
@@ -92,10 +94,14 @@ fn pointer(span: Span, inner: Value) -> Result<Value, Box<Diagnostic>> {
 fn pointer_to(span: Span, inner: Value) -> Result<Value, Box<Diagnostic>> {
     let error = |message: String| Diagnostic::new(Code::Pointer, span, message);
     Err(Box::new(match inner {
-        Value::Address(Address::Byte { area: Area::L, .. } | Address::Word { area: Area::L, .. } | Address::Double { area: Area::L, .. }) => {
-            error("no pointer can lead to local memory".into()).help("keep the value in V memory")
-        }
-        Value::Address(Address::Byte { area, byte } | Address::Word { area, byte } | Address::Double { area, byte }) => {
+        Value::Address(
+            Address::Byte { area: Area::L, .. }
+            | Address::Word { area: Area::L, .. }
+            | Address::Double { area: Area::L, .. },
+        ) => error("no pointer can lead to local memory".into()).help("keep the value in V memory"),
+        Value::Address(
+            Address::Byte { area, byte } | Address::Word { area, byte } | Address::Double { area, byte },
+        ) => {
             return Ok(Value::AddressOf(Address::Byte { area, byte }));
         }
         Value::Address(

@@ -116,7 +116,8 @@ impl Units {
         for caller in 0..self.parts.len() {
             let range = self.parts[caller].code.clone();
             for place in range {
-                let (Some(Op::Call), Argument::Routine(id)) = (code.get(place).map(|call| call.op), code[place].arguments[0])
+                let (Some(Op::Call), Argument::Routine(id)) =
+                    (code.get(place).map(|call| call.op), code[place].arguments[0])
                 else {
                     continue;
                 };
@@ -226,8 +227,10 @@ impl Units {
         };
         while order.len() < reached.len() {
             let is_next = |&unit: &usize| {
-                let waits = |caller: &usize| !order.contains(caller) && self.parts[*caller].calls.iter().any(|call| call.0 == unit);
-                !order.contains(&unit) && !reached.iter().any(|caller| waits(caller))
+                let waits = |caller: &usize| {
+                    !order.contains(caller) && self.parts[*caller].calls.iter().any(|call| call.0 == unit)
+                };
+                !order.contains(&unit) && !reached.iter().any(waits)
             };
             let Some(next) = reached.iter().copied().filter(is_next).min_by_key(|&unit| key(unit)) else { break };
             order.push(next);
@@ -342,7 +345,17 @@ impl Units {
             }
             let mut next = L_START + bases[unit];
             let part = &mut self.parts[unit];
-            part.places = used[unit].iter().map(|&used| if used { next += 1; next - 1 } else { 0 }).collect();
+            part.places = used[unit]
+                .iter()
+                .map(|&used| {
+                    if used {
+                        next += 1;
+                        next - 1
+                    } else {
+                        0
+                    }
+                })
+                .collect();
             part.scr = next;
         }
     }
@@ -350,7 +363,8 @@ impl Units {
     fn too_much_local(&self, unit: usize, len: u16, end: u16) -> Diagnostic {
         let part = &self.parts[unit];
         let size = Area::L.size();
-        let message = format!("{} needs {len} bytes of local memory: together they are {end}, there are {size}", part.name);
+        let message =
+            format!("{} needs {len} bytes of local memory: together they are {end}, there are {size}", part.name);
         Diagnostic::new(Code::LocalMemory, part.span, message)
             .help("the local memory of a unit lies behind that of the units that call it")
             .help("keep values that many units need in V or M memory")

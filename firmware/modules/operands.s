@@ -91,7 +91,9 @@ bad:
     rjmp fault
     pop r0
     pop r0
+; Boxes have power flow, and may use T for something else meanwhile.
 abandon:
+    set
     lds r24, ERROR_BITS
     ori r24, 1 << RUN_TIME_ERROR
     sts ERROR_BITS, r24

@@ -1,4 +1,4 @@
-//! What happens to the PLC from outside beside values that are set: pulses, a clock that is set.
+//! What happens to the PLC from outside beside values that are set: pulses, a clock that is set, characters on the line.
 
 use crate::pulse::Pulse;
 use plc_vm::TimeOfDay;
@@ -15,6 +15,13 @@ pub enum Action {
         /// To what.
         time: TimeOfDay,
     },
+    /// Characters come in on the serial line, one a millisecond.
+    Receive {
+        /// When the first comes, in milliseconds.
+        at_ms: u64,
+        /// The characters.
+        bytes: Vec<u8>,
+    },
 }
 
 impl Action {
@@ -22,7 +29,7 @@ impl Action {
     pub fn at_ms(&self) -> u64 {
         match self {
             Action::Pulse(pulse) => pulse.at_ms,
-            Action::SetClock { at_ms, .. } => *at_ms,
+            Action::SetClock { at_ms, .. } | Action::Receive { at_ms, .. } => *at_ms,
         }
     }
 
@@ -31,6 +38,7 @@ impl Action {
         match self {
             Action::Pulse(pulse) => pulse.end_ms(),
             Action::SetClock { at_ms, .. } => *at_ms,
+            Action::Receive { at_ms, bytes } => at_ms + bytes.len() as u64,
         }
     }
 }

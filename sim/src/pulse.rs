@@ -69,7 +69,7 @@ impl Pulse {
         }
         let step = index % self.edges_per_pulse();
         let (input, level) = match self.second {
-            Some(second) => (if step % 2 == 0 { self.input } else { second }, step < 2),
+            Some(second) => (if step.is_multiple_of(2) { self.input } else { second }, step < 2),
             None => (self.input, step == 0),
         };
         Some(Edge { at_ns: self.at_ms * NS_PER_MS + self.time_of(index), input, level })

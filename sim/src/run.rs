@@ -10,7 +10,7 @@ use crate::action::Action;
 use crate::machine::{Machine, MachineError, Mode};
 use crate::operand::Operand;
 use crate::plant::{Inputs, Plant, Report};
-use crate::scenario::{Expectation, Scenario, Setting};
+use crate::scenario::{Expectation, Scenario, SentExpectation, Setting};
 use crate::trace::{Signal, Trace};
 use awl_asm::Address;
 use plc_isa::AnalogInput;
@@ -96,7 +96,9 @@ fn scans(length: Length, scenario: &Scenario, scan_ms: u64) -> u64 {
         (Length::Scenario, None) if scenario.last_ms() == 0 => boundary(DEFAULT_RUN_MS, scan_ms),
         (Length::Scenario, None) => {
             // An expectation needs the scans before it, a value the scan that sees it.
-            let checks = scenario.expectations.iter().map(|expectation| boundary(expectation.at_ms, scan_ms));
+            let sent = scenario.sent.iter().map(|expectation| expectation.at_ms);
+            let checks = scenario.expectations.iter().map(|expectation| expectation.at_ms).chain(sent);
+            let checks = checks.map(|at_ms| boundary(at_ms, scan_ms));
             let sets = scenario.settings.iter().map(|setting| boundary(setting.at_ms, scan_ms) + 1);
             let actions = scenario.actions.iter().map(|action| boundary(action.end_ms(), scan_ms) + 1);
             checks.chain(sets).chain(actions).max().unwrap_or(0)
@@ -110,9 +112,11 @@ struct Schedule<'a> {
     settings: Vec<&'a Setting>,
     actions: Vec<&'a Action>,
     expectations: Vec<&'a Expectation>,
+    sent: Vec<&'a SentExpectation>,
     set: usize,
     begun: usize,
     checked: usize,
+    sent_checked: usize,
 }
 
 impl<'a> Schedule<'a> {
@@ -124,7 +128,9 @@ impl<'a> Schedule<'a> {
         let mut actions: Vec<_> = scenario.actions.iter().collect();
         actions.sort_by_key(|action| action.at_ms());
         expectations.sort_by_key(|expectation| expectation.at_ms);
-        Schedule { scan_ms, settings, actions, expectations, set: 0, begun: 0, checked: 0 }
+        let mut sent: Vec<_> = scenario.sent.iter().collect();
+        sent.sort_by_key(|expectation| expectation.at_ms);
+        Schedule { scan_ms, settings, actions, expectations, sent, set: 0, begun: 0, checked: 0, sent_checked: 0 }
     }
 
     fn check(
@@ -140,6 +146,14 @@ impl<'a> Schedule<'a> {
             self.checked += 1;
             machine.catch_up(expectation.at_ms);
             outcome.compare(expectation, machine.read(expectation.operand)?);
+        }
+        while let Some(expectation) = self.sent.get(self.sent_checked) {
+            if boundary(expectation.at_ms, self.scan_ms) > scan {
+                break;
+            }
+            self.sent_checked += 1;
+            machine.catch_up(expectation.at_ms);
+            outcome.compare_sent(expectation, &machine.take_sent()?);
         }
         Ok(())
     }
@@ -163,7 +177,8 @@ impl<'a> Schedule<'a> {
     }
 
     fn count_unreached(&self, outcome: &mut Outcome) {
-        outcome.unreached_expectations = self.expectations.len() - self.checked;
+        let sent_left = self.sent.len() - self.sent_checked;
+        outcome.unreached_expectations = self.expectations.len() - self.checked + sent_left;
         outcome.unreached_settings = self.settings.len() - self.set + self.actions.len() - self.begun;
     }
 }

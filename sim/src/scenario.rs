@@ -42,6 +42,8 @@ pub struct Scenario {
     pub actions: Vec<Action>,
     /// `at T expect operand = value`, in the order of the file.
     pub expectations: Vec<Expectation>,
+    /// `at T expect sent "text"`, in the order of the file.
+    pub sent: Vec<SentExpectation>,
 }
 
 /// An operand that gets a value.
@@ -80,6 +82,17 @@ impl Expectation {
     }
 }
 
+/// What must have been sent on the serial line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SentExpectation {
+    /// Line of the scenario, from 1.
+    pub line: usize,
+    /// When, in milliseconds.
+    pub at_ms: u64,
+    /// Everything since the last such expectation.
+    pub bytes: Vec<u8>,
+}
+
 /// What a scenario is read against.
 pub struct Context<'a> {
     /// The names that the program gives to addresses.
@@ -100,7 +113,8 @@ impl Scenario {
     pub fn last_ms(&self) -> u64 {
         let settings = self.settings.iter().map(|setting| setting.at_ms);
         let expectations = self.expectations.iter().map(|expectation| expectation.at_ms);
-        settings.chain(expectations).chain(self.actions.iter().map(Action::end_ms)).max().unwrap_or(0)
+        let sent = self.sent.iter().map(|expectation| expectation.at_ms);
+        settings.chain(expectations).chain(sent).chain(self.actions.iter().map(Action::end_ms)).max().unwrap_or(0)
     }
 }
 

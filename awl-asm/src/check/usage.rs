@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use plc_isa::{Area, Group, DIGITAL_INPUTS, DIGITAL_OUTPUTS, Op, TimerKind};
+use plc_isa::{Area, DIGITAL_INPUTS, DIGITAL_OUTPUTS, Group, Op, TimerKind};
 
 use crate::address::Address;
 use crate::ast::{Program, Span};
@@ -84,7 +84,10 @@ fn is_local(address: Address) -> bool {
 /// Instructions whose output is also an input: OUT := OUT op IN1.
 fn updates(op: Op) -> bool {
     matches!(op.instruction().group, Group::Math | Group::Logic | Group::Shift)
-        || matches!(op, Op::AddReal | Op::SubReal | Op::MulReal | Op::DivReal | Op::Scat | Op::Swap | Op::Bcdi | Op::Ibcd)
+        || matches!(
+            op,
+            Op::AddReal | Op::SubReal | Op::MulReal | Op::DivReal | Op::Scat | Op::Swap | Op::Bcdi | Op::Ibcd
+        )
 }
 
 struct Check<'a> {
@@ -211,7 +214,9 @@ impl Check<'_> {
     fn pin(&self, address: Address, accesses: &[Access], diagnostics: &mut Vec<Diagnostic>) {
         let (area, byte, bit) = match address {
             Address::Bit { area, byte, bit } => (area, byte, bit),
-            Address::Byte { area, byte } | Address::Word { area, byte } | Address::Double { area, byte } => (area, byte, 0),
+            Address::Byte { area, byte } | Address::Word { area, byte } | Address::Double { area, byte } => {
+                (area, byte, 0)
+            }
             _ => return,
         };
         let (count, direction, effect) = match area {

@@ -152,7 +152,6 @@ mod tests {
             ("LD SM0.0\nFOR MW0, 1, 5\nINCW MW0\nNEXT\n", "NEXT"),
             ("LD SM0.0\nFOR MW0, 1, 5\nMOVB 0, MB1\nNEXT\n", "NEXT"),
             ("LD SM0.0\nFOR MW2, 1, 5\nS M0.0, 17\nNEXT\n", "NEXT"),
-            ("LD SM0.0\nFOR MW2, 1, 5\nR M0.0, MB9\nNEXT\n", "NEXT"),
             ("LBL 1\nLD I0.0\nJMP 1\n", "JMP"),
         ] {
             let cost = cost_of(text);

@@ -91,7 +91,8 @@ pub fn cost(image: &[u8]) -> Option<ProgramCost> {
     let translated = translate(image).ok();
     let mut native = translated.as_ref().map(|translated| native_ways(translated, program.plan(), &code));
     // What the firmware executes for machine code costs what it costs the interpreter.
-    for (native, _) in native.iter_mut().flatten().zip(&interpreted).filter(|(_, interpreted)| !interpreted.is_known()) {
+    for (native, _) in native.iter_mut().flatten().zip(&interpreted).filter(|(_, interpreted)| !interpreted.is_known())
+    {
         *native = Ways::default();
     }
     let instructions = code.iter().enumerate().map(|(index, &(at, _))| InstructionCost {

@@ -146,7 +146,10 @@ pub(super) fn local(operand: Operand) -> Option<u16> {
 }
 
 pub(super) fn offset(decoded: &Decoded) -> u16 {
-    decoded.operands().find_map(|(_, operand)| if let Operand::Offset(offset) = operand { Some(offset) } else { None }).unwrap_or(0)
+    decoded
+        .operands()
+        .find_map(|(_, operand)| if let Operand::Offset(offset) = operand { Some(offset) } else { None })
+        .unwrap_or(0)
 }
 
 pub(super) fn number(decoded: &Decoded) -> Option<u8> {

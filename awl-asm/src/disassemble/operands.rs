@@ -1,8 +1,8 @@
 //! Instructions and their operands as text.
 
 use plc_isa::{
-    AnalogInput, Area, Bit, Decoded, Group, Kind, L_START, Op, Operand, Place, Program, ProgramMemory, Reference, Region,
-    pointer,
+    AnalogInput, Area, Bit, Decoded, Group, Kind, L_START, Op, Operand, Place, Program, ProgramMemory, Reference,
+    Region, pointer,
 };
 
 use crate::address::Address;
@@ -30,7 +30,9 @@ impl<'a, P: ProgramMemory> Writer<'a, P> {
         let mut writer = Writer {
             program,
             frames,
-            has_pointers: code.iter().any(|(_, _, decoded)| decoded.operands().any(|(_, operand)| is_indirect(operand))),
+            has_pointers: code
+                .iter()
+                .any(|(_, _, decoded)| decoded.operands().any(|(_, operand)| is_indirect(operand))),
             call: Vec::new(),
             is_in_call: false,
             has_called: false,

@@ -2,7 +2,10 @@
 
 use std::ops::Range;
 
-use plc_isa::{C_BITS_START, DATA_END, DATA_START, Decoded, Kind, L_START, Op, Operand, Plan, ProgramMemory, SM_START, T_BITS_START};
+use plc_isa::{
+    C_BITS_START, DATA_END, DATA_START, Decoded, Kind, L_START, Op, Operand, Plan, ProgramMemory, SM_START,
+    T_BITS_START,
+};
 
 /// SMB1, where arithmetic leaves its results' properties.
 pub const STATUS: u16 = SM_START + 1;

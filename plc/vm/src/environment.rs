@@ -26,6 +26,11 @@ pub trait Environment {
     /// WDR: the watchdog time of this scan starts again.
     fn retrigger_watchdog(&mut self);
 
+    /// XMT sends a character on the serial line.
+    fn transmit(&mut self, character: u8) {
+        let _ = character;
+    }
+
     /// Advances every running timer of this resolution, 1 ms or 10 ms, by so many ticks. For an engine that does the same
     /// in another way.
     #[cfg_attr(not(target_arch = "avr"), inline(always))]

@@ -180,10 +180,25 @@ impl Events {
         self.hardware.levels = levels;
     }
 
+    /// A character comes in on the serial line.
+    pub(crate) fn character<P: ProgramMemory>(
+        &mut self,
+        character: u8,
+        now_ms: u32,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+    ) {
+        if let Some(event) = self.hardware.freeport.character(character, now_ms, plan, memory) {
+            self.occur(event, plan, memory);
+        }
+    }
+
     /// A scan starts so many milliseconds after the last one.
     pub(crate) fn pass<P: ProgramMemory>(&mut self, passed_ms: u32, now_ms: u32, plan: &Plan<P>, memory: &mut Memory) {
         self.hardware.clock.now(now_ms);
-        for event in self.hardware.pulses.pass(passed_ms, plan, memory).into_iter().flatten() {
+        let events = self.hardware.pulses.pass(passed_ms, plan, memory);
+        let communication = self.hardware.freeport.pass(now_ms, plan, memory);
+        for event in events.into_iter().chain([communication]).flatten() {
             self.occur(event, plan, memory);
         }
         if plan.header.events == 0 {

@@ -149,6 +149,16 @@ impl<P: ProgramMemory> Plc<P> {
         self.events.hardware.pulses.duty(output).filter(|_| self.mode == Mode::Run)
     }
 
+    /// A character comes in on the serial line, at this time in milliseconds, between two scans.
+    #[cfg(not(target_arch = "avr"))]
+    pub fn receive(&mut self, memory: &mut Memory, character: u8, now_ms: u32) {
+        if let Some(program) = &self.program
+            && self.mode == Mode::Run
+        {
+            self.events.character(character, now_ms, program.plan(), memory);
+        }
+    }
+
     /// The software clock is set from outside, at this time in milliseconds.
     #[cfg(not(target_arch = "avr"))]
     pub fn set_clock(&mut self, time: crate::TimeOfDay, now_ms: u32) {

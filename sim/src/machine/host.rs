@@ -1,5 +1,7 @@
 //! The host machine: the reference interpreter with virtual time. What the board does, without a board.
 
+use std::collections::VecDeque;
+
 use plc_isa::Plan;
 use plc_vm::{Environment, Fault, Inputs, Memory, Plc, SCAN_MS_MAX};
 
@@ -22,6 +24,8 @@ struct VirtualTime {
     looped_bytes_max: u64,
     /// Since the scan started.
     scan_bytes: u64,
+    /// On the serial line.
+    sent: Vec<u8>,
 }
 
 impl VirtualTime {
@@ -44,6 +48,10 @@ impl Environment for VirtualTime {
     fn retrigger_watchdog(&mut self) {
         self.looped_bytes = 0;
     }
+
+    fn transmit(&mut self, character: u8) {
+        self.sent.push(character);
+    }
 }
 
 /// A PLC on the host.
@@ -54,6 +62,8 @@ pub struct Host {
     time: VirtualTime,
     clock_start_ms: u32,
     pulses: Pulses,
+    /// Characters that will come in, and when.
+    incoming: VecDeque<(u64, u8)>,
     place_of: PlaceOf,
 }
 
@@ -64,9 +74,10 @@ impl Host {
             plc: Plc::new(),
             memory: Memory::new(),
             inputs: Inputs::default(),
-            time: VirtualTime { now_ms: 0, looped_bytes: 0, looped_bytes_max: 0, scan_bytes: 0 },
+            time: VirtualTime { now_ms: 0, looped_bytes: 0, looped_bytes_max: 0, scan_bytes: 0, sent: Vec::new() },
             clock_start_ms: 0,
             pulses: Pulses::default(),
+            incoming: VecDeque::new(),
             place_of,
         };
         if host.plc.load(&mut host.memory, image).is_ok() {
@@ -118,6 +129,14 @@ impl Host {
             self.plc.see_inputs(&mut self.memory, self.inputs.digital[0]);
         }
         self.plc.see_inputs(&mut self.memory, self.inputs.digital[0]);
+    }
+
+    /// Gives the PLC the characters that have come in by now.
+    fn pass_characters(&mut self, now_ms: u64) {
+        while let Some((at_ms, character)) = self.incoming.pop_front_if(|(at_ms, _)| *at_ms <= now_ms) {
+            let at_ms = self.clock_ms(at_ms);
+            self.plc.receive(&mut self.memory, character, at_ms);
+        }
     }
 
     fn watchdog_ms(&self) -> u64 {
@@ -172,13 +191,19 @@ impl Machine for Host {
         match *action {
             Action::Pulse(pulse) => self.pulses.begin(pulse),
             Action::SetClock { at_ms, time } => self.plc.set_clock(time, self.clock_ms(at_ms)),
+            Action::Receive { at_ms, ref bytes } => self.incoming.extend((at_ms..).zip(bytes.iter().copied())),
         }
         Ok(())
+    }
+
+    fn take_sent(&mut self) -> Result<Vec<u8>, MachineError> {
+        Ok(std::mem::take(&mut self.time.sent))
     }
 
     fn scan(&mut self, now_ms: u64) {
         self.time.now_ms = self.clock_ms(now_ms);
         self.pass_edges(now_ms);
+        self.pass_characters(now_ms);
         (self.time.looped_bytes, self.time.scan_bytes) = (0, 0);
         self.plc.scan(&mut self.memory, &self.inputs, &mut self.time);
     }

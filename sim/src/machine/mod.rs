@@ -62,8 +62,14 @@ pub trait Machine {
         let what = match action {
             Action::Pulse(_) => "pulses",
             Action::SetClock { .. } => "setting of the clock",
+            Action::Receive { .. } => "characters",
         };
         Err(MachineError(format!("this machine takes no {what}")))
+    }
+
+    /// What the program has sent on the serial line (XMT) since the last call.
+    fn take_sent(&mut self) -> Result<Vec<u8>, MachineError> {
+        Err(MachineError("this machine does not show what the program sends".to_string()))
     }
 
     /// Runs one scan that starts at `now_ms`. Times never decrease.

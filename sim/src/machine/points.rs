@@ -185,7 +185,9 @@ fn not_used(operand: Operand) -> MachineError {
     | Address::Double { area: Area::L, .. } = operand.address()
     {
         let address = operand.address();
-        return MachineError(format!("{address} is another place in every unit of the program: copy it to V or M to see it"));
+        return MachineError(format!(
+            "{address} is another place in every unit of the program: copy it to V or M to see it"
+        ));
     }
     MachineError(format!("the program does not use {}", operand.address()))
 }

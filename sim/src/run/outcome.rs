@@ -1,12 +1,10 @@
 //! What came out of a run: checks, faults, trace. How it is told is the command line's business.
 
 use std::fmt;
-use std::ops::RangeInclusive;
 
 use crate::machine::Machine;
-use crate::operand::Operand;
 use crate::plant::Report;
-use crate::scenario::Expectation;
+use crate::scenario::{Expectation, SentExpectation};
 use crate::time::format_time;
 use crate::trace::Trace;
 
@@ -19,23 +17,15 @@ pub struct Failure {
     pub at_ms: u64,
     /// The operand as written.
     pub name: String,
-    /// The operand.
-    pub operand: Operand,
-    /// The values that would have been right.
-    pub expected: RangeInclusive<i32>,
+    /// The value that would have been right, or the range of such values.
+    pub expected: String,
     /// The value it had.
-    pub got: i32,
+    pub got: String,
 }
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [low, high, got] =
-            [*self.expected.start(), *self.expected.end(), self.got].map(|value| self.operand.text(value));
-        write!(f, "at {} expected {} = {low}", format_time(self.at_ms), self.name)?;
-        if low != high {
-            write!(f, "..{high}")?;
-        }
-        write!(f, ", got {got}")
+        write!(f, "at {} expected {} = {}, got {}", format_time(self.at_ms), self.name, self.expected, self.got)
     }
 }
 
@@ -83,13 +73,31 @@ impl Outcome {
             self.met += 1;
             return;
         }
+        let text = |value| expectation.operand.text(value);
+        let (low, high) = (*expectation.values.start(), *expectation.values.end());
+        let expected = if low == high { text(low) } else { format!("{}..{}", text(low), text(high)) };
+        let name = expectation.name.clone();
         self.failures.push(Failure {
             line: expectation.line,
             at_ms: expectation.at_ms,
-            name: expectation.name.clone(),
-            operand: expectation.operand,
-            expected: expectation.values.clone(),
-            got,
+            name,
+            expected,
+            got: text(got),
+        });
+    }
+
+    pub(super) fn compare_sent(&mut self, expectation: &SentExpectation, got: &[u8]) {
+        if expectation.bytes == got {
+            self.met += 1;
+            return;
+        }
+        let text = |bytes: &[u8]| format!("\"{}\"", bytes.escape_ascii());
+        self.failures.push(Failure {
+            line: expectation.line,
+            at_ms: expectation.at_ms,
+            name: "sent".to_string(),
+            expected: text(&expectation.bytes),
+            got: text(got),
         });
     }
 

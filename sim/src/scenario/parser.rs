@@ -18,7 +18,7 @@ const STATEMENTS: [&str; 4] = ["scan", "at", "run", "plant"];
 /// Most characters of a string.
 const TEXT_MAX: usize = 254;
 /// What can follow a time beside an assignment.
-const WORDS_AFTER_TIME: [&str; 3] = ["expect", "pulse", "clock"];
+const WORDS_AFTER_TIME: [&str; 4] = ["expect", "pulse", "clock", "receive"];
 
 /// A stretch of the text that knows where it stands.
 #[derive(Clone, Copy)]
@@ -127,6 +127,12 @@ fn is_radix_sign(line: &str, at: usize) -> bool {
     line[..at].ends_with(|c: char| c.is_ascii_digit()) && line[at + 1..].starts_with(|c: char| c.is_ascii_hexdigit())
 }
 
+/// `sent "text"`, which is not the symbol `sent`.
+fn is_sent(piece: Piece<'_>) -> bool {
+    let (word, rest) = piece.split_word();
+    word.text.eq_ignore_ascii_case("sent") && !rest.text.starts_with('=')
+}
+
 impl<'a> Parser<'a, '_> {
     fn fail(&mut self, piece: Piece<'_>, message: impl Into<String>) {
         self.problems.push(Problem::new(piece.span(), message));
@@ -200,6 +206,8 @@ impl<'a> Parser<'a, '_> {
         match word.text.to_ascii_lowercase().as_str() {
             "pulse" => return self.pulse(after_word, at_ms),
             "clock" => return self.clock(after_word, at_ms),
+            "receive" => return self.receive(after_word, at_ms),
+            "expect" if is_sent(after_word) => return self.sent(after_word.split_word().1, at_ms, line),
             _ => {}
         }
         let is_expect = word.text.eq_ignore_ascii_case("expect");

@@ -3,6 +3,7 @@
 use plc_isa::{Op, Plan, ProgramMemory};
 
 use super::clock::{BUFFER_LEN, SoftwareClock, TimeOfDay};
+use super::freeport::{self, Freeport};
 use super::high_speed::{HighSpeedCounters, Occurred};
 use super::pulse::PulseOutputs;
 use super::{Execution, Failure};
@@ -17,6 +18,7 @@ pub(crate) struct Hardware {
     pub levels: u8,
     pub counters: HighSpeedCounters,
     pub pulses: PulseOutputs,
+    pub freeport: Freeport,
     pub clock: SoftwareClock,
     /// DLED: the diagnosis LED is on.
     pub diagnosis_led: bool,
@@ -28,6 +30,7 @@ impl Hardware {
         levels: 0,
         counters: HighSpeedCounters::UNDEFINED,
         pulses: PulseOutputs::NONE,
+        freeport: Freeport::QUIET,
         clock: SoftwareClock::NOT_SET,
         diagnosis_led: false,
     };
@@ -83,8 +86,39 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
                 self.interpreter.events.hardware.clock.set(time, now_ms);
                 Ok(())
             }
+            Op::Xmt => self.transmit(),
+            Op::Rcv => self.receive(),
             _ => Err(Failure::Undefined),
         }
+    }
+
+    /// XMT: the first byte of the table is the number of characters.
+    fn transmit(&mut self) -> Result<(), Failure> {
+        let table = self.source(0, Width::Byte, 1)?;
+        let count = self.interpreter.memory.byte(table);
+        self.source(0, Width::Byte, 1 + u16::from(count))?;
+        let interpreter = &mut *self.interpreter;
+        done(interpreter.events.hardware.freeport.send(count, interpreter.clock.now_ms, interpreter.memory))?;
+        for at in 1..=u16::from(count) {
+            let character = interpreter.memory.byte(table + at);
+            interpreter.environment.transmit(character);
+        }
+        Ok(())
+    }
+
+    /// RCV: the table must hold as many characters as may come.
+    fn receive(&mut self) -> Result<(), Failure> {
+        let plan = self.interpreter.program.plan();
+        let count_max = freeport::receive_max(plan, self.interpreter.memory);
+        let table = self.target(0, Width::Byte, 1 + u16::from(count_max))?;
+        let interpreter = &mut *self.interpreter;
+        let (plan, now_ms) = (interpreter.program.plan(), interpreter.clock.now_ms);
+        let freeport = &mut interpreter.events.hardware.freeport;
+        let (is_done, event) = freeport.receive(table, now_ms, plan, interpreter.memory);
+        if let Some(event) = event {
+            interpreter.events.occur(event, plan, interpreter.memory);
+        }
+        done(is_done)
     }
 }
 

@@ -6,6 +6,7 @@ mod ascii;
 mod clock;
 mod compare;
 mod convert;
+mod freeport;
 pub(crate) mod hardware;
 mod high_speed;
 mod logic;

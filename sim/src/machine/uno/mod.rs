@@ -284,6 +284,7 @@ impl Machine for Uno {
                 self.board.pulses.begin(pulse);
                 Ok(())
             }
+            Action::Receive { .. } => error("no characters can be sent to a virtual Uno here"),
             Action::SetClock { .. } => error("the board's clock is set by its program (TODW)"),
         }
     }

@@ -1,9 +1,11 @@
-//! The statements for what happens beside values that are set: `pulse` and `clock`.
+//! The statements for what happens beside values that are set: `pulse`, `clock`, `receive`, `expect sent`.
 
 use awl_asm::Address;
 use plc_isa::Area;
 use plc_vm::TimeOfDay;
 
+use super::super::SentExpectation;
+use super::super::value::text_bytes;
 use super::{Parser, Piece};
 use crate::action::Action;
 use crate::operand::Operand;
@@ -98,6 +100,29 @@ impl<'a> Parser<'a, '_> {
                 None
             }
         }
+    }
+
+    /// `receive "text"`.
+    pub(super) fn receive(&mut self, rest: Piece<'a>, at_ms: u64) {
+        if let Some(bytes) = self.text_alone(rest) {
+            self.scenario.actions.push(Action::Receive { at_ms, bytes });
+            self.action_spans.push(rest.span());
+        }
+    }
+
+    /// `expect sent "text"`.
+    pub(super) fn sent(&mut self, rest: Piece<'a>, at_ms: u64, line: usize) {
+        if let Some(bytes) = self.text_alone(rest) {
+            self.scenario.sent.push(SentExpectation { line, at_ms, bytes });
+        }
+    }
+
+    fn text_alone(&mut self, text: Piece<'a>) -> Option<Vec<u8>> {
+        if !text.text.starts_with('"') {
+            self.fail(text, "a text in quotes is missing");
+            return None;
+        }
+        text_bytes(text.text).map_err(|message| self.fail(text, message)).ok()
     }
 
     /// `clock 2026-11-21 15:00:00`.
