@@ -288,6 +288,9 @@ impl<'a> Encoder<'a> {
         self.end_call(Some(selected.statement));
         let start = self.image.len();
         let is_load = is_load(selected.op);
+        let next = self.checked.code.get(index + 1).filter(|_| part.code.contains(&(index + 1)));
+        // Whatever power comes to: behind the last of a run of O, one time is enough.
+        let is_powered = is_load || is_or(selected.op) && !next.is_some_and(|next| is_or(next.op));
         if is_load && self.has_interrupts && part.polls && before.is_none_or(|before| !is_contact(before)) {
             self.push(Op::Poll, &[]);
         }
@@ -305,7 +308,7 @@ impl<'a> Encoder<'a> {
         if selected.op == Op::CallBegin {
             self.open_call = Some((self.image.len(), selected.statement));
         }
-        self.in_segment(part, selected, &operands, is_load);
+        self.in_segment(part, selected, &operands, is_powered);
         let len = (self.image.len() - start) as u8;
         self.lines[index] = Line { at: start as u32, len, hidden_len: hidden_len as u8 };
     }
@@ -319,12 +322,12 @@ impl<'a> Encoder<'a> {
         }
     }
 
-    /// Follows the segments of a sequence, in which every load is combined with the SCR bit.
-    fn in_segment(&mut self, part: &Part, selected: &Selected, operands: &[Operand], is_load: bool) {
+    /// Follows the segments of a sequence, in which loads and parallel contacts are combined with the SCR bit.
+    fn in_segment(&mut self, part: &Part, selected: &Selected, operands: &[Operand], is_powered: bool) {
         match selected.op {
             Op::Lscr => self.segment = operands.first().copied(),
             Op::Scre => self.segment = None,
-            _ if is_load && self.segment.is_some() => self.push(Op::ScrAnd, &[scr_bit(part)]),
+            _ if is_powered && self.segment.is_some() => self.push(Op::ScrAnd, &[scr_bit(part)]),
             _ => {}
         }
     }
@@ -432,6 +435,12 @@ impl<'a> Encoder<'a> {
 fn is_load(op: Op) -> bool {
     let stack = op.instruction().stack;
     stack.needs == 0 && stack.adds > 0 && op != Op::Lscr
+}
+
+/// Whether an instruction combines by OR: a contact that lies parallel to what comes before.
+fn is_or(op: Op) -> bool {
+    use Op::{O, Ob, Oi, On, Oni, OrByteAny, OrDouble, OrReal, OrText, OrWordAny, Ow};
+    matches!(op, O | On | Oi | Oni | Ob | Ow | OrByteAny | OrWordAny | OrDouble | OrReal | OrText)
 }
 
 /// The hidden SCR bit of a unit.

@@ -75,3 +75,21 @@ fn text_len(program: &Program, selected: &Selected, index: usize) -> u16 {
         _ => 0,
     }
 }
+
+/// Whether an instruction reaches memory that only the running program knows: by pointers, tables, texts and counts in
+/// memory.
+pub(crate) fn is_open(selected: &Selected) -> bool {
+    let arguments = &selected.arguments;
+    let is_counted = |place: usize| !matches!(arguments[place], Argument::Literal(_));
+    let has_memory = |place: usize| matches!(arguments[place], Argument::Memory(_));
+    arguments.iter().any(|argument| matches!(argument, Argument::Indirect(_)))
+        || match selected.op {
+            Op::Att | Op::Fifo | Op::Lifo | Op::Fnd | Op::Scat | Op::Rcv | Op::Xmt => true,
+            Op::Bmb | Op::Bmw | Op::Bmd | Op::Fill | Op::Ath | Op::Hta => is_counted(2),
+            Op::SetAny | Op::ResetAny => true,
+            Op::Scpy | Op::Slen | Op::Sti | Op::Std | Op::Str => has_memory(0),
+            Op::Sscpy => has_memory(0) || is_counted(2),
+            Op::Sfnd | Op::Cfnd | Op::LoadText | Op::AndText | Op::OrText => has_memory(0) || has_memory(1),
+            _ => false,
+        }
+}

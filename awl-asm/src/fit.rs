@@ -61,7 +61,7 @@ pub(crate) fn fit(instruction: &Instruction, kind: Kind, index: usize, value: &V
                 }
                 (Class::Timer, Address::Timer(number)) => return Some(Argument::Timer(number)),
                 (Class::Counter, Address::Counter(number)) => return Some(Argument::Counter(number)),
-                (Class::Byte | Class::AnyByte, _) => is_byte(address),
+                (Class::Byte | Class::AnyByte | Class::Shift, _) => is_byte(address),
                 (Class::Word | Class::AnyInt | Class::AnyWord, Address::AnalogOutput(_)) => kind.is_output(),
                 (Class::Word | Class::AnyInt | Class::AnyWord, _) => is_word(address),
                 (Class::Double | Class::AnyDint | Class::AnyDouble, Address::HighSpeedCounter(_)) => !kind.is_output(),
@@ -105,7 +105,7 @@ fn fit_constant(instruction: &Instruction, kind: Kind, constant: Constant) -> Op
         Class::Number(_) => Argument::Number(value as u8),
         Class::Event => Argument::Event(value as u8),
         _ if !kind.is_reference() => Argument::Constant(value as u16),
-        Class::AnyByte => Argument::Literal(i32::from(value as u8)),
+        Class::AnyByte | Class::Shift => Argument::Literal(i32::from(value as u8)),
         Class::AnyInt | Class::AnyWord => Argument::Literal(i32::from(value as i16)),
         _ => Argument::Literal(value as i32),
     })
@@ -141,6 +141,8 @@ pub(crate) enum Class {
     Real,
     Text,
     AnyByte,
+    /// A byte or a constant of SHRB, whose sign is the direction.
+    Shift,
     /// A word or a signed constant.
     AnyInt,
     /// A word or a constant, signed or not.
@@ -163,7 +165,10 @@ pub(crate) enum Class {
 impl Class {
     /// Whether it is memory or a constant.
     pub(crate) fn is_general(self) -> bool {
-        matches!(self, Class::AnyByte | Class::AnyInt | Class::AnyWord | Class::AnyDint | Class::AnyDouble)
+        matches!(
+            self,
+            Class::AnyByte | Class::Shift | Class::AnyInt | Class::AnyWord | Class::AnyDint | Class::AnyDouble
+        )
     }
 
     /// The least and the greatest constant, where there are constants.
@@ -171,6 +176,7 @@ impl Class {
         match self {
             Class::Constant(least, most) => Some((least, most)),
             Class::AnyByte => Some((0, 255)),
+            Class::Shift => Some((-64, 64)),
             Class::AnyInt => Some((i64::from(i16::MIN), MAX_INT)),
             Class::AnyWord => Some((i64::from(i16::MIN), i64::from(u16::MAX))),
             Class::AnyDint => Some((i64::from(i32::MIN), MAX_DINT)),
@@ -192,6 +198,7 @@ impl Class {
             Class::Real => "a double word for a real".into(),
             Class::Text => "the first byte of a text".into(),
             Class::AnyByte => "a byte or a constant 0 to 255".into(),
+            Class::Shift => "a byte or a constant -64 to 64".into(),
             Class::AnyInt => "a word or a constant -32768 to 32767".into(),
             Class::AnyWord => "a word or a constant -32768 to 65535".into(),
             Class::AnyDint => "a double word or a constant -2147483648 to 2147483647".into(),
@@ -229,6 +236,7 @@ pub(crate) fn class_of(instruction: &Instruction, kind: Kind) -> Class {
         Kind::TextTo => Class::Text,
         // Other counts are constants of core instructions.
         Kind::ByteIn if matches!(instruction.op, Op::SetAny | Op::ResetAny) => Class::Byte,
+        Kind::ByteIn if instruction.op == Op::Shrb => Class::Shift,
         Kind::AnyByte | Kind::ByteIn => Class::AnyByte,
         Kind::AnyInt => Class::AnyInt,
         Kind::WordIn if is_signed(instruction) => Class::AnyInt,

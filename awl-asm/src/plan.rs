@@ -3,15 +3,15 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use plc_isa::{
-    AC_START, AQW_START, ARENA_LEN, Area, Bit, COUNTER_SLOT_LEN, EVENT_LEN, Group, HC0, HC3, Header, Kind, Op, Operand,
-    Place, Plan, RETAINED_LEN_MAX, Reference, Retained, SM_IN_V, TIMER_SLOT_LEN, TimerKind, counter_bit, timer_bit,
+    AC_START, AQW_START, ARENA_LEN, Area, Bit, COUNTER_SLOT_LEN, EVENT_LEN, HC0, HC3, Header, Kind, Op, Operand, Place,
+    Plan, RETAINED_LEN_MAX, Reference, Retained, SM_IN_V, TIMER_SLOT_LEN, TimerKind, counter_bit, timer_bit,
 };
 
 use crate::address::Address;
 use crate::ast::{Program, Span};
 use crate::check::{operand_span, span_of};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::extent::extent;
+use crate::extent::{extent, is_open};
 use crate::select::{Argument, Selected};
 use crate::units::{Part, Units};
 
@@ -138,8 +138,12 @@ pub fn demand(program: &Program, code: &[Selected], units: &Units, diagnostics: 
             diagnostics.push(Diagnostic::new(Code::TooMany, span_of(program, selected), message));
         }
     }
-    let (full_at, mut demand) = collect.finish();
+    let (full_at, mut demand) = collect.finish(program);
+    demand.retained_len = 0;
     let place = add_retained(program, &mut demand);
+    // Bytes that are asked for can lie far from those that are named.
+    let is_full = demand.together_len() > usize::from(ARENA_LEN);
+    let place = place.or(program.memory.first().filter(|_| is_full).map(|&(.., span)| span));
     let message = if demand.together_len() > usize::from(ARENA_LEN) {
         format!("the program needs {} bytes of data memory, the board has {ARENA_LEN}", demand.together_len())
     } else {
@@ -169,8 +173,8 @@ struct Collect {
     /// Bytes of V in use, and behind them those of SM.
     used: Vec<bool>,
     v_len: usize,
-    /// The program reaches V memory by ways that its text does not show: all of it must lie together.
-    is_one_span: bool,
+    /// The program reaches V memory that its text does not show.
+    is_open: bool,
     demand: Demand,
     counters: [bool; 256],
     full_at: Option<Span>,
@@ -181,7 +185,7 @@ impl Collect {
         Collect {
             used: vec![false; usize::from(Area::V.size() + Area::Sm.size())],
             v_len: 0,
-            is_one_span: false,
+            is_open: false,
             demand: Demand::default(),
             counters: [false; 256],
             full_at: None,
@@ -239,7 +243,7 @@ impl Collect {
         self.demand.edges += usize::from(is_edge(selected.op));
         self.note_if_full(|| span_of(program, selected));
         self.special_memory(selected);
-        self.is_one_span |= matches!(selected.op.instruction().group, Group::Text | Group::Table);
+        self.is_open |= is_open(selected);
         for (index, (argument, _)) in selected.arguments().enumerate() {
             match argument {
                 Argument::Memory(Address::Timer(number)) | Argument::Pointer(Address::Timer(number)) => {
@@ -251,10 +255,7 @@ impl Collect {
                 Argument::Bit(address) | Argument::Memory(address) => {
                     self.area_bytes(address, extent(program, selected, index));
                 }
-                Argument::Indirect(address) => {
-                    self.is_one_span = true;
-                    self.area_bytes(address, 4);
-                }
+                Argument::Indirect(address) => self.area_bytes(address, 4),
                 Argument::Pointer(address) => self.area_bytes(address, 1),
                 Argument::Timer(number) => {
                     if let Some(kind) = TimerKind::started_by(selected.op) {
@@ -288,16 +289,34 @@ impl Collect {
         }
     }
 
-    fn finish(mut self) -> (Option<Span>, Demand) {
-        let (v, sm) = self.used.split_at_mut(usize::from(Area::V.size()));
-        if let (true, Some(first), Some(last)) =
-            (self.is_one_span, v.iter().position(|&used| used), v.iter().rposition(|&used| used))
-        {
+    fn finish(mut self, program: &Program) -> (Option<Span>, Demand) {
+        self.demand.counters.sort_unstable();
+        self.demand.retained_len = program.retained.iter().map(|one| self.demand.retained_by(one.range)).sum();
+        if self.is_open {
+            self.open_ranges(!program.memory.is_empty());
+        }
+        let (v, sm) = self.used.split_at(usize::from(Area::V.size()));
+        self.demand.v_ranges = runs(v).chain(runs(sm).map(|(first, len)| (SM_IN_V + first, len))).collect();
+        (self.full_at, self.demand)
+    }
+
+    /// V memory is one range from the first byte to the last that is named, and takes what nothing else needs. Where
+    /// that is not enough for one range, the last one takes it. Who asks for memory gets what is asked for.
+    fn open_ranges(&mut self, is_asked_for: bool) {
+        let size = usize::from(Area::V.size());
+        let rest = usize::from(ARENA_LEN).saturating_sub(self.v_len + self.demand.together_len());
+        let v = self.used.get_mut(..size).unwrap_or(&mut []);
+        let (Some(first), Some(last)) = (v.iter().position(|&used| used), v.iter().rposition(|&used| used)) else {
+            return;
+        };
+        let gaps = v[first..last].iter().filter(|&&used| !used).count();
+        if is_asked_for || gaps <= rest {
             v[first..last].fill(true);
         }
-        self.demand.v_ranges = runs(v).chain(runs(sm).map(|(first, len)| (SM_IN_V + first, len))).collect();
-        self.demand.counters.sort_unstable();
-        (self.full_at, self.demand)
+        let rest = if gaps <= rest { rest - gaps } else { rest };
+        if !is_asked_for {
+            v[last..(last + 1 + rest).min(size)].fill(true);
+        }
     }
 }
 

@@ -58,7 +58,7 @@ fn every_example_does_what_its_scenario_expects() {
         assert_eq!((outcome.unreached_expectations, outcome.unreached_settings), (0, 0), "{stem}");
         assert!(outcome.met >= 20, "{stem} expects only {} values", outcome.met);
     }
-    assert_eq!(count, 7);
+    assert_eq!(count, 10);
 }
 
 #[test]
@@ -102,6 +102,27 @@ fn tank_stays_within_its_limits_whatever_the_demand() {
         assert!(report.count("level_max_permille").is_some_and(|level| level <= 705), "seed {seed}: {report:?}");
         assert_eq!(report.count("overflows"), Some(0));
         assert!(report.count("pump_starts").is_some_and(|starts| starts >= 10), "seed {seed}: {report:?}");
+    }
+}
+
+#[test]
+fn pid_holds_the_level_whatever_the_demand() {
+    for seed in 1..=20 {
+        let mut opened = open("pid");
+        let mut has_operand = |operand| opened.machine.read(operand).map(|_| ());
+        let context = Context { symbols: &opened.symbols, plant: None, has_operand: &mut has_operand };
+        let scenario =
+            Scenario::parse("pid", "at 0ms Automatic = 1", context).unwrap_or_else(|error| panic!("{error}"));
+        let plant = format!("tank level=50 inflow=6 outflow=2 variation=20 noise=2 seed={seed} outlet=valve");
+        let plant = Some(parse_spec(&plant).unwrap().build().unwrap());
+        let job = Job { scan_ms: 10, length: Length::For(600_000), signals: Vec::new(), plant, progress: None };
+        let outcome = run(&mut *opened.machine, &scenario, job).unwrap();
+        assert_eq!(outcome.fault, None);
+        // Counted from the first half second on: the loop starts at the setpoint and stays there.
+        let report = outcome.plant.unwrap();
+        assert!(report.count("level_min_permille").is_some_and(|level| level >= 480), "seed {seed}: {report:?}");
+        assert!(report.count("level_max_permille").is_some_and(|level| level <= 520), "seed {seed}: {report:?}");
+        assert_eq!(report.count("overflows"), Some(0));
     }
 }
 

@@ -244,3 +244,33 @@ fn operands_of_every_class() {
     ];
     assert_eq!(told, expected);
 }
+
+#[test]
+fn a_message_is_received_and_echoed() {
+    let main = "//# memory VB100-VB131\nNETWORK 1\nLD SM0.1\nMOVB 16#09, SMB30\nMOVB 16#E0, SMB87\nMOVB 58, SMB88\n\
+        MOVB 13, SMB89\nMOVB 30, SMB94\nATCH INT_0, 23\nATCH INT_1, 9\nENI\nRCV VB100, 0\nNETWORK 2\nLD SM4.5\n= M0.0";
+    let echo = "LD SM0.0\nMOVB SMB86, VB50\nINCW VW52\nXMT VB100, 0";
+    let again = "LD SM0.0\nINCW VW54\nRCV VB100, 0";
+    let scenario = "at 2ms expect M0.0 = 1\nat 10ms receive \"noise:1,2\\r:next\"\nat 18ms expect VW52 = 0, SMB2 = 44
+        at 30ms expect VB50 = 16#20, VW52 = 1, VB100 = \":1,2\\r\", VW54 = 1, M0.0 = 1\nat 30ms expect sent \":1,2\\r\"
+        at 21ms expect M0.0 = 0, VW54 = 0\nat 100ms receive \":0123456789012345678901234567890\"
+        at 200ms expect VB50 = 2, VW52 = 2, VB100 = 30\nat 200ms expect sent \":01234567890123456789012345678\"";
+    assert_holds(&program(main, &[echo, again]), scenario);
+    let wrong = outcome(&program(main, &[echo, again]), "at 10ms receive \":\\r\"\nat 99ms expect sent \"x\"");
+    assert_eq!(wrong.failures[0].to_string(), "at 99ms expected sent = \"x\", got \":\\r\"");
+}
+
+#[test]
+fn messages_end_by_time_and_single_characters_are_events() {
+    // Any character begins (idle time 0), 20 ms of silence end.
+    let main = "//# memory VB100-VB131\nNETWORK 1\nLD SM0.1\nMOVB 16#09, SMB30\nMOVB 16#94, SMB87\nMOVW 0, SMW90\n\
+        MOVW 20, SMW92\nMOVB 30, SMB94\nATCH INT_0, 23\nATCH INT_1, 8\nENI\nNETWORK 2\nLD I0.0\nEU\nRCV VB100, 0\n\
+        NETWORK 3\nLD I0.1\nEU\nMOVB 0, SMB87\nRCV VB100, 0";
+    let message = "LD SM0.0\nMOVB SMB86, VB50\nINCW VW52";
+    let character = "LD SM0.0\n+I 1, VW54\nMOVB SMB2, VB56";
+    let scenario = "at 10ms receive \"abc\"\nat 20ms expect VW54 = 3, VB56 = 99, VW52 = 0
+        at 30ms I0.0 = 1\nat 40ms receive \"hello\"\nat 64ms expect VW52 = 0\nat 66ms expect VW52 = 1, VB50 = 4
+        at 66ms expect VB100 = \"hello\", VW54 = 3\nat 70ms I0.0 = 0\nat 80ms I0.0 = 1\nat 90ms I0.1 = 1
+        at 95ms expect VW52 = 2, VB50 = 16#80, VB100 = 0";
+    assert_holds(&program(main, &[message, character]), scenario);
+}

@@ -295,3 +295,24 @@ fn examples_do_what_they_shall_on_a_board_with_its_own_clock() {
 fn examples_do_the_same_translated() {
     assert_examples_do_what_they_shall(Target::UnoNative);
 }
+
+#[test]
+fn pulses_come_at_the_pins_in_their_time() {
+    // As fast as the scans of the board can follow without an interrupt.
+    let program = "LD I0.0\nLD I0.5\nCTU C0, 9999\nLD I0.1\nEU\nLD I0.0\nALD\nINCW VW0\nLD SM0.0\nMOVW C0, VW2\n";
+    let scenario = "at 10ms pulse I0.0 200Hz for 500ms\nat 261ms expect C0.cv = 50..51\nat 700ms expect C0.cv = 100, I0.0 = 0
+        at 700ms I0.5 = 1\nat 710ms I0.5 = 0\nat 800ms pulse I0.0, I0.1 100Hz 30 times\nat 1200ms expect C0.cv = 30, VW0 = 30
+        at 1200ms pulse I0.0, I0.1 100Hz 30 times reverse\nat 1600ms expect C0.cv = 60, VW0 = 30, VW2 = 60";
+    assert_holds(program, scenario);
+    // The program sees it the other way round.
+    assert_holds(&format!("//# invert I0.0\n{program}"), scenario);
+    let act = |clock| {
+        let mut uno = uno(program, clock);
+        let symbols = Symbols::new();
+        let context = Context { symbols: &symbols, plant: None, has_operand: &mut |_| Ok(()) };
+        let scenario = Scenario::parse("t.scn", "at 0s pulse I0.6 1Hz for 1s", context).unwrap();
+        uno.act(&scenario.actions[0]).unwrap_err().to_string()
+    };
+    assert!(act(Clock::FreeRunning).contains("I0.0 to I0.5"));
+    assert!(act(Clock::LockStep).contains("its own clock"));
+}

@@ -26,7 +26,16 @@ const ALWAYS: u8 = 0x80;
 fn subroutines(number: u8) -> &'static [&'static str] {
     match number {
         REAL_MODULE => {
-            &["real_add", "real_sub", "real_mul", "real_div", "real_from_int", "real_to_int", "real_status"]
+            &[
+                "real_add",
+                "real_sub",
+                "real_mul",
+                "real_div",
+                "real_from_int",
+                "real_to_int",
+                "real_from_fraction",
+                "real_result",
+            ]
         }
         OPERANDS_MODULE => &["entry"],
         _ => &[],

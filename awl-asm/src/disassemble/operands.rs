@@ -157,6 +157,8 @@ impl<'a, P: ProgramMemory> Writer<'a, P> {
             Some(Place::Direct(at)) => self.memory(unit, at, kind.value_len()),
             Some(Place::Indirect(at)) => format!("*{}", self.memory(unit, at, 4)),
             Some(Place::Constant(value)) if kind == Kind::RealIn => real_text(value as u32),
+            // The sign is the direction.
+            Some(Place::Constant(value)) if op == Op::Shrb => (value as i8).to_string(),
             Some(Place::Constant(value)) => value.to_string(),
             Some(Place::Pool(offset)) => match (kind, kind.value_len()) {
                 (Kind::TextIn, _) => {

@@ -6,6 +6,7 @@
 
 use crate::crc::Crc32;
 use crate::modules::{self, MODULE_KINDS_AT, Routine};
+use crate::plan::Plan;
 use crate::settings::{Retained, Settings};
 use crate::tokens::{TOKEN_TABLE, TOKEN_TABLE_LEN};
 
@@ -362,32 +363,38 @@ impl Header {
     }
 
     /// The header, whatever it says.
-    #[cfg_attr(target_arch = "avr", inline(never))]
     pub(crate) fn fields<P: ProgramMemory>(memory: &P) -> Header {
-        // One after the other: the board has no registers to hold them all.
-        let mut header = Header { interface: memory.byte(5), ..Header::default() };
-        header.total_len = memory.word(6);
-        header.code_len = memory.word(8);
-        header.arena_len = memory.word(10);
-        header.edges = memory.word(12);
-        header.labels = memory.word(14);
-        header.v_ranges = memory.word(16);
-        header.timers = memory.word(18);
-        header.counters = memory.word(20);
-        header.settings.watchdog_ms = memory.word(22);
-        header.settings.scan_ms = memory.word(24);
-        header.settings.pullup = memory.byte(26);
-        header.settings.invert_inputs = memory.byte(27);
-        header.settings.invert_outputs = memory.byte(28);
-        header.retained = memory.byte(29);
-        header.name_len = memory.byte(30);
-        header.settings.filter = memory.byte(31);
-        header.modules_len = memory.word(32);
-        header.constants_len = memory.word(34);
-        header.initial_len = memory.word(36);
-        header.routines = memory.byte(38);
-        header.events = memory.byte(39);
+        let mut header = Header::default();
+        header.read_fields(memory);
         header
+    }
+
+    /// The same in place.
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    pub(crate) fn read_fields<P: ProgramMemory>(&mut self, memory: &P) {
+        // One after the other: the board has no registers to hold them all.
+        self.interface = memory.byte(5);
+        self.total_len = memory.word(6);
+        self.code_len = memory.word(8);
+        self.arena_len = memory.word(10);
+        self.edges = memory.word(12);
+        self.labels = memory.word(14);
+        self.v_ranges = memory.word(16);
+        self.timers = memory.word(18);
+        self.counters = memory.word(20);
+        self.settings.watchdog_ms = memory.word(22);
+        self.settings.scan_ms = memory.word(24);
+        self.settings.pullup = memory.byte(26);
+        self.settings.invert_inputs = memory.byte(27);
+        self.settings.invert_outputs = memory.byte(28);
+        self.retained = memory.byte(29);
+        self.name_len = memory.byte(30);
+        self.settings.filter = memory.byte(31);
+        self.modules_len = memory.word(32);
+        self.constants_len = memory.word(34);
+        self.initial_len = memory.word(36);
+        self.routines = memory.byte(38);
+        self.events = memory.byte(39);
     }
 
     /// Offset of the V ranges.
@@ -422,17 +429,19 @@ impl Header {
 
     /// Where the parts of the image begin.
     pub fn offsets(&self) -> Offsets {
-        let v_ranges = HEADER_LEN + self.modules_len + u16::from(self.name_len);
-        let timers = entry_at(v_ranges, self.v_ranges, V_RANGE_LEN);
-        let counters = entry_at(timers, self.timers, TIMER_LEN);
-        let labels = entry_at(counters, self.counters, COUNTER_LEN);
-        let retained = entry_at(labels, self.labels, LABEL_LEN);
-        let routines = entry_at(retained, u16::from(self.retained), Retained::STORED_LEN);
-        let events = entry_at(routines, u16::from(self.routines), ROUTINE_LEN);
-        let constants = events + u16::from(self.events);
-        let initial = constants + self.constants_len;
-        let code = initial + self.initial_len;
-        Offsets { v_ranges, timers, counters, labels, retained, routines, events, constants, initial, code }
+        let plan = Plan::trusted([0u8; 0], *self);
+        Offsets {
+            v_ranges: plan.v_ranges_at,
+            timers: plan.timers_at,
+            counters: plan.counters_at,
+            labels: plan.labels_at,
+            retained: plan.retained_at,
+            routines: plan.routines_at,
+            events: plan.events_at,
+            constants: plan.constants_at,
+            initial: plan.initial_at,
+            code: plan.code_at(),
+        }
     }
 
     /// Offset of the first byte behind the code, which is the checksum.

@@ -47,4 +47,4 @@ pub use table::{
     StackEffect, WIDE_PREFIX, execute, execute_compact,
 };
 pub use tokens::{TOKEN_TABLE, TOKEN_TABLE_LEN};
-pub use verify::{LOOPS_MAX, Program, verify};
+pub use verify::{LOOPS_MAX, Program, verify, verify_into};

@@ -5,7 +5,7 @@
 
 use crate::area::{AnalogInput, Area, TimerFamily, timer_family};
 use crate::image::{
-    COUNTER_LEN, EVENT_LEN, Header, LABEL_LEN, ProgramMemory, ROUTINE_LEN, TIMER_LEN, V_RANGE_LEN, entry_at,
+    COUNTER_LEN, EVENT_LEN, HEADER_LEN, Header, LABEL_LEN, ProgramMemory, ROUTINE_LEN, TIMER_LEN, V_RANGE_LEN, entry_at,
 };
 use crate::layout::*;
 use crate::operand::Bit;
@@ -166,45 +166,70 @@ pub struct Plan<P> {
 }
 
 impl<P: ProgramMemory> Plan<P> {
-    /// The plan of an image whose header is plausible.
-    pub(crate) fn of(memory: P) -> Self {
-        let header = Header::fields(&memory);
-        Self::trusted(memory, header)
+    /// A plan of nothing, to be read into.
+    #[inline(always)]
+    pub(crate) fn blank(memory: P) -> Self {
+        Plan {
+            memory,
+            header: Header::default(),
+            v_ranges_at: 0,
+            timers_at: 0,
+            counters_at: 0,
+            labels_at: 0,
+            retained_at: 0,
+            routines_at: 0,
+            events_at: 0,
+            constants_at: 0,
+            initial_at: 0,
+            code_at: 0,
+            timers_start: 0,
+            counters_start: 0,
+            edges_start: 0,
+            events_start: 0,
+            end: 0,
+        }
     }
 
     /// The plan in the tables behind this header, taken on trust: for the assembler, which wrote them.
-    #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn trusted(memory: P, header: Header) -> Self {
-        let at_offsets = header.offsets();
+        let mut plan = Plan::blank(memory);
+        plan.header = header;
+        plan.place();
+        plan
+    }
+
+    /// Reads the header. Returns whether it is plausible.
+    #[inline(always)]
+    pub(crate) fn read(&mut self) -> bool {
+        self.header.read_fields(&self.memory);
+        self.header.is_plausible()
+    }
+
+    /// Places the tables of the image, and their memory in the arena, by the header.
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    pub(crate) fn place(&mut self) {
+        let header = &self.header;
+        self.v_ranges_at = HEADER_LEN + header.modules_len + u16::from(header.name_len);
+        self.timers_at = entry_at(self.v_ranges_at, header.v_ranges, V_RANGE_LEN);
+        self.counters_at = entry_at(self.timers_at, header.timers, TIMER_LEN);
+        self.labels_at = entry_at(self.counters_at, header.counters, COUNTER_LEN);
+        self.retained_at = entry_at(self.labels_at, header.labels, LABEL_LEN);
+        self.routines_at = entry_at(self.retained_at, u16::from(header.retained), Retained::STORED_LEN);
+        self.events_at = entry_at(self.routines_at, u16::from(header.routines), ROUTINE_LEN);
+        self.constants_at = self.events_at + u16::from(header.events);
+        self.initial_at = self.constants_at + header.constants_len;
+        self.code_at = self.initial_at + header.initial_len;
         // Lengths that are not checked yet may wrap: then they are not valid, and nothing is placed by them.
-        let mut timers_start = ARENA_START;
-        let mut at = at_offsets.v_ranges + 2;
-        while at < at_offsets.timers {
-            timers_start = timers_start.wrapping_add(memory.word(at));
+        self.timers_start = ARENA_START;
+        let mut at = self.v_ranges_at + 2;
+        while at < self.timers_at {
+            self.timers_start = self.timers_start.wrapping_add(self.memory.word(at));
             at += V_RANGE_LEN;
         }
-        let counters_start = entry_at(timers_start, header.timers, TIMER_SLOT_LEN);
-        let edges_start = entry_at(counters_start, header.counters, COUNTER_SLOT_LEN);
-        let events_start = edges_start.wrapping_add(header.edges.wrapping_add(7) / 8);
-        Plan {
-            memory,
-            header,
-            v_ranges_at: at_offsets.v_ranges,
-            timers_at: at_offsets.timers,
-            counters_at: at_offsets.counters,
-            labels_at: at_offsets.labels,
-            retained_at: at_offsets.retained,
-            routines_at: at_offsets.routines,
-            events_at: at_offsets.events,
-            constants_at: at_offsets.constants,
-            initial_at: at_offsets.initial,
-            code_at: at_offsets.code,
-            timers_start,
-            counters_start,
-            edges_start,
-            events_start,
-            end: events_start.wrapping_add(u16::from(header.events)),
-        }
+        self.counters_start = entry_at(self.timers_start, header.timers, TIMER_SLOT_LEN);
+        self.edges_start = entry_at(self.counters_start, header.counters, COUNTER_SLOT_LEN);
+        self.events_start = self.edges_start.wrapping_add(header.edges.wrapping_add(7) / 8);
+        self.end = self.events_start.wrapping_add(u16::from(header.events));
     }
 
     /// Offset of the first instruction in the image.

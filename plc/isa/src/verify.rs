@@ -71,21 +71,35 @@ impl<P: ProgramMemory> Program<P> {
 
 /// Checks an image completely.
 pub fn verify<P: ProgramMemory>(memory: P) -> Result<Program<P>, ImageError> {
+    let mut program = None;
+    verify_into(&mut program, memory)?;
+    program.ok_or(ImageError { fault: ImageFault::Length, at: 0 })
+}
+
+/// The same in place, for those who cannot afford a second program on their stack. Without a valid image there is no
+/// program afterwards.
+#[inline(always)]
+pub fn verify_into<P: ProgramMemory>(place: &mut Option<Program<P>>, memory: P) -> Result<(), ImageError> {
+    *place = None;
     Header::check(&memory)?;
-    if !Header::fields(&memory).is_plausible() {
-        return Err(ImageError { fault: ImageFault::Length, at: 6 });
+    let plan = &mut place.insert(Program { plan: Plan::blank(memory) }).plan;
+    let checked = check(plan);
+    if checked.is_err() {
+        *place = None;
     }
-    let program = Program { plan: Plan::of(memory) };
-    if !program.memory().modules_are_valid() {
-        return Err(ImageError { fault: ImageFault::Module, at: DIRECTORY_AT });
-    }
-    check(&program.plan)?;
-    Ok(program)
+    checked
 }
 
 /// The check of what the header leads to.
 #[cfg_attr(target_arch = "avr", inline(never))]
-fn check<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageError> {
+fn check<P: ProgramMemory>(plan: &mut Plan<P>) -> Result<(), ImageError> {
+    if !plan.read() {
+        return Err(ImageError { fault: ImageFault::Length, at: 6 });
+    }
+    plan.place();
+    if !plan.memory.modules_are_valid() {
+        return Err(ImageError { fault: ImageFault::Module, at: DIRECTORY_AT });
+    }
     check_tables(plan).map_err(|fault| ImageError { fault, at: place_of(plan, fault) })?;
     if is_native(plan) {
         return ensure(entry_is_valid(plan), ImageFault::Interface)

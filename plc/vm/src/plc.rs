@@ -2,8 +2,7 @@
 
 use plc_isa::{
     ANALOG_INPUTS, AnalogInput, DATA_START, I_START, INITIAL_HEAD_LEN, ImageError, LogicStack, Program, ProgramMemory,
-    Q_START, TimerResolution, verify,
-};
+    Q_START, TimerResolution, verify_into};
 
 use crate::calls::Calls;
 use crate::clock::Clock;
@@ -14,6 +13,9 @@ use crate::interpreter::{Exit, Interpreter};
 use crate::memory::Memory;
 use crate::special;
 use crate::timer::{self, AtScanStart};
+
+/// Whether a program stays in force when an image that is to replace it is refused.
+const KEEPS_PROGRAM: bool = cfg!(not(target_arch = "avr"));
 
 /// Where the image of the outputs begins in data memory.
 const OUTPUTS: usize = (Q_START - DATA_START) as usize;
@@ -105,13 +107,16 @@ impl<P: ProgramMemory> Plc<P> {
     /// Loads a program in STOP and clears data memory. A bad image is refused; the program in force
     /// and its memory stay as they are.
     pub fn load(&mut self, memory: &mut Memory, image: P) -> Result<(), ImageError> {
-        let program = verify(image).inspect_err(|&error| {
+        // The board has no room for two programs, and in its slot there is only one.
+        let before = if KEEPS_PROGRAM { self.program.take() } else { None };
+        if let Err(error) = verify_into(&mut self.program, image) {
+            self.program = before;
             if self.program.is_none() {
                 self.fault = Some(Fault::BadImage(error));
             }
-        })?;
+            return Err(error);
+        }
         self.stop();
-        self.program = Some(program);
         self.fault = None;
         memory.clear();
         self.write_initial_values(memory);

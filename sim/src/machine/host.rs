@@ -133,7 +133,8 @@ impl Host {
 
     /// Gives the PLC the characters that have come in by now.
     fn pass_characters(&mut self, now_ms: u64) {
-        while let Some((at_ms, character)) = self.incoming.pop_front_if(|(at_ms, _)| *at_ms <= now_ms) {
+        while let Some(&(at_ms, character)) = self.incoming.front().filter(|(at_ms, _)| *at_ms <= now_ms) {
+            self.incoming.pop_front();
             let at_ms = self.clock_ms(at_ms);
             self.plc.receive(&mut self.memory, character, at_ms);
         }
