@@ -111,18 +111,17 @@ fn pid_holds_the_level_whatever_the_demand() {
         let mut opened = open("pid");
         let mut has_operand = |operand| opened.machine.read(operand).map(|_| ());
         let context = Context { symbols: &opened.symbols, plant: None, has_operand: &mut has_operand };
-        let scenario =
-            Scenario::parse("pid", "at 0ms Automatic = 1", context).unwrap_or_else(|error| panic!("{error}"));
+        let scenario = Scenario::parse("pid", "at 1s Automatic = 1", context).unwrap_or_else(|error| panic!("{error}"));
         let plant = format!("tank level=50 inflow=6 outflow=2 variation=20 noise=2 seed={seed} outlet=valve");
         let plant = Some(parse_spec(&plant).unwrap().build().unwrap());
         let job = Job { scan_ms: 10, length: Length::For(600_000), signals: Vec::new(), plant, progress: None };
         let outcome = run(&mut *opened.machine, &scenario, job).unwrap();
         assert_eq!(outcome.fault, None);
-        // Counted from the first half second on: the loop starts at the setpoint and stays there.
+        // It starts at the setpoint, by hand; the model counts the levels from the first stop of the pump on.
         let report = outcome.plant.unwrap();
-        assert!(report.count("level_min_permille").is_some_and(|level| level >= 480), "seed {seed}: {report:?}");
-        assert!(report.count("level_max_permille").is_some_and(|level| level <= 520), "seed {seed}: {report:?}");
-        assert_eq!(report.count("overflows"), Some(0));
+        let [low, high, overflows] =
+            ["level_min_permille", "level_max_permille", "overflows"].map(|name| report.count(name).unwrap());
+        assert!(low >= 475 && high <= 525 && overflows == 0, "seed {seed}: {low} to {high} permille");
     }
 }
 

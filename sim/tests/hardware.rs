@@ -3,11 +3,14 @@
 
 use awl_asm::assemble::assemble;
 use awl_asm::source::Source;
+use awl_sim::action::Action;
 use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
+use awl_sim::operand::Operand;
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
 use awl_sim::symbols::Symbols;
+use plc_vm::TimeOfDay;
 
 /// A program of a main block and interrupt routines, `INT_0` first, each of one network.
 fn program(main: &str, routines: &[&str]) -> String {
@@ -19,11 +22,16 @@ fn program(main: &str, routines: &[&str]) -> String {
     text
 }
 
-fn outcome(program: &str, scenario: &str) -> Outcome {
+fn host(program: &str) -> Host {
     let assembly = assemble(&Source::new("test.awl", program).unwrap(), Vec::new());
     let image = assembly.image.unwrap_or_else(|| panic!("{program}\n{:#?}", assembly.diagnostics));
-    let mut host = Host::new(image, Box::new(|at| format!("byte {at}")));
+    let host = Host::new(image, Box::new(|at| format!("byte {at}")));
     assert_eq!(host.fault(), None, "{program}");
+    host
+}
+
+fn outcome(program: &str, scenario: &str) -> Outcome {
+    let mut host = host(program);
     let symbols = Symbols::new();
     let mut has_operand = |operand| host.read(operand).map(|_| ());
     let context = Context { symbols: &symbols, plant: None, has_operand: &mut has_operand };
@@ -171,13 +179,46 @@ fn an_interrupt_gives_the_counter_its_next_task() {
 }
 
 #[test]
-fn counters_are_defined_once_and_anew_in_each_run() {
+fn counters_are_defined_once_and_before_they_are_used() {
     let main = "NETWORK 1\nLD SM0.1\nMOVB 16#F8, SMB37\nHDEF 0, 0\nAENO\n= M0.0\nLD I0.4\nEU\nHDEF 0, 0\nAENO\n= M0.1\n\
         NETWORK 2\nLD I0.5\nEU\nHSC 3\nAENO\n= M0.2";
     let scenario =
         "at 1ms expect M0.0 = 1, SM4.3 = 0\nat 2ms I0.4 = 1\nat 3ms expect M0.1 = 0, SM4.3 = 1\nat 3ms SM4.3 = 0
         at 4ms I0.5 = 1\nat 5ms expect M0.2 = 0, SM4.3 = 1";
     assert_holds(&program(main, &[]), scenario);
+}
+
+#[test]
+fn the_change_to_run_forgets_everything_but_the_clock() {
+    let main = "NETWORK 1\nLD SM0.1\nMOVB 16#F8, SMB37\nHDEF 0, 0\nAENO\nS M0.0, 1\nLD I0.4\nEU\nENI\nHSC 0\nATCH INT_0, 0\n\
+        MOVB 16#CB, SMB77\nMOVW 100, SMW78\nMOVW 50, SMW80\nPLS 1\nNETWORK 2\nLD SM0.0\nTODR VB10\nAENO\n= M0.1";
+    let mut host = host(&program(main, &["LD SM0.0\nINCW VW0"]));
+    let operand = |name: &str| Operand::parse(name, &Symbols::new()).unwrap();
+    let mut set = |host: &mut Host, name: &str, value| host.write(operand(name), value).unwrap();
+    let read = |host: &mut Host, name: &str| host.read(operand(name)).unwrap();
+    let values = |host: &mut Host| ["M0.0", "M0.1", "SM4.4", "HC0", "VW0", "Q0.1.duty"].map(|name| read(host, name));
+    let time = TimeOfDay::new([26, 11, 21], [15, 0, 0]).unwrap();
+    host.act(&Action::SetClock { at_ms: 0, time }).unwrap();
+    host.scan(0);
+    set(&mut host, "I0.4", 1);
+    host.scan(1);
+    set(&mut host, "I0.0", 1);
+    host.scan(2);
+    assert_eq!(values(&mut host), [1, 1, 1, 1, 1, 500]);
+    host.stop();
+    assert_eq!(read(&mut host, "Q0.1.duty"), 0);
+    set(&mut host, "M0.0", 0);
+    for input in [0, 1, 0] {
+        set(&mut host, "I0.0", input);
+        host.scan(3);
+    }
+    // Nothing is counted in STOP. The counter can be defined again, and is not active.
+    set(&mut host, "I0.4", 0);
+    host.run();
+    host.scan(4);
+    set(&mut host, "I0.0", 1);
+    host.scan(5);
+    assert_eq!(values(&mut host), [1, 1, 0, 1, 1, 0]);
 }
 
 #[test]

@@ -107,6 +107,23 @@ fn they_do_what_their_scenarios_expect() {
     assert!(complaints.is_empty(), "{}", complaints.join("\n"));
 }
 
+/// Whether the board runs a program: it has no interrupts yet, and its clock is set by nobody but the program.
+#[cfg(feature = "uno")]
+fn is_for_the_board(name: &str) -> bool {
+    let scenario = fs::read_to_string(folder().join(name).with_extension("scn")).unwrap();
+    let has_interrupts = source(name).text.contains("ATCH ");
+    !has_interrupts && !scenario.contains(" clock ")
+}
+
+#[cfg(feature = "uno")]
+#[test]
+fn the_board_does_the_same() {
+    let names: Vec<String> = names().into_iter().filter(|name| is_for_the_board(name)).collect();
+    assert!(names.len() >= 10, "{names:?}");
+    let complaints: Vec<String> = names.iter().flat_map(|name| complaints(name, Target::Uno)).collect();
+    assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+}
+
 #[test]
 fn their_layout_is_the_canonical_one() {
     for name in names() {

@@ -57,13 +57,17 @@ fn exchanged_instructions_break_a_case() {
         }
     }
     assert!(survivors.is_empty(), "{} survive, {killed} do not\n{}", survivors.len(), survivors.join("\n"));
-    assert!(killed > 700, "only {killed} mutations were tried");
+    assert!(killed > 3_000, "only {killed} mutations were tried");
 }
 
-/// Whether two rows differ only in what they are called: a real is copied like any double word.
+/// Whether one row in the place of the other changes nothing that a case on the host can see: a real is copied like any
+/// double word, a contact is a contact, both returns return. Time stands still within a scan, and where no event is
+/// attached none is looked for.
 fn mean_the_same(row: &Row, other: &Row) -> bool {
-    let copies = |row: &Row| matches!(row.instruction.op, Op::Movd | Op::Movr);
-    copies(row) && copies(other)
+    let is_in = |ops: &[Op]| ops.contains(&row.instruction.op) && ops.contains(&other.instruction.op);
+    let returns = is_in(&[Op::Cret, Op::Creti]);
+    let idle = is_in(&[Op::Scre, Op::Refresh, Op::Poll]) && row.instruction.op != Op::Poll;
+    is_in(&[Op::Movd, Op::Movr]) || is_in(&[Op::A, Op::ScrAnd]) || returns || idle
 }
 
 /// Each relation of a row with each other.

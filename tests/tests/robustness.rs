@@ -10,7 +10,7 @@ use awl_asm::disassemble::disassemble;
 use awl_asm::source::Source;
 use awl_asm::{render, symbols};
 use fastrand::Rng;
-use plc_isa::{ARENA_START, C_BITS_START, CRC_LEN, DATA_START, Header, L_START, SLOT_LEN};
+use plc_isa::{ARENA_START, C_BITS_START, CRC_LEN, DATA_START, ENO, Header, SLOT_LEN};
 use plc_vm::{Environment, Inputs, Memory, Plc};
 use tests::effort::effort;
 use tests::image::sign;
@@ -99,9 +99,9 @@ fn run_image(image: &[u8], inputs: &Inputs) -> bool {
         return false;
     }
     let plan_end = plc.program().map_or(0, |program| program.plan().end());
-    let outside = (0..memory.bytes().len() as u16).map(|offset| DATA_START + offset).filter(|&address| {
-        (L_START..0x0200).contains(&address) || (0x0218..ARENA_START).contains(&address) || address >= plan_end
-    });
+    let outside = (0..memory.bytes().len() as u16)
+        .map(|offset| DATA_START + offset)
+        .filter(|&address| (ENO + 1..ARENA_START).contains(&address) || address >= plan_end);
     for address in outside.clone() {
         memory.set_byte(address, UNTOUCHED);
     }

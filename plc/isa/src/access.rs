@@ -152,10 +152,14 @@ mod tests {
                 let holds = allows(Access::VALUES) && len <= access.room && is_whole;
                 assert_eq!(holds, region.holds_value(len), "{address:#x} {len}");
             }
-            assert_eq!(allows(Access::POINTER), matches!(
-                region,
-                Region::Byte { area: crate::Area::V | crate::Area::L, .. } | Region::Accumulator { number: 1.., room: 4 }
-            ));
+            assert_eq!(
+                allows(Access::POINTER),
+                matches!(
+                    region,
+                    Region::Byte { area: crate::Area::V | crate::Area::L, .. }
+                        | Region::Accumulator { number: 1.., room: 4 }
+                )
+            );
         }
     }
 }

@@ -18,6 +18,7 @@ mod operand;
 mod plan;
 mod reference;
 mod retention;
+mod rules;
 mod settings;
 mod stack;
 mod table;
@@ -34,7 +35,8 @@ pub use image::{
 };
 pub use layout::*;
 pub use modules::{
-    MODULE_KINDS_AT, MODULE_NAMES, MODULES, OPERANDS_MODULE, ROUTINES_MAX, Routine, kind_numbers, module_instructions, packed_stack,
+    MODULE_KINDS_AT, MODULE_NAMES, MODULES, OPERANDS_MODULE, ROUTINES_MAX, Routine, kind_numbers, module_instructions,
+    packed_stack,
 };
 pub use operand::{Bit, ByteSource, Kind, Operand, OperandKind, OperandReader, Relation, WordSource, kinds};
 pub use plan::{CounterSlot, Plan, Region, SM_IN_V, TimerKind, TimerSlot, counter_bit, timer_bit};

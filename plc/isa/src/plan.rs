@@ -337,7 +337,8 @@ impl<P: ProgramMemory> Plan<P> {
 
     /// The program's name, byte by byte.
     pub fn name(&self) -> impl Iterator<Item = u8> + '_ {
-        (0..u16::from(self.header.name_len)).map(|index| self.memory.byte(crate::image::HEADER_LEN + self.header.modules_len + index))
+        (0..u16::from(self.header.name_len))
+            .map(|index| self.memory.byte(crate::image::HEADER_LEN + self.header.modules_len + index))
     }
 
     /// Data address of a byte of V memory.

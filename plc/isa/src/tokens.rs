@@ -4,7 +4,8 @@
 //! and hands out byte by byte ([`ProgramMemory::token_table`]).
 
 use crate::image::ProgramMemory;
-use crate::operand::{KIND_RULES_LEN, Kind, OperandReader, Raw, read_raw};
+use crate::operand::{Kind, OperandReader, Raw};
+use crate::rules::{KIND_RULES_LEN, read_raw};
 use crate::table::{CORE_INSTRUCTIONS, Form, INSTRUCTIONS, Instruction, MODULE_PREFIX, Op, StackEffect, WIDE_PREFIX};
 
 /// Most operands of an instruction.

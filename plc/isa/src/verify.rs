@@ -12,12 +12,13 @@ use crate::image::{
     ProgramMemory, TIMER_LEN,
 };
 use crate::layout::*;
-use crate::operand::{
-    CONSTANT, Kind, LIMIT_COUNTERS, LIMIT_EDGES, LIMIT_EVENTS, LIMIT_LABELS, LIMIT_NUMBERS, LIMIT_ROUTINES,
-    LIMIT_TIMERS, MODE_MEMORY, NOT_NUMBERED, REFERENCE, Raw, TEXT, len_of_rule,
-};
+use crate::operand::{Kind, MODE_MEMORY, Raw};
 use crate::plan::{Plan, SM_IN_V};
 use crate::reference::{Place, Reference};
+use crate::rules::{
+    CONSTANT, LIMIT_COUNTERS, LIMIT_EDGES, LIMIT_EVENTS, LIMIT_LABELS, LIMIT_NUMBERS, LIMIT_ROUTINES, LIMIT_TIMERS,
+    NOT_NUMBERED, REFERENCE, TEXT, len_of_rule,
+};
 use crate::stack::STACK_LEVELS;
 use crate::table::Op;
 use crate::tokens::{Fetched, rules_at};

@@ -34,12 +34,7 @@ pub trait Environment {
     /// Advances every running timer of this resolution, 1 ms or 10 ms, by so many ticks. For an engine that does the same
     /// in another way.
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn advance_timers<P: ProgramMemory>(
-        memory: &mut Memory,
-        plan: &Plan<P>,
-        resolution: TimerResolution,
-        ticks: u16,
-    ) {
+    fn advance_timers<P: ProgramMemory>(memory: &mut Memory, plan: &Plan<P>, resolution: TimerResolution, ticks: u16) {
         timer::advance(memory, plan, resolution, ticks);
     }
 

@@ -1,20 +1,17 @@
-//! The reference interpreter: one method for each instruction of the table.
+//! The reference interpreter: its state and what its instructions share. What each of them does, instructions.rs says.
 
 use plc_isa::{
-    Bit, ByteSource, ENO, Execute, Flow, LogicStack, Op, OperandKind, OperandReader, Operands, Plan, Program,
-    ProgramMemory, Relation, SM_START, TimerResolution, WordSource, execute, execute_compact, kinds, timer_resolution,
+    Bit, ByteSource, Flow, LogicStack, Plan, Program, ProgramMemory, Relation, TimerResolution, WordSource, execute,
+    execute_compact, timer_resolution,
 };
 
-use crate::calls::{Calls, Frame};
+use crate::calls::Calls;
 use crate::clock::Clock;
-use crate::counter::{self, Counter};
-use crate::edge;
+use crate::counter::Counter;
 use crate::environment::Environment;
 use crate::events::Events;
-use crate::math;
 use crate::memory::Memory;
 use crate::range;
-use crate::special::PROGRAMMING_ERROR;
 use crate::timer::Timer;
 
 /// Why the program was left.
@@ -36,13 +33,6 @@ pub enum Exit {
 
 /// Deepest nesting of subroutine calls from the main program (reference 1.8).
 pub const CALLS_MAX: usize = 8;
-
-/// Bytes of CALL.
-const CALL_LEN: u16 = 2;
-/// Where SMB1 is, the status of results.
-const STATUS: u16 = SM_START + 1;
-/// In the operand of AENO: looks at ENO of a module instruction too.
-const MODULE_ENO: u8 = 0x80;
 
 /// Bytes of a jump or of NEXT, about.
 const JUMP_LEN: u16 = 3;
@@ -105,23 +95,23 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
         self.clock.ticks_100
     }
 
-    fn plan(&self) -> &Plan<P> {
+    pub(crate) fn plan(&self) -> &Plan<P> {
         self.program.plan()
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn words(&self, relation: Relation, in1: WordSource, in2: WordSource) -> bool {
+    pub(crate) fn words(&self, relation: Relation, in1: WordSource, in2: WordSource) -> bool {
         relation.holds(self.memory.int_of(in1), self.memory.int_of(in2))
     }
 
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn bytes(&self, relation: Relation, in1: ByteSource, in2: ByteSource) -> bool {
+    pub(crate) fn bytes(&self, relation: Relation, in1: ByteSource, in2: ByteSource) -> bool {
         relation.holds(self.memory.byte_of(in1), self.memory.byte_of(in2))
     }
 
     /// An integer box: `compute(OUT, IN1)` gives the result, `None` when it does not fit.
     #[cfg_attr(not(target_arch = "avr"), inline)]
-    fn int_box(
+    pub(crate) fn int_box(
         &mut self,
         in1: WordSource,
         out: u16,
@@ -135,7 +125,7 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
         Flow::Next
     }
 
-    fn bit_range(&mut self, bit: Bit, n: ByteSource, value: bool) -> Flow {
+    pub(crate) fn bit_range(&mut self, bit: Bit, n: ByteSource, value: bool) -> Flow {
         if self.stack.top() {
             let count = self.memory.byte_of(n);
             range::write(self.memory, self.program.plan(), bit, count, value);
@@ -144,12 +134,12 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
     }
 
     /// The count of a reset of timers or counters, 0 when the range would pass number 255.
-    fn numbers(&self, first: u8, n: ByteSource) -> u8 {
+    pub(crate) fn numbers(&self, first: u8, n: ByteSource) -> u8 {
         let count = self.memory.byte_of(n);
         if u16::from(first) + u16::from(count) <= 256 { count } else { 0 }
     }
 
-    fn timer(&mut self, slot: u8, pt: WordSource) -> Flow {
+    pub(crate) fn timer(&mut self, slot: u8, pt: WordSource) -> Flow {
         let (slot, preset) = (self.plan().timer(slot), self.memory.int_of(pt));
         let ticks = match timer_resolution(slot.number) {
             TimerResolution::Ms1 => {
@@ -164,19 +154,19 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
         Flow::Next
     }
 
-    fn refresh(&mut self) {
+    pub(crate) fn refresh(&mut self) {
         let passed = self.clock.take_fast_ms(self.environment.now_ms());
         E::advance_timers(self.memory, self.program.plan(), TimerResolution::Ms1, passed);
         self.events.look_at_timers(self.program.plan(), self.memory);
     }
 
-    fn counter(&mut self, slot: u8) -> Counter<'_> {
+    pub(crate) fn counter(&mut self, slot: u8) -> Counter<'_> {
         let slot = self.plan().counter(slot);
         Counter { memory: self.memory, slot, first_scan: self.first_scan }
     }
 
     /// Begins a routine with a stack of its own.
-    fn enter(&mut self, routine: u8) -> Flow {
+    pub(crate) fn enter(&mut self, routine: u8) -> Flow {
         self.stack = LogicStack::EMPTY;
         self.stack.set_top(true);
         Flow::Jump(self.plan().routine(routine))
@@ -188,489 +178,11 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
     }
 
     /// Goes to an offset; back over code only as long as the watchdog allows.
-    fn go_to(&mut self, target: u16, here: u16) -> Flow {
+    pub(crate) fn go_to(&mut self, target: u16, here: u16) -> Flow {
         // What was executed: from the target to the jump, and the jump.
         if target <= here && self.environment.is_overdue((here - target).saturating_add(JUMP_LEN)) {
             return self.leave(Exit::Watchdog);
         }
         Flow::Jump(target)
     }
-}
-
-impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
-    const EXECUTED_ELSEWHERE: u128 = E::EXECUTED_ELSEWHERE;
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn load(&mut self, bit: Bit) -> Flow {
-        self.stack.push(self.memory.bit(bit));
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn load_not(&mut self, bit: Bit) -> Flow {
-        self.stack.push(!self.memory.bit(bit));
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn and(&mut self, bit: Bit) -> Flow {
-        self.stack.and(self.memory.bit(bit));
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn and_not(&mut self, bit: Bit) -> Flow {
-        self.stack.and(!self.memory.bit(bit));
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn or(&mut self, bit: Bit) -> Flow {
-        self.stack.or(self.memory.bit(bit));
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn or_not(&mut self, bit: Bit) -> Flow {
-        self.stack.or(!self.memory.bit(bit));
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn not(&mut self) -> Flow {
-        self.stack.set_top(!self.stack.top());
-        Flow::Next
-    }
-
-    fn edge_up(&mut self, edge: u8) -> Flow {
-        let place = self.plan().edge(edge);
-        let rose = edge::rose(self.memory, place, self.stack.top(), self.first_scan);
-        self.stack.set_top(rose);
-        Flow::Next
-    }
-
-    fn edge_down(&mut self, edge: u8) -> Flow {
-        let place = self.plan().edge(edge);
-        let fell = edge::fell(self.memory, place, self.stack.top(), self.first_scan);
-        self.stack.set_top(fell);
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn assign(&mut self, bit: Bit) -> Flow {
-        self.memory.set_bit(bit, self.stack.top());
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn set(&mut self, bit: Bit, n: ByteSource) -> Flow {
-        self.bit_range(bit, n, true)
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn reset(&mut self, bit: Bit, n: ByteSource) -> Flow {
-        self.bit_range(bit, n, false)
-    }
-
-    fn reset_timers(&mut self, first: u8, n: ByteSource) -> Flow {
-        if self.stack.top() {
-            let count = self.numbers(first, n);
-            range::write(self.memory, self.program.plan(), plc_isa::timer_bit(first), count, false);
-            for slot in self.program.plan().timers().filter(|slot| is_in(slot.number, first, count)) {
-                Timer { memory: self.memory, slot }.reset();
-            }
-        }
-        Flow::Next
-    }
-
-    fn reset_counters(&mut self, first: u8, n: ByteSource) -> Flow {
-        if self.stack.top() {
-            let count = self.numbers(first, n);
-            range::write(self.memory, self.program.plan(), plc_isa::counter_bit(first), count, false);
-            for slot in self.program.plan().counters().filter(|slot| is_in(slot.number, first, count)) {
-                counter::reset(self.memory, slot);
-            }
-        }
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn no_operation(&mut self, _n: u8) -> Flow {
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn and_load(&mut self) -> Flow {
-        let top = self.stack.pop();
-        self.stack.and(top);
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn or_load(&mut self) -> Flow {
-        let top = self.stack.pop();
-        self.stack.or(top);
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn logic_push(&mut self) -> Flow {
-        self.stack.push(self.stack.top());
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn logic_read(&mut self) -> Flow {
-        self.stack.set_top(self.stack.level(1));
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn logic_pop(&mut self) -> Flow {
-        self.stack.pop();
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn load_stack(&mut self, n: u8) -> Flow {
-        self.stack.push(self.stack.level(n));
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn load_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow {
-        self.stack.push(self.words(relation, in1, in2));
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn and_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow {
-        self.stack.and(self.words(relation, in1, in2));
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn or_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow {
-        self.stack.or(self.words(relation, in1, in2));
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn load_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow {
-        self.stack.push(self.bytes(relation, in1, in2));
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn and_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow {
-        self.stack.and(self.bytes(relation, in1, in2));
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn or_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow {
-        self.stack.or(self.bytes(relation, in1, in2));
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn move_byte(&mut self, input: ByteSource, out: u16) -> Flow {
-        if self.stack.top() {
-            let value = self.memory.byte_of(input);
-            self.memory.set_byte(out, value);
-        }
-        Flow::Next
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn move_word(&mut self, input: WordSource, out: u16) -> Flow {
-        if self.stack.top() {
-            let value = self.memory.int_of(input);
-            self.memory.set_int(out, value);
-        }
-        Flow::Next
-    }
-
-    fn add_int(&mut self, in1: WordSource, out: u16) -> Flow {
-        self.int_box(in1, out, i16::checked_add, math::write_result)
-    }
-
-    fn sub_int(&mut self, in1: WordSource, out: u16) -> Flow {
-        self.int_box(in1, out, i16::checked_sub, math::write_result)
-    }
-
-    fn mul_int(&mut self, in1: WordSource, out: u16) -> Flow {
-        self.int_box(in1, out, i16::checked_mul, math::write_product)
-    }
-
-    fn div_int(&mut self, in1: WordSource, out: u16) -> Flow {
-        if self.stack.top() {
-            let divisor = self.memory.int_of(in1);
-            math::divide(self.memory, out, divisor);
-        }
-        Flow::Next
-    }
-
-    fn increment_word(&mut self, out: u16) -> Flow {
-        if self.stack.top() {
-            let result = self.memory.int(out).overflowing_add(1);
-            math::write_wrapped(self.memory, out, result);
-        }
-        Flow::Next
-    }
-
-    fn decrement_word(&mut self, out: u16) -> Flow {
-        if self.stack.top() {
-            let result = self.memory.int(out).overflowing_sub(1);
-            math::write_wrapped(self.memory, out, result);
-        }
-        Flow::Next
-    }
-
-    fn on_delay(&mut self, timer: u8, pt: WordSource) -> Flow {
-        self.timer(timer, pt)
-    }
-
-    fn off_delay(&mut self, timer: u8, pt: WordSource) -> Flow {
-        self.timer(timer, pt)
-    }
-
-    fn retentive_on_delay(&mut self, timer: u8, pt: WordSource) -> Flow {
-        self.timer(timer, pt)
-    }
-
-    fn count_up(&mut self, counter: u8, pv: WordSource) -> Flow {
-        let (stack, preset) = (self.stack, self.memory.int_of(pv));
-        self.counter(counter).up(stack, preset);
-        Flow::Next
-    }
-
-    fn count_down(&mut self, counter: u8, pv: WordSource) -> Flow {
-        let (stack, preset) = (self.stack, self.memory.int_of(pv));
-        self.counter(counter).down(stack, preset);
-        Flow::Next
-    }
-
-    fn count_up_down(&mut self, counter: u8, pv: WordSource) -> Flow {
-        let (stack, preset) = (self.stack, self.memory.int_of(pv));
-        self.counter(counter).up_down(stack, preset);
-        Flow::Next
-    }
-
-    fn for_loop(&mut self, indx: u16, init: WordSource, last: WordSource, end: u16) -> Flow {
-        if !self.stack.top() {
-            return Flow::Jump(end);
-        }
-        let (init, last) = (self.memory.int_of(init), self.memory.int_of(last));
-        self.memory.set_int(indx, init);
-        if init > last { Flow::Jump(end) } else { Flow::Next }
-    }
-
-    /// FINAL is read again after every pass: a program may change it inside the loop.
-    fn next_pass(&mut self, start: u16, here: u16) -> Flow {
-        let mut reader = OperandReader::new(self.program.memory(), start, start.wrapping_add(1), 0);
-        let indx = kinds::WordOut::read(&mut reader);
-        let _init = kinds::AnyInt::read(&mut reader);
-        let last = kinds::AnyInt::read(&mut reader);
-        let _end = kinds::LoopEnd::read(&mut reader);
-        let passed = self.memory.int(indx);
-        let again = passed < self.memory.int_of(last);
-        self.memory.set_int(indx, passed.wrapping_add(1));
-        self.stack.set_top(true);
-        if again { self.go_to(reader.position(), here) } else { Flow::Next }
-    }
-
-    fn jump(&mut self, label: u8, here: u16) -> Flow {
-        if !self.stack.top() {
-            return Flow::Next;
-        }
-        self.go_to(self.plan().label(label), here)
-    }
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn label(&mut self, _n: u8) -> Flow {
-        Flow::Next
-    }
-
-    fn end(&mut self) -> Flow {
-        if self.stack.top() { self.leave(Exit::End) } else { Flow::Next }
-    }
-
-    fn stop(&mut self) -> Flow {
-        if self.stack.top() { self.leave(Exit::Stop) } else { Flow::Next }
-    }
-
-    fn watchdog_reset(&mut self) -> Flow {
-        if self.stack.top() {
-            self.environment.retrigger_watchdog();
-        }
-        Flow::Next
-    }
-
-    fn refresh_timers(&mut self) -> Flow {
-        self.refresh();
-        Flow::Next
-    }
-
-    fn main_end(&mut self) -> Flow {
-        self.leave(Exit::End)
-    }
-
-    fn load_scr(&mut self, bit: Bit, scr: Bit) -> Flow {
-        let is_active = self.memory.bit(bit);
-        self.memory.set_bit(scr, is_active);
-        self.stack.push(is_active);
-        Flow::Next
-    }
-
-    fn and_scr(&mut self, scr: Bit) -> Flow {
-        self.stack.and(self.memory.bit(scr));
-        Flow::Next
-    }
-
-    fn scr_transition(&mut self, bit: Bit, own: Bit) -> Flow {
-        if self.stack.top() {
-            self.memory.set_bit(own, false);
-            self.memory.set_bit(bit, true);
-        }
-        Flow::Next
-    }
-
-    fn scr_end(&mut self) -> Flow {
-        Flow::Next
-    }
-
-    fn conditional_scr_end(&mut self, scr: Bit) -> Flow {
-        if self.stack.top() {
-            self.memory.set_bit(scr, false);
-        }
-        Flow::Next
-    }
-
-    fn begin_call(&mut self, end: u16) -> Flow {
-        if self.stack.top() { Flow::Next } else { Flow::Jump(end) }
-    }
-
-    fn copy_bit(&mut self, bit: Bit, out: Bit) -> Flow {
-        let value = self.memory.bit(bit);
-        self.memory.set_bit(out, value);
-        Flow::Next
-    }
-
-    fn call(&mut self, routine: u8, here: u16) -> Flow {
-        if !self.stack.top() {
-            return Flow::Next;
-        }
-        if !self.calls.enter(Frame { return_to: here.wrapping_add(CALL_LEN), stack: self.stack }) {
-            self.memory.set_bit(PROGRAMMING_ERROR, true);
-            return Flow::Next;
-        }
-        self.enter(routine)
-    }
-
-    fn return_(&mut self) -> Flow {
-        match self.calls.leave(self.memory) {
-            Some(frame) => {
-                self.stack = frame.stack;
-                Flow::Jump(frame.return_to)
-            }
-            None => self.leave(Exit::End),
-        }
-    }
-
-    fn conditional_return(&mut self) -> Flow {
-        if self.stack.top() { self.return_() } else { Flow::Next }
-    }
-
-    fn conditional_return_from_interrupt(&mut self) -> Flow {
-        self.conditional_return()
-    }
-
-    /// Afterwards the program goes on here, so that one routine follows the other.
-    fn poll_events(&mut self, here: u16) -> Flow {
-        if self.calls.is_interrupted() {
-            return Flow::Next;
-        }
-        match self.events.take(self.program.plan(), self.memory) {
-            Some(routine) => {
-                self.calls.interrupt(Frame { return_to: here, stack: self.stack }, self.memory);
-                self.enter(routine)
-            }
-            None => Flow::Next,
-        }
-    }
-
-    fn attach(&mut self, int: u8, evnt: u8) -> Flow {
-        if self.stack.top() {
-            let address = self.plan().event_address(evnt);
-            self.memory.set_byte(address, int.wrapping_add(1));
-            let event = self.plan().event(evnt);
-            self.events.attach(event, self.program.plan(), self.memory);
-        }
-        Flow::Next
-    }
-
-    fn detach(&mut self, evnt: u8) -> Flow {
-        if self.stack.top() {
-            let address = self.plan().event_address(evnt);
-            self.memory.set_byte(address, 0);
-        }
-        self.clear_event(evnt)
-    }
-
-    fn clear_event(&mut self, evnt: u8) -> Flow {
-        if self.stack.top() {
-            let event = self.plan().event(evnt);
-            self.events.clear(event);
-        }
-        Flow::Next
-    }
-
-    fn enable_interrupts(&mut self) -> Flow {
-        if self.stack.top() {
-            self.events.enable(true, self.memory);
-        }
-        Flow::Next
-    }
-
-    fn disable_interrupts(&mut self) -> Flow {
-        if self.stack.top() {
-            self.events.enable(false, self.memory);
-        }
-        Flow::Next
-    }
-
-    fn and_eno(&mut self, errors: u8) -> Flow {
-        let failed = self.memory.byte(STATUS) & errors & !MODULE_ENO != 0;
-        let module_failed = errors & MODULE_ENO != 0 && self.memory.byte(ENO) == 0;
-        self.stack.and(!failed && !module_failed);
-        Flow::Next
-    }
-
-    #[cfg(not(target_arch = "avr"))]
-    fn module_instruction(&mut self, op: Op, operands: &Operands<'_>, _next: u16) -> Flow {
-        crate::modules::execute(self, op, operands)
-    }
-
-    /// On the board they are machine code.
-    #[cfg(target_arch = "avr")]
-    fn module_instruction(&mut self, _op: Op, _operands: &Operands<'_>, _next: u16) -> Flow {
-        self.leave(Exit::Undefined)
-    }
-
-    fn byte_at(&self, address: u16) -> u8 {
-        self.memory.byte(address)
-    }
-
-    fn word_at(&self, address: u16) -> u16 {
-        self.memory.word(address)
-    }
-
-    fn undefined(&mut self) -> Flow {
-        self.leave(Exit::Undefined)
-    }
-}
-
-fn is_in(number: u8, first: u8, count: u8) -> bool {
-    number >= first && number - first < count
 }

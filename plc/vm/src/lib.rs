@@ -15,6 +15,7 @@ mod events;
 mod fault;
 #[cfg(not(target_arch = "avr"))]
 pub mod function;
+mod instructions;
 mod interpreter;
 mod math;
 mod memory;
@@ -31,10 +32,10 @@ mod references;
 mod special;
 mod timer;
 
-pub use interpreter::CALLS_MAX;
 pub use environment::{Environment, SCAN_MS_MAX};
 pub use events::Events;
 pub use fault::Fault;
+pub use interpreter::CALLS_MAX;
 pub use interpreter::{Exit, Interpreter};
 pub use memory::Memory;
 #[cfg(not(target_arch = "avr"))]

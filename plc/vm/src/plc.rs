@@ -2,7 +2,8 @@
 
 use plc_isa::{
     ANALOG_INPUTS, AnalogInput, DATA_START, I_START, INITIAL_HEAD_LEN, ImageError, LogicStack, Program, ProgramMemory,
-    Q_START, TimerResolution, verify_into};
+    Q_START, TimerResolution, verify_into,
+};
 
 use crate::calls::Calls;
 use crate::clock::Clock;

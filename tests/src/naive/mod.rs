@@ -4,11 +4,19 @@
 //! compared with. Where both agree on a random program, at least two people understood the rules
 //! the same way. Handed a program that the assembler would refuse, it panics.
 
+mod boxes;
+mod calls;
 mod control;
+mod conversions;
 mod counters;
 mod instructions;
 mod memory;
+mod places;
+mod points;
+mod reals;
 mod system;
+mod tables;
+mod texts;
 mod timers;
 
 use std::collections::{BTreeMap, HashMap};
@@ -17,13 +25,18 @@ use std::sync::Arc;
 use awl_asm::ast::{Instruction, Program, Statement};
 use plc_isa::Area;
 
+use calls::{Segment, Unit};
 pub use counters::Counter;
+pub use places::Extents;
 use system::Passed;
 pub use timers::Timer;
 
 /// Instructions in one scan, counted from the last WDR, after which the program counts as endless. A stand-in for
 /// the watchdog time: in this model no time passes within a scan.
 pub const INSTRUCTIONS_MAX: u32 = 200_000;
+
+/// The areas that have bytes.
+const AREAS: [Area; 7] = [Area::I, Area::Q, Area::M, Area::S, Area::Sm, Area::V, Area::L];
 
 /// What the plant shows to the controller.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -50,12 +63,24 @@ pub enum Mode {
 pub enum Fault {
     /// The scan did not end.
     Watchdog,
+    /// A comparison read through a pointer that leads nowhere.
+    Pointer,
+    /// A comparison read a real that is no number.
+    Real,
 }
 
 /// The naive controller.
 #[derive(Debug, Clone)]
 pub struct Naive {
-    program: Arc<Vec<Instruction>>,
+    units: Arc<Vec<Unit>>,
+    /// The unit that is executed, by its index; the first is the main program.
+    unit: usize,
+    /// Local memory of the units that are not executed at present; that of the one that is, is an area.
+    locals: Vec<Vec<u8>>,
+    /// The sequence segment that is executed.
+    segment: Option<Segment>,
+    /// What there is of the memory that a program reaches through pointers.
+    extents: Extents,
     mode: Mode,
     fault: Option<Fault>,
 
@@ -63,13 +88,17 @@ pub struct Naive {
     memory: BTreeMap<Area, Vec<u8>>,
     timers: Vec<Timer>,
     counters: Vec<Counter>,
+    accumulators: [u32; 4],
+    /// ENO of the last box.
+    eno: bool,
     inputs: Inputs,
-    /// The input of each EU and ED at its last execution, by position in the program.
-    edges: HashMap<usize, bool>,
+    /// The input of each EU, ED and PID at its last execution, by unit and position in it.
+    edges: HashMap<(usize, usize), bool>,
 
     powered_up: bool,
     first_scan: bool,
     scan_number: u64,
+    now_ms: u32,
     previous_start_ms: u32,
     since_run_ms: u64,
     passed: Passed,
@@ -81,17 +110,27 @@ pub struct Naive {
 impl Naive {
     /// A controller that was just powered up, in RUN, with this program.
     pub fn new(program: Program) -> Naive {
-        let instructions = program.statements.into_iter().filter_map(|statement| match statement {
-            Statement::Instruction(instruction) => Some(instruction),
-            Statement::Network(_) | Statement::Unit(_) => None,
-        });
-        let areas = [(Area::I, 16), (Area::Q, 16), (Area::M, 32), (Area::S, 32), (Area::Sm, 32), (Area::V, 10240)];
+        let units = calls::units(&program);
+        let mut memory: BTreeMap<Area, Vec<u8>> =
+            AREAS.into_iter().map(|area| (area, vec![0; usize::from(area.size())])).collect();
+        for line in &program.data {
+            if let Some(v) = memory.get_mut(&Area::V) {
+                let first = usize::from(line.first_byte);
+                v[first..first + line.bytes.len()].copy_from_slice(&line.bytes);
+            }
+        }
         Naive {
-            program: Arc::new(instructions.collect()),
+            locals: vec![vec![0; usize::from(Area::L.size())]; units.len()],
+            units: Arc::new(units),
+            unit: 0,
+            segment: None,
+            extents: Extents::all(),
             mode: Mode::Run,
             fault: None,
             stack: [false; 9],
-            memory: areas.into_iter().map(|(area, size)| (area, vec![0; size])).collect(),
+            memory,
+            accumulators: [0; 4],
+            eno: false,
             timers: vec![Timer::default(); 256],
             counters: vec![Counter::default(); 256],
             inputs: Inputs::default(),
@@ -99,6 +138,7 @@ impl Naive {
             powered_up: true,
             first_scan: true,
             scan_number: 0,
+            now_ms: 0,
             previous_start_ms: 0,
             since_run_ms: 0,
             passed: Passed::default(),
@@ -106,6 +146,12 @@ impl Naive {
             longest_scan_ms: 0,
             instructions_in_scan: 0,
         }
+    }
+
+    /// Says what there is of V memory, of special memory behind SMB31, of timers and of counters: pointers lead nowhere
+    /// else.
+    pub fn set_extents(&mut self, extents: Extents) {
+        self.extents = extents;
     }
 
     /// Operating mode.
@@ -166,6 +212,11 @@ impl Naive {
         if self.mode == Mode::Run { self.byte(Area::Q, byte) } else { 0 }
     }
 
+    /// An accumulator.
+    pub fn accumulator(&self, number: u8) -> u32 {
+        self.accumulators[usize::from(number)]
+    }
+
     /// Writes a byte from outside.
     pub fn set_byte(&mut self, area: Area, byte: u16, value: u8) {
         self.area(area)[usize::from(byte)] = value;
@@ -176,6 +227,7 @@ impl Naive {
         if self.mode == Mode::Stop {
             return;
         }
+        self.now_ms = now_ms;
         self.let_time_pass(now_ms);
         self.take_inputs(inputs);
         self.update_special_memory();
