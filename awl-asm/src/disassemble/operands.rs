@@ -170,7 +170,7 @@ impl<'a, P: ProgramMemory> Writer<'a, P> {
                     let value = u32::from_be_bytes(bytes);
                     match (kind, self.pointer(value)) {
                         (Kind::RealIn, _) => real_text(value),
-                        (_, Some(pointer)) if op == Op::Movd && self.has_pointers => pointer,
+                        (_, Some(pointer)) if op == Op::Movd => pointer,
                         _ => (value as i32).to_string(),
                     }
                 }
@@ -184,6 +184,10 @@ impl<'a, P: ProgramMemory> Writer<'a, P> {
     fn pointer(&self, value: u32) -> Option<String> {
         let [code, high, ..] = value.to_be_bytes();
         let (area, offset) = (pointer::area(code)?, value as u16);
+        // A pointer to what is planned says so; others are more likely numbers in a program that follows none.
+        if !self.has_pointers && !matches!(area, Area::V | Area::T | Area::C) {
+            return None;
+        }
         let plan = self.program.plan();
         let number = || u8::try_from(offset / 2).ok().filter(|_| offset.is_multiple_of(2));
         let address = match area {

@@ -11,40 +11,71 @@ use super::{Fault, INSTRUCTIONS_MAX, Mode, Naive};
 enum Go {
     Next,
     To(usize),
+    /// The unit is over.
+    Return,
+    /// The program is over.
     Leave,
 }
 
 /// The program.
 impl Naive {
     pub(super) fn run_program(&mut self) {
-        let program = Arc::clone(&self.program);
+        self.unit = 0;
+        self.segment = None;
+        self.run_unit();
+    }
+
+    /// Executes the unit at hand. Returns whether the program goes on behind it.
+    pub(super) fn run_unit(&mut self) -> bool {
+        let code = self.code();
         let mut at = 0;
-        while let Some(instruction) = program.get(at) {
+        while let Some(instruction) = code.get(at) {
             if self.instructions_in_scan >= INSTRUCTIONS_MAX {
-                self.fault = Some(Fault::Watchdog);
-                self.mode = Mode::Stop;
-                return;
+                return self.fail(Fault::Watchdog);
             }
             self.instructions_in_scan += 1;
             match self.execute(at, instruction) {
                 Go::Next => at += 1,
                 Go::To(target) => at = target,
-                Go::Leave => return,
+                Go::Return => return true,
+                Go::Leave => return false,
             }
         }
+        true
+    }
+
+    fn code(&self) -> Arc<Vec<Instruction>> {
+        Arc::clone(&self.units[self.unit].code)
+    }
+
+    fn fail(&mut self, fault: Fault) -> bool {
+        self.fault = Some(fault);
+        self.mode = Mode::Stop;
+        false
     }
 
     fn execute(&mut self, at: usize, instruction: &Instruction) -> Go {
         match instruction.mnemonic {
-            "LD" | "LDN" | "A" | "AN" | "O" | "ON" | "NOT" | "EU" | "ED" | "NOP" => self.contact(at, instruction),
-            "ALD" | "OLD" | "LPS" | "LRD" | "LPP" | "LDS" => self.stack_operation(instruction),
-            "LDW" | "AW" | "OW" | "LDB" | "AB" | "OB" => self.compare(instruction),
-            "=" | "S" | "R" => self.coil(instruction),
-            "MOVB" | "MOVW" | "+I" | "-I" | "*I" | "/I" | "INCW" | "DECW" => self.word_box(instruction),
+            "LD" | "LDN" | "A" | "AN" | "O" | "ON" | "NOT" | "EU" | "ED" | "NOP" | "=" | "AENO" | "LDI" | "LDNI"
+            | "AI" | "ANI" | "OI" | "ONI" | "=I" => self.contact(at, instruction),
+            "ALD" | "OLD" | "LPS" | "LRD" | "LPP" | "LDS" if instruction.relation.is_none() => {
+                self.stack_operation(instruction);
+            }
+            "LDB" | "AB" | "OB" | "LDW" | "AW" | "OW" | "LDD" | "AD" | "OD" | "LDR" | "AR" | "OR" | "LDS" | "AS"
+            | "OS" => {
+                if let Err(fault) = self.compare(instruction) {
+                    self.fail(fault);
+                    return Go::Leave;
+                }
+            }
             "TON" | "TONR" | "TOF" => self.timer_instruction(instruction),
             "CTU" | "CTD" | "CTUD" => self.counter_instruction(instruction),
-            "FOR" | "NEXT" | "JMP" | "LBL" | "END" | "STOP" | "WDR" => return self.control(at, instruction),
-            other => panic!("{other} is unknown here"),
+            "LSCR" | "SCRT" | "SCRE" | "CSCRE" => self.sequence(instruction),
+            "PID" => self.pid(at, instruction),
+            "CALL" if self.call(instruction) => {}
+            "CALL" => return Go::Leave,
+            "FOR" | "NEXT" | "JMP" | "LBL" | "END" | "STOP" | "WDR" | "CRET" => return self.control(at, instruction),
+            _ => self.powered_box(instruction),
         }
         Go::Next
     }
@@ -73,6 +104,7 @@ impl Naive {
                 self.instructions_in_scan = 0;
                 Go::Next
             }
+            "CRET" => Go::Return,
             _ => Go::Leave,
         }
     }
@@ -89,8 +121,8 @@ impl Naive {
 
     fn end_of_pass(&mut self, at: usize) -> Go {
         let start = self.matching_for(at);
-        let program = Arc::clone(&self.program);
-        let [indx, _, last] = &program[start].operands[..] else { panic!("FOR has three operands") };
+        let code = self.code();
+        let [indx, _, last] = &code[start].operands[..] else { panic!("FOR has three operands") };
         let index = self.word_operand(indx);
         let was_last = index >= self.word_operand(last);
         self.write_word_operand(indx, index.wrapping_add(1));
@@ -100,7 +132,7 @@ impl Naive {
 
     fn matching_next(&self, start: usize) -> usize {
         let mut open = 0;
-        for (at, instruction) in self.program.iter().enumerate().skip(start) {
+        for (at, instruction) in self.code().iter().enumerate().skip(start) {
             match instruction.mnemonic {
                 "FOR" => open += 1,
                 "NEXT" => open -= 1,
@@ -114,9 +146,9 @@ impl Naive {
     }
 
     fn matching_for(&self, end: usize) -> usize {
-        let mut open = 0;
+        let (mut open, code) = (0, self.code());
         for at in (0..=end).rev() {
-            match self.program[at].mnemonic {
+            match code[at].mnemonic {
                 "NEXT" => open += 1,
                 "FOR" => open -= 1,
                 _ => {}
@@ -131,6 +163,6 @@ impl Naive {
     fn label(&self, wanted: i64) -> usize {
         let is_wanted =
             |instruction: &Instruction| instruction.mnemonic == "LBL" && number(&instruction.operands[0]) == wanted;
-        self.program.iter().position(is_wanted).unwrap_or_else(|| panic!("no LBL {wanted}"))
+        self.code().iter().position(is_wanted).unwrap_or_else(|| panic!("no LBL {wanted}"))
     }
 }

@@ -1,15 +1,19 @@
-//! Contacts, stack operations, comparisons, coils, moves and arithmetic.
+//! Contacts, stack operations, comparisons and coils.
+
+use std::cmp::Ordering;
 
 use awl_asm::Address;
 use awl_asm::ast::{Instruction, Operand};
-use plc_isa::{Area, Relation};
+use plc_isa::Relation;
 
-use super::Naive;
+use super::boxes::width;
 use super::memory::{address, number};
+use super::places::Trouble;
+use super::{Fault, Naive};
 
 /// The logic stack.
 impl Naive {
-    fn push(&mut self, value: bool) {
+    pub(super) fn push(&mut self, value: bool) {
         for level in (1..9).rev() {
             self.stack[level] = self.stack[level - 1];
         }
@@ -31,15 +35,18 @@ impl Naive {
     pub(super) fn contact(&mut self, at: usize, instruction: &Instruction) {
         let operands = &instruction.operands;
         match instruction.mnemonic {
-            "LD" => self.push(self.bit_operand(&operands[0])),
-            "LDN" => self.push(!self.bit_operand(&operands[0])),
-            "A" => self.stack[0] = self.stack[0] && self.bit_operand(&operands[0]),
-            "AN" => self.stack[0] = self.stack[0] && !self.bit_operand(&operands[0]),
-            "O" => self.stack[0] = self.stack[0] || self.bit_operand(&operands[0]),
-            "ON" => self.stack[0] = self.stack[0] || !self.bit_operand(&operands[0]),
+            // In this model points and process image are the same.
+            "LD" | "LDI" => self.push(self.powered(self.bit_operand(&operands[0]))),
+            "LDN" | "LDNI" => self.push(self.powered(!self.bit_operand(&operands[0]))),
+            "A" | "AI" => self.stack[0] = self.stack[0] && self.bit_operand(&operands[0]),
+            "AN" | "ANI" => self.stack[0] = self.stack[0] && !self.bit_operand(&operands[0]),
+            "O" | "OI" => self.stack[0] = self.powered(self.stack[0] || self.bit_operand(&operands[0])),
+            "ON" | "ONI" => self.stack[0] = self.powered(self.stack[0] || !self.bit_operand(&operands[0])),
+            "=" | "=I" => self.write_bit_operand(&operands[0], self.stack[0]),
             "NOT" => self.stack[0] = !self.stack[0],
+            "AENO" => self.stack[0] = self.stack[0] && self.eno,
             "EU" | "ED" => {
-                let before = self.edges.insert(at, self.stack[0]).unwrap_or(false);
+                let before = self.edges.insert((self.unit, at), self.stack[0]).unwrap_or(false);
                 let edge =
                     if instruction.mnemonic == "EU" { !before && self.stack[0] } else { before && !self.stack[0] };
                 self.stack[0] = edge && !self.first_scan;
@@ -70,45 +77,54 @@ impl Naive {
         }
     }
 
-    pub(super) fn compare(&mut self, instruction: &Instruction) {
+    /// A comparison. The fault is one of its operands'.
+    pub(super) fn compare(&mut self, instruction: &Instruction) -> Result<(), Fault> {
         let [first, second] = &instruction.operands[..] else { panic!("a comparison has two operands") };
-        let (a, b) = match instruction.mnemonic {
-            "LDB" | "AB" | "OB" => (i32::from(self.byte_operand(first)), i32::from(self.byte_operand(second))),
-            _ => (i32::from(self.word_operand(first)), i32::from(self.word_operand(second))),
+        let mnemonic = instruction.mnemonic;
+        let order = match mnemonic.chars().last() {
+            Some('R') => self.order_of_reals(first, second)?,
+            Some('S') => {
+                let texts = self.read_text(first).and_then(|a| Ok((a, self.read_text(second)?)));
+                let (a, b) = texts.map_err(|_| Fault::Pointer)?;
+                if a == b { Ordering::Equal } else { Ordering::Less }
+            }
+            _ => {
+                let width = width(mnemonic);
+                let values = self.read_signed(first, width).and_then(|a| Ok((a, self.read_signed(second, width)?)));
+                let (a, b) = values.map_err(|_| Fault::Pointer)?;
+                a.cmp(&b)
+            }
         };
         let holds = match instruction.relation {
-            Some(Relation::Equal) => a == b,
-            Some(Relation::NotEqual) => a != b,
-            Some(Relation::Less) => a < b,
-            Some(Relation::Greater) => a > b,
-            Some(Relation::LessOrEqual) => a <= b,
-            Some(Relation::GreaterOrEqual) => a >= b,
+            Some(Relation::Equal) => order.is_eq(),
+            Some(Relation::NotEqual) => order.is_ne(),
+            Some(Relation::Less) => order.is_lt(),
+            Some(Relation::Greater) => order.is_gt(),
+            Some(Relation::LessOrEqual) => order.is_le(),
+            Some(Relation::GreaterOrEqual) => order.is_ge(),
             None => panic!("a comparison has a relation"),
         };
-        match instruction.mnemonic {
-            "LDW" | "LDB" => self.push(holds),
-            "AW" | "AB" => self.stack[0] = self.stack[0] && holds,
-            _ => self.stack[0] = self.stack[0] || holds,
+        match mnemonic.as_bytes()[0] {
+            b'L' => self.push(self.powered(holds)),
+            b'A' => self.stack[0] = self.stack[0] && holds,
+            _ => self.stack[0] = self.powered(self.stack[0] || holds),
         }
+        Ok(())
     }
 
-    pub(super) fn coil(&mut self, instruction: &Instruction) {
-        let operands = &instruction.operands;
-        match instruction.mnemonic {
-            "=" => self.write_bit_operand(&operands[0], self.stack[0]),
-            "S" if self.stack[0] => self.set_or_reset(&operands[0], self.byte_operand(&operands[1]), true),
-            "R" if self.stack[0] => self.set_or_reset(&operands[0], self.byte_operand(&operands[1]), false),
-            _ => {}
-        }
+    fn order_of_reals(&self, first: &Operand, second: &Operand) -> Result<Ordering, Fault> {
+        let reals = self.read_real(first).and_then(|a| Ok((a, self.read_real(second)?)));
+        let (a, b) = reals.map_err(|_| Fault::Pointer)?;
+        a.partial_cmp(&b).ok_or(Fault::Real)
     }
 
-    fn set_or_reset(&mut self, first: &Operand, n: u8, value: bool) {
-        let n = usize::from(n);
+    pub(super) fn set_or_reset(&mut self, first: &Operand, count: &Operand, value: bool) -> Result<(), Trouble> {
+        let n = self.read(count, 1)? as usize;
         match address(first) {
             Address::Bit { area, byte, bit } => {
                 let first = usize::from(byte) * 8 + usize::from(bit);
-                if first + n > self.area(area).len() * 8 {
-                    return;
+                if !self.has_bits(area, first, n) {
+                    return Err(Trouble::Operand);
                 }
                 for place in first..first + n {
                     self.set_bit(area, (place / 8) as u16, (place % 8) as u8, value);
@@ -130,55 +146,10 @@ impl Naive {
                     }
                 }
             }
+            Address::Timer(_) | Address::Counter(_) if value => return Err(Trouble::Operand),
             Address::Timer(_) | Address::Counter(_) => {}
             other => panic!("{other} is no bit"),
         }
-    }
-
-    pub(super) fn word_box(&mut self, instruction: &Instruction) {
-        if !self.stack[0] {
-            return;
-        }
-        let operands = &instruction.operands;
-        match instruction.mnemonic {
-            "MOVB" => self.write_byte_operand(&operands[1], self.byte_operand(&operands[0])),
-            "MOVW" => self.write_word_operand(&operands[1], self.word_operand(&operands[0])),
-            "INCW" => self.step(&operands[0], 1),
-            "DECW" => self.step(&operands[0], -1),
-            _ => self.calculate(instruction),
-        }
-    }
-
-    fn step(&mut self, out: &Operand, by: i16) {
-        let (result, wrapped) = self.word_operand(out).overflowing_add(by);
-        self.write_word_operand(out, result);
-        self.set_math_bits(result == 0, wrapped, result < 0);
-    }
-
-    fn calculate(&mut self, instruction: &Instruction) {
-        let (in1, out) = (&instruction.operands[0], &instruction.operands[1]);
-        let (a, b) = (i32::from(self.word_operand(out)), i32::from(self.word_operand(in1)));
-        let result = match instruction.mnemonic {
-            "+I" => a + b,
-            "-I" => a - b,
-            "*I" => a * b,
-            _ if b == 0 => return self.set_bit(Area::Sm, 1, 3, true),
-            _ => a / b,
-        };
-        if matches!(instruction.mnemonic, "*I" | "/I") {
-            self.set_bit(Area::Sm, 1, 3, false);
-        }
-        if (-32768..=32767).contains(&result) {
-            self.write_word_operand(out, result as i16);
-            self.set_math_bits(result == 0, false, result < 0);
-        } else {
-            self.set_math_bits(false, true, false);
-        }
-    }
-
-    fn set_math_bits(&mut self, zero: bool, overflow: bool, negative: bool) {
-        self.set_bit(Area::Sm, 1, 0, zero);
-        self.set_bit(Area::Sm, 1, 1, overflow);
-        self.set_bit(Area::Sm, 1, 2, negative);
+        Ok(())
     }
 }

@@ -2,7 +2,7 @@
 
 use awl_asm::Address;
 use awl_asm::ast::{Constant, Operand, Value};
-use plc_isa::{AnalogInput, Area};
+use plc_isa::Area;
 
 use super::Naive;
 
@@ -45,43 +45,17 @@ impl Naive {
         }
     }
 
-    pub(super) fn byte_operand(&self, operand: &Operand) -> u8 {
-        match &operand.value {
-            Value::Constant(constant) => constant.value as u8,
-            _ => match address(operand) {
-                Address::Byte { area, byte } => self.byte(area, byte),
-                other => panic!("{other} is no byte"),
-            },
-        }
-    }
-
-    pub(super) fn write_byte_operand(&mut self, operand: &Operand, value: u8) {
-        match address(operand) {
-            Address::Byte { area, byte } => self.set_byte(area, byte, value),
-            other => panic!("{other} is no byte"),
-        }
-    }
-
+    /// A word whose place is certain.
     pub(super) fn word_operand(&self, operand: &Operand) -> i16 {
-        match &operand.value {
-            Value::Constant(constant) => constant.value as i16,
-            _ => match address(operand) {
-                Address::Word { area, byte } => self.word(area, byte),
-                Address::Timer(number) => self.timer(number).current,
-                Address::Counter(number) => self.counter(number).current,
-                Address::Analog(AnalogInput::Scaled(channel)) => self.inputs.aiw[usize::from(channel)] as i16,
-                Address::Analog(AnalogInput::Raw(channel)) => self.inputs.ain[usize::from(channel)] as i16,
-                other => panic!("{other} is no word"),
-            },
+        match self.read(operand, 2) {
+            Ok(value) => value as i16,
+            Err(_) => panic!("{:?} is no word", operand.value),
         }
     }
 
     pub(super) fn write_word_operand(&mut self, operand: &Operand, value: i16) {
-        match address(operand) {
-            Address::Word { area, byte } => self.set_word(area, byte, value),
-            Address::Timer(number) => self.timers[usize::from(number)].current = value,
-            Address::Counter(number) => self.counters[usize::from(number)].current = value,
-            other => panic!("{other} is no word that can be written"),
+        if self.write(operand, 2, u32::from(value as u16)).is_err() {
+            panic!("{:?} is no word that can be written", operand.value);
         }
     }
 }

@@ -38,6 +38,7 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
     fn ascii_to_hex(&mut self) -> Result<(), Failure> {
         let len = self.read(2, Width::Byte)? as u16;
         let (from, out) = (self.source(0, Width::Byte, len)?, self.target(1, Width::Byte, len.div_ceil(2))?);
+        ensure_apart(out, from, len)?;
         let mut bytes = [0; 128];
         for at in 0..len {
             let digit = hex_digit(self.interpreter.memory.byte(from + at));
@@ -54,6 +55,7 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
     fn hex_to_ascii(&mut self) -> Result<(), Failure> {
         let len = self.read(2, Width::Byte)? as u16;
         let (from, out) = (self.source(0, Width::Byte, len.div_ceil(2))?, self.target(1, Width::Byte, len)?);
+        ensure_apart(from, out, len)?;
         let mut characters = [0; 255];
         for (at, character) in (0..len).zip(&mut characters) {
             let byte = self.interpreter.memory.byte(from + at / 2);
@@ -128,6 +130,12 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
         let out = self.target(2, width, 1)?;
         self.put_if(out, width, value, OVERFLOW)
     }
+}
+
+/// Digits must not begin within the `len` characters that they belong to, behind the first: what is written would be
+/// read again.
+fn ensure_apart(digits: u16, characters: u16, len: u16) -> Result<(), Failure> {
+    if digits > characters && digits - characters < len { Err(Failure::Operand) } else { Ok(()) }
 }
 
 fn hex_digit(character: u8) -> Option<u8> {

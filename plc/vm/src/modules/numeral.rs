@@ -77,7 +77,8 @@ pub(super) fn scaled(x: f32, decimals: u8) -> Option<Number> {
 
 /// The sign and what follows it: spaces before it do not count.
 fn signed(text: &[u8]) -> (bool, &[u8]) {
-    match text.trim_ascii_start() {
+    let spaces = text.iter().take_while(|&&character| character == b' ').count();
+    match text.get(spaces..).unwrap_or(&[]) {
         [b'-', rest @ ..] => (true, rest),
         [b'+', rest @ ..] => (false, rest),
         rest => (false, rest),
@@ -99,7 +100,7 @@ pub(super) fn integer(text: &[u8]) -> Option<i64> {
 /// it is too large.
 pub(super) fn real(text: &[u8]) -> Option<f32> {
     /// From here on another digit might not fit.
-    const FULL: u64 = u64::MAX / 10 - 1;
+    const FULL: u64 = 1 << 60;
     let (is_negative, text) = signed(text);
     let (mut digits, mut tens, mut has_digits, mut behind_point) = (0_u64, 0, false, false);
     for &character in text {

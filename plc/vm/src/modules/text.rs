@@ -45,7 +45,9 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
     fn find_text(&mut self, matches: fn(&[u8], &[u8]) -> bool) -> Result<(), Failure> {
         let (text, sought) = (self.read_text(0)?, self.read_text(1)?);
         let (text, sought) = (text.characters(), sought.characters());
-        let (start, out) = (self.read_position(2, text)?, self.target(2, Width::Byte, 1)?);
+        let (start, out) = (self.read(2, Width::Byte)? as usize, self.target(2, Width::Byte, 1)?);
+        // Behind the end nothing is found; a position 0 there is not.
+        let start = start.checked_sub(1).ok_or(Failure::Operand)?;
         let found = (start..text.len()).find(|&at| matches(text.get(at..).unwrap_or(&[]), sought));
         self.put(out, Width::Byte, found.map_or(0, |at| at as i64 + 1));
         Ok(())

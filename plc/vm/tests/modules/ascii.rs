@@ -34,8 +34,9 @@ fn characters_to_hex() {
     }
     let mut machine = Machine::new();
     machine.set_bytes(0, &[b'7'; 255]);
+    assert_eq!(machine.run(Op::Ath, &[v(0), v(1), c(255)]), End::BadOperand, "what is written would be read again");
     assert_eq!(
-        (machine.run(Op::Ath, &[v(0), v(1), c(255)]), machine.bytes(1, 129)),
+        (machine.run(Op::Ath, &[v(0), v(0), c(255)]), machine.bytes(0, 129)),
         (End::Good, [vec![0x77; 128], vec![b'7']].concat())
     );
     assert_eq!(machine.run(Op::Ath, &[v(V_LEN - 4), v(0), c(5)]), End::BadOperand);
