@@ -7,6 +7,7 @@ use crate::check::{Depths, Usage, control, placement, sequence, span_of, stack, 
 use crate::data_block::{DataLine, join};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::encode::{Checked, Encoding, Line, encode};
+use crate::hardware;
 use crate::mnemonic_set;
 use crate::parser::parse;
 use crate::plan::{Demand, demand};
@@ -60,6 +61,8 @@ pub fn assemble_with_data(source: &Source, symbols: Vec<Symbol>, data: &[DataLin
     join(&mut program.data, data, &mut diagnostics);
     mnemonic_set::check(&source.text, &program, &mut diagnostics);
     let code = select(&program, &mut diagnostics);
+    diagnostics.extend(hardware::shared_pin(&program, &code));
+    diagnostics.extend(hardware::not_on_board(&program, &code));
     let units = Units::new(&program, &code, &mut diagnostics);
     let control = control(&program, &code, &units, &mut diagnostics);
     placement(&program, &code, &units, &mut diagnostics);
@@ -89,6 +92,7 @@ fn drop_follow_ups(diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.retain(|diagnostic| is_guess(&diagnostic) || !guesses.contains(&diagnostic.span));
     // Whether a value or a routine is used cannot be told while instructions are missing.
     if diagnostics.iter().any(|diagnostic| diagnostic.severity() == Severity::Error) {
-        diagnostics.retain(|diagnostic| !matches!(diagnostic.code, Code::UnusedValue | Code::NeverCalled));
+        diagnostics
+            .retain(|diagnostic| !matches!(diagnostic.code, Code::UnusedValue | Code::NeverCalled | Code::NotOnBoard));
     }
 }

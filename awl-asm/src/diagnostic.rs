@@ -86,6 +86,7 @@ codes! {
     UnusedValue = "W0010";
     NeverCalled = "W0020";
     MixedMnemonics = "W0030";
+    NotOnBoard = "W0031";
 }
 
 impl Code {

@@ -1,10 +1,14 @@
 //! What an S7-200 has and an Uno has not: says so at assembly, with the reason and the nearest way that works.
 
+use std::collections::BTreeSet;
+
 use plc_isa::{DIGITAL_INPUTS, DIGITAL_OUTPUTS, Op};
 
 use crate::address::Address;
-use crate::ast::{Instruction, Span, Value};
+use crate::ast::{Instruction, Program, Span, Value};
+use crate::check::span_of;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::modules;
 use crate::select::{Argument, Selected};
 
 /// Instructions that no Uno can execute: mnemonic, reason, nearest way.
@@ -75,8 +79,14 @@ pub(crate) fn refusal(source: &Instruction, selected: &Selected) -> Option<Diagn
             high_speed_counter(counter, span(0)).or_else(|| counter_mode(counter, mode, span(1)))
         }
         (Op::Hsc, [Argument::Number(counter), ..]) => high_speed_counter(counter, span(0)),
+        (Op::Pls, [Argument::Number(0), ..]) => {
+            let message = "PLS 0: Q0.0 is pin D8, behind which no timer makes pulses";
+            Some(
+                Diagnostic::new(Code::Hardware, span(0), message).help("use PLS 1: Q0.1 is pin D9, SMB76 and SMB77 on"),
+            )
+        }
         (Op::Pls, [Argument::Number(output @ 2..), ..]) => {
-            let message = format!("{output}: PLS has the outputs 0 and 1");
+            let message = format!("{output}: an S7-200 has the pulse outputs 0 and 1, the Uno has 1");
             Some(Diagnostic::new(Code::ConstantRange, span(0), message))
         }
         (Op::Xmt | Op::Rcv, [_, Argument::Number(port @ 1..), ..]) => {
@@ -98,36 +108,70 @@ fn high_speed_counter(counter: u8, span: Span) -> Option<Diagnostic> {
     }
 }
 
-/// Modes of the counters with one input for the pulses. HSC0 can have its direction at I0.1, which is HSC3's otherwise.
+/// The modes whose inputs have pins: HSC0 takes I0.0, I0.1 and for the reset I0.2, HSC3 has I0.1 alone.
 fn counter_mode(counter: u8, mode: u8, span: Span) -> Option<Diagnostic> {
     let (possible, words): (&[u8], _) = match counter {
-        0 => (&[0, 3, 6, 9], "0 (pulses), 3 (direction at I0.1), 6 (up and down) and 9 (A and B)"),
+        0 => (
+            &[0, 1, 3, 4, 6, 7, 9, 10],
+            "0 and 1 (pulses), 3 and 4 (direction at I0.1), 6 and 7 (up and down), 9 and 10 (A and B)",
+        ),
         _ => (&[0], "0 (pulses)"),
     };
     if possible.contains(&mode) {
         return None;
     }
-    let message = format!("mode {mode}: the Uno has no pins for it");
+    let message = format!("mode {mode}: HSC{counter} has no inputs for it");
     let code = if mode > 12 { Code::ConstantRange } else { Code::Hardware };
     Some(Diagnostic::new(code, span, message).help(format!("HSC{counter} has the modes {words}")))
 }
 
+/// The pulse output and the analog output of one pin in one program.
+pub(crate) fn shared_pin(program: &Program, code: &[Selected]) -> Option<Diagnostic> {
+    let writes_analog = |selected: &&Selected| {
+        selected.arguments().any(|(argument, _)| argument == Argument::Memory(Address::AnalogOutput(0)))
+    };
+    let analog = code.iter().find(writes_analog)?;
+    let pulses = code.iter().find(|selected| selected.op == Op::Pls && selected.arguments[0] == Argument::Number(1))?;
+    let message = "PLS 1 and AQW0 are both at pin D9";
+    let diagnostic = Diagnostic::new(Code::Hardware, span_of(program, pulses), message);
+    Some(diagnostic.related(span_of(program, analog), "AQW0 here").help("AQW2 is at pin D10"))
+}
+
+/// Instructions that the board's firmware lacks, each where it stands first.
+pub(crate) fn not_on_board(program: &Program, code: &[Selected]) -> Vec<Diagnostic> {
+    let mut seen = BTreeSet::new();
+    let missing = code.iter().filter(|selected| is_missing_on_board(selected.op) && seen.insert(selected.op));
+    let diagnostic = |selected: &Selected| {
+        let name = selected.op.instruction().mnemonic();
+        let message = format!("{name}: the board does not have this instruction yet, the simulator runs it");
+        Diagnostic::new(Code::NotOnBoard, span_of(program, selected), message)
+    };
+    missing.map(diagnostic).collect()
+}
+
+/// Whether there is no machine code for an instruction of a module.
+fn is_missing_on_board(op: Op) -> bool {
+    let instruction = op.instruction();
+    let (Some(module), Some(form)) = (instruction.module(), instruction.forms.first()) else { return false };
+    // The fourth byte of a module is the number of its routines.
+    modules::bytes(module).is_none_or(|bytes| bytes.get(3).is_none_or(|&routines| form.first_token >= routines))
+}
+
 /// The events of an Uno.
 fn has_event(event: u8) -> bool {
-    matches!(event, 0..=12 | 21..=23 | 27 | 32)
+    matches!(event, 0..=12 | 21..=23 | 27 | 28 | 32)
 }
 
 fn no_event(event: u8, span: Span) -> Option<Diagnostic> {
     if has_event(event) {
         return None;
     }
-    let counter = "use HSC0 with the events 12 and 27, or HSC3 with event 32";
+    let counter = "use HSC0 with the events 12, 27 and 28, or HSC3 with event 32";
     let (what, way) = match event {
         13..=15 => ("HSC1", counter),
         16..=18 => ("HSC2", counter),
         19 | 20 => ("the end of a pulse output", "ask for the end in SM66.7 or SM76.7"),
         24..=26 => ("port 1", "the Uno has port 0 with the events 8, 9 and 23"),
-        28 => ("the external reset of HSC0", "reset the counter with HSC, for example at an event of I0.2"),
         29..=31 => ("HSC4", counter),
         33 => ("HSC5", counter),
         _ => {

@@ -183,13 +183,15 @@ Cfnd:
     brcs bad
     rcall target_byte
     ld r24, X
+    tst r24
+    breq bad
+    push r26
+    push r27
     mov r25, r22
     mov r22, r24
     rcall at_position
     mov r22, r25
-    brcs bad
-    push r26
-    push r27
+    brcs 6f
 1:  brts 3f
     ; Where the sought does not fit, it fits nowhere behind either.
     tst r19

@@ -243,11 +243,11 @@ fn pulse_width_modulation_drives_its_output() {
 
 #[test]
 fn a_train_of_pulses_tells_its_end() {
-    let main = "NETWORK 1\nLD SM0.1\nMOVB 16#8D, SMB67\nMOVW 10, SMW68\nMOVD 5, SMD72\nPLS 0\n\
-        NETWORK 2\nLD SM66.7\n= M0.0";
-    let scenario = "at 1ms expect Q0.0 = 1, M0.0 = 0, Q0.0.duty = 500\nat 6ms expect Q0.0 = 0\nat 45ms expect Q0.0 = 1
-        at 46ms expect Q0.0 = 0\nat 50ms expect M0.0 = 0\nat 51ms expect M0.0 = 1, Q0.0 = 0
-        at 100ms expect Q0.0.duty = 0";
+    let main = "NETWORK 1\nLD SM0.1\nMOVB 16#8D, SMB77\nMOVW 10, SMW78\nMOVD 5, SMD82\nPLS 1\n\
+        NETWORK 2\nLD SM76.7\n= M0.0";
+    let scenario = "at 1ms expect Q0.1 = 1, M0.0 = 0, Q0.1.duty = 500\nat 6ms expect Q0.1 = 0\nat 45ms expect Q0.1 = 1
+        at 46ms expect Q0.1 = 0\nat 50ms expect M0.0 = 0\nat 51ms expect M0.0 = 1, Q0.1 = 0
+        at 100ms expect Q0.1.duty = 0";
     assert_holds(&program(main, &[]), scenario);
 }
 
@@ -294,7 +294,7 @@ fn a_message_is_received_and_echoed() {
     let again = "LD SM0.0\nINCW VW54\nRCV VB100, 0";
     let scenario = "at 2ms expect M0.0 = 1\nat 10ms receive \"noise:1,2\\r:next\"\nat 18ms expect VW52 = 0, SMB2 = 44
         at 30ms expect VB50 = 16#20, VW52 = 1, VB100 = \":1,2\\r\", VW54 = 1, M0.0 = 1\nat 30ms expect sent \":1,2\\r\"
-        at 21ms expect M0.0 = 0, VW54 = 0\nat 100ms receive \":0123456789012345678901234567890\"
+        at 20ms expect M0.0 = 0, VW52 = 1\nat 25ms expect VW54 = 0\nat 26ms expect VW54 = 1\nat 100ms receive \":0123456789012345678901234567890\"
         at 200ms expect VB50 = 2, VW52 = 2, VB100 = 30\nat 200ms expect sent \":01234567890123456789012345678\"";
     assert_holds(&program(main, &[echo, again]), scenario);
     let wrong = outcome(&program(main, &[echo, again]), "at 10ms receive \":\\r\"\nat 99ms expect sent \"x\"");
@@ -314,4 +314,12 @@ fn messages_end_by_time_and_single_characters_are_events() {
         at 66ms expect VB100 = \"hello\", VW54 = 3\nat 70ms I0.0 = 0\nat 80ms I0.0 = 1\nat 90ms I0.1 = 1
         at 95ms expect VW52 = 2, VB50 = 16#80, VB100 = 0";
     assert_holds(&program(main, &[message, character]), scenario);
+}
+
+#[test]
+fn a_frame_between_two_equal_characters() {
+    let main = "//# memory VB100-VB131\nNETWORK 1\nLD SM0.1\nMOVB 16#09, SMB30\nMOVB 16#E0, SMB87\nMOVB 126, SMB88\n\
+        MOVB 126, SMB89\nMOVB 30, SMB94\nATCH INT_0, 23\nENI\nRCV VB100, 0";
+    let scenario = "at 10ms receive \"x~abc~y\"\nat 15ms expect VW52 = 0\nat 20ms expect VW52 = 1, VB100 = \"~abc~\"";
+    assert_holds(&program(main, &["LD SM0.0\nINCW VW52"]), scenario);
 }

@@ -8,11 +8,11 @@ use awl_asm::assemble::assemble;
 use awl_asm::disassemble::disassemble;
 use awl_asm::source::Source;
 use fastrand::Rng;
-use plc_isa::{Area, C_BITS_START, LogicStack, Plan, ProgramMemory, T_BITS_START};
+use plc_isa::{AC_START, ACCUMULATORS, Area, C_BITS_START, LogicStack, Plan, ProgramMemory, SM_IN_V, T_BITS_START};
 use plc_vm::{Environment, Memory, Mode, Plc};
 use tests::effort::effort;
-use tests::naive::{self, Naive};
-use tests::random::{random_inputs, random_program, random_step_ms};
+use tests::naive::{self, Extents, Naive};
+use tests::random::{Offer, random_inputs, random_program_of, random_step_ms};
 
 /// Time stands still within a scan. A program that loops for longer than this has no end.
 struct Time<const COMPACT: bool> {
@@ -37,10 +37,17 @@ impl<const COMPACT: bool> Environment for Time<COMPACT> {
     }
 }
 
-fn text_of(seed: u64) -> (String, Rng) {
+/// What the programs of a test may use.
+type Offers = fn(&mut Rng) -> Offer;
+
+const CORE: Offers = |_| Offer::core();
+const EVERYTHING: Offers = Offer::everything;
+
+fn text_of(seed: u64, offers: Offers) -> (String, Rng) {
     let mut rng = Rng::with_seed(seed);
     let size = rng.usize(5..220);
-    (random_program(&mut rng, size), rng)
+    let offer = offers(&mut rng);
+    (random_program_of(&mut rng, size, offer), rng)
 }
 
 fn assembled(seed: u64, text: &str) -> (Vec<u8>, awl_asm::ast::Program) {
@@ -59,10 +66,19 @@ fn assembled(seed: u64, text: &str) -> (Vec<u8>, awl_asm::ast::Program) {
 
 #[test]
 fn the_interpreter_agrees_with_the_naive_evaluator() {
-    let (first, count) = (effort("RANDOM_SEED", 1), effort("RANDOM_PROGRAMS", 3_000));
+    agrees(CORE, 3_000);
+}
+
+#[test]
+fn modules_and_units_agree_with_the_naive_evaluator() {
+    agrees(EVERYTHING, 2_000);
+}
+
+fn agrees(offers: Offers, programs: u64) {
+    let (first, count) = (effort("RANDOM_SEED", 1), effort("RANDOM_PROGRAMS", programs));
     let (mut scans, mut executed) = (0, 0);
     for seed in first..first + count {
-        let (text, mut rng) = text_of(seed);
+        let (text, mut rng) = text_of(seed, offers);
         let (image, program) = assembled(seed, &text);
         let (more_scans, more_executed) = compare(seed, &text, &image, program, &mut rng);
         scans += more_scans;
@@ -78,6 +94,7 @@ fn compare(seed: u64, text: &str, image: &[u8], program: awl_asm::ast::Program, 
     plc.load(&mut memory, image).unwrap_or_else(|error| panic!("seed {seed}: {error:?}\n{text}"));
     plc.run();
     let mut naive = Naive::new(program);
+    naive.set_extents(extents(plc.program().expect("a program is loaded").plan()));
     // Near the wrap of the clock as often as not.
     let start_ms = if rng.bool() { u32::MAX - rng.u32(..2_000) } else { rng.u32(..) };
     let mut time = Time::<false> { now_ms: start_ms, looped_bytes: 0, executed: 0 };
@@ -108,6 +125,18 @@ fn compare(seed: u64, text: &str, image: &[u8], program: awl_asm::ast::Program, 
     (scans, time.executed)
 }
 
+/// What there is of memory, by the plan.
+fn extents<P: ProgramMemory>(plan: &Plan<P>) -> Extents {
+    let ranges: Vec<(u16, u16)> = plan.v_ranges().map(|(first, len)| (first, first + len)).collect();
+    let (sm, v): (Vec<_>, Vec<_>) = ranges.into_iter().partition(|&(first, _)| first >= SM_IN_V);
+    Extents {
+        v: v.into_iter().map(|(first, end)| first..end).collect(),
+        sm: sm.into_iter().map(|(first, end)| first - SM_IN_V..end - SM_IN_V).collect(),
+        timers: plan.timers().map(|slot| slot.number).collect(),
+        counters: plan.counters().map(|slot| slot.number).collect(),
+    }
+}
+
 /// Everything a program can see, and the mode.
 fn differences<P: ProgramMemory>(plc: &Plc<P>, memory: &Memory, plan: &Plan<P>, naive: &Naive) -> Vec<String> {
     let mut found = Vec::new();
@@ -118,12 +147,19 @@ fn differences<P: ProgramMemory>(plc: &Plc<P>, memory: &Memory, plan: &Plan<P>, 
     };
     equal("RUN".into(), i32::from(plc.mode() == Mode::Run), i32::from(naive.mode() == naive::Mode::Run));
     for area in [Area::I, Area::Q, Area::M, Area::Sm, Area::S] {
-        for byte in 0..area.size() {
+        for byte in 0..area.page_len() {
             let address = area.page_start().unwrap_or(0) + byte;
             equal(format!("{}B{byte}", area.name()), memory.byte(address).into(), naive.byte(area, byte).into());
         }
     }
-    for byte in plan.v_ranges().flat_map(|(first, len)| first..first + len) {
+    for number in 0..ACCUMULATORS {
+        let address = AC_START + 4 * u16::from(number);
+        let words = [memory.int(address), memory.int(address + 2)].map(|word| u32::from(word as u16));
+        let value = words[0] << 16 | words[1];
+        equal(format!("AC{number}"), value as i32, naive.accumulator(number) as i32);
+    }
+    let v_ranges = plan.v_ranges().filter(|&(first, _)| first < SM_IN_V);
+    for byte in v_ranges.flat_map(|(first, len)| first..first + len) {
         let address = plan.v_address(byte).unwrap_or(0);
         equal(format!("VB{byte}"), memory.byte(address).into(), naive.byte(Area::V, byte).into());
     }
@@ -147,9 +183,18 @@ fn differences<P: ProgramMemory>(plc: &Plc<P>, memory: &Memory, plan: &Plan<P>, 
 
 #[test]
 fn disassembled_programs_assemble_to_the_same_bytes() {
-    let (first, count) = (effort("RANDOM_SEED", 1), effort("RANDOM_PROGRAMS", 3_000));
+    comes_back(CORE, 3_000);
+}
+
+#[test]
+fn modules_and_units_come_back_too() {
+    comes_back(EVERYTHING, 2_000);
+}
+
+fn comes_back(offers: Offers, programs: u64) {
+    let (first, count) = (effort("RANDOM_SEED", 1), effort("RANDOM_PROGRAMS", programs));
     for seed in first..first + count {
-        let (text, _) = text_of(seed);
+        let (text, _) = text_of(seed, offers);
         let (image, _) = assembled(seed, &text);
         let again = disassemble(&image).unwrap_or_else(|error| panic!("seed {seed}: {error:?}"));
         let (same, _) = assembled(seed, &again);

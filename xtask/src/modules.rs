@@ -11,7 +11,9 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail, ensure};
 use plc_isa::{
-    Instruction, MODULE_NAMES, OPERANDS_MODULE, PowerFlow, kind_numbers, module_instructions, packed_stack,
+    AC_START, AIW_START, AQW_START, ARENA_START, COUNTER_SLOT_LEN, DATA_END, DATA_START, DIRECTORY_AT, ENO, HEADER_LEN,
+    Instruction, MODULE_NAMES, OPERANDS_MODULE, PowerFlow, SLOT_START, SM_START, TIMER_SLOT_LEN, kind_numbers,
+    module_instructions, packed_stack,
 };
 
 use crate::packages;
@@ -25,18 +27,16 @@ const ALWAYS: u8 = 0x80;
 /// What modules let each other call, in the order of their jump tables, behind the routines.
 fn subroutines(number: u8) -> &'static [&'static str] {
     match number {
-        REAL_MODULE => {
-            &[
-                "real_add",
-                "real_sub",
-                "real_mul",
-                "real_div",
-                "real_from_int",
-                "real_to_int",
-                "real_from_fraction",
-                "real_result",
-            ]
-        }
+        REAL_MODULE => &[
+            "real_add",
+            "real_sub",
+            "real_mul",
+            "real_div",
+            "real_from_int",
+            "real_to_int",
+            "real_from_fraction",
+            "real_result",
+        ],
         OPERANDS_MODULE => &["entry"],
         _ => &[],
     }
@@ -109,7 +109,30 @@ fn text(number: u8, source: &Path) -> Result<String> {
         let _ = writeln!(text, "rjmp {subroutine}");
     }
     let _ = writeln!(text, ".include {:?}\n.balign 2, 0\nmodule_end:", source);
+    for (name, value) in shared() {
+        let _ = writeln!(text, ".if {name} != {value}\n.error \"{name} is not {value}, as plc-isa has it\"\n.endif");
+    }
     Ok(text)
+}
+
+/// Constants of interface.inc that plc-isa has, too.
+fn shared() -> [(&'static str, u16); 14] {
+    [
+        ("DATA_START", DATA_START),
+        ("DATA_END", DATA_END),
+        ("ARENA_START", ARENA_START),
+        ("RESULT_BITS", SM_START + 1),
+        ("ERROR_BITS", SM_START + 4),
+        ("ENO", ENO),
+        ("ACCUMULATORS", AC_START),
+        ("ANALOG_INPUTS", AIW_START),
+        ("ANALOG_OUTPUTS", AQW_START),
+        ("TIMER_SLOT_LEN", TIMER_SLOT_LEN),
+        ("COUNTER_SLOT_LEN", COUNTER_SLOT_LEN),
+        ("IMAGE", SLOT_START),
+        ("IMAGE_HEADER_LEN", HEADER_LEN),
+        ("IMAGE_DIRECTORY", SLOT_START + DIRECTORY_AT),
+    ]
 }
 
 /// The entries of the routines and the lists of kinds behind them, which many routines share.

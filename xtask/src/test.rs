@@ -6,7 +6,7 @@ use std::time::Instant;
 use anyhow::{Context, Result, ensure};
 
 use crate::process::{self, cargo};
-use crate::{bench, docs, firmware, packages, rules, size};
+use crate::{bench, docs, firmware, modules, packages, rules, size};
 
 /// A name and what it checks.
 type Stage = (&'static str, fn() -> Result<()>);
@@ -24,7 +24,8 @@ const HOST: [Stage; 6] = [
 ];
 
 /// Instead of the last stages of a run that is host-only.
-const BOARD: [Stage; 7] = [
+const BOARD: [Stage; 8] = [
+    ("modules", || modules::run(true)),
     ("format of the firmware", || {
         process::run(cargo().args(["fmt", "--check", "--manifest-path", "firmware/Cargo.toml"]))
     }),

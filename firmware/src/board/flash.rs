@@ -3,7 +3,7 @@
 use core::arch::asm;
 
 use plc_isa::{
-    Crc32, DIRECTORY_AT, MODULE_KINDS_AT, MODULES, Op, ProgramMemory, Routine, SLOT_LEN, SLOT_START,
+    Crc32, DIRECTORY_AT, MODULE_KINDS_AT, MODULES, OPERANDS_MODULE, Op, ProgramMemory, Routine, SLOT_LEN, SLOT_START,
     TOKEN_TABLE, TOKEN_TABLE_LEN,
 };
 
@@ -78,7 +78,7 @@ impl ProgramMemory for ProgramSlot {
     }
 
     fn routine(&self, module: u8, routine: u8) -> Option<Routine> {
-        let at = self.module(module)?;
+        let at = self.module(module).filter(|_| engine::HAS_MODULES)?;
         if routine >= self.byte(at + ROUTINES) {
             return None;
         }
@@ -89,6 +89,9 @@ impl ProgramMemory for ProgramSlot {
 
     #[inline(never)]
     fn modules_are_valid(&self) -> bool {
+        if !engine::HAS_MODULES {
+            return self.word(DIRECTORY_AT + 2 * u16::from(OPERANDS_MODULE)) == 0;
+        }
         (0..MODULES as u8).all(|number| {
             let Some(at) = self.module(number) else { return true };
             let mut crc = Crc32::new();

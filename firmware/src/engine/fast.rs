@@ -17,6 +17,9 @@ use crate::environment::ScanTime;
 /// The firmware's interface to native programs.
 pub const NATIVE_INTERFACE: u8 = plc_isa::NATIVE_INTERFACE;
 
+/// Whether instructions of modules are executed.
+pub const HAS_MODULES: bool = true;
+
 /// Instructions that the assembly executes in all their forms.
 pub const EXECUTED: u128 = include!(concat!(env!("OUT_DIR"), "/executed.rs"));
 

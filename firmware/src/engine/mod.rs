@@ -4,20 +4,24 @@
 #[cfg(feature = "engine")]
 mod fast;
 #[cfg(feature = "engine")]
-pub use fast::{EXECUTED, NATIVE_INTERFACE, advance_timers, run};
+pub use fast::{EXECUTED, HAS_MODULES, NATIVE_INTERFACE, advance_timers, run};
 
 #[cfg(not(feature = "engine"))]
-pub use plain::{EXECUTED, NATIVE_INTERFACE, run};
+pub use plain::{EXECUTED, HAS_MODULES, NATIVE_INTERFACE, run};
 
 #[cfg(not(feature = "engine"))]
 mod plain {
+    use plc_isa::Op;
     use plc_vm::{Exit, Interpreter};
 
     use crate::board::flash::ProgramSlot;
     use crate::environment::ScanTime;
 
-    /// No instruction is executed by anybody else.
-    pub const EXECUTED: u128 = 0;
+    /// Instructions that only the fast engine has: sequence control, routines, events, AENO. A program with one of them ends
+    /// with a fault.
+    pub const EXECUTED: u128 = (1 << (Op::Aeno as u32 + 1)) - (1 << Op::Lscr as u32);
+    /// Modules need the engine.
+    pub const HAS_MODULES: bool = false;
     /// There is nothing that machine code could call.
     pub const NATIVE_INTERFACE: u8 = 0;
 

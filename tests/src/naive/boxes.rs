@@ -160,7 +160,13 @@ impl Naive {
         let first = if is_signed { -(1i64 << (bits - 1)) } else { 0 };
         let last = first + (1i64 << bits) - 1;
         let exact = self.read_signed(out, width)? + by;
-        let result = if exact > last { first } else if exact < first { last } else { exact };
+        let result = if exact > last {
+            first
+        } else if exact < first {
+            last
+        } else {
+            exact
+        };
         self.write(out, width, result as u32)?;
         self.set_bit(Area::Sm, 1, 0, result == 0);
         self.set_bit(Area::Sm, 1, 1, result != exact);

@@ -24,8 +24,7 @@ impl Naive {
                 self.write(out, 4, value as u32)
             }
             name @ ("ITB" | "DTI") => {
-                let (from, to, range) =
-                    if name == "ITB" { (2, 1, 0..=255) } else { (4, 2, -32_768..=32_767) };
+                let (from, to, range) = if name == "ITB" { (2, 1, 0..=255) } else { (4, 2, -32_768..=32_767) };
                 let value = self.read_signed(input, from)?;
                 self.place(out, Want::written(to))?;
                 let fits = range.contains(&value);

@@ -22,7 +22,7 @@ mod timers;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
-use awl_asm::ast::{Instruction, Program, Statement};
+use awl_asm::ast::Program;
 use plc_isa::Area;
 
 use calls::{Segment, Unit};

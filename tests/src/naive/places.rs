@@ -180,9 +180,7 @@ impl Naive {
     pub(super) fn behind(place: Place, width: u8, number: u16) -> Place {
         match place {
             Place::Bytes(area, first) => Place::Bytes(area, first + u16::from(width) * number),
-            Place::Analog(AnalogInput::Scaled(channel)) => {
-                Place::Analog(AnalogInput::Scaled(channel + number as u8))
-            }
+            Place::Analog(AnalogInput::Scaled(channel)) => Place::Analog(AnalogInput::Scaled(channel + number as u8)),
             Place::Analog(AnalogInput::Raw(channel)) => Place::Analog(AnalogInput::Raw(channel + number as u8)),
             other => other,
         }

@@ -81,8 +81,12 @@ impl Naive {
         match instruction.mnemonic {
             "ATH" => self.digits_to_bytes(operands),
             "HTA" => self.bytes_to_digits(operands),
-            "ITA" | "DTA" | "RTA" => self.number_to_characters(instruction.mnemonic, [&operands[0], &operands[2], &operands[1]]),
-            "ITS" | "DTS" | "RTS" => self.number_to_characters(instruction.mnemonic, [&operands[0], &operands[1], &operands[2]]),
+            "ITA" | "DTA" | "RTA" => {
+                self.number_to_characters(instruction.mnemonic, [&operands[0], &operands[2], &operands[1]])
+            }
+            "ITS" | "DTS" | "RTS" => {
+                self.number_to_characters(instruction.mnemonic, [&operands[0], &operands[1], &operands[2]])
+            }
             _ => self.characters_to_number(instruction.mnemonic, operands),
         }
     }

@@ -3,6 +3,7 @@
 use plc_isa::{Form, Instruction, Kind, Op, Relation, STACK_LEVELS};
 
 use super::{EDGES_MAX, Generator};
+use crate::forms::Row;
 
 impl Generator<'_> {
     pub(super) fn line(&mut self, row: &Instruction, relation: Option<Relation>, operands: &[String], form: &Form) {
@@ -50,8 +51,10 @@ impl Generator<'_> {
             return false;
         }
         for _ in 0..20 {
-            if let Some(operands) = self.operands(row, form) {
-                let relation = row.has_relation().then(|| Relation::ALL[self.rng.usize(..Relation::ALL.len())]);
+            let found = if row.module().is_some() { self.values(row, form) } else { self.operands(row, form) };
+            if let Some(operands) = found {
+                let relations = Row { instruction: row, form }.relations();
+                let relation = relations[self.rng.usize(..relations.len())];
                 self.line(row, relation, &operands, form);
                 return true;
             }

@@ -4,21 +4,28 @@
 //! row takes part without a change here. Addresses come from small pools, so that the instructions of
 //! a program meddle with each other: words overlap, coils and boxes write the same bytes. Every
 //! program ends its scan soon when run with [`random_inputs`].
+//!
+//! Some of V memory is apart, so that comparisons of strings and reals find strings and numbers there: see `values.rs`.
 
 mod constants;
 mod lines;
 mod loops;
+mod offer;
 mod operands;
+mod pointers;
+mod sequence;
 mod structure;
+mod units;
+mod values;
 
 use fastrand::Rng;
 use plc_isa::{AnalogInput, INSTRUCTIONS, Instruction, Kind, Op, TimerFamily, timer_family};
 
 use crate::naive::Inputs;
+pub use offer::Offer;
 use operands::Extent;
+use units::{Local, Subroutine};
 
-/// Longest program in bytes of code.
-const CODE_LEN_MAX: u32 = 6000;
 /// Most passes that nested loops make together.
 const PASSES_MAX: u32 = 200;
 /// Most instructions that a scan executes, roughly.
@@ -34,10 +41,15 @@ const TIMERS: [u8; 28] =
 /// The counters of a program are some of these.
 const COUNTERS: [u8; 10] = [0, 1, 2, 3, 7, 8, 9, 100, 254, 255];
 
-/// A valid program of about `size` instructions, or fewer where the code would get too long.
+/// A valid program of about `size` instructions of the core, in one unit, or fewer where the code would get too long.
 pub fn random_program(rng: &mut Rng, size: usize) -> String {
-    let mut generator = Generator::new(rng, size);
-    generator.program();
+    random_program_of(rng, size, Offer::core())
+}
+
+/// The same with what is offered.
+pub fn random_program_of(rng: &mut Rng, size: usize, offer: Offer) -> String {
+    let mut generator = Generator::new(rng, size, offer);
+    generator.whole_program();
     generator.text
 }
 
@@ -80,6 +92,7 @@ pub fn random_step_ms(rng: &mut Rng) -> u32 {
 
 struct Generator<'a> {
     rng: &'a mut Rng,
+    offer: Offer,
     text: String,
     german: bool,
     networks: u32,
@@ -103,6 +116,13 @@ struct Generator<'a> {
     /// Which instruction owns a timer or counter.
     timers: Vec<(u8, Op)>,
     counters: Vec<(u8, Op)>,
+    /// The subroutines, the last first: each calls only those that are here already.
+    subroutines: Vec<Subroutine>,
+    /// Local variables of the subroutine that is being written.
+    locals: Vec<Local>,
+    is_main: bool,
+    /// Segments of the sequence: as many as the S bits from S0.0 on.
+    segments: u8,
 }
 
 fn takes(instruction: &Instruction, kind: Kind) -> bool {
@@ -114,7 +134,7 @@ fn family_of(op: Op) -> TimerFamily {
 }
 
 impl<'a> Generator<'a> {
-    fn new(rng: &'a mut Rng, size: usize) -> Self {
+    fn new(rng: &'a mut Rng, size: usize, offer: Offer) -> Self {
         let mut unused_labels: Vec<u8> = (0..=255).collect();
         rng.shuffle(&mut unused_labels);
         let timers = owners(rng, &TIMERS, Kind::TimerSlot, |op, number| family_of(op) == timer_family(number));
@@ -138,6 +158,11 @@ impl<'a> Generator<'a> {
             unused_labels,
             timers,
             counters,
+            subroutines: Vec::new(),
+            locals: Vec::new(),
+            is_main: true,
+            segments: 0,
+            offer,
         }
     }
 
@@ -146,7 +171,7 @@ impl<'a> Generator<'a> {
     }
 
     fn is_full(&self) -> bool {
-        self.wanted == 0 || self.code_len >= CODE_LEN_MAX || self.work >= WORK_MAX
+        self.wanted == 0 || self.code_len >= self.offer.code_len_max() || self.work >= WORK_MAX
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use awl_asm::ast::Type;
 use plc_isa::{Area, Form, Group, Instruction, Kind, Op};
 
 use super::{COUNTERS, Generator, TIMERS};
@@ -14,6 +15,11 @@ pub(super) struct Extent {
 }
 
 impl Extent {
+    /// A local variable, by its number.
+    pub(super) fn local(number: usize) -> Extent {
+        Extent { area: Area::L, range: number as u32..number as u32 + 1 }
+    }
+
     fn overlaps(&self, other: &Extent) -> bool {
         self.area == other.area && self.range.start < other.range.end && other.range.start < self.range.end
     }
@@ -98,19 +104,25 @@ impl Generator<'_> {
         Some(place.text)
     }
 
-    fn is_protected(&self, extent: &Extent) -> bool {
+    pub(super) fn is_protected(&self, extent: &Extent) -> bool {
         self.protected.iter().any(|other| other.overlaps(extent))
     }
 
     /// The place, unless it would be written and must not be.
-    fn place(&self, text: String, area: Area, range: Range<u32>, is_written: bool) -> Option<Place> {
+    pub(super) fn place(&self, text: String, area: Area, range: Range<u32>, is_written: bool) -> Option<Place> {
         let extent = Extent { area, range };
         let forbidden = is_written && self.is_protected(&extent);
         (!forbidden).then_some(Place { text, extent: Some(extent) })
     }
 
     /// A bit; `written` says how many from it on are written.
-    fn bit(&mut self, written: Option<&Count>, timers_and_counters: bool) -> Option<Place> {
+    pub(super) fn bit(&mut self, written: Option<&Count>, timers_and_counters: bool) -> Option<Place> {
+        if written.is_none_or(|count| count.at_most == 1)
+            && self.one_in(3)
+            && let Some(local) = self.local(Type::Bool, written.is_some())
+        {
+            return Some(local);
+        }
         let area = self.area(written.is_some(), timers_and_counters);
         if matches!(area, Area::T | Area::C) {
             return self.numbered(area, written);
@@ -118,7 +130,7 @@ impl Generator<'_> {
         let byte = self.byte_number(area, written.is_some())?;
         let bit = self.rng.u32(..8);
         let first = u32::from(byte) * 8 + bit;
-        let size = u32::from(area.size()) * 8;
+        let size = (u32::from(last_byte(area)) + 1) * 8;
         let end = self.end_of(first, written, size)?;
         let text = format!("{}{byte}.{bit}", self.area_name(area));
         self.place(text, area, first..end, written.is_some())
@@ -134,7 +146,12 @@ impl Generator<'_> {
         }
     }
 
-    fn byte(&mut self, is_written: bool) -> Option<Place> {
+    pub(super) fn byte(&mut self, is_written: bool) -> Option<Place> {
+        if self.one_in(3)
+            && let Some(local) = self.local(Type::Byte, is_written)
+        {
+            return Some(local);
+        }
         let area = self.area(is_written, false);
         let byte = self.byte_number(area, is_written)?;
         let first = u32::from(byte) * 8;
@@ -148,11 +165,16 @@ impl Generator<'_> {
             let text = if self.one_in(2) { format!("AIW{}", 2 * channel) } else { format!("Ain{channel}") };
             return Some(Place::constant(self.localized(&text)));
         }
+        if self.one_in(3)
+            && let Some(local) = self.local(Type::Int, is_written)
+        {
+            return Some(local);
+        }
         let area = self.area(is_written, true);
         if matches!(area, Area::T | Area::C) {
             return self.numbered(area, is_written.then_some(&Count { at_most: 1, is_certain: true }));
         }
-        let byte = self.byte_number(area, is_written)?.min(area.size() - 2);
+        let byte = self.byte_number(area, is_written)?.min(last_byte(area) - 1);
         let first = u32::from(byte) * 8;
         let text = format!("{}W{byte}", self.area_name(area));
         self.place(text, area, first..first + 16, is_written)
@@ -173,7 +195,7 @@ impl Generator<'_> {
         self.place(text, area, u32::from(number)..u32::from(number) + 1, true)
     }
 
-    fn area(&mut self, is_written: bool, timers_and_counters: bool) -> Area {
+    pub(super) fn area(&mut self, is_written: bool, timers_and_counters: bool) -> Area {
         use Area::{C, I, M, Q, S, Sm, T, V};
         loop {
             let area = [I, I, Q, Q, M, M, M, M, V, V, V, S, Sm, T, C][self.rng.usize(..15)];
@@ -184,13 +206,14 @@ impl Generator<'_> {
         }
     }
 
-    fn byte_number(&mut self, area: Area, is_written: bool) -> Option<u16> {
+    pub(super) fn byte_number(&mut self, area: Area, is_written: bool) -> Option<u16> {
         let pool: &[u16] = match area {
             Area::I => &[0, 0, 0, 1, 1, 2, 14, 15],
             Area::Q => &[0, 0, 0, 1, 2, 15],
             Area::M => &[0, 0, 1, 1, 2, 3, 4, 30, 31],
             Area::S => &[0, 1, 30, 31],
             Area::Sm => &[0, 0, 1, 1, 22, 23, 24, 26, 29, 30, 31],
+            Area::V if self.offer.has_modules() => &[0, 0, 1, 1, 2, 3, 4, 5, 6, 7, 30, 31, 40, 62, 63],
             Area::V => &[0, 0, 1, 1, 2, 3, 4, 5, 6, 7, 30, 62, 63, 1000, 1001, 10_238, 10_239],
             Area::T | Area::C | Area::L => &[],
         };
@@ -198,7 +221,7 @@ impl Generator<'_> {
         (!is_written || byte >= area.first_writable()).then_some(byte)
     }
 
-    fn area_name(&self, area: Area) -> &'static str {
+    pub(super) fn area_name(&self, area: Area) -> &'static str {
         match area {
             Area::I if self.german => "E",
             Area::Q if self.german => "A",
@@ -217,9 +240,14 @@ impl Generator<'_> {
     }
 }
 
+/// The last byte of an area that programs name here: special memory from SMB32 on means something to the hardware.
+pub(super) fn last_byte(area: Area) -> u16 {
+    if area == Area::Sm { 31 } else { area.size() - 1 }
+}
+
 /// How many bits or numbers are written.
-struct Count {
-    at_most: u32,
+pub(super) struct Count {
+    pub(super) at_most: u32,
     /// Whether it is a constant: then the range must exist.
-    is_certain: bool,
+    pub(super) is_certain: bool,
 }

@@ -8,15 +8,15 @@ use super::{Generator, LOOPS_MAX};
 fn is_logic(instruction: &Instruction) -> bool {
     match instruction.group {
         Group::Contact | Group::Stack | Group::Compare => true,
-        Group::Coil | Group::Math | Group::Move | Group::Timer | Group::Counter | Group::Control => false,
+        Group::InputOutput => matches!(instruction.op, Op::Ldi | Op::Ldni | Op::Ai | Op::Ani | Op::Oi | Op::Oni),
         _ => false,
     }
 }
 
-/// Whether an instruction can stand anywhere in a rung and do no harm.
-fn is_plain(instruction: &Instruction) -> bool {
-    let special = matches!(instruction.op, Op::For | Op::Next | Op::Jmp | Op::Lbl | Op::End | Op::Stop);
-    instruction.group != Group::Hidden && !special && instruction.module().is_none()
+/// Whether AENO behind an instruction looks at it.
+fn has_eno(instruction: &Instruction) -> bool {
+    !matches!(instruction.group, Group::Coil | Group::Timer | Group::Counter | Group::Control)
+        && !matches!(instruction.op, Op::AssignImmediate)
 }
 
 impl Generator<'_> {
@@ -45,11 +45,14 @@ impl Generator<'_> {
             14..=17 if !self.open_labels.is_empty() => self.jump_out(),
             18 => self.leave(),
             19 => self.number_line(),
+            20..=25 if self.offer.has_units() => self.call(),
+            26..=28 if self.offer.has_units() && self.loops == 0 && self.passes == 1 => self.segment(),
+            29..=32 if self.offer.has_modules() => self.move_pointer(),
             _ => self.rung(),
         }
     }
 
-    fn rung(&mut self) {
+    pub(super) fn rung(&mut self) {
         self.network();
         self.logic();
         self.outputs();
@@ -57,12 +60,19 @@ impl Generator<'_> {
 
     pub(super) fn outputs(&mut self) {
         for _ in 0..self.rng.u32(1..=3) {
-            let rows: Vec<_> = INSTRUCTIONS.iter().filter(|row| is_plain(row) && !is_logic(row)).collect();
+            let of_modules = self.offer.has_modules() && self.rng.bool();
+            let offer = self.offer;
+            let rows: Vec<_> = INSTRUCTIONS
+                .iter()
+                .filter(|row| offer.is_plain(row) && !is_logic(row) && row.module().is_some() == of_modules)
+                .collect();
             let Some(row) = self.rng.choice(rows) else { return };
             while self.depth < row.stack.needs {
                 self.load();
             }
-            self.random_line(row);
+            if self.random_line(row) && self.offer.has_units() && has_eno(row) && self.one_in(5) {
+                self.fixed(Op::Aeno, &[]);
+            }
             if self.one_in(3) {
                 self.logic_step(false);
             }
@@ -78,13 +88,14 @@ impl Generator<'_> {
         }
     }
 
-    fn load(&mut self) {
+    pub(super) fn load(&mut self) {
         if self.one_in(6) {
             return self.fixed(Op::Ld, &["SM0.0"]);
         }
+        let offer = self.offer;
         let rows: Vec<_> = INSTRUCTIONS
             .iter()
-            .filter(|row| is_plain(row) && is_logic(row) && row.stack.needs == 0 && row.stack.adds == 1)
+            .filter(|row| offer.is_plain(row) && is_logic(row) && row.stack.needs == 0 && row.stack.adds == 1)
             .collect();
         let row = if self.one_in(2) { Op::Ld.instruction() } else { self.rng.choice(rows).unwrap_or(&INSTRUCTIONS[0]) };
         self.random_line(row);
@@ -92,9 +103,12 @@ impl Generator<'_> {
 
     fn logic_step(&mut self, deep: bool) {
         let (depth, grows) = (self.depth, deep || self.depth < 3 || self.one_in(4));
+        let offer = self.offer;
         let rows: Vec<_> = INSTRUCTIONS
             .iter()
-            .filter(|row| is_plain(row) && is_logic(row) && row.stack.needs <= depth && (grows || row.stack.adds <= 0))
+            .filter(|row| {
+                offer.is_plain(row) && is_logic(row) && row.stack.needs <= depth && (grows || row.stack.adds <= 0)
+            })
             .collect();
         // Several pushes in a row reach the ninth level and lose what is below.
         let pushes = rows.iter().filter(|row| row.stack.adds > 0).copied().collect::<Vec<_>>();
@@ -126,7 +140,11 @@ impl Generator<'_> {
             let operand = format!("{byte}{bit}");
             self.fixed(Op::A, &[&self.localized(&operand)]);
         }
-        let op = if self.may_stop && self.one_in(2) { Op::Stop } else { Op::End };
+        let op = match self.is_main {
+            true => Op::End,
+            false => Op::Cret,
+        };
+        let op = if self.may_stop && self.one_in(2) { Op::Stop } else { op };
         self.fixed(op, &[]);
     }
 

@@ -1,0 +1,85 @@
+//! What a random program may use: modules, subroutines, sequences.
+
+use awl_asm::modules;
+use fastrand::Rng;
+use plc_isa::{Group, Instruction, MODULES, OPERANDS_MODULE, Op, SLOT_LEN};
+
+/// Bytes of the image that are neither code nor modules, at most, with what the assembler puts into the code.
+const REST_LEN: u32 = 1_600;
+
+/// What a program may use.
+#[derive(Debug, Clone, Copy)]
+pub struct Offer {
+    modules: [bool; MODULES],
+    units: bool,
+}
+
+impl Offer {
+    /// The instructions of the core in one unit.
+    pub fn core() -> Offer {
+        Offer { modules: [false; MODULES], units: false }
+    }
+
+    /// Subroutines, sequences, and as many modules as have room beside code.
+    pub fn everything(rng: &mut Rng) -> Offer {
+        Offer::some(rng, |_| true)
+    }
+
+    /// The same with the modules alone that have machine code.
+    pub fn board(rng: &mut Rng) -> Offer {
+        Offer::some(rng, |module| module_len(module) > 0)
+    }
+
+    fn some(rng: &mut Rng, is_there: impl Fn(usize) -> bool) -> Offer {
+        const REAL: usize = 1;
+        const FUNCTION: usize = 2;
+        let mut offer = Offer { modules: [false; MODULES], units: true };
+        let mut order: Vec<usize> = (0..MODULES).filter(|&module| module != usize::from(OPERANDS_MODULE)).collect();
+        rng.shuffle(&mut order);
+        order.insert(0, 0);
+        for module in order.into_iter().filter(|&module| is_there(module)) {
+            let before = offer;
+            offer.modules[module] = true;
+            offer.modules[REAL] |= module == FUNCTION;
+            if offer.code_len_max() < 1_500 {
+                offer = before;
+            }
+        }
+        offer
+    }
+
+    /// Longest program in bytes of code.
+    pub(super) fn code_len_max(&self) -> u32 {
+        let used =
+            |&module: &usize| self.modules[module] || self.has_modules() && module == usize::from(OPERANDS_MODULE);
+        let modules: u32 = (0..MODULES).filter(used).map(module_len).sum();
+        u32::from(SLOT_LEN) - REST_LEN - modules
+    }
+
+    /// Whether there are modules.
+    pub(super) fn has_modules(&self) -> bool {
+        self.modules.contains(&true)
+    }
+
+    /// Whether there are subroutines and sequences.
+    pub(super) fn has_units(&self) -> bool {
+        self.units
+    }
+
+    /// Whether an instruction can stand anywhere in a rung and do no harm, and means the same to all that are compared:
+    /// what the hardware does is none of that.
+    pub(super) fn is_plain(&self, instruction: &Instruction) -> bool {
+        let special = matches!(
+            instruction.op,
+            Op::For | Op::Next | Op::Jmp | Op::Lbl | Op::End | Op::Stop | Op::Aeno | Op::Hdef | Op::Hsc | Op::Pls
+        );
+        let apart = matches!(instruction.group, Group::Hidden | Group::Call | Group::Sequence | Group::Interrupt);
+        let hardware = instruction.group == Group::Communication && !matches!(instruction.op, Op::Bitim | Op::Citim);
+        let is_there = instruction.module().is_none_or(|module| self.modules[usize::from(module)]);
+        !special && !apart && !hardware && is_there
+    }
+}
+
+fn module_len(module: usize) -> u32 {
+    modules::bytes(module as u8).map_or(0, |bytes| bytes.len() as u32)
+}
