@@ -195,7 +195,7 @@ fn the_command_writes_native_images() {
     assert!(is_said, "{summary}");
     let output = awl_asm(directory.path(), &["p.awl", "--native", "-o", "p.hex"]);
     assert!(output.status.success(), "{}", stderr(&output));
-    assert!(std::fs::read_to_string(at("p.hex")).unwrap().starts_with(":10600000553230300101"));
+    assert!(std::fs::read_to_string(at("p.hex")).unwrap().starts_with(":10600000553230300201"));
     let output = awl_asm(directory.path(), &["--disassemble", "p.bin"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(stderr(&output).contains("translated to machine code"), "{}", stderr(&output));
@@ -217,4 +217,19 @@ fn the_command_says_that_bytecode_would_fit() {
     }
     let output = awl_asm(directory.path(), &["long.awl", "--check"]);
     assert!(output.status.success(), "{}", stderr(&output));
+}
+
+#[test]
+fn what_cannot_be_translated_is_said() {
+    for (program, what) in [
+        ("LD I0.0\nAENO\n= Q0.0\n", "AENO"),
+        ("LDD= VD0, 5\n= Q0.0\n", "comparisons"),
+        ("LDI I0.0\n= Q0.0\n", "immediate contacts"),
+        ("NETWORK 1\nLSCR S0.0\nNETWORK 2\nSCRE\n", "sequence control"),
+        ("LD I0.0\nENI\n= Q0.0\n", "interrupts"),
+    ] {
+        let Err(error @ TranslateError::Missing { .. }) = translate(&assembled(program)) else { panic!("{program}") };
+        assert!(error.to_string().contains(what), "{error}");
+    }
+    translate(&assembled("LD I0.0\nLBL 1\nMOVR 1.5, VD0\n")).unwrap();
 }

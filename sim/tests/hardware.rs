@@ -232,12 +232,13 @@ fn the_third_counter_has_its_own_input() {
 #[test]
 fn pulse_width_modulation_drives_its_output() {
     let main = "NETWORK 1\nLD SM0.1\nMOVB 16#CB, SMB77\nMOVW 100, SMW78\nMOVW 25, SMW80\nPLS 1\n\
-        NETWORK 2\nLD I0.0\nEU\nMOVB 16#CA, SMB77\nMOVW 50, SMW80\nPLS 1\nNETWORK 3\nLD I0.1\nEU\nMOVB 0, SMB77\nPLS 1";
+        NETWORK 2\nLD I0.0\nEU\nMOVB 16#CA, SMB77\nMOVW 50, SMW80\nPLS 1\nNETWORK 3\nLD I0.1\nEU\nMOVB 0, SMB77\nPLS 1\n\
+        NETWORK 4\nLD SM0.0\n= Q0.1";
     let scenario =
         "at 1ms expect Q0.1 = 1, Q0.1.duty = 250, Q0.0.duty = 0\nat 25ms expect Q0.1 = 1\nat 26ms expect Q0.1 = 0
         at 100ms expect Q0.1 = 0\nat 101ms expect Q0.1 = 1\nat 126ms expect Q0.1 = 0\nat 130ms I0.0 = 1
         at 131ms expect Q0.1.duty = 500, Q0.1 = 1\nat 150ms expect Q0.1 = 1\nat 151ms expect Q0.1 = 0
-        at 210ms I0.1 = 1\nat 211ms expect Q0.1 = 0, Q0.1.duty = 0";
+        at 210ms I0.1 = 1\nat 211ms expect Q0.1 = 1, Q0.1.duty = 1000";
     assert_holds(&program(main, &[]), scenario);
 }
 
@@ -319,7 +320,11 @@ fn messages_end_by_time_and_single_characters_are_events() {
 #[test]
 fn a_frame_between_two_equal_characters() {
     let main = "//# memory VB100-VB131\nNETWORK 1\nLD SM0.1\nMOVB 16#09, SMB30\nMOVB 16#E0, SMB87\nMOVB 126, SMB88\n\
-        MOVB 126, SMB89\nMOVB 30, SMB94\nATCH INT_0, 23\nENI\nRCV VB100, 0";
-    let scenario = "at 10ms receive \"x~abc~y\"\nat 15ms expect VW52 = 0\nat 20ms expect VW52 = 1, VB100 = \"~abc~\"";
+        MOVB 126, SMB89\nMOVB 30, SMB94\nATCH INT_0, 23\nENI\nRCV VB100, 0\n\
+        NETWORK 2\nLD I0.0\nEU\nXMT VB100, 0\nAENO\n= M0.0\nNETWORK 3\nLD I0.0\nEU\nRCV VB100, 0\nAENO\n= M0.1";
+    let scenario = "at 10ms receive \"x~abc~y\"\nat 15ms expect VW52 = 0\nat 20ms expect VW52 = 1, VB100 = \"~abc~\"
+        at 5ms I0.0 = 1 # while it receives
+        at 6ms expect M0.0 = 0, M0.1 = 0, SM4.3 = 1\nat 21ms I0.0 = 0\nat 22ms I0.0 = 1\nat 23ms expect M0.0 = 1, M0.1 = 0
+        at 99ms expect sent \"~abc~\"";
     assert_holds(&program(main, &["LD SM0.0\nINCW VW52"]), scenario);
 }

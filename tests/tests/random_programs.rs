@@ -5,6 +5,7 @@
 //! `RANDOM_SEED` starts elsewhere. A failure names its seed.
 
 use awl_asm::assemble::assemble;
+use awl_asm::diagnostic::Severity;
 use awl_asm::disassemble::disassemble;
 use awl_asm::source::Source;
 use fastrand::Rng;
@@ -56,7 +57,8 @@ fn assembled(seed: u64, text: &str) -> (Vec<u8>, awl_asm::ast::Program) {
     match assembly.image {
         Some(image) => (image, assembly.program),
         None => {
-            for diagnostic in &assembly.diagnostics {
+            let errors = assembly.diagnostics.iter().filter(|message| message.severity() == Severity::Error);
+            for diagnostic in errors {
                 eprintln!("{}", awl_asm::render::human(&source, diagnostic, false));
             }
             panic!("seed {seed} does not assemble\n{text}");

@@ -155,6 +155,8 @@ uno200_vectors:
 ; What modules leave by.
     rjmp module_done
     rjmp module_fault
+; What modules call for the clock.
+    rjmp now_vector
 
 ; ---- entry and exit
 
@@ -446,6 +448,8 @@ check_end:
 ; Calls of Rust stand behind the table: the linker shortens them, and the table must not move.
 ask_watchdog:
     jmp uno200_is_overdue
+now_vector:
+    jmp uno200_now
 
 ; A word, constant or in memory: mode byte and word at Z, value in r24 and r25.
 any_int:

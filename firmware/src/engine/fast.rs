@@ -219,6 +219,12 @@ extern "C" fn uno200_is_overdue() -> u8 {
     with_execution(|execution| u8::from(execution.environment().is_overdue(0)))
 }
 
+/// The millisecond clock.
+#[unsafe(no_mangle)]
+extern "C" fn uno200_now() -> u32 {
+    clock::now_ms()
+}
+
 /// WDR.
 #[unsafe(no_mangle)]
 extern "C" fn uno200_retrigger_watchdog() {

@@ -159,7 +159,7 @@ fn check_tables<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageFault> {
 fn place_of<P: ProgramMemory>(plan: &Plan<P>, fault: ImageFault) -> u16 {
     match fault {
         ImageFault::Length => 6,
-        ImageFault::Name => crate::image::HEADER_LEN,
+        ImageFault::Name => crate::image::HEADER_LEN + plan.header.modules_len,
         ImageFault::Settings => 22,
         ImageFault::VRanges => plan.v_ranges_at,
         ImageFault::Timers => plan.timers_at,

@@ -60,7 +60,7 @@ impl Naive {
                 let wanted = self.read_text(&operands[1])?;
                 self.place(&operands[2], Want::written(1))?;
                 let start = self.read(&operands[2], 1)? as usize;
-                if !(1..=input.len()).contains(&start) {
+                if start == 0 {
                     return Err(Trouble::Operand);
                 }
                 let is_found = |&at: &usize| match name {

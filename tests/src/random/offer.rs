@@ -53,7 +53,7 @@ impl Offer {
         let used =
             |&module: &usize| self.modules[module] || self.has_modules() && module == usize::from(OPERANDS_MODULE);
         let modules: u32 = (0..MODULES).filter(used).map(module_len).sum();
-        u32::from(SLOT_LEN) - REST_LEN - modules
+        u32::from(SLOT_LEN).saturating_sub(REST_LEN + modules)
     }
 
     /// Whether there are modules.

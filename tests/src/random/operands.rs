@@ -175,6 +175,9 @@ impl Generator<'_> {
             return self.numbered(area, is_written.then_some(&Count { at_most: 1, is_certain: true }));
         }
         let byte = self.byte_number(area, is_written)?.min(last_byte(area) - 1);
+        if is_written && byte < area.first_writable() + 1 && area == Area::Sm {
+            return None;
+        }
         let first = u32::from(byte) * 8;
         let text = format!("{}W{byte}", self.area_name(area));
         self.place(text, area, first..first + 16, is_written)
@@ -212,6 +215,8 @@ impl Generator<'_> {
             Area::Q => &[0, 0, 0, 1, 2, 15],
             Area::M => &[0, 0, 1, 1, 2, 3, 4, 30, 31],
             Area::S => &[0, 1, 30, 31],
+            // Others that can be written mean something to the hardware.
+            Area::Sm if is_written => &[31],
             Area::Sm => &[0, 0, 1, 1, 22, 23, 24, 26, 29, 30, 31],
             Area::V if self.offer.has_modules() => &[0, 0, 1, 1, 2, 3, 4, 5, 6, 7, 30, 31, 40, 62, 63],
             Area::V => &[0, 0, 1, 1, 2, 3, 4, 5, 6, 7, 30, 62, 63, 1000, 1001, 10_238, 10_239],

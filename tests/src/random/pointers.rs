@@ -25,7 +25,7 @@ impl Generator<'_> {
 
     fn pointer_target(&mut self) -> String {
         let areas =
-            ["&IB0", "&IB14", "&QB0", "&MB0", "&MB29", "&SB1", "&SMB29", "&SMB30", "&VB0", "&VB30", "&AIW2", "&AIW10"];
+            ["&IB0", "&IB14", "&QB0", "&MB0", "&MB29", "&SB1", "&SMB5", "&SMB31", "&VB0", "&VB30", "&AIW2", "&AIW10"];
         match self.rng.u32(..12) {
             0 => {
                 ["16#0B000000", "16#08FFFFFF", "16#05000020", "16#09000001", "0", "-1"][self.rng.usize(..6)].to_string()

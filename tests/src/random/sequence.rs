@@ -30,7 +30,9 @@ impl Generator<'_> {
         match self.rng.u32(..3) {
             0 => self.fixed(Op::Cscre, &[]),
             _ => {
-                let next = format!("S0.{}", self.rng.u8(..SEGMENTS_MAX));
+                // To itself no step leads.
+                let own = self.segments - 1;
+                let next = format!("S0.{}", (own + self.rng.u8(1..SEGMENTS_MAX)) % SEGMENTS_MAX);
                 self.fixed(Op::Scrt, &[&next]);
             }
         }

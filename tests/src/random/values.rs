@@ -55,7 +55,7 @@ impl Generator<'_> {
             Kind::FarBitOut => self.bit(Some(&Count { at_most: 255, is_certain: false }), true),
             Kind::FarBitReset => self.bit(Some(&Count { at_most: 255, is_certain: false }), false),
             Kind::ByteIn if self.one_in(3) => Some(Place::constant(self.byte_constant())),
-            Kind::WordIn if self.one_in(4) => Some(Place::constant(self.word_constant())),
+            Kind::WordIn if self.one_in(4) => Some(Place::constant(self.word_constant_of(row))),
             Kind::DoubleIn if self.one_in(4) => Some(Place::constant(self.double_constant())),
             Kind::RealIn => self.real_in(compares || row.op == Op::Movr),
             Kind::TextIn => self.text_in(!compares || index == 0),
@@ -96,7 +96,8 @@ impl Generator<'_> {
             (Op::Ita | Op::Dta | Op::Rta, 2) | (Op::Its | Op::Dts | Op::Rts, 1) if self.one_in(2) => {
                 fixed(FORMATS[self.rng.usize(..FORMATS.len())])
             }
-            (Op::Shrb, 2) => fixed(["1", "8", "16#F8", "64", "16#C0", "3", "16#FF", "MB0"][self.rng.usize(..8)]),
+            (Op::SetAny | Op::ResetAny, 1) => Some(self.anywhere(1, false, false)),
+            (Op::Shrb, 2) => fixed(["1", "8", "-8", "64", "-64", "3", "-1", "MB0"][self.rng.usize(..8)]),
             _ => None,
         }
     }
@@ -167,6 +168,11 @@ impl Generator<'_> {
         let first = u32::from(byte) * 8;
         let text = format!("{}D{byte}", self.area_name(area));
         self.place(text, area, first..first + 32, is_written)
+    }
+
+    /// Moves and logic take patterns, all others integers.
+    fn word_constant_of(&mut self, row: &Instruction) -> String {
+        if matches!(row.group, Group::Move | Group::Logic) { self.word_constant() } else { self.integer_constant(row) }
     }
 
     fn double_constant(&mut self) -> String {
