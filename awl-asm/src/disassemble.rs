@@ -160,7 +160,7 @@ pub fn instructions<P: ProgramMemory>(program: &Program<P>) -> Vec<TextLine> {
     let frames = Frames::of(program, &decoded);
     let mut writer = Writer::new(program, &frames, &decoded);
     let line = |&(at, unit, decoded): &(u16, u8, Decoded)| {
-        let text = writer.instruction(unit, &decoded);
+        let text = writer.instruction(unit, at, &decoded);
         TextLine { at, decoded, unit, text }
     };
     decoded.iter().map(line).collect()

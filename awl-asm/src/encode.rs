@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use plc_isa::{
-    Bit, CRC_LEN, Crc32, DIRECTORY_AT, Encoded, HEADER_LEN, Header, Kind, LABEL_LEN, MODULES, NAME_LEN_MAX,
-    OPERANDS_MODULE, Op, Operand, ROUTINE_LEN, SLOT_LEN, SLOT_START, TimerResolution, timer_resolution,
+    Bit, CRC_LEN, Crc32, DIRECTORY_AT, EVENTS_MODULE, Encoded, Group, HEADER_LEN, Header, Kind, LABEL_LEN, MODULES,
+    NAME_LEN_MAX, OPERANDS_MODULE, Op, Operand, ROUTINE_LEN, SLOT_LEN, SLOT_START, TimerResolution, timer_resolution,
 };
 
 use crate::address::Address;
@@ -117,6 +117,8 @@ impl Modules {
                 *place = true;
             }
         }
+        // What has to do with events is not in a module, but what finds them on the board is.
+        used[usize::from(EVENTS_MODULE)] |= has_events(checked);
         let any = used.contains(&true);
         used[usize::from(OPERANDS_MODULE)] |= any;
         // Functions compute with the operations of reals.
@@ -139,6 +141,13 @@ impl Modules {
         }
         image.extend_from_slice(&self.bytes);
     }
+}
+
+/// Whether the program has to do with interrupt events.
+fn has_events(checked: Checked<'_>) -> bool {
+    let is_interrupt = |selected: &Selected| selected.op.instruction().group == Group::Interrupt;
+    let code = |part: &Part| checked.code.get(part.code.clone()).unwrap_or(&[]).iter().any(is_interrupt);
+    checked.units.has_interrupts() || checked.units.in_image().any(code)
 }
 
 /// The bytes of the data block as ranges: first V byte, length, values; as few ranges as there can be.
@@ -291,9 +300,6 @@ impl<'a> Encoder<'a> {
         let next = self.checked.code.get(index + 1).filter(|_| part.code.contains(&(index + 1)));
         // Whatever power comes to: behind the last of a run of O, one time is enough.
         let is_powered = is_load || is_or(selected.op) && !next.is_some_and(|next| is_or(next.op));
-        if is_load && self.has_interrupts && part.polls && before.is_none_or(|before| !is_contact(before)) {
-            self.push(Op::Poll, &[]);
-        }
         // NEXT reads FINAL of its FOR once more.
         let reader = match (selected.op, self.open_loops.last()) {
             (Op::Next, Some(&open)) => self.checked.code.get(open).unwrap_or(selected),
@@ -301,6 +307,10 @@ impl<'a> Encoder<'a> {
         };
         if reads_fast_timer(reader) {
             self.push(Op::Refresh, &[]);
+        }
+        // Behind that: T32 and T96 can reach their presets there, which the instruction itself can undo.
+        if is_load && self.has_interrupts && part.polls && before.is_none_or(|before| !is_contact(before)) {
+            self.push(Op::Poll, &[]);
         }
         let hidden_len = self.image.len() - start;
         let operands = self.operands(part, index, selected);

@@ -25,10 +25,8 @@ impl Parser<'_> {
         if entry.has_relation() && !is_at_relation && confused(text).is_some() {
             return self.unknown(word);
         }
-        let (entry, operand_count) = match comparison(text) {
-            Some(compares) if is_at_relation && !entry.has_relation() => (compares, written_operands(compares)),
-            _ => (entry, operand_count),
-        };
+        let compares = if is_at_relation && !entry.has_relation() { comparison(text) } else { None };
+        let (entry, operand_count) = compares.map_or((entry, operand_count), |entry| (entry, written_operands(entry)));
         let relation = match (entry.has_relation(), is_at_relation) {
             (true, true) => {
                 let sign = self.lexer.relation();

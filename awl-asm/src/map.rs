@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::fmt::Write as _;
 
-use plc_isa::{Header, Plan};
+use plc_isa::{Area, Header, Plan};
 
 use crate::address::Address;
 use crate::assemble::Assembly;
@@ -21,6 +21,7 @@ pub fn map(source: &Source, assembly: &Assembly) -> String {
     if let Some(image) = assembly.image.as_deref() {
         places(image, &mut text);
     }
+    units(assembly, &mut text);
     text.push_str("\nCross-reference (r read, w written, rw both; source lines)\n\n");
     cross_reference(source, assembly, &mut text);
     text
@@ -49,6 +50,25 @@ fn places(image: &[u8], text: &mut String) {
     }
     if header.edges > 0 {
         let _ = writeln!(text, "  {:04X}  {} edges", plan.edge(0).address, header.edges);
+    }
+}
+
+/// The units in the order of the image: offset of the first instruction, and where local memory lies.
+fn units(assembly: &Assembly, text: &mut String) {
+    if assembly.image.is_none() || (assembly.units.order.len() < 2 && assembly.units.local_len == 0) {
+        return;
+    }
+    text.push_str("\nProgram units\n\n");
+    for part in assembly.units.in_image() {
+        let at = assembly.lines.get(part.code.start).filter(|_| !part.code.is_empty()).map_or(0, |line| line.at);
+        let _ = write!(text, "  {at:04X}  {:<6}  {}", part.id.to_string(), part.name);
+        let locals = (0..Area::L.size()).filter_map(|byte| Some((byte, part.local(byte)?)));
+        let runs: Vec<(u16, u16)> = locals.collect();
+        let runs = runs.chunk_by(|a, b| a.0 + 1 == b.0).filter_map(|run| run.first().zip(run.last()));
+        for (&(first, address), &(last, _)) in runs {
+            let _ = write!(text, "  LB{first}-LB{last} at {address:04X}");
+        }
+        text.push('\n');
     }
 }
 

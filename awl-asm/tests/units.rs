@@ -57,6 +57,10 @@ fn calls_with_parameters_come_back() {
     let back = comes_back(&(main + &subroutine("Mixer:SBR7", PARAMETERS, code)));
     assert!(back.contains("CALL   SBR7, T37, *AC1, &VB10, 1069547520, -5, 1, M0.0, MW2, *VD0"), "{back}");
     assert!(back.contains("VAR_IN_OUT\nP_7:BOOL;\nP_8:INT;\nEND_VAR"), "{back}");
+    // A timer of 1 ms is brought up to date within the call.
+    let words = "VAR_IN_OUT\na:INT;\nEND_VAR\nVAR_OUTPUT\nb:INT;\nc:DINT;\nEND_VAR\n";
+    let main = main_block("LD I0.0\nCALL SBR0, T64, T1, VD7\nNOT\n= Q0.0");
+    comes_back(&(main + &subroutine("a:SBR0", words, "LDW> #a, 0\n= Q0.1")));
 }
 
 #[test]

@@ -25,21 +25,18 @@ entry:
     lpm r27, Z
     sbrc r27, 7
     rjmp not_direct
-    ; Flash can change under a running program until the self-test has seen it: no operand may lead far.
-    andi r27, 0x07
-    sbrs r0, 4
-    rjmp 1f
-    cpi r27, hi8(DATA_START)
-    brlo bad
-    cpi r27, hi8(DATA_END)
+    ; Flash can change under a running program until the self-test has seen it: no operand may lead outside.
+    mov r30, r27
+    subi r30, hi8(DATA_START)
+    cpi r30, hi8(DATA_END - DATA_START)
     brsh bad
-1:  sbrs r0, 6
-    rjmp 2f
+    sbrs r0, 6
+    rjmp 1f
     mov r30, r0
     ori r30, BY_ADDRESS
     mov r0, r30
     rjmp resolve
-2:  sbrs r0, 3
+1:  sbrs r0, 3
     ret
 
 ; The value at X.
@@ -73,8 +70,6 @@ resolve:
     cpc r31, r1
 1:  EACH pop, r25, r24, r23, r22, r21, r20, r19, r18
     brcs bad
-    sbrc r0, 6
-    ret
     sbrs r0, 3
     ret
     rjmp load

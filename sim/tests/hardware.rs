@@ -169,6 +169,15 @@ fn an_encoder_is_counted_in_both_directions() {
 }
 
 #[test]
+fn the_reset_input_sets_the_counter_to_0() {
+    let program = program(&counting(10, 100_000, "ATCH INT_0, 28\n"), &["LD SM0.0\nINCW VW8\nMOVD HC0, VD10"]);
+    let scenario = "at 10ms pulse I0.0, I0.1 500Hz 100 times\nat 215ms expect VD0 = 400, VW8 = 0\nat 220ms I0.2 = 1
+        at 221ms expect VW8 = 1, VD10 = 0, VD0 = 0\nat 230ms pulse I0.0, I0.1 500Hz 10 times\nat 260ms expect VD0 = 0
+        at 260ms I0.2 = 0\nat 270ms pulse I0.0, I0.1 500Hz 10 times\nat 300ms expect VD0 = 40, VW8 = 1";
+    assert_holds(&program, scenario);
+}
+
+#[test]
 fn an_interrupt_gives_the_counter_its_next_task() {
     // Up to 100, then from there down to 0: the interrupt turns the direction.
     let turn = "LD SM0.0\nMOVB 16#B0, SMB37\nMOVD 0, SMD42\nHSC 0\n= M0.0";
@@ -194,7 +203,7 @@ fn the_change_to_run_forgets_everything_but_the_clock() {
         MOVB 16#CB, SMB77\nMOVW 100, SMW78\nMOVW 50, SMW80\nPLS 1\nNETWORK 2\nLD SM0.0\nTODR VB10\nAENO\n= M0.1";
     let mut host = host(&program(main, &["LD SM0.0\nINCW VW0"]));
     let operand = |name: &str| Operand::parse(name, &Symbols::new()).unwrap();
-    let mut set = |host: &mut Host, name: &str, value| host.write(operand(name), value).unwrap();
+    let set = |host: &mut Host, name: &str, value| host.write(operand(name), value).unwrap();
     let read = |host: &mut Host, name: &str| host.read(operand(name)).unwrap();
     let values = |host: &mut Host| ["M0.0", "M0.1", "SM4.4", "HC0", "VW0", "Q0.1.duty"].map(|name| read(host, name));
     let time = TimeOfDay::new([26, 11, 21], [15, 0, 0]).unwrap();
@@ -235,7 +244,7 @@ fn pulse_width_modulation_drives_its_output() {
         NETWORK 2\nLD I0.0\nEU\nMOVB 16#CA, SMB77\nMOVW 50, SMW80\nPLS 1\nNETWORK 3\nLD I0.1\nEU\nMOVB 0, SMB77\nPLS 1\n\
         NETWORK 4\nLD SM0.0\n= Q0.1";
     let scenario =
-        "at 1ms expect Q0.1 = 1, Q0.1.duty = 250, Q0.0.duty = 0\nat 25ms expect Q0.1 = 1\nat 26ms expect Q0.1 = 0
+        "at 1ms expect Q0.1 = 1, Q0.1.duty = 250, Q0.2.duty = 0\nat 25ms expect Q0.1 = 1\nat 26ms expect Q0.1 = 0
         at 100ms expect Q0.1 = 0\nat 101ms expect Q0.1 = 1\nat 126ms expect Q0.1 = 0\nat 130ms I0.0 = 1
         at 131ms expect Q0.1.duty = 500, Q0.1 = 1\nat 150ms expect Q0.1 = 1\nat 151ms expect Q0.1 = 0
         at 210ms I0.1 = 1\nat 211ms expect Q0.1 = 1, Q0.1.duty = 1000";

@@ -11,9 +11,9 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail, ensure};
 use plc_isa::{
-    AC_START, AIW_START, AQW_START, ARENA_START, COUNTER_SLOT_LEN, DATA_END, DATA_START, DIRECTORY_AT, ENO, HEADER_LEN,
-    Instruction, MODULE_NAMES, OPERANDS_MODULE, PowerFlow, SLOT_START, SM_START, TIMER_SLOT_LEN, kind_numbers,
-    module_instructions, packed_stack,
+    AC_START, AIW_START, AQW_START, ARENA_START, COUNTER_SLOT_LEN, DATA_END, DATA_START, DIRECTORY_AT, ENO,
+    EVENTS_MODULE, HEADER_LEN, Instruction, MODULE_NAMES, OPERANDS_MODULE, PowerFlow, SLOT_START, SM_START,
+    TIMER_SLOT_LEN, kind_numbers, module_instructions, packed_stack,
 };
 
 use crate::packages;
@@ -37,6 +37,7 @@ fn subroutines(number: u8) -> &'static [&'static str] {
             "real_from_fraction",
             "real_result",
         ],
+        EVENTS_MODULE => &["events"],
         OPERANDS_MODULE => &["entry"],
         _ => &[],
     }

@@ -7,7 +7,7 @@ use plc_isa::{
 
 use crate::address::Address;
 use crate::ast::Section;
-use crate::disassemble::frames::{Copy, Frames, copy, number};
+use crate::disassemble::frames::{Copy, Frames, copy, number, offset};
 use crate::disassemble::unit_id;
 
 /// Writes instruction behind instruction.
@@ -16,12 +16,10 @@ pub(super) struct Writer<'a, P> {
     frames: &'a Frames,
     /// Whether the program follows pointers: then constants may be some.
     has_pointers: bool,
-    /// The copies of a call with parameters, and the offset behind it; none is open at 0.
+    /// The copies of the last call with parameters, and the offset behind it.
     call: Vec<Copy>,
-    is_in_call: bool,
-    has_called: bool,
-    /// Copies that still belong to the open call behind its CALL.
-    left: usize,
+    call_end: u16,
+    /// Those of the calls that follow, the next one last.
     upcoming: Vec<Vec<Copy>>,
 }
 
@@ -34,9 +32,7 @@ impl<'a, P: ProgramMemory> Writer<'a, P> {
                 .iter()
                 .any(|(_, _, decoded)| decoded.operands().any(|(_, operand)| is_indirect(operand))),
             call: Vec::new(),
-            is_in_call: false,
-            has_called: false,
-            left: 0,
+            call_end: 0,
             upcoming: calls(code),
         };
         writer.upcoming.reverse();
@@ -44,23 +40,14 @@ impl<'a, P: ProgramMemory> Writer<'a, P> {
     }
 
     /// An instruction as AWL; empty for hidden ones and for the copies of a call.
-    pub(super) fn instruction(&mut self, unit: u8, decoded: &Decoded) -> String {
-        if self.is_in_call && self.has_called && self.left == 0 {
-            self.is_in_call = false;
-        }
+    pub(super) fn instruction(&mut self, unit: u8, at: u16, decoded: &Decoded) -> String {
         if decoded.op == Op::CallBegin {
             self.call = self.upcoming.pop().unwrap_or_default();
-            (self.is_in_call, self.has_called) = (true, false);
+            self.call_end = offset(decoded);
             return String::new();
         }
-        if self.is_in_call && decoded.op == Op::Call {
-            self.has_called = true;
-            self.left = self.call.iter().filter(|copy| copy.is_back).count();
-            return self.call_text(unit, decoded);
-        }
-        if self.is_in_call {
-            self.left = self.left.saturating_sub(usize::from(self.has_called));
-            return String::new();
+        if at < self.call_end {
+            return if decoded.op == Op::Call { self.call_text(unit, decoded) } else { String::new() };
         }
         let instruction = decoded.op.instruction();
         if instruction.group == Group::Hidden {
@@ -215,7 +202,7 @@ fn calls(code: &[(u16, u8, Decoded)]) -> Vec<Vec<Copy>> {
     for (at, _, decoded) in code {
         if decoded.op == Op::CallBegin {
             calls.push(Vec::new());
-            (end, has_called) = (crate::disassemble::frames::offset(decoded), false);
+            (end, has_called) = (offset(decoded), false);
         } else if *at < end && decoded.op == Op::Call {
             has_called = true;
         } else if *at < end

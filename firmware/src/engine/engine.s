@@ -8,6 +8,9 @@
 .equ STACK_HIGH, 0x3E
 ; The bit of SREG that says "less" after a comparison of signed numbers.
 .equ SIGN, 4
+; The pins of I0.0 to I0.3, whose edges are events.
+.equ PIND, 0x09
+.equ EDGE_PINS, 0x3C
 ; SMB0 with the first scan, and SMB1 with what a result is like.
 .equ SYSTEM_BITS, SM_START
 .equ FIRST_SCAN, 1

@@ -7,11 +7,11 @@ use core::arch::global_asm;
 use core::mem::offset_of;
 use core::ptr;
 
-use plc_isa::{DIRECTORY_AT, ENO, Execute, SLOT_START, TimerResolution};
+use plc_isa::{DIRECTORY_AT, ENO, EVENTS_ENTRY, EVENTS_MODULE, EVENTS_SEEN, Execute, SLOT_START, TimerResolution};
 use plc_vm::{CALLS_MAX, Environment, Exit, Interpreter};
 
-use crate::board::flash::ProgramSlot;
 use crate::board::clock;
+use crate::board::flash::ProgramSlot;
 use crate::environment::ScanTime;
 
 /// The firmware's interface to native programs.
@@ -94,6 +94,9 @@ global_asm!(
     ".equ CALLS_MAX, {calls_max}",
     ".equ DIRECTORY_AT, {directory_at}",
     ".equ ENO, {eno}",
+    ".equ EVENTS_SEEN, {events_seen}",
+    ".equ EVENTS_MODULE, {events_module}",
+    ".equ EVENTS_ENTRY, {events_entry}",
     ".equ TIMERS_START, {timers_start}",
     ".equ COUNTERS_START, {counters_start}",
     ".equ EDGES_START, {edges_start}",
@@ -113,9 +116,13 @@ global_asm!(
     labels_in_flash = const offset_of!(Context, labels_in_flash),
     routines_in_flash = const offset_of!(Context, routines_in_flash),
     depth = const offset_of!(Context, depth),
-    calls_max = const CALLS_MAX,
+    // An interrupt routine, and what it calls, come on top.
+    calls_max = const CALLS_MAX + 2,
     directory_at = const DIRECTORY_AT,
     eno = const ENO,
+    events_seen = const EVENTS_SEEN,
+    events_module = const EVENTS_MODULE,
+    events_entry = const EVENTS_ENTRY,
     timers_start = const offset_of!(Context, timers_start),
     counters_start = const offset_of!(Context, counters_start),
     edges_start = const offset_of!(Context, edges_start),

@@ -245,14 +245,43 @@ assign_far:
 1:  clt
 2:  rjmp next
 
-; Events: no program that names one is loaded.
+; Events are the module's. It is asked when pins, T32 and T96, or the clock are others than at the last poll, and for the
+; instructions.
 % Poll Here
+    in r18, PIND
+    andi r18, EDGE_PINS
+    lds r19, T_BITS_START + 32 / 8
+    sbrc r19, 0
+    ori r18, 1
+    lds r19, T_BITS_START + 96 / 8
+    sbrc r19, 0
+    ori r18, 2
+    lds r19, UNO200_TICK
+    lds r20, EVENTS_SEEN
+    cpse r18, r20
+    rjmp events
+    lds r20, EVENTS_SEEN + 1
+    cpse r19, r20
+    rjmp events
+    NEXT_ONE_BYTE
+
 % Atch Routine Event
 % Dtch Event
 % Cevnt Event
 % Eni
 % Disi
-    jmp outside
+events:
+    ldi r30, lo8(SLOT_START + DIRECTORY_AT + 2 * EVENTS_MODULE)
+    ldi r31, hi8(SLOT_START + DIRECTORY_AT + 2 * EVENTS_MODULE)
+    lpm r24, Z+
+    lpm r25, Z
+    ; The assembler puts the module into every program that has one of these.
+    sbiw r24, 0
+    breq 1f
+    adiw r24, EVENTS_ENTRY
+    movw r30, r24
+    ijmp
+1:  jmp outside
 
 % Set PageBitOut One
     brtc pass

@@ -19,6 +19,8 @@ pub const HEADER_LEN: u16 = 64;
 /// Offset of the directory of modules in the header: for each the word address of its jump table in flash, 0 where the
 /// program does not use it.
 pub const DIRECTORY_AT: u16 = 40;
+/// Offset of the number of interrupt events in the header.
+pub const EVENTS_AT: u16 = 39;
 /// Bytes of the checksum at the end.
 pub const CRC_LEN: u16 = 4;
 /// Longest program name in bytes.
@@ -31,9 +33,6 @@ pub const NATIVE_INTERFACE: u8 = 1;
 pub trait ProgramMemory {
     /// The firmware interface that machine code finds here; 0: none, machine code is refused.
     const NATIVE_INTERFACE: u8 = 0;
-
-    /// Whether this machine has interrupt events.
-    const HAS_EVENTS: bool = true;
 
     /// Bytes that can be read.
     fn len(&self) -> u16;
@@ -394,7 +393,7 @@ impl Header {
         self.constants_len = memory.word(34);
         self.initial_len = memory.word(36);
         self.routines = memory.byte(38);
-        self.events = memory.byte(39);
+        self.events = memory.byte(EVENTS_AT);
     }
 
     /// Offset of the V ranges.

@@ -54,6 +54,10 @@ pub const AQW_START: u16 = 0x0230;
 pub const ANALOG_OUTPUTS: u8 = 2;
 /// ENO of the last module instruction: a byte, 0 or 1. No instruction names it.
 pub const ENO: u16 = 0x0234;
+/// On the board: what the last look for interrupt events saw; behind it what waits. No instruction names these bytes.
+pub const EVENTS_SEEN: u16 = 0x0235;
+/// The value of that byte when RUN begins and nothing has been seen.
+pub const EVENTS_RUN_BEGINS: u8 = 0xFF;
 
 /// The arena: memory planned per program.
 pub const ARENA_START: u16 = 0x0240;

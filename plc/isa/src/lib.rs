@@ -30,13 +30,13 @@ pub use area::{AnalogInput, Area, TimerFamily, TimerResolution, timer_family, ti
 pub use crc::Crc32;
 pub use decode::{DecodeError, Decoded, decode};
 pub use image::{
-    CRC_LEN, DIRECTORY_AT, ENTRY_LEN, EVENT_LEN, FORMAT_VERSION, HEADER_LEN, Header, INITIAL_HEAD_LEN, ImageError,
-    ImageFault, LABEL_LEN, MAGIC, NAME_LEN_MAX, NATIVE_INTERFACE, Offsets, ProgramMemory, ROUTINE_LEN,
+    CRC_LEN, DIRECTORY_AT, ENTRY_LEN, EVENT_LEN, EVENTS_AT, FORMAT_VERSION, HEADER_LEN, Header, INITIAL_HEAD_LEN,
+    ImageError, ImageFault, LABEL_LEN, MAGIC, NAME_LEN_MAX, NATIVE_INTERFACE, Offsets, ProgramMemory, ROUTINE_LEN,
 };
 pub use layout::*;
 pub use modules::{
-    MODULE_KINDS_AT, MODULE_NAMES, MODULES, OPERANDS_MODULE, ROUTINES_MAX, Routine, kind_numbers, module_instructions,
-    packed_stack,
+    EVENTS_ENTRY, EVENTS_MODULE, MODULE_KINDS_AT, MODULE_NAMES, MODULES, OPERANDS_MODULE, ROUTINES_MAX, Routine,
+    kind_numbers, module_instructions, packed_stack,
 };
 pub use operand::{Bit, ByteSource, Kind, Operand, OperandKind, OperandReader, Relation, WordSource, kinds};
 pub use plan::{CounterSlot, Plan, Region, SM_IN_V, TimerKind, TimerSlot, counter_bit, timer_bit};

@@ -9,6 +9,10 @@ use crate::tokens::packed;
 pub const MODULES: usize = 8;
 /// The module that all others need: it reads their operands.
 pub const OPERANDS_MODULE: u8 = 7;
+/// The module that looks for interrupt events on the board.
+pub const EVENTS_MODULE: u8 = 5;
+/// Where in its jump table that begins: behind its routines.
+pub const EVENTS_ENTRY: u8 = 15;
 /// The modules' names, by their numbers.
 pub const MODULE_NAMES: [&str; MODULES] =
     ["general", "real", "function", "text", "table", "inputs_outputs", "communication", "operands"];

@@ -142,7 +142,6 @@ fn check_tables<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageFault> {
     ensure(header.settings.is_valid(), ImageFault::Settings)?;
     ensure(v_ranges_are_valid(plan), ImageFault::VRanges)?;
     ensure(timers_are_valid(plan), ImageFault::Timers)?;
-    ensure(P::HAS_EVENTS || header.events == 0, ImageFault::Event)?;
     ensure(is_ascending(&plan.memory, plan.counters_at, COUNTER_LEN, header.counters), ImageFault::Counters)?;
     ensure(header.edges <= EDGES_MAX && header.labels <= 256, ImageFault::Plan)?;
     ensure(events_are_valid(plan), ImageFault::Event)?;

@@ -144,10 +144,13 @@ impl Events {
         hardware: Hardware::NEW,
     };
 
-    /// The change to RUN: no event waits, and none is served.
-    pub(crate) fn restart(&mut self, memory: &mut Memory) {
+    /// The change to RUN: nothing is attached, no event waits, and none is served.
+    pub(crate) fn restart<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory) {
         self.hardware.restart();
         *self = Events { hardware: self.hardware.clone(), ..Events::NONE };
+        for index in 0..plan.header.events {
+            memory.set_byte(plan.event_address(index), 0);
+        }
         memory.set_bit(ENABLED, false);
         memory.set_byte(STATE, memory.byte(STATE) & !OVERFLOWS);
     }

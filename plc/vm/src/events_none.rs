@@ -1,10 +1,10 @@
-//! The board's firmware has no interrupt events yet and refuses programs that name them.
+//! Interrupt events on the board: a module in the program's image looks for them (firmware/modules/inputs_outputs.s).
 
-use plc_isa::{Plan, ProgramMemory};
+use plc_isa::{EVENTS_RUN_BEGINS, EVENTS_SEEN, Plan, ProgramMemory};
 
 use crate::memory::Memory;
 
-/// No events.
+/// Nothing of it is here.
 #[derive(Debug, Clone)]
 pub struct Events;
 
@@ -12,7 +12,11 @@ impl Events {
     /// None.
     pub const NONE: Events = Events;
 
-    pub(crate) fn restart(&mut self, _memory: &mut Memory) {}
+    /// The change to RUN.
+    #[inline(always)]
+    pub(crate) fn restart<P: ProgramMemory>(&mut self, _plan: &Plan<P>, memory: &mut Memory) {
+        memory.set_byte(EVENTS_SEEN, EVENTS_RUN_BEGINS);
+    }
 
     pub(crate) fn pass<P: ProgramMemory>(&mut self, _passed_ms: u32, _now_ms: u32, _: &Plan<P>, _: &mut Memory) {}
 

@@ -313,16 +313,10 @@ impl<P: ProgramMemory> Plc<P> {
     fn start_run(&mut self, memory: &mut Memory) {
         self.clock.start();
         special::clear_scan_times(memory);
-        self.events.restart(memory);
         if let Some(program) = &self.program {
             let plan = program.plan();
             self.timers = timer::start_of_run(memory, plan);
-            // Nothing is attached yet.
-            if P::HAS_EVENTS {
-                for index in 0..plan.header.events {
-                    memory.set_byte(plan.event_address(index), 0);
-                }
-            }
+            self.events.restart(plan, memory);
         }
     }
 

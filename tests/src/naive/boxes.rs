@@ -35,6 +35,9 @@ impl Naive {
         }
         let done = self.execute_box(instruction);
         self.eno = done.is_ok();
+        if self.eno {
+            self.succeeded.insert(instruction.mnemonic);
+        }
         if done == Err(Trouble::Operand) {
             self.set_bit(Area::Sm, 4, 3, true);
         }

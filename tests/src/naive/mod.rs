@@ -19,7 +19,7 @@ mod tables;
 mod texts;
 mod timers;
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
 use awl_asm::ast::Program;
@@ -91,6 +91,8 @@ pub struct Naive {
     accumulators: [u32; 4],
     /// ENO of the last box.
     eno: bool,
+    /// Boxes that were executed without error.
+    succeeded: BTreeSet<&'static str>,
     inputs: Inputs,
     /// The input of each EU, ED and PID at its last execution, by unit and position in it.
     edges: HashMap<(usize, usize), bool>,
@@ -131,6 +133,7 @@ impl Naive {
             memory,
             accumulators: [0; 4],
             eno: false,
+            succeeded: BTreeSet::new(),
             timers: vec![Timer::default(); 256],
             counters: vec![Counter::default(); 256],
             inputs: Inputs::default(),
@@ -210,6 +213,11 @@ impl Naive {
     /// An output byte as the plant sees it: 0 in STOP, whatever the process image holds.
     pub fn output(&self, byte: u16) -> u8 {
         if self.mode == Mode::Run { self.byte(Area::Q, byte) } else { 0 }
+    }
+
+    /// The mnemonics of boxes that have been executed without error.
+    pub fn succeeded(&self) -> &BTreeSet<&'static str> {
+        &self.succeeded
     }
 
     /// An accumulator.

@@ -55,7 +55,8 @@ impl Naive {
     fn calculate_real(&mut self, mnemonic: &str, a: f32, b: f32, out: &Operand) -> Result<(), Trouble> {
         let both = number(a).zip(number(b));
         let divides = mnemonic == "/R";
-        if divides && both.is_some_and(|(_, b)| b == 0.0) {
+        // Whatever is divided.
+        if divides && b == 0.0 {
             return self.divided_by_zero(true);
         }
         if divides || mnemonic == "*R" {

@@ -4,7 +4,7 @@ use awl_asm::ast::{Instruction, Operand, Value};
 use plc_isa::Area;
 
 use super::Naive;
-use super::places::{Trouble, Want};
+use super::places::{Place, Trouble, Want};
 
 /// Most characters of a string.
 const CHARACTERS_MAX: usize = 254;
@@ -95,6 +95,10 @@ impl Naive {
         let len = self.read(&operands[2], 1)? as u16;
         let from = self.place(&operands[0], Want::read(1).of(len))?;
         let to = self.place(&operands[1], Want::written(1).of(len.div_ceil(2)))?;
+        stand_apart(to, from, len)?;
+        if len == 0 {
+            return Ok(());
+        }
         let digit = |at| char::from(self.value_at(Naive::behind(from, 1, at), 1) as u8);
         let value = |digit: char| digit.to_digit(16).filter(|_| !digit.is_ascii_lowercase());
         let digits: Option<Vec<u32>> = (0..len).map(|at| value(digit(at))).collect();
@@ -111,7 +115,8 @@ impl Naive {
     fn bytes_to_digits(&mut self, operands: &[Operand]) -> Result<(), Trouble> {
         let len = self.read(&operands[2], 1)? as u16;
         let from = self.place(&operands[0], Want::read(1).of(len.div_ceil(2)))?;
-        self.place(&operands[1], Want::written(1).of(len))?;
+        let to = self.place(&operands[1], Want::written(1).of(len))?;
+        stand_apart(from, to, len)?;
         let bytes = (0..len.div_ceil(2)).map(|at| self.value_at(Naive::behind(from, 1, at), 1));
         let mut digits: String = bytes.map(|byte| format!("{byte:02X}")).collect();
         digits.truncate(usize::from(len));
@@ -161,6 +166,17 @@ impl Naive {
         };
         self.set_bit(Area::Sm, 1, 1, value.is_none());
         self.write(&operands[2], width, value.ok_or(Trouble::Result)?)
+    }
+}
+
+/// Digits that begin within their characters, behind the first, would be overwritten or read again.
+fn stand_apart(digits: Place, characters: Place, len: u16) -> Result<(), Trouble> {
+    match (digits, characters) {
+        (Place::Bytes(area, digits), Place::Bytes(other, characters)) if area == other => {
+            let is_within = digits > characters && digits < characters + len;
+            if is_within { Err(Trouble::Operand) } else { Ok(()) }
+        }
+        _ => Ok(()),
     }
 }
 

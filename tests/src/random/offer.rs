@@ -7,6 +7,9 @@ use plc_isa::{Group, Instruction, MODULES, OPERANDS_MODULE, Op, SLOT_LEN};
 /// Bytes of the image that are neither code nor modules, at most, with what the assembler puts into the code.
 const REST_LEN: u32 = 1_600;
 
+/// No module is taken that leaves less room for code.
+const CODE_LEN_MIN: u32 = 900;
+
 /// What a program may use.
 #[derive(Debug, Clone, Copy)]
 pub struct Offer {
@@ -30,18 +33,23 @@ impl Offer {
         Offer::some(rng, |module| module_len(module) > 0)
     }
 
+    /// All modules, whether they have room or not.
+    #[cfg(test)]
+    pub(super) fn whole() -> Offer {
+        Offer { modules: [true; MODULES], units: true }
+    }
+
     fn some(rng: &mut Rng, is_there: impl Fn(usize) -> bool) -> Offer {
         const REAL: usize = 1;
         const FUNCTION: usize = 2;
         let mut offer = Offer { modules: [false; MODULES], units: true };
         let mut order: Vec<usize> = (0..MODULES).filter(|&module| module != usize::from(OPERANDS_MODULE)).collect();
         rng.shuffle(&mut order);
-        order.insert(0, 0);
         for module in order.into_iter().filter(|&module| is_there(module)) {
             let before = offer;
             offer.modules[module] = true;
             offer.modules[REAL] |= module == FUNCTION;
-            if offer.code_len_max() < 1_500 {
+            if offer.code_len_max() < CODE_LEN_MIN {
                 offer = before;
             }
         }
@@ -59,6 +67,11 @@ impl Offer {
     /// Whether there are modules.
     pub(super) fn has_modules(&self) -> bool {
         self.modules.contains(&true)
+    }
+
+    /// Whether there are pointers: module general makes them.
+    pub(super) fn has_pointers(&self) -> bool {
+        self.modules[0]
     }
 
     /// Whether there are subroutines and sequences.

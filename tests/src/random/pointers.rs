@@ -67,7 +67,7 @@ impl Generator<'_> {
     /// A value behind a pointer. Words that loops depend on must not be written by accident; comparisons stop the PLC if
     /// a pointer leads nowhere.
     pub(super) fn pointed(&mut self, is_written: bool, is_certain: bool) -> Option<Place> {
-        if is_written && self.is_any_protected() {
+        if !self.offer.has_pointers() || is_written && self.is_any_protected() {
             return None;
         }
         let text = if is_certain { "*AC1" } else { ["*AC1", "*AC2", "*VD164"][self.rng.usize(..3)] };

@@ -47,7 +47,7 @@ impl Generator<'_> {
             19 => self.number_line(),
             20..=25 if self.offer.has_units() => self.call(),
             26..=28 if self.offer.has_units() && self.loops == 0 && self.passes == 1 => self.segment(),
-            29..=32 if self.offer.has_modules() => self.move_pointer(),
+            29..=32 if self.offer.has_pointers() => self.move_pointer(),
             _ => self.rung(),
         }
     }

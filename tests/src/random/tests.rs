@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 
 use awl_asm::Address;
 use awl_asm::ast::{Program, Statement, Value};
-use plc_isa::{Area, Group, Relation, STACK_LEVELS};
+use plc_isa::{Area, Group, PowerFlow, Relation, STACK_LEVELS};
 
 use super::*;
-use crate::naive::{INSTRUCTIONS_MAX, Mode, Naive, parse};
+use crate::forms::Row;
+use crate::naive::{Fault, INSTRUCTIONS_MAX, Mode, Naive, parse};
 
 /// What an operand is, as far as a form cares.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -50,8 +51,17 @@ fn is_word(class: Class) -> bool {
     matches!(class, Class::Word(_) | Class::Timer | Class::Counter | Class::Scaled | Class::Raw)
 }
 
+/// Of special memory only SMB31: SMB30 belongs to the serial line.
 fn is_writable(class: Class) -> bool {
-    !matches!(class, Class::Bit(Area::I) | Class::Byte(Area::I) | Class::Word(Area::I) | Class::Scaled | Class::Raw)
+    !matches!(
+        class,
+        Class::Word(Area::Sm)
+            | Class::Bit(Area::I)
+            | Class::Byte(Area::I)
+            | Class::Word(Area::I)
+            | Class::Scaled
+            | Class::Raw
+    )
 }
 
 /// Whether a form with this kind takes such an operand.
@@ -87,7 +97,7 @@ type Usage = (Op, usize, usize, Class);
 
 /// The form in which an instruction would be encoded, the way the assembler looks for it.
 fn form_of(mnemonic: &str, operands: &[Classified]) -> Option<(Op, usize)> {
-    let rows = INSTRUCTIONS.iter().filter(|row| row.mnemonics.first() == Some(&mnemonic));
+    let rows = core_rows().filter(|row| row.mnemonics.first() == Some(&mnemonic));
     rows.flat_map(|row| row.forms.iter().enumerate().map(move |(index, form)| (row.op, index, form)))
         .find(|(_, _, form)| {
             let kinds: Vec<_> = form.kinds.iter().filter(|kind| kind.is_written()).collect();
@@ -111,11 +121,17 @@ fn samples() -> Vec<Classified> {
     classes.chain(others).map(|class| (class, 0)).chain(constants).collect()
 }
 
+/// What programs of the core consist of.
+fn core_rows() -> impl Iterator<Item = &'static Instruction> {
+    let is_apart = |group| matches!(group, Group::Hidden | Group::Call | Group::Sequence | Group::Interrupt);
+    INSTRUCTIONS.iter().filter(move |row| row.module().is_none() && row.op != Op::Aeno && !is_apart(row.group))
+}
+
 /// Every usage that the instruction table allows.
 fn possible_usages() -> BTreeSet<Usage> {
     let samples = samples();
     let mut possible = BTreeSet::new();
-    for row in INSTRUCTIONS.iter().filter(|row| row.group != Group::Hidden) {
+    for row in core_rows() {
         for form in row.forms {
             let written = form.kinds.iter().filter(|kind| kind.is_written()).count();
             for choice in 0..samples.len().pow(written as u32) {
@@ -155,14 +171,69 @@ fn programs_use_everything_the_table_offers() {
     }
     let missing: Vec<_> = possible_usages().difference(&used).copied().collect();
     assert!(missing.is_empty(), "{} usages never occur: {missing:?}", missing.len());
-    for row in INSTRUCTIONS {
-        for mnemonic in row.mnemonics {
-            let relations: &[_] = if row.has_relation() { &Relation::ALL.map(Relation::symbol) } else { &[""] };
-            for relation in relations {
-                assert!(names.contains(&format!("{mnemonic}{relation}")), "{mnemonic}{relation} never occurs");
-            }
+    assert_names(core_rows(), &names);
+}
+
+/// Every mnemonic of the rows is among the names, with all its relations.
+fn assert_names(rows: impl Iterator<Item = &'static Instruction>, names: &BTreeSet<String>) {
+    for row in rows {
+        let relations = Row { instruction: row, form: &row.forms[0] }.relations();
+        for (mnemonic, relation) in row.mnemonics.iter().flat_map(|name| relations.iter().map(move |one| (name, one))) {
+            let name = format!("{mnemonic}{}", relation.map_or("", Relation::symbol));
+            assert!(names.contains(&name), "{name} never occurs");
         }
     }
+}
+
+/// Programs of everything.
+fn large_programs() -> impl Iterator<Item = String> {
+    (0..600).map(|seed| {
+        let mut rng = Rng::with_seed(seed);
+        let offer = Offer::everything(&mut rng);
+        random_program_of(&mut rng, 20 + seed as usize / 2, offer)
+    })
+}
+
+#[test]
+fn programs_of_everything_have_every_instruction() {
+    let mut names = BTreeSet::new();
+    let mut text = String::new();
+    for program in large_programs() {
+        names.extend(program.lines().filter_map(|line| line.split_whitespace().next().map(str::to_string)));
+        text += &program;
+    }
+    let offer = Offer::whole();
+    let units = [Op::Call, Op::Cret, Op::Lscr, Op::Scrt, Op::Scre, Op::Cscre, Op::Aeno];
+    assert_names(INSTRUCTIONS.iter().filter(|row| offer.is_plain(row) || units.contains(&row.op)), &names);
+    for part in ["*AC1", "*AC2", "*AC3", "*VD164", "AC0", "&T", "&C", "&AIW", "#p", "SBR2", "\"Motor\"", "S0.7", "1e10"]
+    {
+        assert!(text.contains(part), "{part} never occurs");
+    }
+}
+
+/// A box that never does anything but fail compares nothing.
+#[test]
+fn programs_of_everything_end_their_scans_and_succeed() {
+    let (mut faults, mut succeeded) = (0, BTreeSet::new());
+    for (seed, text) in large_programs().enumerate() {
+        let mut rng = Rng::with_seed(seed as u64);
+        let mut plc = Naive::new(parse(&text));
+        let (mut inputs, mut now_ms) = (Inputs::default(), rng.u32(..));
+        for _ in 0..50 {
+            plc.scan(now_ms, &inputs);
+            inputs = random_inputs(&mut rng, &inputs);
+            now_ms = now_ms.wrapping_add(random_step_ms(&mut rng));
+        }
+        assert_ne!(plc.fault(), Some(Fault::Watchdog), "more than {INSTRUCTIONS_MAX} instructions:\n{text}");
+        faults += u32::from(plc.fault().is_some());
+        succeeded.extend(plc.succeeded().iter().copied());
+    }
+    assert!(faults < 60, "{faults} of 600 programs end in a fault");
+    let offer = Offer::whole();
+    let boxes = INSTRUCTIONS.iter().filter(|row| row.power_flow == PowerFlow::Needed && offer.is_plain(row));
+    let timeless = boxes.map(Instruction::mnemonic).filter(|name| *name != "WDR");
+    let failing: Vec<&str> = timeless.filter(|name| !succeeded.contains(name)).collect();
+    assert!(failing.is_empty(), "never executed without error: {failing:?}");
 }
 
 #[test]

@@ -62,7 +62,7 @@ impl Generator<'_> {
         }
         self.wanted = wanted;
         self.start_unit(true);
-        if self.offer.has_modules() {
+        if self.offer.has_pointers() {
             self.prepare_pointers();
         }
         self.program();
@@ -85,7 +85,7 @@ impl Generator<'_> {
         for section in Section::ALL {
             for _ in 0..self.rng.u32(..=2) {
                 let types = [Type::Bool, Type::Byte, Type::Int, Type::Int, Type::Dint];
-                let kind = types[self.rng.usize(..if self.offer.has_modules() { 5 } else { 4 })];
+                let kind = types[self.rng.usize(..if self.offer.has_pointers() { 5 } else { 4 })];
                 let name = format!("p{}", self.locals.len());
                 self.locals.push(Local { name, kind, section });
             }

@@ -206,7 +206,11 @@ impl Generator<'_> {
     }
 
     fn any_text(&mut self) -> &'static str {
-        if self.one_in(6) && !self.is_any_protected() { "*AC3" } else { TEXTS[self.rng.usize(..2)] }
+        if self.one_in(6) && self.offer.has_pointers() && !self.is_any_protected() {
+            "*AC3"
+        } else {
+            TEXTS[self.rng.usize(..2)]
+        }
     }
 
     fn text_in(&mut self, takes_constants: bool) -> Option<Place> {
