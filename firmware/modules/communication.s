@@ -1,4 +1,4 @@
-; Module 6: intervals and the time of day. There is no freeport mode on the board: XMT and RCV are run-time errors. What is
+; Module 6: intervals and the time of day. What is
 ; here does what plc-vm does (plc/vm/src/modules: points.rs, clock.rs).
 
 .include "interface.inc"
@@ -22,6 +22,8 @@ STUB abandon, ABANDON
 
 ; Bytes of the buffer of TODR and TODW.
 .equ BUFFER_LEN, 8
+
+; not yet: Xmt Rcv
 
 Bitim:
     call MODULE_NOW
@@ -129,8 +131,6 @@ Todw:
     call MODULE_STATE
     rcall store_time
     rjmp done
-Xmt:
-Rcv:
 bad:
     rjmp abandon
 

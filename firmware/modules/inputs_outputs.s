@@ -228,10 +228,7 @@ Dled:
     rcall read_byte
     rjmp done
 
-Hdef:
-Hsc:
-Pls:
-    rjmp abandon
+; not yet: Hdef Hsc Pls
 
 ; ---- events: instructions
 

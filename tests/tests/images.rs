@@ -1,6 +1,6 @@
 //! The loader's check: for every fault an image that has it, right in all else, and the fault is named.
 
-use plc_isa::{HEADER_LEN, Header, ImageFault, verify};
+use plc_isa::{HEADER_LEN, Header, ImageFault, Op, verify};
 use tests::image::sign;
 
 /// A program that has something in every table.
@@ -49,7 +49,10 @@ fn image() -> (Vec<u8>, Header) {
 
 /// What the check says about an image with these bytes at this offset.
 fn fault_with(at: u16, bytes: &[u8]) -> Option<ImageFault> {
-    let (mut image, _) = image();
+    fault_in(image().0, at, bytes)
+}
+
+fn fault_in(mut image: Vec<u8>, at: u16, bytes: &[u8]) -> Option<ImageFault> {
     let at = usize::from(at);
     image[at..at + bytes.len()].copy_from_slice(bytes);
     sign(&mut image);
@@ -75,7 +78,8 @@ fn the_image_itself_is_sound() {
 #[test]
 fn faults_of_the_header() {
     assert_eq!(fault_with(0, b"X"), Some(ImageFault::Magic));
-    assert_eq!(fault_with(4, &[2]), Some(ImageFault::Version));
+    assert_eq!(fault_with(4, &[1]), Some(ImageFault::Version), "before modules");
+    assert_eq!(fault_with(4, &[3]), Some(ImageFault::Version));
     assert_eq!(fault_with(5, &[1]), Some(ImageFault::Interface), "machine code, on the host");
     assert_eq!(fault_with(31, &[7]), Some(ImageFault::Settings));
     assert_eq!(fault_with(8, &[0xFF, 0xFF]), Some(ImageFault::Length), "code longer than the image");
@@ -120,7 +124,6 @@ fn faults_of_the_code() {
     assert_eq!(fault_with(start, &[0xFE, 0xFF]), Some(ImageFault::UndefinedToken), "behind the prefix");
     assert_eq!(fault_with(header.code_end() - 1, &[0x66]), Some(ImageFault::Truncated), "no end");
     assert_eq!(fault_with(start, &[0x77]), Some(ImageFault::Truncated), "code behind the end");
-    assert_eq!(fault_with(start, &[0x00, 0xC0]), Some(ImageFault::Operand), "LD of local memory");
     assert_eq!(fault_with(start, &[0x10]), Some(ImageFault::StackUnderflow), "A without a value");
     assert_eq!(fault_with(code_offset(&[0x30, 0x10]), &[0x30, 0x00]), Some(ImageFault::ReadOnly), "= I0.0");
     assert_eq!(fault_with(code_offset(&[0x30, 0x10]), &[0x30, 0x40]), Some(ImageFault::ReadOnly), "= SM0.0");
@@ -129,7 +132,9 @@ fn faults_of_the_code() {
     assert_eq!(fault_with(moved + 1, &[0x00, 0x05]), Some(ImageFault::Operand), "behind the plan");
     assert_eq!(fault_with(moved + 3, &[0x3F, 0x01]), Some(ImageFault::Operand), "MW31 ends in SMB0");
     assert_eq!(fault_with(moved + 3, &[0x00, 0x02]), Some(ImageFault::ReadOnly), "AIW0");
-    assert_eq!(fault_with(moved + 3, &[0x18, 0x02]), Some(ImageFault::Operand), "reserved memory");
+    assert_eq!(fault_with(moved + 3, &[0x18, 0x02]), Some(ImageFault::Operand), "the upper half of AC0");
+    assert_eq!(fault_with(moved + 3, &[0x34, 0x02]), Some(ImageFault::Operand), "ENO");
+    assert_eq!(fault_with(moved + 3, &[0x3E, 0x02]), Some(ImageFault::Operand), "reserved memory");
     // S M3.0, 9 as far as M32.0.
     let set = code_offset(&[0x4F]);
     assert_eq!(fault_with(set + 3, &[255]), Some(ImageFault::Operand), "bits behind M31.7");
@@ -146,6 +151,114 @@ fn faults_of_the_code() {
     let next_at = code_offset(&[0x73]);
     assert_eq!(fault_with(next_at + 1, &start.to_le_bytes()), Some(ImageFault::Loop), "NEXT of no FOR");
     assert_eq!(fault_with(next_at, &[0x63, 0, 0x60]), Some(ImageFault::Loop), "FOR without NEXT");
+}
+
+/// A program with units, events, initial values, and an instruction of a module.
+const UNITS: &str = "\
+DATA_BLOCK
+VB0 1, 2
+END_DATA_BLOCK
+ORGANIZATION_BLOCK MAIN:OB1
+BEGIN
+NETWORK 1
+LD     SM0.1
+ATCH   INT0, 10
+ATCH   INT0, 11
+NETWORK 2
+LD     I0.0
+CALL   SBR0
+CALL   SBR1, VW0
+MOVD   70000, VD4
+END_ORGANIZATION_BLOCK
+SUBROUTINE_BLOCK A:SBR0
+BEGIN
+NETWORK 1
+LD     I0.1
+CRET
+END_SUBROUTINE_BLOCK
+SUBROUTINE_BLOCK B:SBR1
+VAR_INPUT
+n:INT;
+END_VAR
+BEGIN
+NETWORK 1
+LD     I0.2
+INCW   #n
+END_SUBROUTINE_BLOCK
+INTERRUPT_BLOCK C:INT0
+BEGIN
+NETWORK 1
+LD     I0.3
+CRETI
+END_INTERRUPT_BLOCK
+";
+
+/// What the check says about the units with these bytes at this offset.
+fn fault_of_units(at: u16, bytes: &[u8]) -> Option<ImageFault> {
+    fault_in(tests::image::image(UNITS), at, bytes)
+}
+
+/// Offset of the token of an instruction: the `number`th of its kind.
+fn token_of(op: Op, number: usize) -> u16 {
+    let places = tests::forms::places(&tests::image::image(UNITS));
+    let found = places.iter().filter(|place| place.row.instruction.op == op).nth(number);
+    found.expect("the program has it").token_at as u16
+}
+
+#[test]
+fn faults_of_units() {
+    let units = tests::image::image(UNITS);
+    let offsets = Header::read(&units).unwrap().offsets();
+    assert!(verify(units).is_ok());
+    assert_eq!(fault_of_units(offsets.routines, &[0, 1]), Some(ImageFault::Routine), "begins elsewhere");
+    assert_eq!(fault_of_units(offsets.events, &[11, 10]), Some(ImageFault::Event), "descending");
+    assert_eq!(fault_of_units(offsets.events, &[10, 10]), Some(ImageFault::Event), "twice");
+    assert_eq!(fault_of_units(offsets.initial, &[0, 5]), Some(ImageFault::Initial), "VB1280 is not planned");
+    assert_eq!(fault_of_units(offsets.initial + 2, &[0]), Some(ImageFault::Initial), "no values");
+    assert_eq!(fault_of_units(offsets.initial + 2, &[9]), Some(ImageFault::Initial), "values behind the table");
+    assert_eq!(fault_of_units(token_of(Op::Call, 0) + 1, &[3]), Some(ImageFault::Operand), "no such routine");
+    assert_eq!(fault_of_units(token_of(Op::Atch, 0) + 2, &[2]), Some(ImageFault::Operand), "no such event");
+    assert_eq!(
+        fault_of_units(token_of(Op::MainEnd, 0), &[0x5F]),
+        Some(ImageFault::Routine),
+        "the main program returns"
+    );
+    assert_eq!(fault_of_units(token_of(Op::Ret, 0), &[0x77]), Some(ImageFault::Routine), "two main programs");
+    assert_eq!(fault_of_units(token_of(Op::Cret, 0), &[0x74]), Some(ImageFault::Routine), "END in a subroutine");
+    let begin = token_of(Op::CallBegin, 0);
+    assert_eq!(
+        fault_of_units(begin + 1, &begin.to_le_bytes()),
+        Some(ImageFault::Routine),
+        "a call that ends before it"
+    );
+    assert_eq!(
+        fault_of_units(begin + 1, &(begin + 4).to_le_bytes()),
+        Some(ImageFault::Routine),
+        "ends in an instruction"
+    );
+}
+
+#[test]
+fn faults_of_references() {
+    let units = tests::image::image(UNITS);
+    let offsets = Header::read(&units).unwrap().offsets();
+    let moved = token_of(Op::Movd, 0);
+    let (input, out) = (moved + 1, moved + 3);
+    let with = |at: u16, reference: u16| fault_of_units(at, &reference.to_le_bytes());
+    assert_eq!(fault_of_units(moved, &[0x7F]), Some(ImageFault::UndefinedToken), "no such routine of the module");
+    assert_eq!(with(input, 0x0050), Some(ImageFault::Malformed), "below data memory");
+    assert_eq!(with(input, 0x0600), Some(ImageFault::Malformed), "behind data memory");
+    assert_eq!(with(input, 0x013E), Some(ImageFault::Operand), "MD30 ends in SMB1");
+    assert_eq!(with(input, 0x8218), Some(ImageFault::Operand), "*AC0");
+    assert_eq!(with(input, 0x8120), Some(ImageFault::Operand), "*MD0");
+    assert_eq!(with(input, 0xE000 | (offsets.constants + 1)), Some(ImageFault::Operand), "behind the constants");
+    assert_eq!(with(input, 0xE000), Some(ImageFault::Operand), "the header as a constant");
+    assert_eq!(with(out, 0xC005), Some(ImageFault::Operand), "a constant is written");
+    assert_eq!(with(out, 0x0100), Some(ImageFault::ReadOnly), "ID0");
+    assert_eq!(with(out, 0x0228), Some(ImageFault::ReadOnly), "HC0");
+    for legal in [0x021C, 0x821C, 0x0100, 0xC000, 0xDFFF] {
+        assert_eq!(with(input, legal), None, "{legal:04X}");
+    }
 }
 
 /// The last number is not one too many.

@@ -90,21 +90,26 @@ fn build(number: u8, source: &Path) -> Result<Vec<u8>> {
 fn text(number: u8, source: &Path) -> Result<String> {
     let instructions: Vec<_> = module_instructions(number).collect();
     let (entries, kinds) = entries(&instructions)?;
+    let missing = missing(source)?;
+    let is_written = |instruction: &&&Instruction| !missing.contains(&format!("{:?}", instruction.op));
+    let written = instructions.iter().take_while(is_written).count();
+    ensure!(written + missing.len() == instructions.len(), "what is missing must be the last routines: {missing:?}");
     let mut head = [entries, kinds].concat();
     if !(head.len() + instructions.len()).is_multiple_of(2) {
         head.push(0);
     }
     head.extend(instructions.iter().rev().map(|instruction| operands_len(instruction)));
     let mut text = format!(
-        "module:\n.word module_end - module\n.byte {number}, {}\n.word jump_table - module\n",
-        instructions.len()
+        "module:\n.word module_end - module\n.byte {number}, {written}\n.word jump_table - module\n",
     );
     for byte in head {
         let _ = writeln!(text, ".byte {byte}");
     }
     text.push_str("jump_table:\n");
-    for instruction in &instructions {
-        let _ = writeln!(text, "rjmp {:?}", instruction.op);
+    for (routine, instruction) in instructions.iter().enumerate() {
+        // The loader lets nobody jump to one that is missing.
+        let label = if routine < written { format!("{:?}", instruction.op) } else { "module".to_owned() };
+        let _ = writeln!(text, "rjmp {label}");
     }
     for subroutine in subroutines(number) {
         let _ = writeln!(text, "rjmp {subroutine}");
@@ -114,6 +119,13 @@ fn text(number: u8, source: &Path) -> Result<String> {
         let _ = writeln!(text, ".if {name} != {value}\n.error \"{name} is not {value}, as plc-isa has it\"\n.endif");
     }
     Ok(text)
+}
+
+/// The instructions that a source says it does not have yet. The board refuses programs with them.
+fn missing(source: &Path) -> Result<Vec<String>> {
+    let text = fs::read_to_string(source).with_context(|| format!("cannot read {}", source.display()))?;
+    let lines = text.lines().filter_map(|line| line.strip_prefix("; not yet: "));
+    Ok(lines.flat_map(str::split_ascii_whitespace).map(str::to_owned).collect())
 }
 
 /// Constants of interface.inc that plc-isa has, too.

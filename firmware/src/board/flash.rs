@@ -3,8 +3,8 @@
 use core::arch::asm;
 
 use plc_isa::{
-    Crc32, DIRECTORY_AT, EVENTS_AT, EVENTS_MODULE, MODULE_KINDS_AT, MODULES, OPERANDS_MODULE, Op, ProgramMemory,
-    Routine, SLOT_LEN, SLOT_START, TOKEN_TABLE, TOKEN_TABLE_LEN,
+    Crc32, DIRECTORY_AT, MODULE_KINDS_AT, MODULES, OPERANDS_MODULE, Op, ProgramMemory, Routine, SLOT_LEN, SLOT_START,
+    TOKEN_TABLE, TOKEN_TABLE_LEN,
 };
 
 use crate::engine;
@@ -92,7 +92,7 @@ impl ProgramMemory for ProgramSlot {
             return self.word(DIRECTORY_AT + 2 * u16::from(OPERANDS_MODULE)) == 0;
         }
         (0..MODULES as u8).all(|number| {
-            let Some(at) = self.module(number) else { return number != EVENTS_MODULE || self.byte(EVENTS_AT) == 0 };
+            let Some(at) = self.module(number) else { return true };
             let mut crc = Crc32::new();
             crc.bytes(self, at, at.wrapping_add(known(number, 6)));
             let value = crc.value();

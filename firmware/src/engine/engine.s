@@ -160,6 +160,8 @@ uno200_vectors:
     rjmp module_fault
 ; What modules call for the clock.
     rjmp now_vector
+; And for where they keep the time of day.
+    rjmp state_vector
 
 ; ---- entry and exit
 
@@ -280,10 +282,6 @@ bytecode_vector:
     rcall next
     POP_KEPT
     ret
-
-stop_vector:
-    ldi r24, LEFT_BY_STOP
-    rjmp leave_here
 
 loop_vector:
     lds r18, UNO200_TICK
@@ -429,6 +427,10 @@ module_fault:
 
 ; ---- the rest of the dispatch
 
+stop_vector:
+    ldi r24, LEFT_BY_STOP
+    rjmp leave_here
+
 ; The place comes as an offset in the bytecode.
 watchdog_vector:
     subi r24, lo8(-(SLOT_START + 2))
@@ -453,6 +455,10 @@ ask_watchdog:
     jmp uno200_is_overdue
 now_vector:
     jmp uno200_now
+state_vector:
+    ldi r30, lo8(TIME_OF_DAY)
+    ldi r31, hi8(TIME_OF_DAY)
+    ret
 
 ; A word, constant or in memory: mode byte and word at Z, value in r24 and r25.
 any_int:

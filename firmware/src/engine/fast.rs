@@ -74,6 +74,9 @@ static mut CONTEXT: Context = Context {
     depth: 0,
 };
 
+/// What the module for the clock keeps of the time of day; 0 until it is set.
+static mut TIME_OF_DAY: [u8; 10] = [0; 10];
+
 /// The execution that the assembly is in.
 static mut EXECUTION: *mut Execution<'static> = ptr::null_mut();
 
@@ -111,6 +114,7 @@ global_asm!(
     ".equ LEFT_BY_WATCHDOG, {by_watchdog}",
     ".equ LEFT_BY_UNDEFINED, {by_undefined}",
     ".set CONTEXT, {context}",
+    ".set TIME_OF_DAY, {time_of_day}",
     timers_in_flash = const offset_of!(Context, timers_in_flash),
     counters_in_flash = const offset_of!(Context, counters_in_flash),
     labels_in_flash = const offset_of!(Context, labels_in_flash),
@@ -137,6 +141,7 @@ global_asm!(
     by_watchdog = const LEFT_BY_WATCHDOG,
     by_undefined = const LEFT_BY_UNDEFINED,
     context = sym CONTEXT,
+    time_of_day = sym TIME_OF_DAY,
 );
 global_asm!(include_str!(concat!(env!("OUT_DIR"), "/engine.s")), options(raw));
 

@@ -19,8 +19,6 @@ pub const HEADER_LEN: u16 = 64;
 /// Offset of the directory of modules in the header: for each the word address of its jump table in flash, 0 where the
 /// program does not use it.
 pub const DIRECTORY_AT: u16 = 40;
-/// Offset of the number of interrupt events in the header.
-pub const EVENTS_AT: u16 = 39;
 /// Bytes of the checksum at the end.
 pub const CRC_LEN: u16 = 4;
 /// Longest program name in bytes.
@@ -393,7 +391,7 @@ impl Header {
         self.constants_len = memory.word(34);
         self.initial_len = memory.word(36);
         self.routines = memory.byte(38);
-        self.events = memory.byte(EVENTS_AT);
+        self.events = memory.byte(39);
     }
 
     /// Offset of the V ranges.

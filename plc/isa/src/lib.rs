@@ -30,8 +30,8 @@ pub use area::{AnalogInput, Area, TimerFamily, TimerResolution, timer_family, ti
 pub use crc::Crc32;
 pub use decode::{DecodeError, Decoded, decode};
 pub use image::{
-    CRC_LEN, DIRECTORY_AT, ENTRY_LEN, EVENT_LEN, EVENTS_AT, FORMAT_VERSION, HEADER_LEN, Header, INITIAL_HEAD_LEN,
-    ImageError, ImageFault, LABEL_LEN, MAGIC, NAME_LEN_MAX, NATIVE_INTERFACE, Offsets, ProgramMemory, ROUTINE_LEN,
+    CRC_LEN, DIRECTORY_AT, ENTRY_LEN, EVENT_LEN, FORMAT_VERSION, HEADER_LEN, Header, INITIAL_HEAD_LEN, ImageError,
+    ImageFault, LABEL_LEN, MAGIC, NAME_LEN_MAX, NATIVE_INTERFACE, Offsets, ProgramMemory, ROUTINE_LEN,
 };
 pub use layout::*;
 pub use modules::{

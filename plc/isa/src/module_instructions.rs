@@ -250,14 +250,14 @@ macro_rules! module_instructions {
                 Bir (input, out) ["BIR"] InputOutput, needs 1, adds 0, Needed { 0xF5 0x09 (BytesAt, ByteTo); }
                 /// Byte immediate write: copies a byte to output points and their process image.
                 Biw (input, out) ["BIW"] InputOutput, needs 1, adds 0, Needed { 0xF5 0x0A (ByteIn, ByteTo); }
-                /// High-speed counter definition: gives a counter its mode.
-                Hdef (hsc, mode) ["HDEF"] InputOutput, needs 1, adds 0, Needed { 0xF5 0x0B (Number, Number); }
-                /// High-speed counter: takes over control byte, current value and preset from special memory.
-                Hsc (n) ["HSC"] InputOutput, needs 1, adds 0, Needed { 0xF5 0x0C (Number); }
-                /// Pulse output: takes over control byte, cycle, width and count from special memory.
-                Pls (n) ["PLS"] InputOutput, needs 1, adds 0, Needed { 0xF5 0x0D (Number); }
                 /// Diagnosis LED: off for 0, on otherwise.
-                Dled (input) ["DLED"] InputOutput, needs 1, adds 0, Needed { 0xF5 0x0E (ByteIn); }
+                Dled (input) ["DLED"] InputOutput, needs 1, adds 0, Needed { 0xF5 0x0B (ByteIn); }
+                /// High-speed counter definition: gives a counter its mode.
+                Hdef (hsc, mode) ["HDEF"] InputOutput, needs 1, adds 0, Needed { 0xF5 0x0C (Number, Number); }
+                /// High-speed counter: takes over control byte, current value and preset from special memory.
+                Hsc (n) ["HSC"] InputOutput, needs 1, adds 0, Needed { 0xF5 0x0D (Number); }
+                /// Pulse output: takes over control byte, cycle, width and count from special memory.
+                Pls (n) ["PLS"] InputOutput, needs 1, adds 0, Needed { 0xF5 0x0E (Number); }
                 /// Time of day read: 8 bytes in BCD.
                 Todr (t) ["TODR"] Communication, needs 1, adds 0, Needed { 0xF6 0x00 (ByteTo); }
                 /// Time of day write: 8 bytes in BCD.

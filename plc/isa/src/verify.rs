@@ -12,6 +12,7 @@ use crate::image::{
     ProgramMemory, TIMER_LEN,
 };
 use crate::layout::*;
+use crate::modules::EVENTS_MODULE;
 use crate::operand::{Kind, MODE_MEMORY, Raw};
 use crate::plan::{Plan, SM_IN_V};
 use crate::reference::{Place, Reference};
@@ -193,8 +194,11 @@ fn v_ranges_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
     })
 }
 
+/// Whether the events ascend, and the module that the board finds them with is in the image.
 fn events_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
-    is_ascending(&plan.memory, plan.events_at, EVENT_LEN, u16::from(plan.header.events))
+    let has_module = plan.memory.word(DIRECTORY_AT + 2 * EVENTS_MODULE as u16) != 0;
+    (has_module || plan.header.events == 0)
+        && is_ascending(&plan.memory, plan.events_at, EVENT_LEN, u16::from(plan.header.events))
 }
 
 /// Whether V memory has these bytes side by side.
@@ -318,7 +322,10 @@ impl<P: ProgramMemory> CodeCheck<'_, P> {
             let Some(kind) = kind else { continue };
             self.operand(kind, raw, count)?;
             match kind {
-                Kind::Count => count = raw.value,
+                Kind::Count => {
+                    ensure(raw.value != 0, ImageFault::Operand)?;
+                    count = raw.value;
+                }
                 Kind::Level => needs += raw.value as u8,
                 _ => {}
             }
