@@ -109,6 +109,13 @@ impl Prepared {
         Case::all().into_iter().map(prepare).collect()
     }
 
+    /// Whether something happens to the PLC from outside in it that is no value: pulses, a clock that is set.
+    pub fn has_actions(&self) -> bool {
+        let statements = self.case.scenario.lines().filter_map(|line| line.split('#').next());
+        let words = statements.map(|statement| statement.split_whitespace().collect::<Vec<_>>());
+        words.into_iter().any(|words| matches!(words[..], ["at", _, "pulse" | "clock", ..]))
+    }
+
     /// Runs a machine that has the case's program, or one to be judged by it, and returns everything that is not as the
     /// case wants it.
     pub fn failures(&self, machine: &mut dyn Machine) -> Vec<String> {

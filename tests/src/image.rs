@@ -6,7 +6,7 @@ use awl_asm::assemble::assemble;
 use awl_asm::render::human;
 use awl_asm::source::Source;
 use fastrand::Rng;
-use plc_isa::{CRC_LEN, Crc32, NATIVE_INTERFACE, ProgramMemory, SLOT_LEN};
+use plc_isa::{CRC_LEN, Crc32, DIRECTORY_AT, HEADER_LEN, NATIVE_INTERFACE, ProgramMemory, SLOT_LEN};
 
 use crate::case::{folder, read};
 
@@ -71,13 +71,24 @@ pub fn signed(mut image: Vec<u8>) -> Vec<u8> {
     image
 }
 
-/// The image with one to three bytes changed at these offsets, as far as they are not the checksum; that is right again.
-/// It is as long as the slot, because the board does not know the length of a file.
+/// Whether a byte of the header says something of modules, which the board alone checks.
+fn is_of_modules(offset: usize) -> bool {
+    const MODULES_LEN_AT: usize = 32;
+    let directory = usize::from(DIRECTORY_AT)..usize::from(HEADER_LEN);
+    (MODULES_LEN_AT..MODULES_LEN_AT + 2).contains(&offset) || directory.contains(&offset)
+}
+
+/// The image with one to three bytes changed at these offsets, as far as they are not the checksum and say nothing of
+/// modules; the checksum is right again. It is as long as the slot, because the board does not know the length of a
+/// file.
 pub fn damaged(image: &[u8], rng: &mut Rng, offsets: Range<usize>) -> Vec<u8> {
     let mut image = image.to_vec();
     let end = image.len() - usize::from(CRC_LEN);
     for _ in 0..rng.u32(1..4) {
-        image[rng.usize(offsets.start..offsets.end.min(end))] = rng.u8(..);
+        let offset = rng.usize(offsets.start..offsets.end.min(end));
+        if !is_of_modules(offset) {
+            image[offset] = rng.u8(..);
+        }
     }
     let mut image = signed(image);
     image.resize(usize::from(SLOT_LEN), 0xFF);

@@ -199,6 +199,39 @@ fn run_begins_without_interrupts() {
     assert_eq!(board.byte(SM_START + 4), 0, "SM4.4");
 }
 
+/// Subroutines are interrupted between their rungs, and interrupt routines call subroutines.
+#[test]
+fn routines_and_subroutines_call_each_other() {
+    let main = "LD SM0.1\nATCH I0, 0\nENI\nLD SM0.0\nCALL Outer\nLD SM0.0\nINCW VW6";
+    let routine = "LD SM0.0\nCALL Helper\nINCW VW0";
+    let subroutines = "SUBROUTINE_BLOCK Outer:SBR0\nBEGIN\nLD SM0.0\nCALL Inner\nEND_SUBROUTINE_BLOCK\n\
+                       SUBROUTINE_BLOCK Inner:SBR1\nBEGIN\nLD SM0.0\nMOVD 5, AC0\nLDD<> AC0, 5\nINCW VW4\n\
+                       END_SUBROUTINE_BLOCK\n\
+                       SUBROUTINE_BLOCK Helper:SBR2\nBEGIN\nLD SM0.0\nINCD AC0\nINCW VW2\nEND_SUBROUTINE_BLOCK\n";
+    let mut board = BenchBoard::running(&(program(main, &[routine]) + subroutines));
+    for number in 0..500 {
+        board.drive_inputs(1);
+        run(&mut board, 4_000 + 7 * number);
+        board.drive_inputs(0);
+        run(&mut board, 4_000);
+    }
+    board.scan();
+    assert_eq!((vw(&board, 0), vw(&board, 2), vw(&board, 4)), (500, 500, 0), "routine, subroutine, errors");
+}
+
+#[test]
+fn an_event_that_comes_again_while_it_waits_is_lost() {
+    let main = "LD SM0.1\nATCH I0, 0\nLD I0.5\nENI\nLD SM0.0\nINCW VW6";
+    let mut board = BenchBoard::running(&program(main, &["LD SM0.0\nINCW VW0\nMOVB SMB4, VB2"]));
+    pulses(&mut board, 2, 2 * MS);
+    assert_eq!(board.byte(SM_START + 4), 1 << 1, "SM4.1");
+    board.drive_inputs(0b10_0000);
+    board.scans_for(5);
+    assert_eq!(vw(&board, 0), 1, "once");
+    assert_eq!(vw(&board, 2) >> 8, 0b1_0010, "its routine sees that");
+    assert_eq!(board.byte(SM_START + 4), 1 << 4, "then it is forgotten");
+}
+
 /// How fast edges can be for each to be counted, in a short program.
 #[test]
 fn fast_edges_are_counted() {

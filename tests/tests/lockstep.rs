@@ -11,7 +11,9 @@ use plc_isa::NATIVE_INTERFACE;
 use tests::case::Case;
 use tests::effort::effort;
 use tests::image::{INTERFACE_AT, damaged};
-use tests::lockstep::{Pair, assert_cases_are_the_same, assert_random_programs_are_the_same, board, random_image};
+use tests::lockstep::{
+    Pair, Programs, assert_cases_are_the_same, assert_random_programs_are_the_same, board, random_image,
+};
 
 #[test]
 fn all_cases_are_the_same_on_the_board() {
@@ -25,7 +27,12 @@ fn all_examples_are_the_same_on_the_board() {
 
 #[test]
 fn random_programs_are_the_same_on_the_board() {
-    assert_random_programs_are_the_same(Code::Bytecode);
+    assert_random_programs_are_the_same(Code::Bytecode, Programs::Core);
+}
+
+#[test]
+fn modules_and_units_are_the_same_on_the_board() {
+    assert_random_programs_are_the_same(Code::Bytecode, Programs::Everything);
 }
 
 /// A few bytes changed and the checksum right again: the loader says the same on both, or the program runs.
@@ -34,7 +41,7 @@ fn damaged_images_are_refused_with_the_same_words() {
     let (mut uno, mut refused) = (board(Code::Bytecode), 0);
     let count = effort("RANDOM_PROGRAMS", 300);
     for seed in 1..=count {
-        let (image, _, mut rng) = random_image(seed);
+        let (image, _, mut rng) = random_image(seed, Programs::Core);
         let image = damaged(&image, &mut rng, 0..image.len());
         // The board alone runs machine code: what it says to it is a matter of `lockstep_native.rs`.
         if image[INTERFACE_AT] == NATIVE_INTERFACE {

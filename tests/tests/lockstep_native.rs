@@ -10,7 +10,7 @@ use plc_vm::Fault;
 use tests::case::Case;
 use tests::effort::effort;
 use tests::image::{OnBoard, damaged, image, signed};
-use tests::lockstep::{assert_cases_are_the_same, assert_random_programs_are_the_same, board, random_image};
+use tests::lockstep::{Programs, assert_cases_are_the_same, assert_random_programs_are_the_same, board, random_image};
 
 #[test]
 fn all_cases_are_the_same_translated() {
@@ -24,7 +24,7 @@ fn all_examples_are_the_same_translated() {
 
 #[test]
 fn random_programs_are_the_same_translated() {
-    assert_random_programs_are_the_same(Code::Native);
+    assert_random_programs_are_the_same(Code::Native, Programs::Core);
 }
 
 /// Translated images with a few bytes changed and the checksum right again, in what the loader can check: header, tables,
@@ -35,7 +35,7 @@ fn damaged_machine_code_is_refused_with_the_same_words() {
     let mut uno = board(Code::Bytecode);
     let (mut refused, mut tried) = (0, 0);
     for seed in 1..=effort("RANDOM_PROGRAMS", 300) {
-        let (image, _, mut rng) = random_image(seed);
+        let (image, _, mut rng) = random_image(seed, Programs::Core);
         let Ok(translated) = translate(&image) else { continue };
         let code_at = Header::read(&OnBoard(&translated.image)).unwrap().code_at();
         let image = damaged(&translated.image, &mut rng, 0..usize::from(code_at + ENTRY_LEN));

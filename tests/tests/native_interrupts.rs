@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use awl_asm::native::translate;
 use awl_sim::machine::uno::{Code, MS, SRAM};
-use plc_isa::{DATA_END, DATA_START, Group, INSTRUCTIONS, Op, SLOT_END, SLOT_START};
+use plc_isa::{DATA_END, DATA_START, Group, INSTRUCTIONS, Instruction, Op, SLOT_END, SLOT_START};
 use simavr::Stopped;
 use tests::bench_board::{BenchBoard, example, firmware, image};
 use tests::forms::places;
@@ -306,7 +306,12 @@ END
 #[test]
 fn the_program_has_every_instruction() {
     let found: BTreeSet<Op> = places(&image(EVERYTHING)).iter().map(|place| place.row.instruction.op).collect();
-    let missing = INSTRUCTIONS.iter().filter(|row| row.group != Group::Hidden && !found.contains(&row.op));
+    // Modules are called like the bytecode of others; programs with the rest are not translated.
+    let is_translated = |row: &&Instruction| {
+        let others = [Group::Hidden, Group::Call, Group::Sequence, Group::Interrupt];
+        row.module().is_none() && row.op != Op::Aeno && !others.contains(&row.group)
+    };
+    let missing = INSTRUCTIONS.iter().filter(is_translated).filter(|row| !found.contains(&row.op));
     assert_eq!(missing.map(|row| row.mnemonics[0]).collect::<Vec<_>>(), [""; 0]);
 }
 

@@ -15,7 +15,7 @@ pub use longest::Longest;
 pub const CYCLES_PER_US: u32 = 16;
 
 /// From entering the engine to the first instruction of machine code, and from its return to the engine's end.
-pub const NATIVE_START: u32 = 56;
+pub const NATIVE_START: u32 = 58;
 /// See [`NATIVE_START`].
 pub const NATIVE_END: u32 = 47;
 

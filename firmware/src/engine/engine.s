@@ -942,7 +942,13 @@ timer_constant:
 
 ; Timer in slot r26: X slot, Z byte of its bit, r18 mask of its bit, r19 bit 0: counts in 100 ms.
 place_timer:
-    rcall look_timer_up
+    lds r30, CONTEXT + TIMERS_IN_FLASH
+    lds r31, CONTEXT + TIMERS_IN_FLASH + 1
+    add r30, r26
+    adc r31, r1
+    add r30, r26
+    adc r31, r1
+    lpm r20, Z
     SLOT_ADDRESS TIMERS_START, TIMER_SLOT_LEN
     cpi r27, hi8(DATA_END)
     brsh slot_outside

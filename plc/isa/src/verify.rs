@@ -52,7 +52,7 @@ impl<P: ProgramMemory> Program<P> {
         self.plan.code_at()
     }
 
-    /// The instructions of bytecode with their offsets, hidden ones and the end of the program included.
+    /// The instructions of the main program in bytecode with their offsets, hidden ones and its end included.
     pub fn instructions(&self) -> impl Iterator<Item = (u16, Decoded)> + '_ {
         let mut next = self.entry().is_none().then(|| self.code_at());
         core::iter::from_fn(move || {

@@ -35,8 +35,8 @@ impl Extents {
     pub(super) fn all() -> Extents {
         let numbers: Vec<u8> = (0..=255).collect();
         Extents {
-            v: vec![0..Area::V.size()],
-            sm: vec![32..Area::Sm.size()],
+            v: Vec::from([0..Area::V.size()]),
+            sm: Vec::from([32..Area::Sm.size()]),
             timers: numbers.clone(),
             counters: numbers,
         }

@@ -32,8 +32,8 @@ impl Naive {
         let x = self.read_real(input)?;
         self.place(out, Want::written(4))?;
         match instruction.mnemonic {
-            "ROUND" => self.to_double(out, x.round()),
-            "TRUNC" => self.to_double(out, x.trunc()),
+            "ROUND" => self.write_whole(out, x.round()),
+            "TRUNC" => self.write_whole(out, x.trunc()),
             "+R" | "-R" | "*R" | "/R" => {
                 let value = self.read_real(out)?;
                 self.calculate_real(instruction.mnemonic, value, x, out)
@@ -78,7 +78,7 @@ impl Naive {
         Ok(())
     }
 
-    fn to_double(&mut self, out: &Operand, whole: f32) -> Result<(), Trouble> {
+    fn write_whole(&mut self, out: &Operand, whole: f32) -> Result<(), Trouble> {
         let fits = (-2_147_483_648.0..2_147_483_648.0).contains(&whole);
         self.set_bit(Area::Sm, 1, 1, !fits);
         if !fits {

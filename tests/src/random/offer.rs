@@ -15,12 +15,15 @@ const CODE_LEN_MIN: u32 = 900;
 pub struct Offer {
     modules: [bool; MODULES],
     units: bool,
+    /// On the board a byte of inputs has bits without a pin, which BIR reads as 0 whatever a test has put into the
+    /// process image.
+    has_all_points: bool,
 }
 
 impl Offer {
     /// The instructions of the core in one unit.
     pub fn core() -> Offer {
-        Offer { modules: [false; MODULES], units: false }
+        Offer { modules: [false; MODULES], units: false, has_all_points: true }
     }
 
     /// Subroutines, sequences, and as many modules as have room beside code.
@@ -30,19 +33,19 @@ impl Offer {
 
     /// The same with the modules alone that have machine code.
     pub fn board(rng: &mut Rng) -> Offer {
-        Offer::some(rng, |module| module_len(module) > 0)
+        Offer { has_all_points: false, ..Offer::some(rng, |module| module_len(module) > 0) }
     }
 
     /// All modules, whether they have room or not.
     #[cfg(test)]
     pub(super) fn whole() -> Offer {
-        Offer { modules: [true; MODULES], units: true }
+        Offer { modules: [true; MODULES], units: true, has_all_points: true }
     }
 
     fn some(rng: &mut Rng, is_there: impl Fn(usize) -> bool) -> Offer {
         const REAL: usize = 1;
         const FUNCTION: usize = 2;
-        let mut offer = Offer { modules: [false; MODULES], units: true };
+        let mut offer = Offer { modules: [false; MODULES], units: true, has_all_points: true };
         let mut order: Vec<usize> = (0..MODULES).filter(|&module| module != usize::from(OPERANDS_MODULE)).collect();
         rng.shuffle(&mut order);
         for module in order.into_iter().filter(|&module| is_there(module)) {
@@ -88,8 +91,9 @@ impl Offer {
         );
         let apart = matches!(instruction.group, Group::Hidden | Group::Call | Group::Sequence | Group::Interrupt);
         let hardware = instruction.group == Group::Communication && !matches!(instruction.op, Op::Bitim | Op::Citim);
+        let reads_points = instruction.op == Op::Bir && !self.has_all_points;
         let is_there = instruction.module().is_none_or(|module| self.modules[usize::from(module)]);
-        !special && !apart && !hardware && is_there
+        !special && !apart && !hardware && !reads_points && is_there
     }
 }
 
