@@ -8,7 +8,7 @@ use awl_sim::machine::host::Host;
 use awl_sim::machine::uno::{Clock, Code, Uno};
 use awl_sim::machine::{Machine, MachineError, Mode};
 use awl_sim::operand::Operand;
-use plc_isa::{ARENA_START, Area, DATA_END, DATA_START, DIGITAL_OUTPUTS, EVENTS_SEEN, Op, Program, verify};
+use plc_isa::{ARENA_START, Area, DATA_END, DATA_START, DIGITAL_OUTPUTS, ENO, EVENTS_SEEN, Op, Program, verify};
 use plc_vm::Fault;
 
 use crate::bench_board::firmware;
@@ -37,6 +37,8 @@ pub struct Pair<'a> {
     uno: &'a mut Uno,
     /// One past the last data address that is compared: behind its plan the board keeps a copy of what is retained.
     compared_end: u16,
+    /// Whether the program can see ENO. If not, a translated one does not keep it.
+    reads_eno: bool,
     /// Offsets of the jumps and loops, where the watchdog may come.
     jumps: Vec<u16>,
     scans: u64,
@@ -55,7 +57,9 @@ impl<'a> Pair<'a> {
         let retaining = program.as_ref().map(Program::plan).filter(|plan| plan.header.retained > 0);
         let compared_end = retaining.map_or(DATA_END, |plan| plan.end());
         let jumps = program.as_ref().map(jumps).unwrap_or_default();
-        Ok(Pair { host, uno, compared_end, jumps, scans: 0, difference: None })
+        let reads_eno =
+            program.as_ref().is_some_and(|program| program.instructions().any(|(_, found)| found.op == Op::Aeno));
+        Ok(Pair { host, uno, compared_end, reads_eno, jumps, scans: 0, difference: None })
     }
 
     /// The first difference between the two, if there was one.
@@ -96,7 +100,8 @@ impl<'a> Pair<'a> {
         let len = usize::from(self.compared_end - DATA_START);
         let bytes = self.uno.memory().iter().zip(self.host.memory().bytes()).take(len);
         // What has been seen of events, each keeps in its own way.
-        let is_own = |address: u16| (EVENTS_SEEN..ARENA_START).contains(&address);
+        let reads_eno = self.reads_eno;
+        let is_own = |address: u16| (EVENTS_SEEN..ARENA_START).contains(&address) || address == ENO && !reads_eno;
         let different = (DATA_START..).zip(bytes).find(|&(address, (board, host))| board != host && !is_own(address));
         if let Some((address, (&board, &host))) = different {
             self.must_be(|| name(address), &board.to_string(), &host.to_string());

@@ -107,12 +107,15 @@ fn text(number: u8, source: &Path) -> Result<String> {
     }
     text.push_str("jump_table:\n");
     for (routine, instruction) in instructions.iter().enumerate() {
-        // The loader lets nobody jump to one that is missing.
-        let label = if routine < written { format!("{:?}", instruction.op) } else { "module".to_owned() };
+        // The loader refuses bytecode with one that is missing; in machine code it cannot see it.
+        let label = if routine < written { format!("{:?}", instruction.op) } else { "not_yet".to_owned() };
         let _ = writeln!(text, "rjmp {label}");
     }
     for subroutine in subroutines(number) {
         let _ = writeln!(text, "rjmp {subroutine}");
+    }
+    if !missing.is_empty() {
+        text.push_str("not_yet:\nldi r24, 0\njmp MODULE_FAULT\n");
     }
     let _ = writeln!(text, ".include {:?}\n.balign 2, 0\nmodule_end:", source);
     for (name, value) in shared() {

@@ -52,7 +52,7 @@ const COUNT_MAX: u32 = 255;
 const NUMBERS: u32 = 256;
 /// For each bit of a range, and for each time the range goes on in another byte.
 const BIT: u32 = 6;
-const BYTE: u32 = 17;
+const BYTE: u32 = 18;
 /// For each byte of a range whose length is read in the scan: plc-vm writes that.
 const COUNTED_BYTE: u32 = 89;
 /// It looks for the end of the area, through the ranges of V memory that the program has.

@@ -420,7 +420,7 @@ module_done:
     pop r28
     FOR_HANDLERS
     rjmp next
-; r24: 1 for an illegal pointer, 2 for an illegal real.
+; r24: 1 for an illegal pointer, 2 for an illegal real, 0 for a routine that the module does not have.
 module_fault:
     subi r24, lo8(-(LEFT_BY_UNDEFINED))
     jmp leave_here
