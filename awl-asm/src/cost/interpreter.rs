@@ -12,7 +12,7 @@ use super::{Ways, is_fast};
 use crate::native::Cycles;
 
 /// From entering the engine to the first instruction; the way out belongs to what leaves the program.
-pub const START: u32 = 58;
+pub const START: u32 = 44;
 
 /// When a millisecond has passed, the next jump back asks the watchdog and the next timer of 1 ms advances all of them,
 /// which looks at each timer of the program.
@@ -58,12 +58,12 @@ const COUNTED_BYTE: u32 = 89;
 /// It looks for the end of the area, through the ranges of V memory that the program has.
 const COUNTED_V_RANGE: u32 = 40;
 /// R of timers and counters, and for each of the program's that R looks at.
-const RESET: u32 = 58;
+const RESET: u32 = 59;
 const RESET_SLOT: u32 = 27;
 /// For each level that LDS reaches down.
 const LEVEL: u32 = 6;
 /// A timer of 1 ms is brought up to date when it is executed.
-const FAST_TIMER: u32 = 217;
+const FAST_TIMER: u32 = 98;
 /// FOR and NEXT read INIT and FINAL: a word takes longer than a constant.
 const LOOP_WORD: u32 = 6;
 
@@ -171,8 +171,8 @@ const TABLE: &[Entry] = &[
     (Op::SubInt, &[Word, WordOut], [19, 19], [53, 58], [0, 0]),
     (Op::MulInt, &[IntConst, WordOut], [19, 19], [86, 97], [0, 0]),
     (Op::MulInt, &[Word, WordOut], [19, 19], [90, 101], [0, 0]),
-    (Op::DivInt, &[IntConst, WordOut], [19, 19], [57, 348], [0, 0]),
-    (Op::DivInt, &[Word, WordOut], [19, 19], [61, 346], [0, 0]),
+    (Op::DivInt, &[IntConst, WordOut], [19, 19], [57, 350], [0, 0]),
+    (Op::DivInt, &[Word, WordOut], [19, 19], [61, 349], [0, 0]),
     (Op::Incw, &[WordOut], [21, 21], [48, 50], [0, 0]),
     (Op::Decw, &[WordOut], [21, 21], [48, 50], [0, 0]),
     (Op::Ton, &[TimerSlot, IntConst], [101, 106], [116, 142], [0, 0]),
@@ -194,7 +194,7 @@ const TABLE: &[Entry] = &[
     (Op::End, &[], [14, 14], [0, 0], [25, 25]),
     (Op::Stop, &[], [14, 14], [0, 0], [40, 40]),
     (Op::Wdr, &[], [19, 19], [49, 49], [0, 0]),
-    (Op::Refresh, &[], [210, 210], [210, 210], [0, 0]),
+    (Op::Refresh, &[], [91, 91], [91, 91], [0, 0]),
     (Op::MainEnd, &[], [0, 0], [0, 0], [23, 23]),
 ];
 

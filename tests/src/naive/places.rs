@@ -34,12 +34,8 @@ impl Extents {
     /// Everything that can be named.
     pub(super) fn all() -> Extents {
         let numbers: Vec<u8> = (0..=255).collect();
-        Extents {
-            v: Vec::from([0..Area::V.size()]),
-            sm: Vec::from([32..Area::Sm.size()]),
-            timers: numbers.clone(),
-            counters: numbers,
-        }
+        let one = |range: Range<u16>| vec![range];
+        Extents { v: one(0..Area::V.size()), sm: one(32..Area::Sm.size()), timers: numbers.clone(), counters: numbers }
     }
 }
 
