@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use plc_isa::{
-    C_BITS_START, CORE_INSTRUCTIONS, COUNTER_SLOT_LEN, DATA_END, DATA_START, Form, INSTRUCTIONS, Instruction, Kind, MODULE_PREFIX, NATIVE_VECTORS,
-    Relation, SLOT_START, SM_START, T_BITS_START, TIMER_SLOT_LEN,
+    C_BITS_START, CORE_INSTRUCTIONS, COUNTER_SLOT_LEN, DATA_END, DATA_START, Form, INSTRUCTIONS, Instruction, Kind,
+    MODULE_PREFIX, NATIVE_VECTORS, Relation, SLOT_START, SM_START, T_BITS_START, TIMER_SLOT_LEN,
 };
 
 /// Where the jump table lies in flash: `ijmp` takes the token as the low byte of a word address.

@@ -17,9 +17,7 @@ fn every_form_has_a_case() {
         seen.extend(places(&case.image).iter().map(|place| name(place.row.name(), place.relation)));
     }
     let forms = rows().into_iter().flat_map(|row| row.relations().into_iter().map(move |found| (row, found)));
-    let missing: Vec<String> = forms
-        .map(|(row, relation)| name(row.name(), relation))
-        .filter(|form| !seen.contains(form))
-        .collect();
+    let missing: Vec<String> =
+        forms.map(|(row, relation)| name(row.name(), relation)).filter(|form| !seen.contains(form)).collect();
     assert!(missing.is_empty(), "no case for\n{}", missing.join("\n"));
 }

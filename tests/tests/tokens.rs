@@ -47,6 +47,7 @@ fn tokens_do_not_overlap_and_leave_the_erased_byte_undefined() {
         let is_free = |&prefix: &u8| !used[usize::from(prefix)];
         assert!(prefix.is_some() || prefixes.iter().all(is_free), "a prefix is a token");
     }
-    let known = |row: &plc_isa::Instruction| row.forms.iter().all(|form| form.prefix.is_none_or(|p| prefixes.contains(&p)));
+    let known =
+        |row: &plc_isa::Instruction| row.forms.iter().all(|form| form.prefix.is_none_or(|p| prefixes.contains(&p)));
     assert!(INSTRUCTIONS.iter().all(known), "a prefix that nobody decodes");
 }

@@ -63,7 +63,9 @@ const MICRO_WIN: &str = "LD A O LDN AN ON LDI AI OI LDNI ANI ONI NOT EU ED ALD O
 fn reason(mnemonic: &str) -> &'static str {
     match mnemonic {
         "TODRX" | "TODWX" => "the clock of an Uno is software and knows no daylight saving time; TODR and TODW work",
-        "NETR" | "NETW" => "PPI master: an Uno has one serial line, which is the programming port; XMT and RCV work on it",
+        "NETR" | "NETW" => {
+            "PPI master: an Uno has one serial line, which is the programming port; XMT and RCV work on it"
+        }
         "GPA" | "SPA" => "station addresses belong to PPI, which an Uno does not speak",
         _ => "",
     }

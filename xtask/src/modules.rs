@@ -99,9 +99,8 @@ fn text(number: u8, source: &Path) -> Result<String> {
         head.push(0);
     }
     head.extend(instructions.iter().rev().map(|instruction| operands_len(instruction)));
-    let mut text = format!(
-        "module:\n.word module_end - module\n.byte {number}, {written}\n.word jump_table - module\n",
-    );
+    let mut text =
+        format!("module:\n.word module_end - module\n.byte {number}, {written}\n.word jump_table - module\n",);
     for byte in head {
         let _ = writeln!(text, ".byte {byte}");
     }

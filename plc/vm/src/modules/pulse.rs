@@ -262,7 +262,7 @@ mod tests {
     fn a_train_has_its_pulses_and_ends() {
         let mut output = OFF;
         assert_eq!(output.begin(ENABLE | MILLISECONDS), 0);
-        assert_eq!(levels(&mut output, 39), 0b1111100000_1111100000_111110000);
+        assert_eq!(levels(&mut output, 39), 0b1_1111_0000_0111_1100_0001_1111_0000);
         assert!(output.task != Task::None);
         assert!(output.pass(1) && output.task == Task::None);
         // In microseconds it is over with the next scan.

@@ -67,10 +67,10 @@ fn shift_register() {
         let around = 0xF << 28 | 0b1111 | if n == 14 || n == -14 { 0xFFC_0000 } else { 0 };
         machine.set_bytes(33, &(before << 4 | around).to_le_bytes());
         machine.memory.set_bit(plc_isa::Bit { address: M_START, bit: 3 }, data);
-        machine.set_sm1(0xFF & !OVERFLOW | u8::from(!left) * OVERFLOW);
+        machine.set_sm1(!OVERFLOW | (u8::from(!left) * OVERFLOW));
         assert_eq!(machine.run(Op::Shrb, &[bit(M_START, 3), bit(ARENA_START + 33, 4), c(n)]), End::Good);
         assert_eq!(machine.bytes(33, 4), (after << 4 | around).to_le_bytes(), "{n}");
-        assert_eq!(machine.sm1(), 0xFF & !OVERFLOW | u8::from(left) * OVERFLOW, "{n}");
+        assert_eq!(machine.sm1(), !OVERFLOW | (u8::from(left) * OVERFLOW), "{n}");
     }
 }
 
