@@ -76,13 +76,15 @@ impl Report<'_> {
             4 => texts::program_changed(),
             5 => texts::stack_overflow(),
             6 => texts::hang(),
-            _ => texts::panic(),
+            7 => texts::panic(),
+            8 => texts::illegal_pointer(),
+            _ => texts::illegal_real(),
         };
         self.text(name);
         if code == 1 {
             self.number(u32::from(detail));
         }
-        if matches!(code, 1..=3) {
+        if matches!(code, 1..=3 | 8..) {
             self.text(texts::at());
             self.hex(high);
             self.hex(low);

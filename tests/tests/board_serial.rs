@@ -58,6 +58,25 @@ fn a_fault_is_told_with_its_place() {
     assert!(said.contains(&format!("fault watchdog at 0x{at:04X}\r\n")), "{said}");
 }
 
+#[test]
+fn an_illegal_comparison_is_told_with_its_place() {
+    let pointer = "LD I0.0\nMOVD 16#7F000000, AC1\nLDB= *AC1, 5\n= Q0.0\n";
+    let real = "LD I0.0\nMOVD 16#7FC00000, VD0\nLDR= VD0, 5.0\n= Q0.0\n";
+    for (text, name) in [(pointer, "illegal pointer"), (real, "illegal real")] {
+        let mut board = BenchBoard::running(text);
+        // A pointer of 0 is that to IB0, and a real of 0 is one.
+        board.scan();
+        assert!(board.runs());
+        board.drive_inputs(1);
+        board.scan();
+        let (Some(plc_vm::Fault::ComparedPointer { at } | plc_vm::Fault::ComparedReal { at })) = board.fault() else {
+            panic!("{:?}", board.fault())
+        };
+        let said = board.ask(b"status\r");
+        assert!(said.contains(&format!("fault {name} at 0x{at:04X}\r\n")), "{said}");
+    }
+}
+
 /// The clock of the board counts in 4 us. Before the scan's mark it has been read, and behind it the two times are
 /// calculated and compared, and the status is written.
 const SCAN_US_TOLERANCE: u64 = 24;

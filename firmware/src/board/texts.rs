@@ -65,6 +65,10 @@ texts! {
     hang = b"hang";
     /// Fault.
     panic = b"panic";
+    /// Fault.
+    illegal_pointer = b"illegal pointer";
+    /// Fault.
+    illegal_real = b"illegal real";
     /// The offset in the image follows.
     at = b" at 0x";
     /// Scan times follow.
