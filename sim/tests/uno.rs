@@ -1,6 +1,7 @@
 //! The virtual Uno: pins, its own clock, the held clock, faults, the stack. Needs the firmware.
 #![cfg(feature = "simavr")]
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
@@ -260,7 +261,9 @@ fn the_stack_is_measured() {
     assert_eq!(uno.unused_stack(), 0);
 }
 
-fn assert_examples_do_what_they_shall(target: Target) {
+/// Runs the examples. Returns which cannot be translated.
+fn assert_examples_do_what_they_shall(target: Target) -> BTreeSet<String> {
+    let mut not_translated = BTreeSet::new();
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
     let mut count = 0;
     for path in fs::read_dir(examples).unwrap().map(|entry| entry.unwrap().path()) {
@@ -269,7 +272,14 @@ fn assert_examples_do_what_they_shall(target: Target) {
             continue;
         }
         count += 1;
-        let Opened { mut machine, symbols, scan_ms, .. } = open_machine(&path, &[], target).unwrap();
+        let Opened { mut machine, symbols, scan_ms, .. } = match open_machine(&path, &[], target) {
+            Ok(opened) => opened,
+            Err(error) if error.to_string().contains("cannot be translated to machine code yet") => {
+                not_translated.insert(stem);
+                continue;
+            }
+            Err(error) => panic!("{stem}: {error}"),
+        };
         let text = fs::read_to_string(path.with_extension("scn")).unwrap();
         let mut has_operand = |operand| machine.read(operand).map(|_| ());
         let context = Context { symbols: &symbols, plant: None, has_operand: &mut has_operand };
@@ -283,17 +293,20 @@ fn assert_examples_do_what_they_shall(target: Target) {
         assert!(outcome.failures.is_empty() && outcome.fault.is_none(), "{stem}: {:#?}", outcome.failures);
         assert!(outcome.met >= 2, "{stem}: {}", outcome.met);
     }
-    assert_eq!(count, 7);
+    assert_eq!(count, 10);
+    not_translated
 }
 
 #[test]
 fn examples_do_what_they_shall_on_a_board_with_its_own_clock() {
-    assert_examples_do_what_they_shall(Target::Uno);
+    assert_eq!(assert_examples_do_what_they_shall(Target::Uno), BTreeSet::new());
 }
 
 #[test]
 fn examples_do_the_same_translated() {
-    assert_examples_do_what_they_shall(Target::UnoNative);
+    // Interrupts and sequence control stay bytecode for now.
+    let not_translated = ["encoder", "pick_and_place", "pid"].map(str::to_owned);
+    assert_eq!(assert_examples_do_what_they_shall(Target::UnoNative), not_translated.into());
 }
 
 #[test]
