@@ -99,7 +99,7 @@ fn longest_scan(board: &mut Board, scans: u32) -> u64 {
 
 /// Cycles that a scan may take longer: always, while values are compared, and while the EEPROM is written.
 const WAITING_MAX: u64 = 100;
-const COMPARING_MAX: u64 = 800;
+const COMPARING_MAX: u64 = 850;
 const WRITING_MAX: u64 = 1_500;
 /// The same for each counter of the program, whose numbers are looked through for a range of them.
 const COMPARING_COUNTER_MAX: u64 = 30;

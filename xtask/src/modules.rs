@@ -2,7 +2,7 @@
 //! into images. They are committed: hosts without the AVR toolchain assemble programs, too.
 //!
 //! A blob: u16 length, u8 number, u8 routines N, u16 offset of the jump table; N x effect on the stack and offset of the
-//! operands' kinds; lists of kinds; N x length of the operands, the last routine's first; jump table; code.
+//! operands' kinds; lists of kinds; N x length of the operands, the last routine's first; N; jump table; code.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -95,10 +95,11 @@ fn text(number: u8, source: &Path) -> Result<String> {
     let written = instructions.iter().take_while(is_written).count();
     ensure!(written + missing.len() == instructions.len(), "what is missing must be the last routines: {missing:?}");
     let mut head = [entries, kinds].concat();
-    if !(head.len() + instructions.len()).is_multiple_of(2) {
+    if (head.len() + instructions.len()).is_multiple_of(2) {
         head.push(0);
     }
     head.extend(instructions.iter().rev().map(|instruction| operands_len(instruction)));
+    head.push(u8::try_from(written).context("too many routines")?);
     let mut text =
         format!("module:\n.word module_end - module\n.byte {number}, {written}\n.word jump_table - module\n",);
     for byte in head {

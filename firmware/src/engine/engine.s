@@ -386,11 +386,18 @@ module:
     ldi r31, hi8(SLOT_START)
     lpm r24, Z+
     lpm r25, Z
-    ; The word address of the jump table. Before it a byte for each routine: the length of its operands, and in bit 7
-    ; whether it is executed without power flow.
+    ; Flash can change under a running program: no module, or no such routine.
+    adiw r24, 0
+    breq 3f
+    ; The word address of the jump table. Before it how many routines there are, and before that a byte for each: the
+    ; length of its operands, and in bit 7 whether it is executed without power flow.
     movw r30, r24
     lsl r30
     rol r31
+    sbiw r30, 1
+    lpm r18, Z
+    cp r26, r18
+    brsh 3f
     sbiw r30, 1
     sub r30, r26
     sbc r31, r1
@@ -415,6 +422,7 @@ module:
 ; Without power flow.
 2:  sts ENO, r1
     rjmp next_x
+3:  jmp outside
 module_done:
     pop r29
     pop r28

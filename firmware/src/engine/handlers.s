@@ -223,13 +223,16 @@ assign_far:
     NEXT_ONE_BYTE
 % Ret
 1:  lds r18, CONTEXT + DEPTH
-    dec r18
+    subi r18, 1
+    brcs 1f
     sts CONTEXT + DEPTH, r18
     pop r16
     pop r29
     pop r28
     set
     rjmp next
+; Flash has changed: nothing was called.
+1:  jmp outside
 
 ; ---- ENO
 
@@ -743,9 +746,8 @@ go_back:
     jmp leave
 
 % End
-    brts 1f
+    brts end_of_main
     rjmp next_one_byte
-1:  ret
 
 % Stop
     brts 1f
@@ -768,5 +770,10 @@ go_back:
     bst r17, 0
     rjmp next_x
 
+; The end of a routine is another, unless flash has changed.
 % MainEnd
+end_of_main:
+    lds r18, CONTEXT + DEPTH
+    cpse r18, r1
+    jmp outside
     ret
