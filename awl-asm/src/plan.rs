@@ -301,7 +301,7 @@ impl Collect {
     }
 
     /// V memory is one range from the first byte to the last that is named, and takes what nothing else needs. Where
-    /// that is not enough for one range, the last one takes it. Who asks for memory gets what is asked for.
+    /// that is not enough for one range, each of them takes a share. Who asks for memory gets what is asked for.
     fn open_ranges(&mut self, is_asked_for: bool) {
         let size = usize::from(Area::V.size());
         let rest = usize::from(ARENA_LEN).saturating_sub(self.v_len + self.demand.together_len());
@@ -313,9 +313,16 @@ impl Collect {
         if is_asked_for || gaps <= rest {
             v[first..last].fill(true);
         }
+        if is_asked_for {
+            return;
+        }
         let rest = if gaps <= rest { rest - gaps } else { rest };
-        if !is_asked_for {
-            v[last..(last + 1 + rest).min(size)].fill(true);
+        let ranges: Vec<(u16, u16)> = runs(v).collect();
+        let share = rest / ranges.len().max(1);
+        // The last first: what one takes is not in the way of another.
+        for &(first, len) in ranges.iter().rev() {
+            let end = usize::from(first) + usize::from(len);
+            v[end..(end + share).min(size)].fill(true);
         }
     }
 }
