@@ -55,7 +55,7 @@ impl Vector {
 }
 
 /// From the vector to the handler, and back through the end of the program behind the instruction.
-const BYTECODE: u32 = 54;
+const BYTECODE: u32 = 59;
 
 /// Cycles of [`Vector::Bytecode`] for an instruction of a bytecode image, with power flow where it needs that.
 pub fn bytecode_cycles<P: ProgramMemory>(decoded: &Decoded, plan: &Plan<P>, image: &[u8]) -> Cycles {
