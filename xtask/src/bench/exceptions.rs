@@ -53,7 +53,13 @@ pub static EXCEPTIONS: &[Exception] = &[
         tiers: &TIERS,
         what: WITH,
         names: &["S M1.{b}, MB29", "R M1.{b}, MB29"],
-        reason: "a count that is read in the scan is checked against the end of the area, by plc-vm",
+        reason: "a count that is read in the scan is checked against the end of the area, by a module",
+    },
+    Exception {
+        tiers: TRANSLATED,
+        what: WITH,
+        names: &["WDR"],
+        reason: "stays bytecode: the way into the engine and out of it is half of the time",
     },
     Exception {
         tiers: BYTECODE,
