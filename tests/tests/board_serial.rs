@@ -69,7 +69,7 @@ fn an_illegal_comparison_is_told_with_its_place() {
         assert!(board.runs());
         board.drive_inputs(1);
         board.scan();
-        let (Some(plc_vm::Fault::ComparedPointer { at } | plc_vm::Fault::ComparedReal { at })) = board.fault() else {
+        let Some(plc_vm::Fault::ComparedPointer { at } | plc_vm::Fault::ComparedReal { at }) = board.fault() else {
             panic!("{:?}", board.fault())
         };
         let said = board.ask(b"status\r");
