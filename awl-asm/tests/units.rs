@@ -160,8 +160,8 @@ fn memory_that_only_the_running_program_knows_takes_the_rest() {
     assert_eq!(demand("LD SM0.0\nMOVW *VD10, VW20\n").v_ranges, [(10, 960)]);
     assert_eq!(demand("LD SM0.0\nATT VW0, VW20\nTON T37, 5\nEU\n").v_ranges, [(0, 954)]);
     assert_eq!(demand("LD SM0.0\nBMB VB0, VB100, 10\n").v_ranges, [(0, 10), (100, 10)]);
-    // Too far apart for one range.
-    assert_eq!(demand("LD SM0.0\nMOVW *VD0, VW4000\n").v_ranges, [(0, 4), (4000, 956)]);
+    // Too far apart for one range: each takes a share.
+    assert_eq!(demand("LD SM0.0\nMOVW *VD0, VW4000\n").v_ranges, [(0, 481), (4000, 479)]);
     assert_eq!(demand("//# memory VB0-VB99\nLD SM0.0\nMOVW *VD10, VW20\n").v_ranges, [(0, 100)]);
     comes_back("//# memory VB0-VB99\nLD SM0.0\nMOVW *VD10, VW20\n");
 }
