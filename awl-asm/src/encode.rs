@@ -271,7 +271,7 @@ impl<'a> Encoder<'a> {
     /// A unit with its end.
     fn unit(&mut self, part: &Part) {
         if let Some(index) = self.checked.units.routine_index(part.id) {
-            let entry = self.header.offsets().routines + ROUTINE_LEN * u16::from(index);
+            let entry = self.header.routines_at() + ROUTINE_LEN * u16::from(index);
             let offset = (self.image.len() as u16).to_le_bytes();
             self.patch(usize::from(entry), offset);
         }
@@ -388,7 +388,7 @@ impl<'a> Encoder<'a> {
                 Some(Operand::Number(index as u8))
             }
             Argument::Literal(_) | Argument::Real(_) | Argument::Text(_) | Argument::Pointer(_) => {
-                let constants_at = self.header.offsets().constants;
+                let constants_at = self.header.constants_at();
                 self.pool
                     .reference(self.checked.program, selected, kind, argument, constants_at)
                     .map(Operand::Reference)
@@ -420,7 +420,7 @@ impl<'a> Encoder<'a> {
 
     /// Enters the offsets that were not known before.
     fn finish(&mut self) {
-        let labels_at = self.header.offsets().labels;
+        let labels_at = self.header.labels_at();
         let labels: Vec<(usize, u8)> = self.label_indices.iter().map(|(&label, &index)| (label, index)).collect();
         for (label, index) in labels {
             let offset = self.lines.get(label).map_or(0, code_offset).to_le_bytes();

@@ -1,7 +1,7 @@
-//! Puts the fast engine's assembly together: the jump table follows from the instruction table and from which forms
-//! have a handler. What the handlers do stands in `src/engine`.
+//! Puts the fast engine's assembly together: the jump table follows from the instruction table and the names above the
+//! handlers. What the handlers do stands in `src/engine`.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use plc_isa::{
@@ -62,10 +62,8 @@ fn expanded(text: &str, token: u8, distance: u8) -> String {
 
 /// The jump table while it is filled.
 struct Table {
-    /// All forms by name.
+    /// The forms that have no handler yet, by name.
     forms: BTreeMap<String, (&'static Instruction, &'static Form)>,
-    /// Names of those that have a handler.
-    handled: BTreeSet<String>,
     /// Where each token leads.
     entries: Vec<String>,
     /// Tokens behind the prefix that have a handler: the first so many.
@@ -78,7 +76,6 @@ impl Table {
         let named = |(instruction, form)| (name(instruction, form), (instruction, form));
         Table {
             forms: core().flat_map(of).map(named).collect(),
-            handled: BTreeSet::new(),
             entries: (0..=u8::MAX).map(|token| entry_without_handler(token).to_string()).collect(),
             wide: 0,
         }
@@ -108,9 +105,7 @@ impl Table {
 
     /// The form of this name, which gets its only handler.
     fn take(&mut self, name: &str) -> (&'static Instruction, &'static Form) {
-        let form = *self.forms.get(name).unwrap_or_else(|| panic!("no such form: {name}"));
-        assert!(self.handled.insert(name.to_string()), "two handlers for {name}");
-        form
+        self.forms.remove(name).unwrap_or_else(|| panic!("no such form, or it has a handler already: {name}"))
     }
 
     fn lead(&mut self, form: &Form, token: u8, label: String) {
@@ -119,14 +114,6 @@ impl Table {
             self.wide += 1;
         }
         self.entries[usize::from(form.prefix.unwrap_or(token))] = label;
-    }
-
-    /// The instructions of which all forms have handlers.
-    fn executed(&self) -> u128 {
-        let is_handled = |instruction: &&Instruction| {
-            instruction.forms.iter().all(|form| self.handled.contains(&name(instruction, form)))
-        };
-        core().filter(is_handled).fold(0, |set, instruction| set | 1 << instruction.op as u32)
     }
 }
 
@@ -144,20 +131,15 @@ fn label(instruction: &Instruction, form: &Form, token: u8) -> String {
     format!("{:?}_{}{token:02X}", instruction.op, if form.prefix.is_some() { "FE" } else { "" })
 }
 
-/// The engine: its assembly text, and the instructions it executes in all their forms, a bit each in the order of the
-/// table.
-pub struct Engine {
-    pub text: String,
-    pub executed: u128,
-}
-
-/// Joins the two sources.
+/// Joins the two sources to the assembly of the engine.
 ///
 /// # Panics
-/// When a handler is for no form of the instruction table, or a form has two: the build ends.
-pub fn generate(engine: &str, handlers: &str) -> Engine {
+/// When a handler is for no form of the core, or a form has none or two: the build ends.
+pub fn generate(engine: &str, handlers: &str) -> String {
     let mut table = Table::new();
     let text: String = blocks(handlers).iter().map(|block| table.enter(block)).collect();
+    let missing: Vec<&String> = table.forms.keys().collect();
+    assert!(missing.is_empty(), "no handler for {missing:?}");
     let entries: String = table.entries.iter().map(|entry| format!("    rjmp {entry}\n")).collect();
     let wide = table.wide;
     let constants = format!(
@@ -167,7 +149,7 @@ pub fn generate(engine: &str, handlers: &str) -> Engine {
          .equ TIMER_SLOT_LEN, {TIMER_SLOT_LEN}\n.equ COUNTER_SLOT_LEN, {COUNTER_SLOT_LEN}\n"
     );
     let text = engine.replace("    ENTRIES\n", &entries).replace("    HANDLERS\n", &text);
-    Engine { text: constants + &text, executed: table.executed() }
+    constants + &text
 }
 
 /// Kinds that the handlers decode themselves must keep their lengths.

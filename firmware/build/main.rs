@@ -64,6 +64,5 @@ fn write_engine() {
         fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
     };
     let engine = engine::generate(&source("engine.s"), &source("handlers.s"));
-    write("engine.s", &engine.text);
-    write("executed.rs", &format!("{:#x}", engine.executed));
+    write("engine.s", &engine);
 }

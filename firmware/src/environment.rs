@@ -37,7 +37,8 @@ impl ScanTime {
 }
 
 impl Environment for ScanTime {
-    const EXECUTED_ELSEWHERE: u128 = engine::EXECUTED;
+    #[cfg(not(feature = "engine"))]
+    const EXECUTED_ELSEWHERE: u128 = engine::LEFT_OUT;
 
     fn now_ms(&mut self) -> u32 {
         clock::now_ms()

@@ -208,14 +208,14 @@ fn token_of(op: Op, number: usize) -> u16 {
 #[test]
 fn faults_of_units() {
     let units = tests::image::image(UNITS);
-    let offsets = Header::read(&units).unwrap().offsets();
+    let header = Header::read(&units).unwrap();
     assert!(verify(units).is_ok());
-    assert_eq!(fault_of_units(offsets.routines, &[0, 1]), Some(ImageFault::Routine), "begins elsewhere");
-    assert_eq!(fault_of_units(offsets.events, &[11, 10]), Some(ImageFault::Event), "descending");
-    assert_eq!(fault_of_units(offsets.events, &[10, 10]), Some(ImageFault::Event), "twice");
-    assert_eq!(fault_of_units(offsets.initial, &[0, 5]), Some(ImageFault::Initial), "VB1280 is not planned");
-    assert_eq!(fault_of_units(offsets.initial + 2, &[0]), Some(ImageFault::Initial), "no values");
-    assert_eq!(fault_of_units(offsets.initial + 2, &[9]), Some(ImageFault::Initial), "values behind the table");
+    assert_eq!(fault_of_units(header.routines_at(), &[0, 1]), Some(ImageFault::Routine), "begins elsewhere");
+    assert_eq!(fault_of_units(header.events_at(), &[11, 10]), Some(ImageFault::Event), "descending");
+    assert_eq!(fault_of_units(header.events_at(), &[10, 10]), Some(ImageFault::Event), "twice");
+    assert_eq!(fault_of_units(header.initial_at(), &[0, 5]), Some(ImageFault::Initial), "VB1280 is not planned");
+    assert_eq!(fault_of_units(header.initial_at() + 2, &[0]), Some(ImageFault::Initial), "no values");
+    assert_eq!(fault_of_units(header.initial_at() + 2, &[9]), Some(ImageFault::Initial), "values behind the table");
     assert_eq!(fault_of_units(token_of(Op::Call, 0) + 1, &[3]), Some(ImageFault::Operand), "no such routine");
     assert_eq!(fault_of_units(token_of(Op::Atch, 0) + 2, &[2]), Some(ImageFault::Operand), "no such event");
     assert_eq!(
@@ -241,7 +241,7 @@ fn faults_of_units() {
 #[test]
 fn faults_of_references() {
     let units = tests::image::image(UNITS);
-    let offsets = Header::read(&units).unwrap().offsets();
+    let header = Header::read(&units).unwrap();
     let moved = token_of(Op::Movd, 0);
     let (input, out) = (moved + 1, moved + 3);
     let with = |at: u16, reference: u16| fault_of_units(at, &reference.to_le_bytes());
@@ -251,7 +251,7 @@ fn faults_of_references() {
     assert_eq!(with(input, 0x013E), Some(ImageFault::Operand), "MD30 ends in SMB1");
     assert_eq!(with(input, 0x8218), Some(ImageFault::Operand), "*AC0");
     assert_eq!(with(input, 0x8120), Some(ImageFault::Operand), "*MD0");
-    assert_eq!(with(input, 0xE000 | (offsets.constants + 1)), Some(ImageFault::Operand), "behind the constants");
+    assert_eq!(with(input, 0xE000 | (header.constants_at() + 1)), Some(ImageFault::Operand), "behind the constants");
     assert_eq!(with(input, 0xE000), Some(ImageFault::Operand), "the header as a constant");
     assert_eq!(with(out, 0xC005), Some(ImageFault::Operand), "a constant is written");
     assert_eq!(with(out, 0x0100), Some(ImageFault::ReadOnly), "ID0");

@@ -20,9 +20,6 @@ pub const NATIVE_INTERFACE: u8 = plc_isa::NATIVE_INTERFACE;
 /// Whether instructions of modules are executed.
 pub const HAS_MODULES: bool = true;
 
-/// Instructions that the assembly executes in all their forms.
-pub const EXECUTED: u128 = include!(concat!(env!("OUT_DIR"), "/executed.rs"));
-
 type Execution<'a> = Interpreter<'a, ProgramSlot, ScanTime>;
 
 /// What is known of the program and the scan. The assembly reads it at these offsets.

@@ -4,10 +4,10 @@
 #[cfg(feature = "engine")]
 mod fast;
 #[cfg(feature = "engine")]
-pub use fast::{EXECUTED, HAS_MODULES, NATIVE_INTERFACE, advance_timers, run};
+pub use fast::{HAS_MODULES, NATIVE_INTERFACE, advance_timers, run};
 
 #[cfg(not(feature = "engine"))]
-pub use plain::{EXECUTED, HAS_MODULES, NATIVE_INTERFACE, run};
+pub use plain::{HAS_MODULES, LEFT_OUT, NATIVE_INTERFACE, run};
 
 #[cfg(not(feature = "engine"))]
 mod plain {
@@ -19,7 +19,7 @@ mod plain {
 
     /// Instructions that only the fast engine has: sequence control, routines, events, AENO. A program with one of them ends
     /// with a fault.
-    pub const EXECUTED: u128 = (1 << (Op::Aeno as u32 + 1)) - (1 << Op::Lscr as u32);
+    pub const LEFT_OUT: u128 = (1 << (Op::Aeno as u32 + 1)) - (1 << Op::Lscr as u32);
     /// Modules need the engine.
     pub const HAS_MODULES: bool = false;
     /// There is nothing that machine code could call.

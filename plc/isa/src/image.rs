@@ -241,22 +241,6 @@ pub struct Header {
     pub events: u8,
 }
 
-/// Where the parts of an image begin.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(missing_docs, reason = "the names of the header")]
-pub struct Offsets {
-    pub v_ranges: u16,
-    pub timers: u16,
-    pub counters: u16,
-    pub labels: u16,
-    pub retained: u16,
-    pub routines: u16,
-    pub events: u16,
-    pub constants: u16,
-    pub initial: u16,
-    pub code: u16,
-}
-
 /// Bytes of a V range in the image: first byte, length.
 pub const V_RANGE_LEN: u16 = 4;
 /// Bytes of a timer in the image: number, kind.
@@ -396,49 +380,57 @@ impl Header {
 
     /// Offset of the V ranges.
     pub fn v_ranges_at(&self) -> u16 {
-        self.offsets().v_ranges
+        self.tables().v_ranges_at
     }
 
     /// Offset of the timers.
     pub fn timers_at(&self) -> u16 {
-        self.offsets().timers
+        self.tables().timers_at
     }
 
     /// Offset of the counters.
     pub fn counters_at(&self) -> u16 {
-        self.offsets().counters
+        self.tables().counters_at
     }
 
     /// Offset of the labels.
     pub fn labels_at(&self) -> u16 {
-        self.offsets().labels
+        self.tables().labels_at
     }
 
     /// Offset of the retained ranges.
     pub fn retained_at(&self) -> u16 {
-        self.offsets().retained
+        self.tables().retained_at
+    }
+
+    /// Offset of the routines.
+    pub fn routines_at(&self) -> u16 {
+        self.tables().routines_at
+    }
+
+    /// Offset of the interrupt events.
+    pub fn events_at(&self) -> u16 {
+        self.tables().events_at
+    }
+
+    /// Offset of the constants.
+    pub fn constants_at(&self) -> u16 {
+        self.tables().constants_at
+    }
+
+    /// Offset of the initial values.
+    pub fn initial_at(&self) -> u16 {
+        self.tables().initial_at
     }
 
     /// Offset of the first instruction.
     pub fn code_at(&self) -> u16 {
-        self.offsets().code
+        self.tables().code_at()
     }
 
-    /// Where the parts of the image begin.
-    pub fn offsets(&self) -> Offsets {
-        let plan = Plan::trusted([0u8; 0], *self);
-        Offsets {
-            v_ranges: plan.v_ranges_at,
-            timers: plan.timers_at,
-            counters: plan.counters_at,
-            labels: plan.labels_at,
-            retained: plan.retained_at,
-            routines: plan.routines_at,
-            events: plan.events_at,
-            constants: plan.constants_at,
-            initial: plan.initial_at,
-            code: plan.code_at(),
-        }
+    /// Where the parts of the image begin, without the image: what its tables place in the arena is not known.
+    fn tables(&self) -> Plan<[u8; 0]> {
+        Plan::of_tables([], *self)
     }
 
     /// Offset of the first byte behind the code, which is the checksum.

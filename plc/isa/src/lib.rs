@@ -31,7 +31,7 @@ pub use crc::Crc32;
 pub use decode::{DecodeError, Decoded, decode};
 pub use image::{
     CRC_LEN, DIRECTORY_AT, ENTRY_LEN, EVENT_LEN, FORMAT_VERSION, HEADER_LEN, Header, INITIAL_HEAD_LEN, ImageError,
-    ImageFault, LABEL_LEN, MAGIC, NAME_LEN_MAX, NATIVE_INTERFACE, Offsets, ProgramMemory, ROUTINE_LEN,
+    ImageFault, LABEL_LEN, MAGIC, NAME_LEN_MAX, NATIVE_INTERFACE, ProgramMemory, ROUTINE_LEN,
 };
 pub use layout::*;
 pub use modules::{

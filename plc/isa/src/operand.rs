@@ -454,11 +454,6 @@ impl Kind {
         self as u8 >= Kind::ByteIn as u8 && self as u8 <= Kind::TextTo as u8
     }
 
-    /// Whether a number can stand in a reference of this kind.
-    pub const fn takes_constants(self) -> bool {
-        matches!(self, Kind::ByteIn | Kind::WordIn | Kind::DoubleIn | Kind::RealIn)
-    }
-
     /// Bytes of the value that a reference of this kind leads to; of a string, its length byte.
     pub const fn value_len(self) -> u16 {
         match self {

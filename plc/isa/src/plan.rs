@@ -192,9 +192,16 @@ impl<P: ProgramMemory> Plan<P> {
 
     /// The plan in the tables behind this header, taken on trust: for the assembler, which wrote them.
     pub fn trusted(memory: P, header: Header) -> Self {
+        let mut plan = Plan::of_tables(memory, header);
+        plan.place_memory();
+        plan
+    }
+
+    /// The plan as far as the header alone says.
+    pub(crate) fn of_tables(memory: P, header: Header) -> Self {
         let mut plan = Plan::blank(memory);
         plan.header = header;
-        plan.place();
+        plan.place_tables();
         plan
     }
 
@@ -205,9 +212,16 @@ impl<P: ProgramMemory> Plan<P> {
         self.header.is_plausible()
     }
 
-    /// Places the tables of the image, and their memory in the arena, by the header.
+    /// Places the tables of the image, and what they say in the arena.
     #[cfg_attr(target_arch = "avr", inline(never))]
     pub(crate) fn place(&mut self) {
+        self.place_tables();
+        self.place_memory();
+    }
+
+    /// Places the tables of the image by the header.
+    #[inline(always)]
+    fn place_tables(&mut self) {
         let header = &self.header;
         self.v_ranges_at = HEADER_LEN + header.modules_len + u16::from(header.name_len);
         self.timers_at = entry_at(self.v_ranges_at, header.v_ranges, V_RANGE_LEN);
@@ -219,6 +233,12 @@ impl<P: ProgramMemory> Plan<P> {
         self.constants_at = self.events_at + u16::from(header.events);
         self.initial_at = self.constants_at + header.constants_len;
         self.code_at = self.initial_at + header.initial_len;
+    }
+
+    /// Places the memory in the arena by header and tables.
+    #[inline(always)]
+    fn place_memory(&mut self) {
+        let header = &self.header;
         // Lengths that are not checked yet may wrap: then they are not valid, and nothing is placed by them.
         self.timers_start = ARENA_START;
         let mut at = self.v_ranges_at + 2;

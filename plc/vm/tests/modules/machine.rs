@@ -148,7 +148,7 @@ impl Machine {
     /// A constant of the pool.
     pub fn pool(&mut self, bytes: &[u8]) -> Operand {
         let tables = Header { v_ranges: 2, timers: 1, counters: 1, ..Header::default() };
-        let offset = tables.offsets().constants + self.constants.len() as u16;
+        let offset = tables.constants_at() + self.constants.len() as u16;
         self.constants.extend(bytes);
         Operand::Reference(Reference::to(Place::Pool(offset)))
     }
