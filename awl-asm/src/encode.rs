@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use plc_isa::{
-    Bit, CRC_LEN, Crc32, DIRECTORY_AT, EVENTS_MODULE, Encoded, Group, HEADER_LEN, Header, Kind, LABEL_LEN, MODULES,
-    NAME_LEN_MAX, OPERANDS_MODULE, Op, Operand, ROUTINE_LEN, SLOT_LEN, SLOT_START, TimerResolution, timer_resolution,
+    Bit, CRC_LEN, Crc32, DIRECTORY_AT, Encoded, HEADER_LEN, Header, Kind, LABEL_LEN, MODULES, NAME_LEN_MAX, Op,
+    Operand, ROUTINE_LEN, SLOT_LEN, SLOT_START, TimerResolution, timer_resolution,
 };
 
 use crate::address::Address;
@@ -17,11 +17,6 @@ use crate::modules;
 use crate::plan::{Demand, Places};
 use crate::select::{Argument, Selected};
 use crate::units::{Part, Units};
-
-/// The module of arithmetic with reals.
-const REAL_MODULE: u8 = 1;
-/// The module of functions of reals.
-const FUNCTION_MODULE: u8 = 2;
 
 /// The bytes of one instruction of the source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -65,7 +60,7 @@ pub fn encode(checked: Checked<'_>, name: &str, diagnostics: &mut Vec<Diagnostic
     let pool = Pool::of(checked);
     let initial = initial_values(&program.data);
     let mut header = header_of(checked, &name);
-    let modules = Modules::of(checked);
+    let modules = Modules::of(checked.demand);
     header.modules_len = modules.bytes.len() as u16;
     header.constants_len = pool.bytes().len() as u16;
     header.initial_len = initial.len() as u16;
@@ -109,23 +104,10 @@ struct Modules {
 }
 
 impl Modules {
-    fn of(checked: Checked<'_>) -> Modules {
-        let mut used = [false; MODULES];
-        for selected in checked.units.in_image().flat_map(|part| checked.code.get(part.code.clone()).unwrap_or(&[])) {
-            if let Some(place) = selected.op.instruction().module().and_then(|module| used.get_mut(usize::from(module)))
-            {
-                *place = true;
-            }
-        }
-        // What has to do with events is not in a module, but what finds them on the board is.
-        used[usize::from(EVENTS_MODULE)] |= has_events(checked);
-        let any = used.contains(&true);
-        used[usize::from(OPERANDS_MODULE)] |= any;
-        // Functions compute with the operations of reals.
-        used[usize::from(REAL_MODULE)] |= used[usize::from(FUNCTION_MODULE)];
+    fn of(demand: &Demand) -> Modules {
         let mut modules = Modules::default();
-        for (number, place) in modules.directory.iter_mut().enumerate().filter(|&(number, _)| used[number]) {
-            let Some(bytes) = modules::bytes(number as u8) else { continue };
+        for (number, place) in modules.directory.iter_mut().enumerate().filter(|&(number, _)| demand.modules[number]) {
+            let bytes = modules::bytes(number as u8);
             let at = usize::from(HEADER_LEN) + modules.bytes.len();
             *place = ((usize::from(SLOT_START) + at + usize::from(modules::jump_table_at(bytes))) / 2) as u16;
             modules.bytes.extend_from_slice(bytes);
@@ -141,13 +123,6 @@ impl Modules {
         }
         image.extend_from_slice(&self.bytes);
     }
-}
-
-/// Whether the program has to do with interrupt events.
-fn has_events(checked: Checked<'_>) -> bool {
-    let is_interrupt = |selected: &Selected| selected.op.instruction().group == Group::Interrupt;
-    let code = |part: &Part| checked.code.get(part.code.clone()).unwrap_or(&[]).iter().any(is_interrupt);
-    checked.units.has_interrupts() || checked.units.in_image().any(code)
 }
 
 /// The bytes of the data block as ranges: first V byte, length, values; as few ranges as there can be.
@@ -242,6 +217,8 @@ struct Encoder<'a> {
     open_loops: Vec<usize>,
     /// The CallBegin of a call that is not complete, and the call's statement.
     open_call: Option<(usize, u32)>,
+    /// What hardware still has to take over, hidden instructions with their operands.
+    to_take_over: Vec<(Op, Option<u8>)>,
     /// The S bit of the segment, as an operand.
     segment: Option<Operand>,
     has_interrupts: bool,
@@ -263,6 +240,7 @@ impl<'a> Encoder<'a> {
             next_edge: 0,
             open_loops: Vec::new(),
             open_call: None,
+            to_take_over: Vec::new(),
             segment: None,
             has_interrupts: checked.units.has_interrupts(),
         }
@@ -319,8 +297,23 @@ impl<'a> Encoder<'a> {
             self.open_call = Some((self.image.len(), selected.statement));
         }
         self.in_segment(part, selected, &operands, is_powered);
+        self.take_over(selected, next);
         let len = (self.image.len() - start) as u8;
         self.lines[index] = Line { at: start as u32, len, hidden_len: hidden_len as u8 };
+    }
+
+    /// Lets the hardware take over what was written. AENO comes first: it asks for ENO of the instruction that wrote.
+    fn take_over(&mut self, selected: &Selected, next: Option<&Selected>) {
+        for taken in self.checked.demand.takeover.behind(selected) {
+            if !self.to_take_over.contains(&taken) {
+                self.to_take_over.push(taken);
+            }
+        }
+        if next.is_none_or(|next| next.op != Op::Aeno) {
+            for (op, number) in std::mem::take(&mut self.to_take_over) {
+                self.push(op, number.map(Operand::Number).as_slice());
+            }
+        }
     }
 
     /// The offset behind a call with parameters is known when another statement begins.

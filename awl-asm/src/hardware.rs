@@ -153,8 +153,7 @@ pub(crate) fn not_on_board(program: &Program, code: &[Selected]) -> Vec<Diagnost
 fn is_missing_on_board(op: Op) -> bool {
     let instruction = op.instruction();
     let (Some(module), Some(form)) = (instruction.module(), instruction.forms.first()) else { return false };
-    // The fourth byte of a module is the number of its routines.
-    modules::bytes(module).is_none_or(|bytes| bytes.get(3).is_none_or(|&routines| form.first_token >= routines))
+    form.first_token >= modules::routines(module)
 }
 
 /// The events of an Uno.

@@ -40,6 +40,7 @@ pub mod select;
 pub mod source;
 pub mod suggest;
 pub mod symbols;
+mod takeover;
 pub mod units;
 
 pub use address::Address;

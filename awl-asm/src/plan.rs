@@ -3,8 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use plc_isa::{
-    AC_START, AQW_START, ARENA_LEN, Area, Bit, COUNTER_SLOT_LEN, EVENT_LEN, HC0, HC3, Header, Kind, Op, Operand, Place,
-    Plan, RETAINED_LEN_MAX, Reference, Retained, SM_IN_V, TIMER_SLOT_LEN, TimerKind, counter_bit, timer_bit,
+    AC_START, AQW_START, ARENA_START, Area, Bit, COUNTER_SLOT_LEN, EVENT_LEN, HC0, HC3, Header, Kind, MODULES, Op,
+    Operand, Place, Plan, RETAINED_LEN_MAX, Reference, Retained, SM_IN_V, TIMER_SLOT_LEN, TimerKind, counter_bit,
+    data_end, timer_bit,
 };
 
 use crate::address::Address;
@@ -12,7 +13,9 @@ use crate::ast::{Program, Span};
 use crate::check::{operand_span, span_of};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::extent::{extent, is_open};
+use crate::modules;
 use crate::select::{Argument, Selected};
+use crate::takeover::Takeover;
 use crate::units::{Part, Units};
 
 /// What a program uses of the arena.
@@ -31,6 +34,10 @@ pub struct Demand {
     pub events: BTreeSet<u8>,
     /// Bytes of local memory; they are not in the arena.
     pub local_len: usize,
+    /// What it has to do with hardware that takes over what is written.
+    pub(crate) takeover: Takeover,
+    /// The modules that the program needs on the board.
+    pub modules: [bool; MODULES],
     /// Bytes that are retained. A copy of them stands behind the plan while it is saved.
     pub retained_len: usize,
 }
@@ -66,6 +73,12 @@ impl Demand {
         self.v_len() + self.timers_len() + self.counters_len() + self.edges_len() + self.events_len()
     }
 
+    /// Bytes of the arena that modules leave to the program.
+    pub fn arena_max(&self) -> usize {
+        let modules = (0..).zip(self.modules).filter(|&(_, is_needed)| is_needed).map(|(number, _)| number);
+        usize::from(data_end(modules) - ARENA_START)
+    }
+
     /// Bytes of the arena that the program takes: the plan and the copy of what is retained.
     pub fn together_len(&self) -> usize {
         self.arena_len() + self.retained_len
@@ -95,7 +108,7 @@ impl Demand {
             format!("counters   {:>5} bytes  {} x {COUNTER_SLOT_LEN}", self.counters_len(), self.counters.len()),
             format!("edges      {:>5} bytes  {}, a bit each", self.edges_len(), self.edges),
             format!("retained   {:>5} bytes  a copy of what is retained", self.retained_len),
-            format!("together   {:>5} of {ARENA_LEN} bytes", self.together_len()),
+            format!("together   {:>5} of {} bytes", self.together_len(), self.arena_max()),
         ];
         if !self.events.is_empty() {
             lines.insert(4, format!("events     {:>5} bytes  one each", self.events_len()));
@@ -117,8 +130,12 @@ pub fn v_range(first: u16, len: u16) -> String {
 
 /// Adds up the demand of a program. Reports the first place where the board is full.
 pub fn demand(program: &Program, code: &[Selected], units: &Units, diagnostics: &mut Vec<Diagnostic>) -> Demand {
+    let in_image: Vec<&Selected> =
+        units.in_image().flat_map(|part| code.get(part.code.clone()).unwrap_or(&[])).collect();
     let mut collect = Collect::new();
     collect.demand.local_len = units.local_len;
+    collect.demand.takeover = Takeover::of(&in_image);
+    collect.demand.modules = modules::needed(&in_image, collect.demand.takeover, units.has_interrupts());
     for line in &program.data {
         collect.v_bytes(line.first_byte, line.bytes.len() as u16);
         collect.note_if_full(|| line.span);
@@ -131,7 +148,7 @@ pub fn demand(program: &Program, code: &[Selected], units: &Units, diagnostics: 
         collect.v_bytes(retained.range.first, retained.range.count);
         collect.note_if_full(|| retained.span);
     }
-    for selected in units.in_image().flat_map(|part| code.get(part.code.clone()).unwrap_or(&[])) {
+    for selected in in_image {
         collect.instruction(program, selected);
         if collect.demand.edges == usize::from(plc_isa::EDGES_MAX) + 1 && is_edge(selected.op) {
             let message = format!("this is one edge too many: a program can have {} EU and ED", plc_isa::EDGES_MAX);
@@ -142,10 +159,14 @@ pub fn demand(program: &Program, code: &[Selected], units: &Units, diagnostics: 
     demand.retained_len = 0;
     let place = add_retained(program, &mut demand);
     // Bytes that are asked for can lie far from those that are named.
-    let is_full = demand.together_len() > usize::from(ARENA_LEN);
+    let is_full = demand.together_len() > demand.arena_max();
     let place = place.or(program.memory.first().filter(|_| is_full).map(|&(.., span)| span));
-    let message = if demand.together_len() > usize::from(ARENA_LEN) {
-        format!("the program needs {} bytes of data memory, the board has {ARENA_LEN}", demand.together_len())
+    let message = if demand.together_len() > demand.arena_max() {
+        format!(
+            "the program needs {} bytes of data memory, the board has {}",
+            demand.together_len(),
+            demand.arena_max()
+        )
     } else {
         format!("the program retains {} bytes, the board can keep {RETAINED_LEN_MAX}", demand.retained_len)
     };
@@ -162,8 +183,7 @@ fn add_retained(program: &Program, demand: &mut Demand) -> Option<Span> {
     let mut full_at = None;
     for retained in &program.retained {
         demand.retained_len += demand.retained_by(retained.range);
-        let fits =
-            demand.together_len() <= usize::from(ARENA_LEN) && demand.retained_len <= usize::from(RETAINED_LEN_MAX);
+        let fits = demand.together_len() <= demand.arena_max() && demand.retained_len <= usize::from(RETAINED_LEN_MAX);
         full_at = full_at.or((!fits).then_some(retained.span));
     }
     full_at
@@ -234,7 +254,7 @@ impl Collect {
 
     fn note_if_full(&mut self, span: impl Fn() -> Span) {
         let len = self.v_len + self.demand.arena_len();
-        if self.full_at.is_none() && len > usize::from(ARENA_LEN) {
+        if self.full_at.is_none() && len > self.demand.arena_max() {
             self.full_at = Some(span());
         }
     }
@@ -304,7 +324,7 @@ impl Collect {
     /// that is not enough for one range, each of them takes a share. Who asks for memory gets what is asked for.
     fn open_ranges(&mut self, is_asked_for: bool) {
         let size = usize::from(Area::V.size());
-        let rest = usize::from(ARENA_LEN).saturating_sub(self.v_len + self.demand.together_len());
+        let rest = self.demand.arena_max().saturating_sub(self.v_len + self.demand.together_len());
         let v = self.used.get_mut(..size).unwrap_or(&mut []);
         let (Some(first), Some(last)) = (v.iter().position(|&used| used), v.iter().rposition(|&used| used)) else {
             return;

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 
 use plc_isa::{
     C_BITS_START, CORE_INSTRUCTIONS, COUNTER_SLOT_LEN, DATA_END, DATA_START, Form, INSTRUCTIONS, Instruction, Kind,
-    MODULE_PREFIX, NATIVE_VECTORS, Relation, SLOT_START, SM_START, T_BITS_START, TIMER_SLOT_LEN,
+    NATIVE_VECTORS, Relation, SLOT_START, SM_START, T_BITS_START, TIMER_SLOT_LEN, module_of_token,
 };
 
 /// Where the jump table lies in flash: `ijmp` takes the token as the low byte of a word address.
@@ -119,7 +119,7 @@ impl Table {
 
 /// Where a token leads that no handler is for.
 fn entry_without_handler(token: u8) -> &'static str {
-    if token & !7 == MODULE_PREFIX { "module" } else { "rest" }
+    if module_of_token(token).is_some() { "module" } else { "rest" }
 }
 
 /// The instructions that the firmware has itself. Those of modules come with the program.

@@ -43,11 +43,9 @@ fn write_modules() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../awl-asm/modules").join(name).with_extension("bin");
         println!("cargo:rerun-if-changed={}", path.display());
         let bytes = fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-        let checksum = plc_isa::Crc32::of(&bytes);
-        let table = bytes.get(4..6).map_or(0, |word| u16::from_le_bytes([word[0], word[1]]));
-        format!("[{}, {}, {table}, {}]", checksum & 0xFFFF, checksum >> 16, bytes.len())
+        plc_isa::Crc32::of(&bytes)
     };
-    let text = format!("[{}]", plc_isa::MODULE_NAMES.map(known).join(", "));
+    let text = format!("{:?}", plc_isa::MODULE_NAMES.map(known));
     write("modules.rs", &text);
 }
 

@@ -1,5 +1,5 @@
-; Module 2, function: SQRT SIN COS TAN LN EXP and PID, bit for bit as plc/vm/src/function.rs and pid.rs, which say what
-; is computed and why. Needs module 1, real, for rounding and for the arithmetic of PID.
+; Module 2: SQRT SIN COS TAN LN EXP, bit for bit as plc/vm/src/function.rs, which says what is computed and why. Needs
+; module 1, real, for rounding.
 ;
 ; A function takes its operand apart, computes with integers and has module real round a fraction of 32 bits. Inside:
 ; r25:r22 a fraction, counting 2^-32; r25:r18 the same with 32 bits more, or an angle or exponent that counts 2^-62;
@@ -7,12 +7,7 @@
 
 .include "interface.inc"
 
-.equ BIAS, 127
-.equ REAL_MODULE, 1
-; Entries of module real behind its instructions.
-.equ REAL_ADD, 10                       ; and SUB, MUL, DIV
-.equ REAL_FROM_FRACTION, 16
-.equ REAL_RESULT, 17
+.include "real.inc"
 
 ; Numbers of the instructions.
 .equ SQRT, 0
@@ -29,7 +24,7 @@
     OPERANDS
     STUB read_double, READ + 4
     STUB target_double, WRITE + 4
-    STUB target_table, WRITE + ROOM + 1
+    REAL
 
 ; ---- functions
 
@@ -63,17 +58,7 @@ Exp:
         cpi     r30, 8
         brne    1b
         ldi     r31, REAL_RESULT
-; Calls the entry r31 of module real.
-real:
-        push    r31
-        ldi     r30, lo8(IMAGE_DIRECTORY + 2 * REAL_MODULE)
-        ldi     r31, hi8(IMAGE_DIRECTORY + 2 * REAL_MODULE)
-        lpm     r0, Z+
-        lpm     r31, Z
-        pop     r30
-        add     r30, r0
-        adc     r31, r1
-        ijmp
+        rjmp    real
 
 nothing:
         sec
@@ -531,12 +516,7 @@ divide:
         rcall   shift_left
         rjmp    3b
 5:      com     r27
-; To the word at Z.
-go_on:
-        lsr     r31
-        ror     r30
-        ijmp
-
+        rjmp    go_on
 ; What is left, up to the next multiple.
 complement:
         sub     r8, r18
@@ -592,5 +572,3 @@ negate:
         sbci    r24, 0xFF
         sbci    r25, 0xFF
         ret
-
-.include "pid.inc"

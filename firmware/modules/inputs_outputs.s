@@ -1,5 +1,4 @@
-; Module 5: points of the board beside the process image, and interrupt events. High-speed counters and pulses are not
-; here yet: programs with them are refused.
+; Module 5: points of the board beside the process image, and interrupt events.
 ;
 ; Events are looked for whenever the program polls: the engine comes to `events` when pins, T32 and T96, or the clock are
 ; others than at the last poll. Routines are entered as a call enters them; where they return to is bytecode of this module,
@@ -184,7 +183,5 @@ Biw:
 Dled:
     rcall read_byte
     rjmp done
-
-; not yet: Hdef Hsc Pls
 
 .include "events.inc"

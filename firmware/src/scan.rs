@@ -5,11 +5,12 @@ use plc_vm::{Exit, Fault, Mode, Plc};
 
 use crate::board::data::Data;
 use crate::board::eeprom::Eeprom;
+use crate::board::clock::Moment;
 use crate::board::flash::ProgramSlot;
 use crate::board::ports::{self, Ports};
 use crate::board::serial::Serial;
 use crate::board::trace::{self, Mark};
-use crate::board::{Board, analog, clock, fault_memory, stack, texts, watchdog};
+use crate::board::{Board, analog, clock, fault_memory, stack, takeover, texts, watchdog};
 use crate::communication::{Communication, Lines, Request};
 use crate::engine;
 use crate::environment::ScanTime;
@@ -30,10 +31,9 @@ pub struct ScanTimes {
 impl ScanTimes {
     const NONE: ScanTimes = ScanTimes { min: 0, last: 0, max: 0 };
 
-    /// Enters a scan of so many counts, modulo 65,536, and of about so many milliseconds.
+    /// Enters a scan of so many counts.
     #[inline(always)]
-    fn enter(&mut self, counts: u16, ms: u16) {
-        let length = if ms < SHORT_MS { u32::from(counts) } else { length_of_long(counts, ms) };
+    fn enter(&mut self, length: u32) {
         if self.max == 0 || length < self.min {
             self.min = length;
         }
@@ -42,16 +42,6 @@ impl ScanTimes {
         }
         self.last = length;
     }
-}
-
-/// Scans certainly shorter than 65,536 counts.
-const SHORT_MS: u16 = 200;
-
-/// The length in counts, which `counts` is the lower half of, near `ms`.
-#[inline(never)]
-fn length_of_long(counts: u16, ms: u16) -> u32 {
-    let about = u32::from(ms) * u32::from(clock::COUNTS_PER_MS);
-    about.wrapping_add_signed(i32::from(counts.wrapping_sub(about as u16) as i16))
 }
 
 /// Where IB0 is in data memory.
@@ -198,10 +188,10 @@ impl Uno {
         }
         trace::mark(Mark::ScanStart);
         self.look_at_clock();
-        let start = clock::counts();
+        let start = Moment::now();
         self.read_inputs();
         let executes = self.plc.mode() == Mode::Run;
-        let ms = self.execute();
+        self.execute();
         self.communicate();
         self.test();
         let runs = self.plc.mode() == Mode::Run;
@@ -210,25 +200,23 @@ impl Uno {
             self.keep(executes);
         }
         if executes {
-            self.times.enter(clock::counts().wrapping_sub(start), ms);
+            self.times.enter(start.counts_until(Moment::now()));
         }
         trace::mark(Mark::ScanEnd);
     }
 
-    /// Executes the program, in RUN. Returns how many milliseconds it took.
+    /// Executes the program, in RUN.
     #[inline(always)]
-    fn execute(&mut self) -> u16 {
+    fn execute(&mut self) {
         let start_ms = self.plc.time() as u16;
         let mut time = ScanTime::starting(start_ms, self.settings.watchdog_ms);
-        let Some(execution) = self.plc.begin_at_set_time(self.data.memory(), &mut time) else { return 0 };
+        let Some(execution) = self.plc.begin_at_set_time(self.data.memory(), &mut time) else { return };
         let (exit, at) = engine::run(execution);
-        let ms = clock::now_ms_low().wrapping_sub(start_ms);
         if exit != Exit::End {
             self.leave(exit, at);
-        } else if ms != 0 && time.is_over() {
+        } else if clock::now_ms_low() != start_ms && time.is_over() {
             self.fail_at_end();
         }
-        ms
     }
 
     #[inline(never)]
@@ -387,7 +375,11 @@ impl Uno {
     #[inline(never)]
     fn tell(&self) {
         let fault = self.fault_bytes();
-        trace::write_status(self.plc.mode() == Mode::Run, fault);
+        let runs = self.plc.mode() == Mode::Run;
+        if !runs {
+            takeover::end();
+        }
+        trace::write_status(runs, fault);
         if fault != Fault::NONE {
             fault_memory::remember(fault, false);
         }

@@ -8,11 +8,15 @@ use awl_sim::machine::host::Host;
 use awl_sim::machine::uno::{Clock, Code, Uno};
 use awl_sim::machine::{Machine, MachineError, Mode};
 use awl_sim::operand::Operand;
-use plc_isa::{ARENA_START, Area, DATA_END, DATA_START, DIGITAL_OUTPUTS, ENO, EVENTS_SEEN, Op, Program, verify};
+use plc_isa::{
+    ARENA_START, Area, DATA_END, DATA_START, DIGITAL_OUTPUTS, ENO, EVENTS_SEEN, Header, Op, Program, ProgramMemory,
+    SLOT_END, SLOT_START, verify,
+};
 use plc_vm::Fault;
 
 use crate::bench_board::firmware;
 use crate::case::host;
+use crate::image::OnBoard;
 
 pub use runs::{Programs, assert_cases_are_the_same, assert_random_programs_are_the_same, random_image};
 
@@ -55,7 +59,9 @@ impl<'a> Pair<'a> {
         uno.hold_clock_for(LONG_CYCLES);
         let program = verify(image).ok();
         let retaining = program.as_ref().map(Program::plan).filter(|plan| plan.header.retained > 0);
-        let compared_end = retaining.map_or(DATA_END, |plan| plan.end());
+        // Behind that the board's modules keep their state.
+        let data_end = program.as_ref().and_then(|program| program.memory().modules_end()).unwrap_or(DATA_END);
+        let compared_end = retaining.map_or(data_end, |plan| plan.end());
         let jumps = program.as_ref().map(jumps).unwrap_or_default();
         let reads_eno =
             program.as_ref().is_some_and(|program| program.instructions().any(|(_, found)| found.op == Op::Aeno));
@@ -88,10 +94,17 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// A fault; the place at which the watchdog came only as far as it is no matter of speed too.
+    /// A fault; the place at which the watchdog came only as far as it is no matter of speed too. What machine code leaves
+    /// to the firmware stands elsewhere.
     fn described(&self, fault: Option<Fault>) -> String {
+        let is_translated = || {
+            let slot = self.uno.avr().flash().get(SLOT_START.into()..SLOT_END.into());
+            slot.and_then(|slot| Header::read(&OnBoard(slot)).ok()).is_some_and(|header| header.interface != 0)
+        };
         match fault {
             Some(Fault::Watchdog { at }) if self.jumps.contains(&at) => "the watchdog at a jump".to_string(),
+            Some(Fault::ComparedPointer { .. }) if is_translated() => "a comparison by an illegal pointer".to_string(),
+            Some(Fault::ComparedReal { .. }) if is_translated() => "a comparison of an illegal real".to_string(),
             fault => format!("{fault:?}"),
         }
     }

@@ -1,8 +1,9 @@
 //! `cargo xtask modules`: from the sources in firmware/modules to the blobs in awl-asm/modules, which the assembler puts
 //! into images. They are committed: hosts without the AVR toolchain assemble programs, too.
 //!
-//! A blob: u16 length, u8 number, u8 routines N, u16 offset of the jump table; N x effect on the stack and offset of the
-//! operands' kinds; lists of kinds; N x length of the operands, the last routine's first; N; jump table; code.
+//! A blob: u16 offset of the jump table; for each of N routines its effect on the stack and the offset of its operands' kinds; lists of kinds; for each
+//! routine the length of its operands, the last routine's first; u16 length of the blob, u16 offset of the jump table,
+//! u8 bytes at the end of data memory that it takes, u8 N; jump table; code.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -11,21 +12,22 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail, ensure};
 use plc_isa::{
-    AC_START, AIW_START, AQW_START, ARENA_START, COUNTER_SLOT_LEN, DATA_END, DATA_START, DIRECTORY_AT, ENO,
-    EVENTS_MODULE, HEADER_LEN, Instruction, MODULE_NAMES, OPERANDS_MODULE, PowerFlow, SLOT_START, SM_START,
-    TIMER_SLOT_LEN, kind_numbers, module_instructions, packed_stack,
+    AC_START, AIW_START, AQW_START, ARENA_START, COUNTER_SLOT_LEN, COUNTERS_MODULE, DATA_END, DATA_START, DIRECTORY_AT,
+    ENO, EVENTS_MODULE, EVENTS_SEEN, FREEPORT_MODULE, HC0, HC3, HEADER_LEN, Instruction, MODULE_NAMES, OPERANDS_MODULE,
+    PULSES_MODULE, PowerFlow, SLOT_START, SM_IN_V, SM_START, TIMER_SLOT_LEN, data_end, kind_numbers,
+    module_instructions, packed_stack,
 };
 
 use crate::packages;
 use crate::process::{root, run as run_command};
 
 /// Bytes before the entries of the routines.
-const HEAD_LEN: usize = 6;
+const OFFSET_LEN: usize = 2;
 /// Bit in the length of a routine's operands: executed without power flow, too.
 const ALWAYS: u8 = 0x80;
 
-/// What modules let each other call, in the order of their jump tables, behind the routines.
-fn subroutines(number: u8) -> &'static [&'static str] {
+/// What others enter a module by, in the order of its jump table, behind the routines.
+fn entries_behind(number: u8) -> &'static [&'static str] {
     match number {
         REAL_MODULE => &[
             "real_add",
@@ -39,6 +41,9 @@ fn subroutines(number: u8) -> &'static [&'static str] {
         ],
         EVENTS_MODULE => &["events"],
         OPERANDS_MODULE => &["entry"],
+        COUNTERS_MODULE => &["first_input", "second_input", "any_input"],
+        PULSES_MODULE => &["cycle_end"],
+        FREEPORT_MODULE => &["character", "sent", "timer"],
         _ => &[],
     }
 }
@@ -95,24 +100,23 @@ fn text(number: u8, source: &Path) -> Result<String> {
     let written = instructions.iter().take_while(is_written).count();
     ensure!(written + missing.len() == instructions.len(), "what is missing must be the last routines: {missing:?}");
     let mut head = [entries, kinds].concat();
-    if (head.len() + instructions.len()).is_multiple_of(2) {
+    if !(head.len() + instructions.len()).is_multiple_of(2) {
         head.push(0);
     }
     head.extend(instructions.iter().rev().map(|instruction| operands_len(instruction)));
-    head.push(u8::try_from(written).context("too many routines")?);
-    let mut text =
-        format!("module:\n.word module_end - module\n.byte {number}, {written}\n.word jump_table - module\n",);
+    let mut text = "module:\n.word jump_table - module\n".to_owned();
     for byte in head {
         let _ = writeln!(text, ".byte {byte}");
     }
-    text.push_str("jump_table:\n");
+    let state = DATA_END - data_end([number].into_iter());
+    let _ = writeln!(text, ".word module_end - module, jump_table - module\n.byte {state}, {written}\njump_table:");
     for (routine, instruction) in instructions.iter().enumerate() {
         // The loader refuses bytecode with one that is missing; in machine code it cannot see it.
         let label = if routine < written { format!("{:?}", instruction.op) } else { "not_yet".to_owned() };
         let _ = writeln!(text, "rjmp {label}");
     }
-    for subroutine in subroutines(number) {
-        let _ = writeln!(text, "rjmp {subroutine}");
+    for entry in entries_behind(number) {
+        let _ = writeln!(text, "rjmp {entry}");
     }
     if !missing.is_empty() {
         text.push_str("not_yet:\nldi r24, 0\njmp MODULE_FAULT\n");
@@ -132,7 +136,8 @@ fn missing(source: &Path) -> Result<Vec<String>> {
 }
 
 /// Constants of interface.inc that plc-isa has, too.
-fn shared() -> [(&'static str, u16); 14] {
+fn shared() -> [(&'static str, u16); 23] {
+    let state = |module: u8| data_end([module].into_iter());
     [
         ("DATA_START", DATA_START),
         ("DATA_END", DATA_END),
@@ -148,12 +153,21 @@ fn shared() -> [(&'static str, u16); 14] {
         ("IMAGE", SLOT_START),
         ("IMAGE_HEADER_LEN", HEADER_LEN),
         ("IMAGE_DIRECTORY", SLOT_START + DIRECTORY_AT),
+        ("HIGH_SPEED_COUNTER_0", HC0),
+        ("HIGH_SPEED_COUNTER_3", HC3),
+        ("SEEN", EVENTS_SEEN),
+        ("SPECIAL_IN_RANGES", SM_IN_V),
+        ("EVENTS_STATE", state(EVENTS_MODULE)),
+        ("COUNTERS_STATE", state(COUNTERS_MODULE)),
+        ("PULSES_STATE", state(PULSES_MODULE)),
+        ("FREEPORT_STATE", state(FREEPORT_MODULE)),
+        ("OPERANDS_MODULE", u16::from(OPERANDS_MODULE)),
     ]
 }
 
 /// The entries of the routines and the lists of kinds behind them, which many routines share.
 fn entries(instructions: &[&Instruction]) -> Result<(Vec<u8>, Vec<u8>)> {
-    let kinds_at = HEAD_LEN + 2 * instructions.len();
+    let kinds_at = OFFSET_LEN + 2 * instructions.len();
     let (mut entries, mut kinds) = (Vec::new(), Vec::new());
     for (routine, instruction) in instructions.iter().enumerate() {
         let form = instruction.forms.first().context("an instruction without a form")?;

@@ -1,22 +1,22 @@
-//! The millisecond tick, by Timer0, and a finer measure, by Timer1. Time is only handed out here; what it means is not known.
+//! The millisecond tick and its finer measure, by Timer0. Time is only handed out here; what it means is not known. The other
+//! timers are left to the modules of a program.
 
 use core::cell::Cell;
 
-use avr_device::atmega328p::{TC0, TC1};
+use avr_device::atmega328p::TC0;
 use avr_device::interrupt::{self, CriticalSection, Mutex};
 
 use super::analog;
 
 /// Timer counts of 4 us in a millisecond.
-pub const COUNTS_PER_MS: u8 = 250;
+const COUNTS_PER_MS: u8 = 250;
 
 /// Milliseconds since power-up. Wraps after 49.7 days. Harnesses read and write it by this name.
 #[unsafe(no_mangle)]
 static UNO200_TICK: Mutex<Cell<u32>> = Mutex::new(Cell::new(0));
 
-/// Starts both.
-pub fn start(timer: &TC0, counter: &TC1) {
-    counter.tccr1b().write(|w| w.cs1().prescale_64());
+/// Starts it.
+pub fn start(timer: &TC0) {
     timer.ocr0a().write(|w| w.set(COUNTS_PER_MS - 1));
     timer.tccr0a().write(|w| w.wgm0().ctc());
     timer.tccr0b().write(|w| w.cs0().prescale_64());
@@ -35,11 +35,40 @@ pub fn now_ms_low() -> u16 {
     interrupt::free(|cs| UNO200_TICK.borrow(cs).get()) as u16
 }
 
-/// Counts of 4 us, by Timer1. They wrap after 262 ms.
-#[inline(always)]
-pub fn counts() -> u16 {
-    // SAFETY: a register that nobody else uses is read.
-    unsafe { TC1::steal() }.tcnt1().read().bits()
+/// A moment in time, to the timer's count. Moments repeat after 65 seconds.
+#[derive(Clone, Copy)]
+pub struct Moment {
+    ms: u16,
+    counts: u8,
+}
+
+impl Moment {
+    /// This one.
+    #[inline(always)]
+    pub fn now() -> Moment {
+        interrupt::free(|cs| {
+            // SAFETY: registers that are written at the start only are read.
+            let timer = unsafe { TC0::steal() };
+            let mut ms = UNO200_TICK.borrow(cs).get() as u16;
+            let counts = timer.tcnt0().read().bits();
+            // The timer has begun again, but the interrupt has not come yet.
+            if timer.tifr0().read().ocf0a().bit_is_set() && counts < COUNTS_PER_MS / 2 {
+                ms = ms.wrapping_add(1);
+            }
+            Moment { ms, counts }
+        })
+    }
+
+    /// Counts of 4 us until a later moment.
+    #[inline(always)]
+    pub fn counts_until(self, later: Moment) -> u32 {
+        let mut counts = 0;
+        let ms = later.ms.wrapping_sub(self.ms);
+        if ms != 0 {
+            counts = u32::from(ms) * u32::from(COUNTS_PER_MS);
+        }
+        counts.wrapping_add_signed(i32::from(later.counts) - i32::from(self.counts))
+    }
 }
 
 #[avr_device::interrupt(atmega328p)]

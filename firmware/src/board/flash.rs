@@ -3,8 +3,8 @@
 use core::arch::asm;
 
 use plc_isa::{
-    Crc32, DIRECTORY_AT, MODULE_KINDS_AT, MODULES, OPERANDS_MODULE, Op, ProgramMemory, Routine, SLOT_LEN, SLOT_START,
-    TOKEN_TABLE, TOKEN_TABLE_LEN,
+    Crc32, DATA_END, DIRECTORY_AT, MODULE_HEAD_LEN, MODULE_KINDS_AT, MODULES, OPERANDS_MODULE, Op, ProgramMemory, Routine,
+    SLOT_LEN, SLOT_START, TOKEN_TABLE, TOKEN_TABLE_LEN,
 };
 
 use crate::engine;
@@ -12,14 +12,9 @@ use crate::engine;
 #[unsafe(link_section = ".progmem.data")]
 static TOKENS: [u8; TOKEN_TABLE_LEN] = TOKEN_TABLE;
 
-/// What this firmware knows of the modules that it works with, by their numbers: checksum, low word first, offset of the
-/// jump table, length. A module that does not exist has a length of 0.
+/// The checksums of the modules that this firmware works with, by their numbers.
 #[unsafe(link_section = ".progmem.data")]
-static KNOWN_MODULES: [[u16; 4]; MODULES] = include!(concat!(env!("OUT_DIR"), "/modules.rs"));
-
-/// Offsets in a module: how many routines, two bytes for the first of them.
-const ROUTINES: u16 = 3;
-const FIRST_ROUTINE: u16 = 6;
+static KNOWN_MODULES: [u32; MODULES] = include!(concat!(env!("OUT_DIR"), "/modules.rs"));
 
 /// The byte at an address of flash. Reading flash has no effect, whatever the address.
 #[inline]
@@ -77,39 +72,58 @@ impl ProgramMemory for ProgramSlot {
     }
 
     fn routine(&self, module: u8, routine: u8) -> Option<Routine> {
-        let at = self.module(module).filter(|_| engine::HAS_MODULES)?;
-        if routine >= self.byte(at + ROUTINES) {
+        let table = self.jump_table(module);
+        if !engine::HAS_MODULES || table == NO_MODULE || routine >= self.byte(table.wrapping_sub(1)) {
             return None;
         }
-        let entry = at + FIRST_ROUTINE + 2 * u16::from(routine);
-        let kinds_at = MODULE_KINDS_AT + at + u16::from(self.byte(entry + 1));
+        let start = self.module_start(table);
+        let entry = start + 2 + 2 * u16::from(routine);
+        let kinds_at = MODULE_KINDS_AT + start + u16::from(self.byte(entry + 1));
         Some(Routine { op: Op::Movd, stack: self.byte(entry), kinds_at })
     }
 
     #[inline(never)]
-    fn modules_are_valid(&self) -> bool {
+    fn modules_end(&self) -> Option<u16> {
         if !engine::HAS_MODULES {
-            return self.word(DIRECTORY_AT + 2 * u16::from(OPERANDS_MODULE)) == 0;
+            return (self.jump_table(OPERANDS_MODULE) == NO_MODULE).then_some(DATA_END);
         }
-        (0..MODULES as u8).all(|number| {
-            let Some(at) = self.module(number) else { return true };
-            let mut crc = Crc32::new();
-            crc.bytes(self, at, at.wrapping_add(known(number, 6)));
-            let value = crc.value();
-            known(number, 0) == value as u16 && known(number, 2) == (value >> 16) as u16 && known(number, 6) != 0
-        })
+        let (mut number, mut state_len) = (0, 0);
+        while number < MODULES as u8 {
+            let table = self.jump_table(number);
+            if table != NO_MODULE {
+                if !self.is_known(number, table) {
+                    return None;
+                }
+                state_len = state_len.max(self.byte(table.wrapping_sub(2)));
+            }
+            number += 1;
+        }
+        Some(DATA_END - u16::from(state_len))
     }
 }
 
-/// A word of what is known of a module.
-fn known(number: u8, offset: u16) -> u16 {
-    word((&raw const KNOWN_MODULES as u16).wrapping_add(8 * u16::from(number) + offset))
-}
+/// What stands for the offset of a jump table that is not there.
+const NO_MODULE: u16 = SLOT_START.wrapping_neg();
 
 impl ProgramSlot {
-    /// Offset of a module in the image: where it must be when its jump table is where the directory says.
-    fn module(&self, number: u8) -> Option<u16> {
-        let table = self.word(DIRECTORY_AT + 2 * u16::from(number));
-        (table != 0).then(|| (2 * table).wrapping_sub(SLOT_START + known(number, 4)))
+    /// Offset of a module's jump table in the image.
+    fn jump_table(&self, number: u8) -> u16 {
+        (2 * self.word(DIRECTORY_AT + 2 * u16::from(number))).wrapping_sub(SLOT_START)
+    }
+
+    /// Offset of the module whose jump table this is.
+    fn module_start(&self, table: u16) -> u16 {
+        table.wrapping_sub(self.word(table.wrapping_sub(4)))
+    }
+
+    /// Whether the module with this jump table is the one that the firmware knows by this number.
+    #[inline(never)]
+    fn is_known(&self, number: u8, table: u16) -> bool {
+        let start = self.module_start(table);
+        let known = (&raw const KNOWN_MODULES as u16 + 4 * u16::from(number)).wrapping_sub(SLOT_START);
+        let mut crc = Crc32::new();
+        crc.bytes(self, start, start.wrapping_add(self.word(table.wrapping_sub(MODULE_HEAD_LEN))));
+        crc.bytes(self, known, known.wrapping_add(4));
+        crc.is_complete()
     }
 }

@@ -12,6 +12,7 @@ pub mod place;
 pub mod ports;
 pub mod serial;
 pub mod stack;
+pub mod takeover;
 pub mod texts;
 pub mod trace;
 pub mod watchdog;
@@ -54,8 +55,8 @@ impl Board {
         let peripherals = unsafe { Peripherals::steal() };
         let ports = Ports::new(peripherals.PORTB, peripherals.PORTD);
         analog::start();
-        clock::start(&peripherals.TC0, &peripherals.TC1);
-        let serial = Serial::new(&peripherals.USART0);
+        clock::start(&peripherals.TC0);
+        let serial = Serial::new();
         watchdog::start();
         // SAFETY: everything that interrupts share has been set up.
         unsafe { interrupt::enable() };

@@ -6,6 +6,8 @@ use avr_device::atmega328p::USART0;
 use avr_device::interrupt::{self, CriticalSection, Mutex};
 use embedded_hal_nb::serial::{ErrorKind, ErrorType, Read, Write};
 
+use super::takeover;
+
 /// 16 MHz / 8 / 115200, the Arduino's own divider: 2.1 % fast, within what receivers take.
 const DIVIDER: u16 = 16;
 /// Capacity is one less.
@@ -14,6 +16,19 @@ const RECEIVE_LEN: usize = 16;
 
 static TRANSMIT: Shared<TRANSMIT_LEN> = Shared::new();
 static RECEIVE: Shared<RECEIVE_LEN> = Shared::new();
+
+/// Sets the line up, also after a module had it. What is still in the queue goes on.
+#[inline(never)]
+pub fn set_up() {
+    // SAFETY: comes here before interrupts are enabled, or with the module's interrupts without a cause: the registers
+    // are changed elsewhere in interrupts of the line only, which do not come while they are switched off.
+    let usart = unsafe { USART0::steal() };
+    usart.ucsr0b().reset();
+    usart.ucsr0a().write(|w| w.u2x0().set_bit());
+    usart.ubrr0().write(|w| w.set(DIVIDER));
+    usart.ucsr0c().write(|w| w.umsel0().usart_async().ucsz0().chr8());
+    usart.ucsr0b().write(|w| w.rxcie0().set_bit().udrie0().set_bit().rxen0().set_bit().txen0().set_bit());
+}
 
 /// A queue between the program and an interrupt. Used with interrupts off.
 struct Shared<const N: usize> {
@@ -67,11 +82,8 @@ pub struct Serial(());
 
 impl Serial {
     /// Sets the line up. Called once, before interrupts are enabled.
-    pub fn new(usart: &USART0) -> Serial {
-        usart.ucsr0a().write(|w| w.u2x0().set_bit());
-        usart.ubrr0().write(|w| w.set(DIVIDER));
-        usart.ucsr0c().write(|w| w.umsel0().usart_async().ucsz0().chr8());
-        usart.ucsr0b().write(|w| w.rxcie0().set_bit().rxen0().set_bit().txen0().set_bit());
+    pub fn new() -> Serial {
+        set_up();
         Serial(())
     }
 
@@ -80,9 +92,9 @@ impl Serial {
         interrupt::free(|cs| !RECEIVE.is_empty(cs))
     }
 
-    /// Whether everything written has been handed to the line: a whole queue is free.
+    /// Whether everything written has been handed to the line: a whole queue is free. Not while the line is a module's.
     pub fn is_idle(&self) -> bool {
-        interrupt::free(|cs| TRANSMIT.is_empty(cs))
+        takeover::flags() & takeover::SERIAL == 0 && interrupt::free(|cs| TRANSMIT.is_empty(cs))
     }
 }
 
@@ -112,8 +124,10 @@ impl Write<u8> for Serial {
     }
 }
 
-#[avr_device::interrupt(atmega328p)]
-fn USART_RX() {
+/// A character has come. With modules the engine asks first whose it is.
+#[cfg_attr(feature = "engine", unsafe(export_name = "uno200_character"))]
+#[cfg_attr(not(feature = "engine"), unsafe(export_name = "__vector_18"))]
+extern "avr-interrupt" fn receive() {
     // SAFETY: the receive registers belong to this interrupt alone.
     let usart = unsafe { USART0::steal() };
     let is_broken = usart.ucsr0a().read().fe0().bit_is_set();

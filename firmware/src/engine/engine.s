@@ -4,6 +4,8 @@
 ; of 256 entries, so that no byte can lead outside. r26 and r27 are X, r28 and r29 are Y, r30 and r31 are Z.
 
 .equ SREG, 0x3F
+; GPIOR1: what modules have taken over.
+.equ MODULE_FLAGS, 0x2A
 .equ STACK_LOW, 0x3D
 .equ STACK_HIGH, 0x3E
 ; The bit of SREG that says "less" after a comparison of signed numbers.
@@ -380,7 +382,7 @@ module:
     sts CONTEXT + LEFT_AT, r28
     sts CONTEXT + LEFT_AT + 1, r29
     mov r30, r2
-    andi r30, 7
+    andi r30, 0x0F
     lsl r30
     subi r30, lo8(-(DIRECTORY_AT))
     ldi r31, hi8(SLOT_START)
@@ -389,8 +391,8 @@ module:
     ; Flash can change under a running program: no module, or no such routine.
     adiw r24, 0
     breq 3f
-    ; The word address of the jump table. Before it how many routines there are, and before that a byte for each: the
-    ; length of its operands, and in bit 7 whether it is executed without power flow.
+    ; The word address of the jump table. The last byte before it says how many routines there are, and before its head
+    ; stands a byte for each: the length of its operands, and in bit 7 whether it is executed without power flow.
     movw r30, r24
     lsl r30
     rol r31
@@ -398,7 +400,7 @@ module:
     lpm r18, Z
     cp r26, r18
     brsh 3f
-    sbiw r30, 1
+    sbiw r30, MODULE_HEAD_LEN
     sub r30, r26
     sbc r31, r1
     lpm r18, Z
@@ -1254,3 +1256,58 @@ divide:
 
 .global uno200_engine_end
 uno200_engine_end:
+
+; ---- interrupts that modules serve
+
+; To an entry of the module, with r31, r30, r0 and SREG on the stack.
+.macro INTERRUPT vector, entry, by
+.global \vector
+\vector:
+    push r31
+    ldi r31, \entry
+    rjmp \by
+.endm
+.macro BY_MODULE module
+    push r30
+    ldi r30, lo8(SLOT_START + DIRECTORY_AT + 2 * \module)
+.endm
+
+; A character: the firmware's own, unless a module has taken over the serial line. Before SREG is kept nothing changes it.
+.global __vector_18
+__vector_18:
+    push r31
+    in r31, MODULE_FLAGS
+    sbrs r31, SERIAL_FLAG
+    rjmp 1f
+    ldi r31, FREEPORT_ENTRY
+    rjmp freeport_interrupt
+1:  pop r31
+    jmp uno200_character
+    INTERRUPT __vector_20, FREEPORT_ENTRY + 1, freeport_interrupt
+    INTERRUPT __vector_7, FREEPORT_ENTRY + 2, freeport_interrupt
+    INTERRUPT __vector_13, PULSES_ENTRY, pulses_interrupt
+    INTERRUPT __vector_1, COUNTERS_ENTRY, counters_interrupt
+    INTERRUPT __vector_2, COUNTERS_ENTRY + 1, counters_interrupt
+    INTERRUPT __vector_5, COUNTERS_ENTRY + 2, counters_interrupt
+pulses_interrupt:
+    BY_MODULE PULSES_MODULE
+    rjmp interrupt
+freeport_interrupt:
+    BY_MODULE FREEPORT_MODULE
+    rjmp interrupt
+counters_interrupt:
+    BY_MODULE COUNTERS_MODULE
+interrupt:
+    push r0
+    in r0, SREG
+    push r0
+    push r31
+    ldi r31, hi8(SLOT_START)
+    lpm r0, Z+
+    lpm r31, Z
+    mov r30, r0
+    pop r0
+    add r30, r0
+    brcc 1f
+    inc r31
+1:  ijmp

@@ -7,10 +7,13 @@ use core::arch::global_asm;
 use core::mem::offset_of;
 use core::ptr;
 
-use plc_isa::{DIRECTORY_AT, ENO, EVENTS_ENTRY, EVENTS_MODULE, EVENTS_SEEN, Execute, SLOT_START, TimerResolution};
+use plc_isa::{
+    COUNTERS_ENTRY, COUNTERS_MODULE, DIRECTORY_AT, ENO, EVENTS_ENTRY, EVENTS_MODULE, EVENTS_SEEN, Execute, FREEPORT_ENTRY,
+    FREEPORT_MODULE, MODULE_HEAD_LEN, PULSES_ENTRY, PULSES_MODULE, SLOT_START, TimerResolution,
+};
 use plc_vm::{CALLS_MAX, Environment, Exit, Interpreter};
 
-use crate::board::clock;
+use crate::board::{clock, takeover};
 use crate::board::flash::ProgramSlot;
 use crate::environment::ScanTime;
 
@@ -93,6 +96,14 @@ global_asm!(
     ".equ DEPTH, {depth}",
     ".equ CALLS_MAX, {calls_max}",
     ".equ DIRECTORY_AT, {directory_at}",
+    ".equ MODULE_HEAD_LEN, {module_head_len}",
+    ".equ COUNTERS_MODULE, {counters_module}",
+    ".equ PULSES_MODULE, {pulses_module}",
+    ".equ FREEPORT_MODULE, {freeport_module}",
+    ".equ COUNTERS_ENTRY, {counters_entry}",
+    ".equ PULSES_ENTRY, {pulses_entry}",
+    ".equ FREEPORT_ENTRY, {freeport_entry}",
+    ".equ SERIAL_FLAG, {serial_flag}",
     ".equ ENO, {eno}",
     ".equ EVENTS_SEEN, {events_seen}",
     ".equ EVENTS_MODULE, {events_module}",
@@ -120,6 +131,14 @@ global_asm!(
     // An interrupt routine, and what it calls, come on top.
     calls_max = const CALLS_MAX + 2,
     directory_at = const DIRECTORY_AT,
+    module_head_len = const MODULE_HEAD_LEN,
+    counters_module = const COUNTERS_MODULE,
+    pulses_module = const PULSES_MODULE,
+    freeport_module = const FREEPORT_MODULE,
+    counters_entry = const COUNTERS_ENTRY,
+    pulses_entry = const PULSES_ENTRY,
+    freeport_entry = const FREEPORT_ENTRY,
+    serial_flag = const takeover::SERIAL.trailing_zeros(),
     eno = const ENO,
     events_seen = const EVENTS_SEEN,
     events_module = const EVENTS_MODULE,

@@ -40,9 +40,12 @@ impl Crc32 {
     }
 
     /// Takes bytes of program memory in, from one offset to before another.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn bytes<P: ProgramMemory>(&mut self, memory: &P, from: u16, to: u16) {
-        for offset in from..to {
+        let mut offset = from;
+        while offset != to {
             self.byte(memory.byte(offset));
+            offset = offset.wrapping_add(1);
         }
     }
 

@@ -5,7 +5,7 @@
 //! Numbers are little-endian. Offsets count from the first byte of the image.
 
 use crate::crc::Crc32;
-use crate::modules::{self, MODULE_KINDS_AT, Routine};
+use crate::modules::{self, MODULE_KINDS_AT, MODULES, Routine};
 use crate::plan::Plan;
 use crate::settings::{Retained, Settings};
 use crate::tokens::{TOKEN_TABLE, TOKEN_TABLE_LEN};
@@ -13,9 +13,9 @@ use crate::tokens::{TOKEN_TABLE, TOKEN_TABLE_LEN};
 /// First bytes of every image.
 pub const MAGIC: [u8; 4] = *b"U200";
 /// Version of the image format and of the instruction set it is written in.
-pub const FORMAT_VERSION: u8 = 2;
+pub const FORMAT_VERSION: u8 = 3;
 /// Bytes of the header.
-pub const HEADER_LEN: u16 = 64;
+pub const HEADER_LEN: u16 = DIRECTORY_AT + 2 * MODULES as u16;
 /// Offset of the directory of modules in the header: for each the word address of its jump table in flash, 0 where the
 /// program does not use it.
 pub const DIRECTORY_AT: u16 = 40;
@@ -54,9 +54,11 @@ pub trait ProgramMemory {
     fn routine(&self, module: u8, routine: u8) -> Option<Routine> {
         modules::routine(module, routine)
     }
-    /// Whether the modules in the image are those that this machine knows. The host executes their instructions itself.
-    fn modules_are_valid(&self) -> bool {
-        true
+    /// One past the last data address that the modules in the image leave to the program; `None` when one of them is not
+    /// the module that this machine knows. The host executes their instructions itself and takes them all.
+    fn modules_end(&self) -> Option<u16> {
+        let is_used = |module: &u8| self.word(DIRECTORY_AT + 2 * u16::from(*module)) != 0;
+        Some(modules::data_end((0..MODULES as u8).filter(is_used)))
     }
     /// Whether there is nothing to read.
     fn is_empty(&self) -> bool {

@@ -171,7 +171,7 @@ macro_rules! module_instructions {
                 /// e to the power of a real. Sets SM1.0 zero, SM1.1 overflow or illegal value, SM1.2 negative.
                 Exp (input, out) ["EXP"] Real, needs 1, adds 0, Needed { 0xF2 0x05 (RealIn, RealTo); }
                 /// PID controller: computes the output Mn of the loop table at TBL (36 bytes).
-                Pid (tbl, loop_number, history) ["PID"] Real, needs 1, adds 0, Always { 0xF2 0x06 (ByteTo, Loop, Edge); }
+                Pid (tbl, loop_number, history) ["PID"] Real, needs 1, adds 0, Always { 0xFC 0x00 (ByteTo, Loop, Edge); }
                 /// Length of a string.
                 Slen (input, out) ["SLEN"] Text, needs 1, adds 0, Needed { 0xF3 0x00 (TextIn, ByteTo); }
                 /// Copies a string.
@@ -191,27 +191,27 @@ macro_rules! module_instructions {
                 /// Compares two strings and combines the result with the top of the stack by OR.
                 OrText (relation, in1, in2) ["OS"] Compare, needs 1, adds 0, Always { 0xF3 0x08 (RelationByte, TextIn, TextIn); }
                 /// LEN ASCII characters that are hexadecimal digits to bytes; another character sets SM1.7.
-                Ath (input, out, len) ["ATH"] Text, needs 1, adds 0, Needed { 0xF3 0x09 (BytesAt, ByteTo, ByteIn); }
+                Ath (input, out, len) ["ATH"] Text, needs 1, adds 0, Needed { 0xFB 0x00 (BytesAt, ByteTo, ByteIn); }
                 /// LEN hexadecimal digits to ASCII characters.
-                Hta (input, out, len) ["HTA"] Text, needs 1, adds 0, Needed { 0xF3 0x0A (BytesAt, ByteTo, ByteIn); }
+                Hta (input, out, len) ["HTA"] Text, needs 1, adds 0, Needed { 0xFB 0x01 (BytesAt, ByteTo, ByteIn); }
                 /// Integer to 8 ASCII characters.
-                Ita (input, out, fmt) ["ITA"] Text, needs 1, adds 0, Needed { 0xF3 0x0B (WordIn, ByteTo, ByteIn); }
+                Ita (input, out, fmt) ["ITA"] Text, needs 1, adds 0, Needed { 0xFB 0x02 (WordIn, ByteTo, ByteIn); }
                 /// Double integer to 12 ASCII characters.
-                Dta (input, out, fmt) ["DTA"] Text, needs 1, adds 0, Needed { 0xF3 0x0C (DoubleIn, ByteTo, ByteIn); }
+                Dta (input, out, fmt) ["DTA"] Text, needs 1, adds 0, Needed { 0xFB 0x03 (DoubleIn, ByteTo, ByteIn); }
                 /// Real to 3 to 15 ASCII characters.
-                Rta (input, out, fmt) ["RTA"] Text, needs 1, adds 0, Needed { 0xF3 0x0D (RealIn, ByteTo, ByteIn); }
+                Rta (input, out, fmt) ["RTA"] Text, needs 1, adds 0, Needed { 0xFB 0x04 (RealIn, ByteTo, ByteIn); }
                 /// Integer to a string of 8 characters.
-                Its (input, fmt, out) ["ITS"] Text, needs 1, adds 0, Needed { 0xF3 0x0E (WordIn, ByteIn, TextTo); }
+                Its (input, fmt, out) ["ITS"] Text, needs 1, adds 0, Needed { 0xFB 0x05 (WordIn, ByteIn, TextTo); }
                 /// Double integer to a string of 12 characters.
-                Dts (input, fmt, out) ["DTS"] Text, needs 1, adds 0, Needed { 0xF3 0x0F (DoubleIn, ByteIn, TextTo); }
+                Dts (input, fmt, out) ["DTS"] Text, needs 1, adds 0, Needed { 0xFB 0x06 (DoubleIn, ByteIn, TextTo); }
                 /// Real to a string of 3 to 15 characters.
-                Rts (input, fmt, out) ["RTS"] Text, needs 1, adds 0, Needed { 0xF3 0x10 (RealIn, ByteIn, TextTo); }
+                Rts (input, fmt, out) ["RTS"] Text, needs 1, adds 0, Needed { 0xFB 0x07 (RealIn, ByteIn, TextTo); }
                 /// String to integer, from position INDX on.
-                Sti (input, indx, out) ["STI"] Text, needs 1, adds 0, Needed { 0xF3 0x11 (TextIn, ByteIn, WordTo); }
+                Sti (input, indx, out) ["STI"] Text, needs 1, adds 0, Needed { 0xFB 0x08 (TextIn, ByteIn, WordTo); }
                 /// String to double integer, from position INDX on.
-                Std (input, indx, out) ["STD"] Text, needs 1, adds 0, Needed { 0xF3 0x12 (TextIn, ByteIn, DoubleTo); }
+                Std (input, indx, out) ["STD"] Text, needs 1, adds 0, Needed { 0xFB 0x09 (TextIn, ByteIn, DoubleTo); }
                 /// String to real, from position INDX on.
-                Str (input, indx, out) ["STR"] Text, needs 1, adds 0, Needed { 0xF3 0x13 (TextIn, ByteIn, RealTo); }
+                Str (input, indx, out) ["STR"] Text, needs 1, adds 0, Needed { 0xFB 0x0A (TextIn, ByteIn, RealTo); }
                 /// Adds a word to a table; a full one sets SM1.4.
                 Att (data, tbl) ["ATT"] Table, needs 1, adds 0, Needed { 0xF4 0x00 (WordIn, WordTo); }
                 /// Takes the oldest word out of a table; an empty one sets SM1.5.
@@ -253,11 +253,13 @@ macro_rules! module_instructions {
                 /// Diagnosis LED: off for 0, on otherwise.
                 Dled (input) ["DLED"] InputOutput, needs 1, adds 0, Needed { 0xF5 0x0B (ByteIn); }
                 /// High-speed counter definition: gives a counter its mode.
-                Hdef (hsc, mode) ["HDEF"] InputOutput, needs 1, adds 0, Needed { 0xF5 0x0C (Number, Number); }
+                Hdef (hsc, mode) ["HDEF"] InputOutput, needs 1, adds 0, Needed { 0xF8 0x00 (Number, Number); }
                 /// High-speed counter: takes over control byte, current value and preset from special memory.
-                Hsc (n) ["HSC"] InputOutput, needs 1, adds 0, Needed { 0xF5 0x0D (Number); }
+                Hsc (n) ["HSC"] InputOutput, needs 1, adds 0, Needed { 0xF8 0x01 (Number); }
                 /// Pulse output: takes over control byte, cycle, width and count from special memory.
-                Pls (n) ["PLS"] InputOutput, needs 1, adds 0, Needed { 0xF5 0x0E (Number); }
+                Pls (n) ["PLS"] InputOutput, needs 1, adds 0, Needed { 0xF9 0x00 (Number); }
+                /// Lets the board take over the analog outputs, a bit each: the program uses these.
+                AnalogOutputs (outputs) [] Hidden, needs 0, adds 0, Always { 0xF9 0x01 (Number); }
                 /// Time of day read: 8 bytes in BCD.
                 Todr (t) ["TODR"] Communication, needs 1, adds 0, Needed { 0xF6 0x00 (ByteTo); }
                 /// Time of day write: 8 bytes in BCD.
@@ -267,9 +269,11 @@ macro_rules! module_instructions {
                 /// Interval: milliseconds since IN, which BITIM has written.
                 Citim (input, out) ["CITIM"] Communication, needs 1, adds 0, Needed { 0xF6 0x03 (DoubleIn, DoubleTo); }
                 /// Transmits the bytes at TBL, the first of which is their number, in freeport mode.
-                Xmt (tbl, port) ["XMT"] Communication, needs 1, adds 0, Needed { 0xF6 0x04 (BytesAt, Number); }
+                Xmt (tbl, port) ["XMT"] Communication, needs 1, adds 0, Needed { 0xFA 0x00 (BytesAt, Number); }
                 /// Receives a message to TBL in freeport mode.
-                Rcv (tbl, port) ["RCV"] Communication, needs 1, adds 0, Needed { 0xF6 0x05 (ByteTo, Number); }
+                Rcv (tbl, port) ["RCV"] Communication, needs 1, adds 0, Needed { 0xFA 0x01 (ByteTo, Number); }
+                /// Lets the board take over the settings of the serial line in SMB30.
+                Freeport () [] Hidden, needs 0, adds 0, Always { 0xFA 0x02 (); }
             }
         }
     };

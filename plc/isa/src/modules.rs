@@ -2,20 +2,82 @@
 //!
 //! The host executes them itself and takes this from the instruction table; the board finds the same in the module.
 
+use crate::layout::DATA_END;
 use crate::table::{CORE_INSTRUCTIONS, INSTRUCTIONS, Instruction, MODULE_PREFIX, Op};
 use crate::tokens::packed;
 
-/// How many modules there can be.
-pub const MODULES: usize = 8;
-/// The module that all others need: it reads their operands.
-pub const OPERANDS_MODULE: u8 = 7;
+/// How many modules there are.
+pub const MODULES: usize = 13;
+/// The modules' names, by their numbers.
+pub const MODULE_NAMES: [&str; MODULES] = [
+    "general",
+    "real",
+    "function",
+    "text",
+    "table",
+    "inputs_outputs",
+    "clock",
+    "operands",
+    "counters",
+    "pulses",
+    "freeport",
+    "numerals",
+    "pid",
+];
 /// The module that looks for interrupt events on the board.
 pub const EVENTS_MODULE: u8 = 5;
 /// Where in its jump table that begins: behind its routines.
-pub const EVENTS_ENTRY: u8 = 15;
-/// The modules' names, by their numbers.
-pub const MODULE_NAMES: [&str; MODULES] =
-    ["general", "real", "function", "text", "table", "inputs_outputs", "communication", "operands"];
+pub const EVENTS_ENTRY: u8 = 12;
+/// The module that all others need: it reads their operands.
+pub const OPERANDS_MODULE: u8 = 7;
+/// The high-speed counters. Behind its routines: what is done at edges of I0.0, of I0.1, of any input.
+pub const COUNTERS_MODULE: u8 = 8;
+/// Where these entries begin in its jump table.
+pub const COUNTERS_ENTRY: u8 = 2;
+/// The pulse and analog outputs. Behind its routines: what is done at the end of a cycle.
+pub const PULSES_MODULE: u8 = 9;
+/// Where this entry is in its jump table.
+pub const PULSES_ENTRY: u8 = 2;
+/// The freeport. Behind its routines: what is done when a character has come, when all are sent, and at its timer.
+pub const FREEPORT_MODULE: u8 = 10;
+/// Where these entries begin in its jump table.
+pub const FREEPORT_ENTRY: u8 = 3;
+
+/// The module that the first token of an instruction names, if it names one.
+pub const fn module_of_token(token: u8) -> Option<u8> {
+    let module = token.wrapping_sub(MODULE_PREFIX);
+    if (module as usize) < MODULES { Some(module) } else { None }
+}
+
+/// The modules that a module calls, beside that of operands.
+pub const fn needed_modules(module: u8) -> &'static [u8] {
+    match module {
+        // Functions and controllers compute with the operations of reals.
+        2 | 12 => &[1],
+        _ => &[],
+    }
+}
+
+/// Bytes at the end of data memory that a program with this module leaves alone: the module's state, 32 bytes, and those of
+/// modules behind it.
+const fn state_len(module: u8) -> u16 {
+    match module {
+        EVENTS_MODULE => 32,
+        COUNTERS_MODULE => 64,
+        PULSES_MODULE => 96,
+        FREEPORT_MODULE => 128,
+        _ => 0,
+    }
+}
+
+/// One past the last data address of a program with these modules.
+pub fn data_end(modules: impl Iterator<Item = u8>) -> u16 {
+    DATA_END - modules.map(state_len).max().unwrap_or(0)
+}
+
+/// Bytes of a module before its jump table: its length, the offset of the table, bytes at the end of data memory that the
+/// program leaves alone, routines.
+pub const MODULE_HEAD_LEN: u16 = 6;
 
 /// Kinds of module routines are asked for at [`ProgramMemory::token_table`](crate::ProgramMemory) from here on.
 pub const MODULE_KINDS_AT: u16 = 0x8000;

@@ -7,6 +7,7 @@
 use crate::core_instructions::core_instructions;
 use crate::image::ProgramMemory;
 use crate::module_instructions::module_instructions;
+use crate::modules::module_of_token;
 use crate::operand::{
     Bit, ByteSource, Kind, MODE_MEMORY, OfRaw, Operand, OperandKind, OperandReader, Raw, Relation, WordSource, kinds,
 };
@@ -237,7 +238,7 @@ macro_rules! instruction_table {
         #[inline(never)]
         fn execute_module<E: Execute, P: ProgramMemory>(engine: &mut E, code: &P, pc: u16) -> Flow {
             let mut fetched = Fetched::nothing();
-            if code.byte(pc) & !7 != MODULE_PREFIX || !fetched.fetch(code, pc) {
+            if module_of_token(code.byte(pc)).is_none() || !fetched.fetch(code, pc) {
                 return engine.undefined();
             }
             let flow = engine.module_instruction(fetched.op, &Operands::of(&fetched.operands), fetched.next);

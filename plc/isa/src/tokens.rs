@@ -4,9 +4,10 @@
 //! and hands out byte by byte ([`ProgramMemory::token_table`]).
 
 use crate::image::ProgramMemory;
+use crate::modules::module_of_token;
 use crate::operand::{Kind, OperandReader, Raw};
 use crate::rules::{KIND_RULES_LEN, read_raw};
-use crate::table::{CORE_INSTRUCTIONS, Form, INSTRUCTIONS, Instruction, MODULE_PREFIX, Op, StackEffect, WIDE_PREFIX};
+use crate::table::{CORE_INSTRUCTIONS, Form, INSTRUCTIONS, Instruction, Op, StackEffect, WIDE_PREFIX};
 
 /// Most operands of an instruction.
 pub(crate) const OPERANDS_MAX: usize = 4;
@@ -173,8 +174,8 @@ impl Fetched {
     /// Fetches the instruction at `pc`. Returns whether its token is in the table.
     pub fn fetch<P: ProgramMemory>(&mut self, code: &P, pc: u16) -> bool {
         let (mut token, mut operands_at) = (code.byte(pc), pc.wrapping_add(1));
-        if token & !7 == MODULE_PREFIX {
-            let Some(routine) = code.routine(token - MODULE_PREFIX, code.byte(operands_at)) else { return false };
+        if let Some(module) = module_of_token(token) {
+            let Some(routine) = code.routine(module, code.byte(operands_at)) else { return false };
             (self.op, self.stack) = (routine.op, unpacked(routine.stack));
             self.operands(code, routine.kinds_at, OperandReader::new(code, pc, pc.wrapping_add(2), 0));
             return true;

@@ -99,10 +99,10 @@ fn check<P: ProgramMemory>(plan: &mut Plan<P>) -> Result<(), ImageError> {
         return Err(ImageError { fault: ImageFault::Length, at: 6 });
     }
     plan.place();
-    if !plan.memory.modules_are_valid() {
+    let Some(data_end) = plan.memory.modules_end() else {
         return Err(ImageError { fault: ImageFault::Module, at: DIRECTORY_AT });
-    }
-    check_tables(plan).map_err(|fault| ImageError { fault, at: place_of(plan, fault) })?;
+    };
+    check_tables(plan, data_end).map_err(|fault| ImageError { fault, at: place_of(plan, fault) })?;
     if is_native(plan) {
         return ensure(entry_is_valid(plan), ImageFault::Interface)
             .map_err(|fault| ImageError { fault, at: plan.code_at() });
@@ -124,18 +124,19 @@ fn is_native<P: ProgramMemory>(plan: &Plan<P>) -> bool {
     P::NATIVE_INTERFACE != 0 && plan.header.interface != 0
 }
 
-/// Whether machine code has its entry word, and there an even offset behind the word in the code; and no labels.
+/// Whether machine code has its entry word, and there an even offset behind the word in the code.
 fn entry_is_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
     let (code_at, end) = (plan.code_at(), plan.header.total_len - CRC_LEN);
     let entry = plan.memory.word(code_at);
-    plan.header.labels == 0 && entry.is_multiple_of(2) && entry >= code_at + ENTRY_LEN && entry < end
+    entry.is_multiple_of(2) && entry >= code_at + ENTRY_LEN && entry < end
 }
 
 fn ensure(holds: bool, fault: ImageFault) -> Result<(), ImageFault> {
     if holds { Ok(()) } else { Err(fault) }
 }
 
-fn check_tables<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageFault> {
+/// Checks the tables of a program whose data memory ends at `data_end`.
+fn check_tables<P: ProgramMemory>(plan: &Plan<P>, data_end: u16) -> Result<(), ImageFault> {
     let header = &plan.header;
     // The sum of all parts is the length.
     ensure(plan.code_at() + header.code_len == header.total_len - CRC_LEN, ImageFault::Length)?;
@@ -149,10 +150,10 @@ fn check_tables<P: ProgramMemory>(plan: &Plan<P>) -> Result<(), ImageFault> {
     ensure(initial_is_valid(plan), ImageFault::Initial)?;
     ensure((0..u16::from(header.retained)).all(|index| retained_is_valid(plan, index)), ImageFault::Retained)?;
     let end = plan.end();
-    ensure(end <= DATA_END && end - ARENA_START == header.arena_len, ImageFault::Plan)?;
+    ensure(end <= data_end && end - ARENA_START == header.arena_len, ImageFault::Plan)?;
     // A copy of what is retained stands behind the plan.
     let retained_len = plan.retained_len();
-    ensure(retained_len <= RETAINED_LEN_MAX && retained_len <= DATA_END - end, ImageFault::Retained)
+    ensure(retained_len <= RETAINED_LEN_MAX && retained_len <= data_end - end, ImageFault::Retained)
 }
 
 /// Where in the image a fault of the tables is.

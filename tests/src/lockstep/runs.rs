@@ -58,7 +58,7 @@ fn missing(image: &[u8]) -> BTreeSet<String> {
     let has_engine = has_engine();
     let is_missing = |row: &Row| match row.instruction.module() {
         // Byte 3 of a module says how many routines it has.
-        Some(module) => modules::bytes(module).is_none_or(|bytes| bytes[3] <= row.form.first_token),
+        Some(module) => modules::routines(module) <= row.form.first_token,
         None => row.instruction.op == Op::Atch,
     } || !has_engine && needs_engine(row);
     let rows = places(image).into_iter().map(|place| place.row);

@@ -98,5 +98,5 @@ impl Offer {
 }
 
 fn module_len(module: usize) -> u32 {
-    modules::bytes(module as u8).map_or(0, |bytes| bytes.len() as u32)
+    modules::bytes(module as u8).len() as u32
 }

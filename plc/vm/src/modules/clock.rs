@@ -47,7 +47,7 @@ impl TimeOfDay {
     }
 
     /// For the buffer of TODR.
-    pub(crate) fn to_buffer(self) -> [u8; 8] {
+    pub fn to_buffer(self) -> [u8; 8] {
         let (mut days, rest) = (self.seconds / DAY_S, self.seconds % DAY_S);
         let weekday = (days + FIRST_WEEKDAY) % 7 + 1;
         let year = (0..=99).rev().find(|&year| days_before_year(year) <= days).unwrap_or(0);

@@ -1,4 +1,11 @@
-; PID, a part of module function: bit for bit as plc/vm/src/pid.rs, which says what is computed and why.
+; Module 12: PID, bit for bit as plc/vm/src/pid.rs, which says what is computed and why. Needs module 1, real.
+
+.include "interface.inc"
+.include "real.inc"
+
+    OPERANDS
+    STUB target_table, WRITE + ROOM + 1
+    REAL
 
 .equ IMAGE_ARENA_LEN, IMAGE + 10
 .equ IMAGE_EVENTS, IMAGE + 39

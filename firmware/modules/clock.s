@@ -1,5 +1,4 @@
-; Module 6: intervals and the time of day. What is
-; here does what plc-vm does (plc/vm/src/modules: points.rs, clock.rs).
+; Module 6: intervals and the time of day. They do what plc-vm does (plc/vm/src/modules: points.rs, clock.rs).
 
 .include "interface.inc"
 
@@ -22,8 +21,6 @@ STUB abandon, ABANDON
 
 ; Bytes of the buffer of TODR and TODW.
 .equ BUFFER_LEN, 8
-
-; not yet: Xmt Rcv
 
 Bitim:
     call MODULE_NOW

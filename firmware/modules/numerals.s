@@ -1,4 +1,146 @@
-; Of module text: numbers as characters and back, as plc-vm does it (plc/vm/src/modules/numeral.rs).
+; Module 11: numbers as characters and back, hexadecimal digits. They do what plc-vm does (plc/vm/src/modules: ascii.rs,
+; numeral.rs). Numbers of 64 bits stand on the hardware stack, the most significant byte first.
+
+.include "interface.inc"
+
+OPERANDS
+STUB read_byte, READ + 1
+STUB bytes_in, ROOM + 1
+STUB bytes_to, WRITE + ROOM + 1
+STUB abandon, ABANDON
+
+; Numbers of routines.
+.equ FIRST_NUMBER, 2
+.equ FIRST_TEXT, 5
+.equ DECIMALS_MAX, 5
+; What ITA, DTA, RTA count from 0.
+.equ REAL, 2
+; The exponent of a real whose mantissa is a number of units.
+.equ EXPONENT_OF_UNITS, 150
+
+.include "strings.inc"
+
+; ---- hexadecimal digits
+
+; T: HTA. LEN in r18, the bytes that they make in r19.
+Ath:
+    clt
+Hta:
+    adiw r28, 4
+    rcall read_byte
+    sbiw r28, 6
+    mov r18, r22
+    mov r19, r22
+    lsr r19
+    adc r19, r1
+    mov r24, r18
+    mov r25, r19
+    brtc 1f
+    mov r24, r19
+    mov r25, r18
+1:  rcall bytes_in
+    cp r30, r24
+    cpc r31, r1
+    brcs bad_digits
+    movw r20, r26
+    rcall bytes_to
+    cp r30, r25
+    cpc r31, r1
+    brcs bad_digits
+    ; What is written must not be read afterwards: digits (T: characters) come first, or begin at the same place.
+    movw r22, r26
+    sub r22, r20
+    sbc r23, r21
+    brtc 1f
+    com r23
+    neg r22
+    sbci r23, -1
+1:  cp r22, r18
+    cpc r23, r1
+    brcc 2f
+    or r22, r23
+    brne bad_digits
+2:  movw r30, r20
+    tst r18
+    breq hex_done
+    brts to_characters
+    mov r24, r18
+3:  ld r25, Z+
+    rcall hex_digit
+    brcc 7f
+    dec r24
+    brne 3b
+    movw r30, r20
+4:  ld r25, Z+
+    rcall hex_digit
+    swap r25
+    mov r23, r25
+    ; Behind an odd number the lower half stays.
+    ld r25, X
+    andi r25, 0x0F
+    dec r18
+    breq 5f
+    ld r25, Z+
+    rcall hex_digit
+    dec r18
+5:  or r25, r23
+    st X+, r25
+    tst r18
+    brne 4b
+    rcall result_bit
+    andi r25, lo8(~(1 << NO_HEX))
+    rjmp 8f
+7:  sts ENO, r1
+    rcall result_bit
+    ori r25, 1 << NO_HEX
+8:  sts RESULT_BITS, r25
+hex_done:
+    set
+    DONE
+bad_digits:
+    rjmp abandon
+result_bit:
+    lds r25, RESULT_BITS
+    ret
+
+; The digit for the character r25. No carry: it is none.
+hex_digit:
+    subi r25, '0'
+    cpi r25, 10
+    brcs 2f
+    subi r25, 'A' - '0' - 10
+    cpi r25, 10
+    brcs 1f
+    cpi r25, 16
+    ret
+1:  clc
+2:  ret
+
+; The last one first.
+to_characters:
+    add r30, r19
+    adc r31, r1
+    add r26, r18
+    adc r27, r1
+1:  ld r23, -Z
+    sbrc r18, 0
+    rjmp 2f
+    mov r25, r23
+    rcall 3f
+    dec r18
+2:  mov r25, r23
+    swap r25
+    rcall 3f
+    dec r18
+    brne 1b
+    rjmp hex_done
+3:  andi r25, 0x0F
+    subi r25, -'0'
+    cpi r25, '9' + 1
+    brlo 4f
+    subi r25, -('A' - '9' - 1)
+4:  st -X, r25
+    ret
 
 ; ---- numbers of 64 bits, the first byte at r14 and r15. All change r18, Z, r28 and r29.
 
@@ -296,8 +438,9 @@ put:
 .equ HAS_DIGITS, 7
 .equ BEHIND_POINT, 6
 .equ TENS_TO_COME, 5
-.equ STI_BITS, 1
-.equ STR_BITS, 3
+.equ STI_BITS, 0
+.equ STR_BITS, 2
+.equ KIND_BITS, 3
 
 ; The next of r23 characters at r20 and r21, in r22. Carry: there is none.
 next:
@@ -313,7 +456,7 @@ Sti:
 Std:
 Str:
     mov r19, r26
-    andi r19, STR_BITS
+    andi r19, KIND_BITS
     rcall bytes_in
     rcall begin_first
     brcs bad_text
@@ -362,7 +505,7 @@ Str:
     rjmp 3b
     ; One point or comma is part of a real.
 6:  mov r25, r19
-    andi r25, 1 << BEHIND_POINT | STR_BITS
+    andi r25, 1 << BEHIND_POINT | KIND_BITS
     cpi r25, STR_BITS
     brne ended
     ori r22, 2
@@ -376,13 +519,13 @@ bad_text:
 ended:
     sbrs r19, HAS_DIGITS
     rjmp no_number
-    andi r19, STR_BITS | 1 << TENS_TO_COME
+    andi r19, KIND_BITS | 1 << TENS_TO_COME
     cpi r19, STR_BITS
     breq 1f
     cpi r19, STR_BITS | 1 << TENS_TO_COME
     brne 2f
 1:  rjmp to_real
-2:  andi r19, STR_BITS
+2:  andi r19, KIND_BITS
     ; An integer: 32 bits with its sign.
     movw r30, r14
     ld r0, Z+

@@ -1,0 +1,92 @@
+//! Hidden instructions that let the board take over what the program has written to its analog outputs and to the
+//! settings of the serial line. They stand behind the instructions that write there.
+
+use plc_isa::{Area, FREEPORT_MODULE, Op, PULSES_MODULE};
+
+use crate::address::Address;
+use crate::select::{Argument, Selected};
+
+/// The byte of special memory with the settings of the serial line.
+const SERIAL_SETTINGS: u16 = 30;
+
+/// What a program, or one instruction of it, has to do with this hardware.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Takeover {
+    /// The analog outputs that are written, a bit each.
+    outputs: u8,
+    /// The settings of the serial line are written.
+    serial: bool,
+    /// The same for what pointers may lead to.
+    outputs_by_pointer: u8,
+    serial_by_pointer: bool,
+}
+
+impl Takeover {
+    /// Of all instructions of a program.
+    pub fn of(code: &[&Selected]) -> Takeover {
+        let mut all = Takeover::default();
+        for (argument, is_written) in code.iter().flat_map(|selected| selected.arguments()) {
+            match argument {
+                Argument::Pointer(Address::AnalogOutput(channel)) => all.outputs_by_pointer |= 1 << channel,
+                Argument::Pointer(address) => all.serial_by_pointer |= is_in_special_memory(address),
+                _ if is_written => all.add(argument),
+                _ => {}
+            }
+        }
+        all
+    }
+
+    fn add(&mut self, argument: Argument) {
+        match argument {
+            Argument::Memory(Address::AnalogOutput(channel)) => self.outputs |= 1 << channel,
+            Argument::Memory(address) | Argument::Bit(address) => self.serial |= has_serial_settings(address),
+            _ => {}
+        }
+    }
+
+    /// The modules that the board needs for it.
+    pub fn modules(self) -> impl Iterator<Item = u8> {
+        let pulses = (self.all_outputs() != 0).then_some(PULSES_MODULE);
+        let freeport = (self.serial || self.serial_by_pointer).then_some(FREEPORT_MODULE);
+        pulses.into_iter().chain(freeport)
+    }
+
+    /// The hidden instructions that belong behind an instruction of this program, each with its operand.
+    pub fn behind(self, selected: &Selected) -> impl Iterator<Item = (Op, Option<u8>)> {
+        let mut own = Takeover::default();
+        for (argument, _) in selected.arguments().filter(|&(_, is_written)| is_written) {
+            own.add(argument);
+            if let Argument::Indirect(_) = argument {
+                own.outputs |= self.outputs_by_pointer;
+                own.serial |= self.serial_by_pointer;
+            }
+        }
+        let outputs = (own.outputs != 0).then_some((Op::AnalogOutputs, Some(self.all_outputs())));
+        outputs.into_iter().chain(own.serial.then_some((Op::Freeport, None)))
+    }
+
+    fn all_outputs(self) -> u8 {
+        self.outputs | self.outputs_by_pointer
+    }
+}
+
+fn is_in_special_memory(address: Address) -> bool {
+    let (Address::Bit { area, .. }
+    | Address::Byte { area, .. }
+    | Address::Word { area, .. }
+    | Address::Double { area, .. }) = address
+    else {
+        return false;
+    };
+    area == Area::Sm
+}
+
+fn has_serial_settings(address: Address) -> bool {
+    let (byte, len) = match address {
+        Address::Bit { byte, .. } | Address::Byte { byte, .. } => (byte, 1),
+        Address::Word { byte, .. } => (byte, 2),
+        Address::Double { byte, .. } => (byte, 4),
+        _ => return false,
+    };
+    is_in_special_memory(address) && (byte..byte + len).contains(&SERIAL_SETTINGS)
+}

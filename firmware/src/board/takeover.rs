@@ -1,0 +1,29 @@
+//! What the modules of a program have taken over of the controller: interrupts, Timer1 and Timer2, the serial line. It is
+//! taken back when RUN ends. What they do with it is not known here.
+
+use avr_device::atmega328p::{CPU, EXINT, TC1, TC2};
+
+use super::serial;
+
+/// Flag of the modules, a bit of GPIOR1: the serial line is theirs.
+pub const SERIAL: u8 = 1 << 2;
+
+/// The flags of the modules.
+#[inline(always)]
+pub fn flags() -> u8 {
+    // SAFETY: a register without function is read.
+    unsafe { CPU::steal() }.gpior1().read().bits()
+}
+
+/// Takes everything back. Pins that a timer drives go on with their port.
+pub fn end() {
+    // SAFETY: interrupts of modules are switched off, and the registers are used by nobody else.
+    let (cpu, external, pulses, timer) = unsafe { (CPU::steal(), EXINT::steal(), TC1::steal(), TC2::steal()) };
+    external.eimsk().reset();
+    external.pcicr().reset();
+    pulses.timsk1().reset();
+    pulses.tccr1a().reset();
+    timer.timsk2().reset();
+    cpu.gpior1().reset();
+    serial::set_up();
+}
