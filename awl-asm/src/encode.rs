@@ -217,8 +217,6 @@ struct Encoder<'a> {
     open_loops: Vec<usize>,
     /// The CallBegin of a call that is not complete, and the call's statement.
     open_call: Option<(usize, u32)>,
-    /// What hardware still has to take over, hidden instructions with their operands.
-    to_take_over: Vec<(Op, Option<u8>)>,
     /// The S bit of the segment, as an operand.
     segment: Option<Operand>,
     has_interrupts: bool,
@@ -240,7 +238,6 @@ impl<'a> Encoder<'a> {
             next_edge: 0,
             open_loops: Vec::new(),
             open_call: None,
-            to_take_over: Vec::new(),
             segment: None,
             has_interrupts: checked.units.has_interrupts(),
         }
@@ -297,23 +294,11 @@ impl<'a> Encoder<'a> {
             self.open_call = Some((self.image.len(), selected.statement));
         }
         self.in_segment(part, selected, &operands, is_powered);
-        self.take_over(selected, next);
+        for (op, number) in self.checked.demand.takeover.behind(selected) {
+            self.push(op, number.map(Operand::Number).as_slice());
+        }
         let len = (self.image.len() - start) as u8;
         self.lines[index] = Line { at: start as u32, len, hidden_len: hidden_len as u8 };
-    }
-
-    /// Lets the hardware take over what was written. AENO comes first: it asks for ENO of the instruction that wrote.
-    fn take_over(&mut self, selected: &Selected, next: Option<&Selected>) {
-        for taken in self.checked.demand.takeover.behind(selected) {
-            if !self.to_take_over.contains(&taken) {
-                self.to_take_over.push(taken);
-            }
-        }
-        if next.is_none_or(|next| next.op != Op::Aeno) {
-            for (op, number) in std::mem::take(&mut self.to_take_over) {
-                self.push(op, number.map(Operand::Number).as_slice());
-            }
-        }
     }
 
     /// The offset behind a call with parameters is known when another statement begins.

@@ -28,7 +28,7 @@ impl Takeover {
         for (argument, is_written) in code.iter().flat_map(|selected| selected.arguments()) {
             match argument {
                 Argument::Pointer(Address::AnalogOutput(channel)) => all.outputs_by_pointer |= 1 << channel,
-                Argument::Pointer(address) => all.serial_by_pointer |= is_in_special_memory(address),
+                Argument::Pointer(address) => all.serial_by_pointer |= has_serial_settings(address),
                 _ if is_written => all.add(argument),
                 _ => {}
             }
@@ -70,23 +70,12 @@ impl Takeover {
     }
 }
 
-fn is_in_special_memory(address: Address) -> bool {
-    let (Address::Bit { area, .. }
-    | Address::Byte { area, .. }
-    | Address::Word { area, .. }
-    | Address::Double { area, .. }) = address
-    else {
-        return false;
-    };
-    area == Area::Sm
-}
-
 fn has_serial_settings(address: Address) -> bool {
-    let (byte, len) = match address {
-        Address::Bit { byte, .. } | Address::Byte { byte, .. } => (byte, 1),
-        Address::Word { byte, .. } => (byte, 2),
-        Address::Double { byte, .. } => (byte, 4),
+    let (area, byte, len) = match address {
+        Address::Bit { area, byte, .. } | Address::Byte { area, byte } => (area, byte, 1),
+        Address::Word { area, byte } => (area, byte, 2),
+        Address::Double { area, byte } => (area, byte, 4),
         _ => return false,
     };
-    is_in_special_memory(address) && (byte..byte + len).contains(&SERIAL_SETTINGS)
+    area == Area::Sm && (byte..byte + len).contains(&SERIAL_SETTINGS)
 }

@@ -9,9 +9,6 @@ use std::{env, fs};
 /// Offset of data addresses in the linker's view of an AVR.
 const DATA_SPACE: u32 = 0x80_0000;
 
-/// Bytes between the controller's data memory and the firmware's variables.
-const GAP: u32 = 4;
-
 fn main() {
     let memory = Path::new(env!("CARGO_MANIFEST_DIR")).join("../memory.x");
     println!("cargo:rerun-if-changed={}", memory.display());
@@ -25,9 +22,9 @@ fn main() {
         format!("-Wl,--defsym=PROGRAM_SLOT_LEN={:#x}", plc_isa::SLOT_LEN),
         format!("-Wl,--defsym=NATIVE_VECTORS={:#x}", plc_isa::NATIVE_VECTORS),
         format!("-Wl,--defsym=TABLE_START={:#x}", engine::TABLE_START),
-        // A word or a timer at the very end of data memory reaches behind it when the program in flash has changed.
-        // The variables of the firmware begin behind the data memory of the controller.
-        format!("-Wl,-Tdata={:#x}", DATA_SPACE + u32::from(plc_isa::DATA_END) + GAP),
+        // The variables of the firmware begin behind the data memory of the controller, with the clock.
+        format!("-Wl,-Tdata={:#x}", DATA_SPACE + u32::from(plc_isa::CLOCK)),
+        format!("-Wl,--defsym=CLOCK={:#x}", DATA_SPACE + u32::from(plc_isa::CLOCK)),
         format!("-Wl,-T,{}", memory.display()),
     ] {
         println!("cargo:rustc-link-arg={argument}");

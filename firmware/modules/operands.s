@@ -48,10 +48,14 @@ load:
     ld r23, X+
     ld r22, X
     rjmp extend
-1:  ld r25, X+
+    ; High-speed counters are counted by interrupts.
+1:  in r30, SREG
+    cli
+    ld r25, X+
     ld r24, X+
     ld r23, X+
     ld r22, X
+    out SREG, r30
     ret
 
 not_direct:

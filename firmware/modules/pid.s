@@ -57,6 +57,9 @@
 
 ; TBL, LOOP, the number of the history bit: power flow was missing. T: power flow.
 Pid:
+        ; Executed without power flow, too, but a box.
+        ldi     r18, 1
+        sts     ENO, r18
         ; The edge memories end where the bytes of the events begin, the last of the arena.
         ldi     r30, lo8(IMAGE_ARENA_LEN)
         ldi     r31, hi8(IMAGE_ARENA_LEN)

@@ -11,8 +11,10 @@ use super::analog;
 /// Timer counts of 4 us in a millisecond.
 const COUNTS_PER_MS: u8 = 250;
 
-/// Milliseconds since power-up. Wraps after 49.7 days. Harnesses read and write it by this name.
+/// Milliseconds since power-up. Wraps after 49.7 days. Harnesses read and write it by this name; machine code of programs
+/// reads it at [`plc_isa::CLOCK`], which is where this section begins.
 #[unsafe(no_mangle)]
+#[unsafe(link_section = ".data")]
 static UNO200_TICK: Mutex<Cell<u32>> = Mutex::new(Cell::new(0));
 
 /// Starts it.

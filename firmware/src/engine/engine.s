@@ -392,7 +392,8 @@ module:
     adiw r24, 0
     breq 3f
     ; The word address of the jump table. The last byte before it says how many routines there are, and before its head
-    ; stands a byte for each: the length of its operands, and in bit 7 whether it is executed without power flow.
+    ; stands a byte for each: the length of its operands, and in bit 7 whether it is executed without power flow: then it
+    ; is no box and leaves ENO alone.
     movw r30, r24
     lsl r30
     rol r31
@@ -408,15 +409,15 @@ module:
     andi r19, 0x7F
     add r28, r19
     adc r29, r1
-    brts 1f
-    sbrs r18, 7
-    rjmp 2f
+    sbrc r18, 7
+    rjmp 1f
+    brtc 2f
+    ldi r18, 1
+    sts ENO, r18
 1:  push r28
     push r29
     sub r28, r19
     sbc r29, r1
-    ldi r18, 1
-    sts ENO, r18
     movw r30, r24
     add r30, r26
     adc r31, r1

@@ -11,6 +11,12 @@ pub const DATA_END: u16 = 0x0600;
 /// Bytes of data memory.
 pub const DATA_LEN: usize = (DATA_END - DATA_START) as usize;
 
+/// Bytes between the controller's data memory and the firmware's variables: a word or a timer at the very end of data
+/// memory reaches behind it when the program in flash has changed.
+pub const DATA_GAP: u16 = 4;
+/// On the board: the millisecond clock, four bytes, the lowest first.
+pub const CLOCK: u16 = DATA_END + DATA_GAP;
+
 /// The bit page: 256 bytes from here hold all areas with short bit addresses.
 pub const PAGE_START: u16 = DATA_START;
 /// Bytes in the bit page.

@@ -2,7 +2,10 @@
 
 use awl_asm::modules;
 use fastrand::Rng;
-use plc_isa::{Group, Instruction, MODULES, OPERANDS_MODULE, Op, SLOT_LEN};
+use plc_isa::{
+    COUNTERS_MODULE, FREEPORT_MODULE, Group, Instruction, MODULES, OPERANDS_MODULE, Op, PULSES_MODULE, SLOT_LEN,
+    needed_modules,
+};
 
 /// Bytes of the image that are neither code nor modules, at most, with what the assembler puts into the code.
 const REST_LEN: u32 = 1_600;
@@ -26,6 +29,11 @@ impl Offer {
         Offer { modules: [false; MODULES], units: false, has_all_points: true }
     }
 
+    /// The same with subroutines and sequences.
+    pub fn units() -> Offer {
+        Offer { units: true, ..Offer::core() }
+    }
+
     /// Subroutines, sequences, and as many modules as have room beside code.
     pub fn everything(rng: &mut Rng) -> Offer {
         Offer::some(rng, |_| true)
@@ -43,15 +51,15 @@ impl Offer {
     }
 
     fn some(rng: &mut Rng, is_there: impl Fn(usize) -> bool) -> Offer {
-        const REAL: usize = 1;
-        const FUNCTION: usize = 2;
         let mut offer = Offer { modules: [false; MODULES], units: true, has_all_points: true };
-        let mut order: Vec<usize> = (0..MODULES).filter(|&module| module != usize::from(OPERANDS_MODULE)).collect();
+        let mut order: Vec<usize> = (0..MODULES).filter(|&module| !is_apart(module)).collect();
         rng.shuffle(&mut order);
         for module in order.into_iter().filter(|&module| is_there(module)) {
             let before = offer;
             offer.modules[module] = true;
-            offer.modules[REAL] |= module == FUNCTION;
+            for &needed in needed_modules(module as u8) {
+                offer.modules[usize::from(needed)] = true;
+            }
             if offer.code_len_max() < CODE_LEN_MIN {
                 offer = before;
             }
@@ -95,6 +103,12 @@ impl Offer {
         let is_there = instruction.module().is_none_or(|module| self.modules[usize::from(module)]);
         !special && !apart && !hardware && !reads_points && is_there
     }
+}
+
+/// The modules that no random program asks for: that of operands comes with others, and what counters, pulses and freeport do
+/// is no matter of scans.
+fn is_apart(module: usize) -> bool {
+    matches!(module as u8, OPERANDS_MODULE | COUNTERS_MODULE | PULSES_MODULE | FREEPORT_MODULE)
 }
 
 fn module_len(module: usize) -> u32 {

@@ -44,6 +44,9 @@ struct Site {
     reset: u8,
 }
 
+/// Most inputs that a counter takes.
+const INPUTS_MAX: u8 = 3;
+
 /// No such event.
 const NONE: u8 = u8::MAX;
 
@@ -87,13 +90,10 @@ impl Mode {
         is_there.then_some(Mode { inputs, has_reset: number % 3 == 1 })
     }
 
-    /// How many inputs it takes, from the clock on.
-    fn inputs_len(self) -> u8 {
-        match (self.has_reset, self.inputs) {
-            (true, _) => 3,
-            (false, Inputs::InternalDirection) => 1,
-            (false, _) => 2,
-        }
+    /// The inputs it takes, a bit each, from the clock on.
+    fn taken(self) -> u8 {
+        let clocks = if self.inputs == Inputs::InternalDirection { 0b001 } else { 0b011 };
+        if self.has_reset { clocks | 0b100 } else { clocks }
     }
 }
 
@@ -136,7 +136,7 @@ impl HighSpeedCounters {
         memory: &Memory,
     ) -> bool {
         let Some(mode) = Mode::of(number, mode) else { return false };
-        let inputs_of = |site: Site, mode: Mode| ((1u8 << mode.inputs_len()) - 1) << site.clock;
+        let inputs_of = |site: Site, mode: Mode| mode.taken() << site.clock;
         let taken = SITES
             .into_iter()
             .zip(&self.counters)
@@ -206,7 +206,7 @@ impl Counter {
         plan: &Plan<P>,
         memory: &mut Memory,
     ) -> Occurred {
-        if offset >= mode.inputs_len() {
+        if offset >= INPUTS_MAX || mode.taken() >> offset & 1 == 0 {
             return [None; 2];
         }
         let is_resetting = mode.has_reset && (levels >> 2 & 1 != 0) != (self.options & RESET_LOW != 0);
@@ -457,6 +457,8 @@ mod tests {
         let mut bench = Bench::new();
         assert!(define(&mut bench, 3, 0) && !define(&mut bench, 0, 9));
         let mut bench = Bench::new();
-        assert!(define(&mut bench, 0, 1) && !define(&mut bench, 3, 0));
+        assert!(define(&mut bench, 0, 3) && !define(&mut bench, 3, 0));
+        let mut bench = Bench::new();
+        assert!(define(&mut bench, 0, 1) && define(&mut bench, 3, 0), "one clock and a reset");
     }
 }

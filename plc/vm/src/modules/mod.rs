@@ -63,7 +63,10 @@ pub(crate) fn execute<P: ProgramMemory, E: Environment>(
 ) -> Flow {
     let instruction = op.instruction();
     let is_executed = instruction.power_flow == PowerFlow::Always || interpreter.stack.top();
-    interpreter.memory.set_byte(ENO, u8::from(is_executed));
+    // What is executed without power flow is no box and has no ENO, but for PID: it only remembers that it had none.
+    if instruction.power_flow == PowerFlow::Needed || op == Op::Pid {
+        interpreter.memory.set_byte(ENO, u8::from(is_executed));
+    }
     if !is_executed {
         return Flow::Next;
     }
