@@ -1,13 +1,13 @@
 //! The virtual Uno: pins, its own clock, the held clock, faults, the stack. Needs the firmware.
 #![cfg(feature = "simavr")]
 
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
 use awl_asm::assemble::assemble;
 use awl_asm::disassemble::instructions;
 use awl_asm::source::Source;
+use awl_sim::action::Action;
 use awl_sim::machine::uno::{Clock, Code, Firmware, Uno};
 use awl_sim::machine::{Machine, Mode};
 use awl_sim::open::{Opened, Target, open_machine};
@@ -261,9 +261,8 @@ fn the_stack_is_measured() {
     assert_eq!(uno.unused_stack(), 0);
 }
 
-/// Runs the examples. Returns which cannot be translated.
-fn assert_examples_do_what_they_shall(target: Target) -> BTreeSet<String> {
-    let mut not_translated = BTreeSet::new();
+/// Runs the examples.
+fn assert_examples_do_what_they_shall(target: Target) {
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
     let mut count = 0;
     for path in fs::read_dir(examples).unwrap().map(|entry| entry.unwrap().path()) {
@@ -272,14 +271,8 @@ fn assert_examples_do_what_they_shall(target: Target) -> BTreeSet<String> {
             continue;
         }
         count += 1;
-        let Opened { mut machine, symbols, scan_ms, .. } = match open_machine(&path, &[], target) {
-            Ok(opened) => opened,
-            Err(error) if error.to_string().contains("cannot be translated to machine code yet") => {
-                not_translated.insert(stem);
-                continue;
-            }
-            Err(error) => panic!("{stem}: {error}"),
-        };
+        let opened = open_machine(&path, &[], target).unwrap_or_else(|error| panic!("{stem}: {error}"));
+        let Opened { mut machine, symbols, scan_ms, .. } = opened;
         let text = fs::read_to_string(path.with_extension("scn")).unwrap();
         let mut has_operand = |operand| machine.read(operand).map(|_| ());
         let context = Context { symbols: &symbols, plant: None, has_operand: &mut has_operand };
@@ -293,20 +286,17 @@ fn assert_examples_do_what_they_shall(target: Target) -> BTreeSet<String> {
         assert!(outcome.failures.is_empty() && outcome.fault.is_none(), "{stem}: {:#?}", outcome.failures);
         assert!(outcome.met >= 2, "{stem}: {}", outcome.met);
     }
-    assert_eq!(count, 10);
-    not_translated
+    assert_eq!(count, 11);
 }
 
 #[test]
 fn examples_do_what_they_shall_on_a_board_with_its_own_clock() {
-    assert_eq!(assert_examples_do_what_they_shall(Target::Uno), BTreeSet::new());
+    assert_examples_do_what_they_shall(Target::Uno);
 }
 
 #[test]
 fn examples_do_the_same_translated() {
-    // Interrupts and sequence control stay bytecode for now.
-    let not_translated = ["encoder", "pick_and_place", "pid"].map(str::to_owned);
-    assert_eq!(assert_examples_do_what_they_shall(Target::UnoNative), not_translated.into());
+    assert_examples_do_what_they_shall(Target::UnoNative);
 }
 
 #[test]
@@ -328,4 +318,33 @@ fn pulses_come_at_the_pins_in_their_time() {
     };
     assert!(act(Clock::FreeRunning).contains("I0.0 to I0.5"));
     assert!(act(Clock::LockStep).contains("its own clock"));
+}
+
+/// The buffer of TODR, and what it is before the clock is set and a second and a half after.
+const CLOCK: &str = "//# memory VB0-VB7\nLD SM0.0\nTODR VB0\nAENO\n= M0.0\n";
+const CLOCK_IS_SET: &str = "at 1s expect M0.0 = 0, VB0 = 0\nat 1s clock 2026-12-31 23:59:59\n\
+    at 1500ms expect M0.0 = 1, VD0 = 16#26123123, VD4 = 16#59590005\n\
+    at 2500ms expect VD0 = 16#27010100, VD4 = 16#00000006";
+
+#[test]
+fn the_clock_is_set_by_a_scenario() {
+    assert_holds(CLOCK, CLOCK_IS_SET);
+    let outcome = outcome(&mut uno(CLOCK, Clock::LockStep), CLOCK_IS_SET);
+    assert!(outcome.failures.is_empty() && outcome.fault.is_none(), "{outcome:#?}");
+    // Set before power comes.
+    assert_holds(CLOCK, "at 0s clock 2000-01-01 00:00:00\nat 1500ms expect VD0 = 16#00010100, VD4 = 16#00010007");
+}
+
+#[test]
+fn characters_come_and_go_by_the_line() {
+    let program = "//# memory VB0-VB7\nLD SM0.1\nMOVB 16#19, SMB30\nMOVB 2, VB0\nMOVW 16#6869, VW1\nLD I0.0\nEU\nXMT VB0, 0\n\
+                   LD I0.1\nMOVB 0, SMB30\n";
+    let scenario = "at 20ms receive \"abc\"\nat 25ms expect SMB2 = 99\nat 25ms expect sent \"\"\nat 25ms I0.0 = 1\n\
+                    at 30ms expect sent \"hi\"\nat 30ms I0.1 = 1\nat 40ms receive \"status\\r\"\nat 99ms expect SMB2 = 99\n\
+                    at 99ms expect sent \"\"";
+    let mut uno = uno(program, Clock::FreeRunning);
+    let outcome = outcome(&mut uno, scenario);
+    assert!(outcome.failures.is_empty() && outcome.fault.is_none(), "{outcome:#?}");
+    let held = board(image(program), Clock::LockStep).act(&Action::Receive { at_ms: 0, bytes: vec![1] });
+    assert!(held.is_err_and(|error| error.to_string().contains("its own clock")));
 }

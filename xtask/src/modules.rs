@@ -14,8 +14,8 @@ use anyhow::{Context, Result, bail, ensure};
 use plc_isa::{
     AC_START, AIW_START, AQW_START, ARENA_START, COUNTER_SLOT_LEN, COUNTERS_MODULE, DATA_END, DATA_START, DIRECTORY_AT,
     ENO, EVENTS_MODULE, EVENTS_SEEN, FREEPORT_MODULE, HC0, HC3, HEADER_LEN, Instruction, MODULE_NAMES, OPERANDS_MODULE,
-    PULSES_MODULE, PowerFlow, SLOT_START, SM_IN_V, SM_START, TIMER_SLOT_LEN, data_end, kind_numbers,
-    module_instructions, packed_stack,
+    PULSES_MODULE, PowerFlow, SLOT_START, SM_IN_V, SM_START, TIMER_SLOT_LEN, kind_numbers, module_instructions,
+    packed_stack, state_at,
 };
 
 use crate::packages;
@@ -108,7 +108,7 @@ fn text(number: u8, source: &Path) -> Result<String> {
     for byte in head {
         let _ = writeln!(text, ".byte {byte}");
     }
-    let state = DATA_END - data_end([number].into_iter());
+    let state = DATA_END - state_at(number);
     let _ = writeln!(text, ".word module_end - module, jump_table - module\n.byte {state}, {written}\njump_table:");
     for (routine, instruction) in instructions.iter().enumerate() {
         // The loader refuses bytecode with one that is missing; in machine code it cannot see it.
@@ -137,7 +137,6 @@ fn missing(source: &Path) -> Result<Vec<String>> {
 
 /// Constants of interface.inc that plc-isa has, too.
 fn shared() -> [(&'static str, u16); 23] {
-    let state = |module: u8| data_end([module].into_iter());
     [
         ("DATA_START", DATA_START),
         ("DATA_END", DATA_END),
@@ -157,10 +156,10 @@ fn shared() -> [(&'static str, u16); 23] {
         ("HIGH_SPEED_COUNTER_3", HC3),
         ("SEEN", EVENTS_SEEN),
         ("SPECIAL_IN_RANGES", SM_IN_V),
-        ("EVENTS_STATE", state(EVENTS_MODULE)),
-        ("COUNTERS_STATE", state(COUNTERS_MODULE)),
-        ("PULSES_STATE", state(PULSES_MODULE)),
-        ("FREEPORT_STATE", state(FREEPORT_MODULE)),
+        ("EVENTS_STATE", state_at(EVENTS_MODULE)),
+        ("COUNTERS_STATE", state_at(COUNTERS_MODULE)),
+        ("PULSES_STATE", state_at(PULSES_MODULE)),
+        ("FREEPORT_STATE", state_at(FREEPORT_MODULE)),
         ("OPERANDS_MODULE", u16::from(OPERANDS_MODULE)),
     ]
 }

@@ -70,9 +70,14 @@ const fn state_len(module: u8) -> u16 {
     }
 }
 
+/// Where a module's state begins: one past the last data address of a program with this module.
+pub const fn state_at(module: u8) -> u16 {
+    DATA_END - state_len(module)
+}
+
 /// One past the last data address of a program with these modules.
 pub fn data_end(modules: impl Iterator<Item = u8>) -> u16 {
-    DATA_END - modules.map(state_len).max().unwrap_or(0)
+    modules.map(state_at).min().unwrap_or(DATA_END)
 }
 
 /// Bytes of a module before its jump table: its length, the offset of the table, bytes at the end of data memory that the

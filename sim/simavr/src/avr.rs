@@ -28,6 +28,17 @@ pub enum Stopped {
     },
 }
 
+/// A change that a timer makes at a pin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Edge {
+    /// When, by [`Avr::cycles`].
+    pub cycle: u64,
+    /// Where.
+    pub pin: Pin,
+    /// The new level.
+    pub high: bool,
+}
+
 /// An ATmega328P at 16 MHz and 5 V. Time is its cycle counter alone; nothing waits for a real clock.
 ///
 /// A new chip is powered but not [reset](Avr::reset): flash and EEPROM are erased, SRAM is 0. SRAM, pins, voltages and
@@ -213,7 +224,21 @@ impl Avr {
 
     /// The level of a pin; of one that nobody has driven yet it means nothing.
     pub fn level(&self, pin: Pin) -> bool {
-        pin.level(self.data())
+        match pin.wave().filter(|_| self.is_output(pin) && pin.is_wave(self.data())) {
+            Some(wave) => self.chip.wave(wave),
+            None => pin.level(self.data()),
+        }
+    }
+
+    /// From now on notes the edges that timer 1 makes at its outputs, in fast PWM up to ICR1.
+    pub fn watch_waves(&mut self) {
+        self.chip.watch_edges();
+    }
+
+    /// The edges since this was last asked for, to a few cycles.
+    pub fn take_waves(&mut self) -> Vec<Edge> {
+        let edge = |edge: u64| Edge { cycle: edge >> 2, pin: Pin::of_wave(edge & 2 != 0), high: edge & 1 != 0 };
+        self.chip.take_edges().into_iter().map(edge).collect()
     }
 
     /// The voltage at input `channel` (0 to 7) of the converter, from its next conversion on.
@@ -246,6 +271,11 @@ impl Avr {
 
     /// What the program has sent since it was last asked for.
     pub fn uart_take(&mut self) -> Vec<u8> {
+        self.uart_take_with_control().into_iter().map(|[byte, _]| byte).collect()
+    }
+
+    /// The same, each byte with what UCSR0B was when the program wrote it.
+    pub fn uart_take_with_control(&mut self) -> Vec<[u8; 2]> {
         self.chip.uart_take()
     }
 

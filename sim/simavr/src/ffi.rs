@@ -38,6 +38,10 @@ unsafe extern "C" {
     fn shim_eeprom_read(shim: *mut Shim, offset: u16, to: *mut u8, len: u32);
     fn shim_eeprom_write(shim: *mut Shim, offset: u16, from: *const u8, len: u32);
     fn shim_feed_watchdog(shim: *mut Shim);
+    fn shim_wave(shim: *mut Shim, wave: i32) -> i32;
+    fn shim_watch_edges(shim: *mut Shim);
+    fn shim_edges(shim: *mut Shim) -> usize;
+    fn shim_take_edges(shim: *mut Shim, to: *mut u64);
 }
 
 /// How a run of the chip ended.
@@ -166,13 +170,34 @@ impl Chip {
         unsafe { shim_uart_send(self.0.as_ptr(), bytes.as_ptr(), bytes.len()) != 0 }
     }
 
-    pub(crate) fn uart_take(&mut self) -> Vec<u8> {
-        let mut bytes = vec![0; call!(self.shim_uart_received())];
+    /// Each byte with what the UART's control register B was then.
+    pub(crate) fn uart_take(&mut self) -> Vec<[u8; 2]> {
+        let mut bytes = vec![[0; 2]; call!(self.shim_uart_received())];
         if !bytes.is_empty() {
-            // SAFETY: the shim copies all it has, which is the length just asked for.
-            unsafe { shim_uart_take(self.0.as_ptr(), bytes.as_mut_ptr()) }
+            // SAFETY: the shim writes two bytes for each it has, and their number was just asked for.
+            unsafe { shim_uart_take(self.0.as_ptr(), bytes.as_mut_ptr().cast()) }
         }
         bytes
+    }
+
+    /// What timer 1 makes of OC1A (0) or OC1B (1).
+    pub(crate) fn wave(&self, wave: u8) -> bool {
+        assert!(wave < 2, "timer 1 has no such output");
+        call!(self.shim_wave(wave.into())) != 0
+    }
+
+    pub(crate) fn watch_edges(&mut self) {
+        call!(self.shim_watch_edges())
+    }
+
+    /// Each as the cycle, above bit 1 for OC1B and bit 0 for the level.
+    pub(crate) fn take_edges(&mut self) -> Vec<u64> {
+        let mut edges = vec![0; call!(self.shim_edges())];
+        if !edges.is_empty() {
+            // SAFETY: the shim copies all it has, which is the number just asked for.
+            unsafe { shim_take_edges(self.0.as_ptr(), edges.as_mut_ptr()) }
+        }
+        edges
     }
 
     pub(crate) fn eeprom_is_misused(&self) -> bool {

@@ -15,7 +15,7 @@ mod hex;
 mod pin;
 
 #[cfg(feature = "link")]
-pub use avr::{Avr, Reset, Stopped};
+pub use avr::{Avr, Edge, Reset, Stopped};
 #[cfg(feature = "link")]
 pub use elf::{Elf, LoadError};
 #[cfg(feature = "link")]

@@ -1,5 +1,8 @@
 //! Names of pins and where their registers are. No state.
 
+/// Data address of TCCR1A.
+const TIMER_CONTROL_A: usize = 0x80;
+
 /// A port of the chip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Port {
@@ -43,6 +46,21 @@ impl Pin {
             8..=13 => Pin { port: Port::B, bit: digital - 8 },
             _ => panic!("the Uno has no pin D{digital}"),
         }
+    }
+
+    /// The pin of timer 1's output OC1A, or OC1B.
+    pub(crate) fn of_wave(is_second: bool) -> Pin {
+        Pin { port: Port::B, bit: if is_second { 2 } else { 1 } }
+    }
+
+    /// Which output of timer 1 is at this pin.
+    pub(crate) fn wave(self) -> Option<u8> {
+        [false, true].iter().position(|&is_second| Pin::of_wave(is_second) == self).map(|wave| wave as u8)
+    }
+
+    /// Whether that drives the pin, if it is an output.
+    pub(crate) fn is_wave(self, data: &[u8]) -> bool {
+        self.wave().zip(data.get(TIMER_CONTROL_A)).is_some_and(|(wave, control)| control >> (6 - 2 * wave) & 3 != 0)
     }
 
     fn register_bit(self, data: &[u8], offset: usize) -> bool {

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include <simavr/sim_avr.h>
+#include <simavr/sim_interrupts.h>
 #include <simavr/avr_adc.h>
 #include <simavr/avr_eeprom.h>
 #include <simavr/avr_extint.h>
@@ -23,6 +24,7 @@ enum {
 	EEPROM_WRITE_US = 3400,
 	EEPROM_LEN = 1024,
 	RESET_FLAGS = 0x54,   /* MCUSR */
+	UART_CONTROL = 0xc1,  /* UCSR0B */
 	RESET_BY_WATCHDOG = 1 << 3,
 	/* simavr does not wrap addresses as the chip does: with room for all 16 bits none leads out. */
 	REACHABLE_DATA = 0x10000,
@@ -31,6 +33,18 @@ enum {
 	/* Cycles between two looks at simavr's timers if none is due before. */
 	RUN_CYCLES = 1000,
 	PORTS = 3,
+	/* Timer 1. */
+	TIMER_CONTROL_A = 0x80, /* TCCR1A */
+	TIMER_CONTROL_B = 0x81, /* TCCR1B */
+	TIMER_FORCE = 0x82,     /* TCCR1C */
+	TIMER_COUNT = 0x84,     /* TCNT1 */
+	TIMER_TOP = 0x86,       /* ICR1 */
+	TIMER_COMPARE = 0x88,   /* OCR1A; OCR1B follows */
+	TIMER_REGISTERS = 12,
+	TIMER_OVERFLOW = 13,    /* The interrupt's vector. */
+	WAVES = 2,
+	COMPARE_CLEARS = 2,
+	COMPARE_SETS = 3,
 };
 
 /* What shim_run and shim_step return. */
@@ -41,13 +55,36 @@ struct bytes {
 	size_t len, room, taken;
 };
 
+struct handler {
+	avr_io_write_t write;
+	void *param;
+};
+
+/* What timer 1 makes of its output OC1A or OC1B: its level, and the compare value in force. */
+struct wave {
+	int level;
+	uint16_t compare;
+};
+
 struct shim {
 	avr_t *avr;
+	struct wave waves[WAVES];
+	/* Whether timer 1 counts in fast PWM up to ICR1. */
+	int waves_run;
+	/* When its count was 0 last, or would have been. */
+	avr_cycle_count_t bottom;
+	/* simavr's own for writes to timer 1, from TCCR1A on. */
+	struct handler timer_handlers[TIMER_REGISTERS];
+	/* While they are watched their edges, each as the cycle, which of both, and the level in the lowest bit. */
+	struct bytes edges;
+	int edges_are_watched;
 	int marked;
 	uint8_t mark;
 	/* Pins that are driven from outside, and their levels: a byte for each of the ports B, C, D. */
 	uint8_t driven[PORTS], levels[PORTS];
 	struct bytes to_uart, from_uart;
+	/* For each byte that has come what UCSR0B was then. */
+	struct bytes from_uart_controls;
 	int uart_is_full;
 	/* Address of the byte that is being written, or EEPROM_LEN; how often each was; whether it was disturbed. */
 	uint32_t eeprom_writing, eeprom_writes[EEPROM_LEN];
@@ -150,9 +187,11 @@ static void on_uart_ready(avr_irq_t *irq, uint32_t value, void *param)
 
 static void on_uart_output(avr_irq_t *irq, uint32_t value, void *param)
 {
+	struct shim *shim = param;
 	uint8_t byte = value;
 	(void)irq;
-	append(&((struct shim *)param)->from_uart, &byte, 1);
+	if (append(&shim->from_uart, &byte, 1))
+		append(&shim->from_uart_controls, shim->avr->data + UART_CONTROL, 1);
 }
 
 static void connect_uart(struct shim *shim)
@@ -163,6 +202,162 @@ static void connect_uart(struct shim *shim)
 	avr_irq_register_notify(uart_irq(shim, UART_IRQ_OUTPUT), on_uart_output, shim);
 	avr_irq_register_notify(uart_irq(shim, UART_IRQ_OUT_XON), on_uart_ready, shim);
 	avr_irq_register_notify(uart_irq(shim, UART_IRQ_OUT_XOFF), on_uart_full, shim);
+}
+
+/*
+ * The outputs of timer 1 in fast PWM up to ICR1 (mode 14), by the data sheet. simavr has them, but takes no new compare
+ * value until the mode changes, knows no forced compare, and gives other levels when the compare value is the top.
+ */
+static uint32_t timer_word(avr_t *avr, int low)
+{
+	return avr->data[low] | avr->data[low + 1] << 8;
+}
+
+static int timer_divider(avr_t *avr)
+{
+	static const int dividers[8] = { 0, 1, 8, 64, 256, 1024, 0, 0 };
+	return dividers[avr->data[TIMER_CONTROL_B] & 7];
+}
+
+static int waves_can_run(avr_t *avr)
+{
+	return (avr->data[TIMER_CONTROL_A] & 3) == 2 && (avr->data[TIMER_CONTROL_B] & 0x18) == 0x18 && timer_divider(avr);
+}
+
+static int wave_mode(avr_t *avr, int wave)
+{
+	return avr->data[TIMER_CONTROL_A] >> (6 - 2 * wave) & 3;
+}
+
+static void set_wave(struct shim *shim, int wave, int level, avr_cycle_count_t when)
+{
+	uint64_t edge = when << 2 | wave << 1 | level;
+	if (shim->edges_are_watched && shim->waves[wave].level != level)
+		append(&shim->edges, (uint8_t *)&edge, sizeof edge);
+	shim->waves[wave].level = level;
+}
+
+static void match(struct shim *shim, int wave, avr_cycle_count_t when)
+{
+	int mode = wave_mode(shim->avr, wave);
+	if (mode == COMPARE_CLEARS || mode == COMPARE_SETS)
+		set_wave(shim, wave, mode == COMPARE_SETS, when);
+}
+
+static avr_cycle_count_t on_match_a(avr_t *avr, avr_cycle_count_t when, void *param)
+{
+	(void)avr;
+	match(param, 0, when);
+	return 0;
+}
+
+static avr_cycle_count_t on_match_b(avr_t *avr, avr_cycle_count_t when, void *param)
+{
+	(void)avr;
+	match(param, 1, when);
+	return 0;
+}
+
+/*
+ * The timer has come to this count: when it comes to the compare values, if it does before the top, where the bottom wins.
+ * That can have been since simavr looked at its timers last.
+ */
+static void await_matches(struct shim *shim, uint32_t count)
+{
+	static const avr_cycle_timer_t on_match[WAVES] = { on_match_a, on_match_b };
+	avr_t *avr = shim->avr;
+	for (int wave = 0; wave < WAVES; wave++) {
+		uint32_t compare = shim->waves[wave].compare;
+		avr_cycle_count_t when = shim->bottom + (compare + 1) * timer_divider(avr);
+		avr_cycle_timer_cancel(avr, on_match[wave], shim);
+		if (!shim->waves_run || compare < count || compare >= timer_word(avr, TIMER_TOP))
+			continue;
+		if (when > avr->cycle)
+			avr_cycle_timer_register(avr, when - avr->cycle, on_match[wave], shim);
+		else
+			match(shim, wave, when);
+	}
+}
+
+static void on_bottom(struct shim *shim)
+{
+	avr_t *avr = shim->avr;
+	avr_cycle_count_t due = shim->bottom + (timer_word(avr, TIMER_TOP) + 1) * timer_divider(avr);
+	/* simavr looks at its timers between two instructions, and is up to a count early where the count was set. */
+	avr_cycle_count_t early_max = timer_divider(avr) + 16;
+	shim->bottom = avr->cycle + early_max - due < 2 * early_max ? due : avr->cycle;
+	for (int wave = 0; wave < WAVES; wave++) {
+		int mode = wave_mode(avr, wave);
+		shim->waves[wave].compare = timer_word(avr, TIMER_COMPARE + 2 * wave);
+		if (mode == COMPARE_CLEARS || mode == COMPARE_SETS)
+			set_wave(shim, wave, mode == COMPARE_CLEARS, shim->bottom);
+	}
+	await_matches(shim, 0);
+}
+
+static void on_timer_overflow(avr_irq_t *irq, uint32_t value, void *param)
+{
+	(void)irq;
+	if (value && ((struct shim *)param)->waves_run)
+		on_bottom(param);
+}
+
+static void on_timer_count(struct shim *shim)
+{
+	avr_t *avr = shim->avr;
+	uint32_t count = timer_word(avr, TIMER_COUNT);
+	/* From above the top it comes to the bottom by way of 0xffff; simavr goes there at once. */
+	shim->bottom = avr->cycle - count * timer_divider(avr);
+	if (shim->waves_run && count > timer_word(avr, TIMER_TOP))
+		on_bottom(shim);
+	else
+		await_matches(shim, count);
+}
+
+static void on_timer_force(struct shim *shim, uint8_t value)
+{
+	avr_t *avr = shim->avr;
+	avr->data[TIMER_FORCE] = 0;
+	for (int wave = 0; wave < WAVES; wave++)
+		if (!(avr->data[TIMER_CONTROL_A] & 3) && value >> (7 - wave) & 1)
+			match(shim, wave, avr->cycle);
+}
+
+/* In the place of simavr's own, which it calls: simavr shares no more than four registers. */
+static void on_timer_write(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
+{
+	struct shim *shim = param;
+	struct handler *own = &shim->timer_handlers[address - TIMER_CONTROL_A];
+	if (own->write)
+		own->write(avr, address, value, own->param);
+	avr->data[address] = value;
+	if (address == TIMER_FORCE)
+		on_timer_force(shim, value);
+	if (address == TIMER_COUNT)
+		on_timer_count(shim);
+	if (address >= TIMER_COMPARE && !shim->waves_run)
+		shim->waves[(address - TIMER_COMPARE) / 2].compare = timer_word(avr, address);
+	if (shim->waves_run != waves_can_run(avr)) {
+		shim->waves_run = waves_can_run(avr);
+		shim->bottom = avr->cycle;
+		await_matches(shim, 0);
+	}
+}
+
+static void connect_timer(struct shim *shim)
+{
+	static const int registers[] = { TIMER_CONTROL_A, TIMER_CONTROL_B, TIMER_FORCE,
+					 TIMER_COUNT, TIMER_COMPARE, TIMER_COMPARE + 2 };
+	avr_t *avr = shim->avr;
+	for (size_t i = 0; i < sizeof registers / sizeof *registers; i++) {
+		struct handler *own = &shim->timer_handlers[registers[i] - TIMER_CONTROL_A];
+		own->write = avr->io[AVR_DATA_TO_IO(registers[i])].w.c;
+		own->param = avr->io[AVR_DATA_TO_IO(registers[i])].w.param;
+		avr->io[AVR_DATA_TO_IO(registers[i])].w.c = on_timer_write;
+		avr->io[AVR_DATA_TO_IO(registers[i])].w.param = shim;
+	}
+	avr_irq_t *overflow = avr_get_interrupt_irq(avr, TIMER_OVERFLOW);
+	avr_irq_register_notify(overflow + AVR_INT_IRQ_PENDING, on_timer_overflow, shim);
 }
 
 /* A larger copy of one of simavr's two memories; it frees them with free. */
@@ -192,6 +387,8 @@ void shim_free(struct shim *shim)
 	}
 	free(shim->to_uart.at);
 	free(shim->from_uart.at);
+	free(shim->from_uart_controls.at);
+	free(shim->edges.at);
 	free(shim);
 }
 
@@ -236,6 +433,8 @@ static void on_reset(avr_t *avr)
 	shim->uart_is_full = 1;
 	shim->eeprom_writing = EEPROM_LEN;
 	shim->to_uart.len = shim->to_uart.taken = 0;
+	shim->waves_run = 0;
+	memset(shim->waves, 0, sizeof shim->waves);
 }
 
 void shim_reset(struct shim *shim, uint8_t cause)
@@ -246,7 +445,7 @@ void shim_reset(struct shim *shim, uint8_t cause)
 	if (avr->data[RESET_FLAGS] & RESET_BY_WATCHDOG)
 		avr_reset(avr);
 	avr->data[RESET_FLAGS] = cause;
-	shim->from_uart.len = 0;
+	shim->from_uart.len = shim->from_uart_controls.len = 0;
 }
 
 struct shim *shim_new(void)
@@ -275,6 +474,7 @@ struct shim *shim_new(void)
 	avr_register_io_write(avr, EEPROM_CONTROL, on_eeprom_control, shim);
 	shim->eeprom_writing = EEPROM_LEN;
 	connect_uart(shim);
+	connect_timer(shim);
 	return shim;
 }
 
@@ -343,10 +543,24 @@ int shim_uart_send(struct shim *shim, const uint8_t *bytes, size_t len)
 size_t shim_uart_waiting(struct shim *shim) { return shim->to_uart.len - shim->to_uart.taken; }
 size_t shim_uart_received(struct shim *shim) { return shim->from_uart.len; }
 
+/* Each byte with its UCSR0B behind it. */
 void shim_uart_take(struct shim *shim, uint8_t *to)
 {
-	memcpy(to, shim->from_uart.at, shim->from_uart.len);
-	shim->from_uart.len = 0;
+	for (size_t i = 0; i < shim->from_uart.len; i++) {
+		*to++ = shim->from_uart.at[i];
+		*to++ = i < shim->from_uart_controls.len ? shim->from_uart_controls.at[i] : 0;
+	}
+	shim->from_uart.len = shim->from_uart_controls.len = 0;
+}
+
+int shim_wave(struct shim *shim, int wave) { return shim->waves[wave].level; }
+void shim_watch_edges(struct shim *shim) { shim->edges_are_watched = 1; }
+size_t shim_edges(struct shim *shim) { return shim->edges.len / sizeof(uint64_t); }
+
+void shim_take_edges(struct shim *shim, uint64_t *to)
+{
+	memcpy(to, shim->edges.at, shim->edges.len);
+	shim->edges.len = 0;
 }
 
 static void eeprom(struct shim *shim, uint32_t request, uint8_t *bytes, uint16_t offset, uint32_t len)

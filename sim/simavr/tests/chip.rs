@@ -333,3 +333,67 @@ fn a_byte_of_the_eeprom_takes_its_time() {
     avr.run_for(100);
     assert!(avr.eeprom_is_misused(), "a second write before the first is done");
 }
+
+/// Writes a value to a register in data memory.
+fn set(address: u16, value: u8) -> [u16; 3] {
+    let [store, at] = sts(address, 16);
+    [ldi(16, value), store, at]
+}
+
+/// Words to timer 1: the high byte first.
+fn set_word(address: u16, value: u16) -> Vec<u16> {
+    [set(address + 1, (value >> 8) as u8), set(address, value as u8)].concat()
+}
+
+const TCCR1A: u16 = 0x80;
+const TCCR1B: u16 = 0x81;
+const TCCR1C: u16 = 0x82;
+const TCNT1: u16 = 0x84;
+const ICR1: u16 = 0x86;
+const OCR1A: u16 = 0x88;
+const OCR1B: u16 = 0x8A;
+
+/// The pins of OC1A and OC1B.
+const WAVES: [Pin; 2] = [Pin { port: Port::B, bit: 1 }, Pin { port: Port::B, bit: 2 }];
+
+/// The levels that follow each other at a pin, each with the cycles to the next.
+fn wave(avr: &mut Avr, pin: Pin) -> Vec<(bool, u64)> {
+    let edges: Vec<_> = avr.take_waves().into_iter().filter(|edge| edge.pin == pin).collect();
+    edges.windows(2).map(|pair| (pair[0].high, pair[1].cycle - pair[0].cycle)).collect()
+}
+
+#[test]
+fn timer_1_modulates_its_pins() {
+    // Up to 99 in 8 cycles each: OC1A is set at 29 and cleared at the bottom, OC1B cleared at 79 and set at the bottom.
+    let mut program = [
+        vec![ldi(16, 6), out(DDRB, 16)],
+        set(TCCR1A, 0xF0).to_vec(),
+        set(TCCR1C, 0xC0).to_vec(),
+        vec![out(GPIOR0, 16)],
+        set(TCCR1A, 0xE2).to_vec(),
+        set(TCCR1B, 0x18).to_vec(),
+        set_word(ICR1, 99),
+        set_word(OCR1A, 29),
+        set_word(OCR1B, 79),
+        set(TCCR1B, 0x1A).to_vec(),
+        set_word(TCNT1, 98),
+        vec![out(GPIOR0, 16)],
+    ]
+    .concat();
+    // Some cycles later a new compare value, and then none.
+    program.extend([ldi(17, 0), 0x9511, 0xF7F1]);
+    program.extend([set_word(OCR1A, 49), vec![out(GPIOR0, 16), rjmp(-1)]].concat());
+    let mut avr = running(&program);
+    avr.watch_waves();
+    assert_eq!(avr.run_to_mark(1_000), Stopped::Mark(0xC0));
+    assert_eq!(WAVES.map(|pin| avr.level(pin)), [true, true], "forced");
+    avr.run_to_mark(1_000);
+    avr.take_waves();
+    avr.run_to_mark(2_000);
+    avr.run_for(4_000);
+    let near = |cycles: u64, due: u64| cycles.abs_diff(due) <= 4;
+    let first: Vec<_> = wave(&mut avr, WAVES[0]);
+    println!("{first:?}");
+    assert!(first.iter().all(|&(high, cycles)| near(cycles, if high { 560 } else { 240 }) || near(cycles, 400)));
+    assert!(first.iter().any(|&(_, cycles)| near(cycles, 400)));
+}

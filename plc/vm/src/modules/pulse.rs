@@ -32,6 +32,8 @@ const IDLE: u8 = 1 << 7;
 
 /// Shortest cycle in units of time.
 const CYCLE_MIN: u16 = 2;
+/// Shortest cycle of trains in microseconds: the board makes each of their edges by an interrupt.
+const TRAIN_CYCLE_MIN_US: u32 = 50;
 
 /// The special memory of an output, and its event.
 #[derive(Debug, Clone, Copy)]
@@ -105,7 +107,7 @@ impl PulseOutputs {
             return false;
         }
         output.take_over(control, site, plan, memory);
-        let status = output.begin(control);
+        let Some(status) = output.begin(control) else { return false };
         write_status(site, status, plan, memory);
         true
     }
@@ -167,10 +169,13 @@ impl Output {
         }
     }
 
-    /// Does what the control byte says with the values taken over. Gives the status.
-    fn begin(&mut self, control: u8) -> u8 {
+    /// Does what the control byte says with the values taken over. Gives the status, unless it cannot be done.
+    fn begin(&mut self, control: u8) -> Option<u8> {
         let unit_us = if control & MILLISECONDS != 0 { 1000 } else { 1 };
         let (cycle_us, width_us) = (unit_us * u32::from(self.cycle), unit_us * u32::from(self.width));
+        if control & (ENABLE | MODULATION) == ENABLE && cycle_us < TRAIN_CYCLE_MIN_US {
+            return None;
+        }
         let train = Train { cycle_us, count: self.count };
         let is_train = matches!(self.task, Task::Trains(..));
         let aborted = if is_train { ABORTED } else { 0 };
@@ -191,7 +196,7 @@ impl Output {
             self.passed_us = 0;
         }
         self.task = task;
-        status
+        Some(status)
     }
 
     /// Time passes. Whether a train ends.
@@ -242,7 +247,7 @@ mod tests {
     #[test]
     fn modulation_is_on_for_its_width() {
         let mut output = OFF;
-        assert_eq!(output.begin(ENABLE | MODULATION | MILLISECONDS), IDLE);
+        assert_eq!(output.begin(ENABLE | MODULATION | MILLISECONDS), Some(IDLE));
         assert_eq!(levels(&mut output, 20), 0b1110000000_1110000000);
         // Wider from now on, in the same cycle; then always; then never.
         output.width = 5;
@@ -254,19 +259,22 @@ mod tests {
         output.width = 0;
         output.begin(ENABLE | MODULATION | MILLISECONDS);
         assert_eq!(levels(&mut output, 10), 0);
-        assert_eq!(output.begin(MODULATION), IDLE);
+        assert_eq!(output.begin(MODULATION), Some(IDLE));
         assert_eq!(output.level(), None);
     }
 
     #[test]
     fn a_train_has_its_pulses_and_ends() {
         let mut output = OFF;
-        assert_eq!(output.begin(ENABLE | MILLISECONDS), 0);
+        assert_eq!(output.begin(ENABLE | MILLISECONDS), Some(0));
         assert_eq!(levels(&mut output, 39), 0b1_1111_0000_0111_1100_0001_1111_0000);
         assert!(output.task != Task::None);
         assert!(output.pass(1) && output.task == Task::None);
-        // In microseconds it is over with the next scan.
-        output.begin(ENABLE);
+        // In microseconds it is over with the next scan, and cannot be faster than the board's.
+        output.cycle = 49;
+        assert_eq!((output.begin(ENABLE), output.task), (None, Task::None));
+        output.cycle = 50;
+        assert_eq!(output.begin(ENABLE), Some(0));
         assert!(output.pass(1) && output.task == Task::None);
     }
 
@@ -275,13 +283,13 @@ mod tests {
         let mut output = OFF;
         output.begin(ENABLE | MILLISECONDS);
         output.cycle = 2;
-        assert_eq!(output.begin(ENABLE | MILLISECONDS), 0);
-        assert_eq!(output.begin(ENABLE | MILLISECONDS), OVERFLOW);
+        assert_eq!(output.begin(ENABLE | MILLISECONDS), Some(0));
+        assert_eq!(output.begin(ENABLE | MILLISECONDS), Some(OVERFLOW));
         assert!(!output.pass(39) && output.pass(1));
         assert_eq!(levels(&mut output, 7), 0b1010101);
         assert!(output.pass(1) && output.task == Task::None);
         output.begin(ENABLE | MILLISECONDS);
-        assert_eq!(output.begin(0), IDLE | ABORTED);
+        assert_eq!(output.begin(0), Some(IDLE | ABORTED));
     }
 
     #[test]

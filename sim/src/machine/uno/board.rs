@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
-use plc_isa::{DATA_END, DATA_START, DIGITAL_INPUTS, DIGITAL_OUTPUTS, SLOT_END, SLOT_START};
-use plc_vm::{Fault, Inputs};
+use plc_isa::{DATA_END, DATA_START, DIGITAL_INPUTS, DIGITAL_OUTPUTS, PULSES_MODULE, SLOT_END, SLOT_START, state_at};
+use plc_vm::{Fault, Inputs, TimeOfDay};
 use simavr::{Avr, LoadError, Pin, Reset, Stopped};
 
+use super::characters::BoardCharacters;
 use super::firmware::{Firmware, Places};
 use super::pulses::BoardPulses;
 
@@ -23,12 +24,16 @@ const FIRST_OUTPUT: u8 = 8;
 /// Enables the interrupt that counts the milliseconds: register and bit.
 const TICK_INTERRUPT: (usize, u8) = (0x6E, 1 << 1);
 
-/// Timer 1: TCCR1A and TCCR1B, the bits of the latter that let it run, and ICR1.
-const TIMER_1_MODE: [u16; 2] = [0x80, 0x81];
-const TIMER_1_CLOCK: u8 = 0b111;
+/// Timer 1: TIMSK1, TCCR1A, ICR1.
+const TIMER_1_INTERRUPTS: u16 = 0x6F;
+const TIMER_1_MODE: u16 = 0x80;
 const TIMER_1_TOP: u16 = 0x86;
-/// For Q0.1 and Q0.2 the bits of TCCR1A that connect the pin, and the compare register.
-const MODULATED: [(u8, u16); 2] = [(0b1100_0000, 0x88), (0b0011_0000, 0x8A)];
+/// For Q0.1 and Q0.2 where in TCCR1A the two bits are that connect the pin, and the compare register. The pin is high up to
+/// that, or, if both are set, from there on.
+const MODULATED: [(u8, u16); 2] = [(6, 0x88), (4, 0x8A)];
+/// Where the module of pulse outputs has the ticks of a cycle that the output is on, and behind them those that it is off,
+/// while the interrupt makes the edges.
+const TICKS: u16 = state_at(PULSES_MODULE) + 6;
 
 /// Longest time from power to the start of the first scan.
 pub const BOOT_MAX: u64 = 5_000 * MS;
@@ -52,6 +57,7 @@ pub struct Board {
     pub avr: Avr,
     pub(super) places: Places,
     pub(super) pulses: BoardPulses,
+    pub(super) characters: BoardCharacters,
     /// Inputs whose pins have the other level than the program sees.
     pub(super) inverted_inputs: u8,
     scan_start: u64,
@@ -62,7 +68,14 @@ impl Board {
     pub fn new(firmware: &Firmware) -> Result<Board, LoadError> {
         let mut avr = Avr::new();
         avr.load_elf(&firmware.elf)?;
-        Ok(Board { avr, places: firmware.places, pulses: BoardPulses::default(), inverted_inputs: 0, scan_start: 0 })
+        Ok(Board {
+            avr,
+            places: firmware.places,
+            pulses: BoardPulses::default(),
+            characters: BoardCharacters::default(),
+            inverted_inputs: 0,
+            scan_start: 0,
+        })
     }
 
     /// Writes the program slot, as far as it reaches; the rest of it is erased.
@@ -101,7 +114,9 @@ impl Board {
         let end = self.avr.cycles() + cycles;
         loop {
             self.drive_pulses();
-            let until = self.pulses.next_cycle().map_or(end, |cycle| cycle.min(end));
+            self.characters.pass(self.pulses.origin, &mut self.avr);
+            let next = [self.pulses.next_cycle(), self.characters.next_cycle(self.pulses.origin)];
+            let until = next.into_iter().flatten().fold(end, u64::min);
             match self.avr.run_to_mark(until.saturating_sub(self.avr.cycles())) {
                 Stopped::Limit if until < end => {}
                 Stopped::Limit => return Ok(None),
@@ -162,6 +177,15 @@ impl Board {
         self.write(self.places.tick, &ms.to_le_bytes());
     }
 
+    /// Sets the time of day, as of now, for programs that read it (TODR).
+    pub fn set_time_of_day(&mut self, time: TimeOfDay) {
+        let Some(at) = self.places.time_of_day else { return };
+        let number = |bcd: u8| bcd / 16 * 10 + bcd % 16;
+        let [year, month, day, hour, minute, second, ..] = time.to_buffer().map(number);
+        let [a, b, c, d] = self.tick().to_le_bytes();
+        self.write(at, &[year, month, day, hour, minute, second, a, b, c, d]);
+    }
+
     /// Switches the interrupt off that lets the millisecond clock go on, and that serves the analog inputs.
     pub fn stop_clock(&mut self) {
         let (register, bit) = TICK_INTERRUPT;
@@ -195,14 +219,20 @@ impl Board {
         levels & driven | off_levels & !driven
     }
 
-    /// The part of the time in thousandths that the pin of output Q0.`output` is high, where timer 1 modulates it up to
-    /// ICR1.
+    /// The part of the time in thousandths that the pin of output Q0.`output` is high, or with trains and modulation in
+    /// milliseconds the output is on, where timer 1 modulates it up to ICR1.
     pub fn duty(&self, output: u8) -> Option<u16> {
-        let (mode_bits, compare) = *MODULATED.get(usize::from(output).checked_sub(1)?)?;
-        let [mode_a, mode_b] = TIMER_1_MODE.map(|register| self.byte(register));
+        let (mode_at, compare) = *MODULATED.get(usize::from(output).checked_sub(1)?)?;
         let word = |low: u16| u32::from(u16::from_le_bytes([self.byte(low), self.byte(low + 1)]));
-        let is_modulated = mode_a & mode_bits != 0 && mode_b & TIMER_1_CLOCK != 0;
-        is_modulated.then(|| (1000 * (word(compare) + 1).min(word(TIMER_1_TOP) + 1) / (word(TIMER_1_TOP) + 1)) as u16)
+        let (on, off) = match (self.byte(TIMER_1_MODE) >> mode_at & 3, self.byte(TIMER_1_INTERRUPTS) & 1) {
+            (0, _) => return None,
+            (_, 1) => (word(TICKS), word(TICKS + 2)),
+            (mode, _) => {
+                let (top, compare) = (word(TIMER_1_TOP), word(compare).min(word(TIMER_1_TOP)));
+                if mode == 3 { (top - compare, compare + 1) } else { (compare + 1, top - compare) }
+            }
+        };
+        Some((1000 * on / (on + off).max(1)) as u16)
     }
 
     /// Sets the voltages at the analog inputs.

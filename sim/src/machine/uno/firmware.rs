@@ -25,6 +25,9 @@ pub(super) struct Places {
     pub analog_fresh: u16,
     /// Mode, and fault in four bytes.
     pub status: u16,
+    /// The time of day: year in the century, month, day, hour, minute, second, and the millisecond clock then. Only in a
+    /// firmware with modules.
+    pub time_of_day: Option<u16>,
     /// One past its variables: from here on SRAM is for the stack.
     pub free: u16,
 }
@@ -46,7 +49,8 @@ impl Firmware {
         let missing: Vec<_> = names.into_iter().filter(|name| elf.data_symbol(name).is_none()).collect();
         ensure!(missing.is_empty(), "no firmware of uno200: it lacks {}", missing.join(", "));
         let [tick, analog, analog_fresh, status, free] = names.map(|name| elf.data_symbol(name).unwrap_or_default());
-        Ok(Firmware { elf, places: Places { tick, analog, analog_fresh, status, free } })
+        let time_of_day = elf.data_symbol("TIME_OF_DAY");
+        Ok(Firmware { elf, places: Places { tick, analog, analog_fresh, status, time_of_day, free } })
     }
 }
 

@@ -4,6 +4,7 @@
 //! board's memory, at the addresses of the program's plan.
 
 mod board;
+mod characters;
 mod firmware;
 mod free_running;
 mod lock_step;
@@ -12,7 +13,7 @@ mod pulses;
 use anyhow::Result;
 use awl_asm::native::{TranslateError, translate};
 use plc_isa::{DIGITAL_INPUTS, Plan, Program, Settings, verify};
-use plc_vm::{Fault, Inputs};
+use plc_vm::{Fault, Inputs, TimeOfDay};
 use simavr::Avr;
 
 use super::points::{self, Points, input_byte, output_byte, replaced};
@@ -23,6 +24,7 @@ pub use board::{Board, Broken, MS, Mark, SRAM};
 pub use firmware::Firmware;
 
 use board::STACK_PAINT;
+use characters::BoardCharacters;
 use pulses::BoardPulses;
 
 /// Inputs I0.0 to I0.5 have a pin.
@@ -82,6 +84,8 @@ pub struct Uno {
     place_of: PlaceOf,
     inputs: Inputs,
     writes: Vec<Write>,
+    /// The clock is set to this before the next scan.
+    time_of_day: Option<TimeOfDay>,
     /// How many cycles the last scan took.
     scan_cycles: u64,
     /// Lock-step: the clock's time at 0 ms, and how long a scan may take while it stands still.
@@ -106,6 +110,7 @@ impl Uno {
             place_of,
             inputs: Inputs::default(),
             writes: Vec::new(),
+            time_of_day: None,
             scan_cycles: 0,
             clock_start_ms: 0,
             held_cycles_max: lock_step::HELD_CYCLES_MAX,
@@ -124,10 +129,12 @@ impl Uno {
         self.board.insert(translated.as_ref().unwrap_or(&image));
         self.program = program;
         self.board.pulses = BoardPulses::default();
+        self.board.characters = BoardCharacters::default();
         self.board.inverted_inputs = self.settings().invert_inputs;
         self.at = At::Off;
         self.inputs = Inputs::default();
         self.writes.clear();
+        self.time_of_day = None;
         self.scan_cycles = 0;
         (self.clock_start_ms, self.held_cycles_max) = (0, lock_step::HELD_CYCLES_MAX);
         Ok(())
@@ -212,6 +219,9 @@ impl Uno {
             let byte = replaced(self.board.byte(address), mask, value);
             self.board.write(address, &[byte]);
         }
+        if let Some(time) = self.time_of_day.take() {
+            self.board.set_time_of_day(time);
+        }
     }
 
     /// A byte of outputs: pins where there are some, else the process image while it is in force.
@@ -276,7 +286,14 @@ impl Machine for Uno {
     fn act(&mut self, action: &Action) -> Result<(), MachineError> {
         let error = |message: &str| Err(MachineError(message.to_string()));
         match *action {
-            _ if self.clock == Clock::LockStep => error("only a board with its own clock takes pulses"),
+            Action::SetClock { .. } if self.board.places.time_of_day.is_none() => {
+                error("the firmware of this board has no clock that could be set")
+            }
+            Action::SetClock { time, .. } => {
+                self.time_of_day = Some(time);
+                Ok(())
+            }
+            _ if self.clock == Clock::LockStep => error("only a board with its own clock takes pulses and characters"),
             Action::Pulse(pulse) if (0..8).any(|input| pulse.drives(input) && INPUT_PINS >> input & 1 == 0) => {
                 error("the inputs with a pin on the Uno, which pulses can come at, are I0.0 to I0.5")
             }
@@ -284,9 +301,15 @@ impl Machine for Uno {
                 self.board.pulses.begin(pulse);
                 Ok(())
             }
-            Action::Receive { .. } => error("no characters can be sent to a virtual Uno here"),
-            Action::SetClock { .. } => error("the board's clock is set by its program (TODW)"),
+            Action::Receive { at_ms, ref bytes } => {
+                self.board.characters.receive(at_ms, bytes);
+                Ok(())
+            }
         }
+    }
+
+    fn take_sent(&mut self) -> Result<Vec<u8>, MachineError> {
+        Ok(BoardCharacters::take_sent(&mut self.board.avr))
     }
 
     fn scan(&mut self, now_ms: u64) {
