@@ -19,8 +19,9 @@ pub trait Environment {
     /// The millisecond clock. Wraps after 49.7 days; only differences count.
     fn now_ms(&mut self) -> u32;
 
-    /// The program jumps back: `bytes` bytes of code, at least the jump's own, make up the pass that ends
-    /// here. Returns whether the scan's watchdog time is over. Nothing else can spend unlimited time.
+    /// The program jumps back: `bytes` bytes of code, at least the jump's own, make up the pass that ends here. Or an
+    /// interrupt routine begins, which takes as long as so many bytes. Returns whether the scan's watchdog time is over.
+    /// Nothing else can spend unlimited time.
     fn is_overdue(&mut self, bytes: u16) -> bool;
 
     /// WDR: the watchdog time of this scan starts again.

@@ -15,6 +15,8 @@ use crate::range;
 use crate::special::PROGRAMMING_ERROR;
 use crate::timer::Timer;
 
+/// Bytes of code that take about as long as an interrupt routine's begin and end.
+const INTERRUPT_LEN: u16 = 75;
 /// Bytes of CALL.
 const CALL_LEN: u16 = 2;
 /// Where SMB1 is, the status of results.
@@ -417,6 +419,8 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
             return Flow::Next;
         }
         match self.events.take(self.program.plan(), self.memory) {
+            // One can be the cause of the next, without end.
+            Some(_) if self.environment.is_overdue(INTERRUPT_LEN) => self.leave(Exit::Watchdog),
             Some(routine) => {
                 self.calls.interrupt(Frame { return_to: here, stack: self.stack }, self.memory);
                 self.enter(routine)
