@@ -11,12 +11,13 @@ use crate::ast::{Program, Span, UnitId, UnitKind};
 use crate::check::{operand_span, span_of};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::extent::extent;
+use crate::pointers::LOCAL_LEN;
 use crate::select::{Argument, Selected};
 
 /// How deep calls can be nested from the main program (reference 1.8).
-const DEPTH_MAX: usize = 8;
+pub(crate) const DEPTH_MAX: usize = 8;
 /// How deep calls can be nested from an interrupt routine.
-const INTERRUPT_DEPTH_MAX: usize = 1;
+pub(crate) const INTERRUPT_DEPTH_MAX: usize = 1;
 
 /// A program unit with its code.
 #[derive(Debug)]
@@ -265,7 +266,7 @@ impl Units {
 
     /// The bytes of local memory that each unit uses.
     fn used_locals(&self, program: &Program, code: &[Selected]) -> Vec<Vec<bool>> {
-        let mut used = vec![vec![false; usize::from(Area::L.size())]; self.parts.len()];
+        let mut used = vec![vec![false; usize::from(LOCAL_LEN)]; self.parts.len()];
         let mut mark = |unit: usize, first: u16, len: u16| {
             for byte in used[unit].iter_mut().skip(usize::from(first)).take(usize::from(len)) {
                 *byte = true;

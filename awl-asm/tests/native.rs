@@ -8,7 +8,8 @@ use awl_asm::assemble::assemble;
 use awl_asm::native::{Options, TranslateError, Translated, translate, translate_with};
 use awl_asm::source::Source;
 use plc_isa::{
-    CRC_LEN, ENTRY_LEN, Header, ImageError, ImageFault, NATIVE_INTERFACE, Op, ProgramMemory, SLOT_LEN, decode, verify,
+    CRC_LEN, ENTRY_LEN, Header, ImageError, ImageFault, NATIVE_INTERFACE, Op, Operand, ProgramMemory, SLOT_LEN, decode,
+    verify,
 };
 
 const PROGRAM: &str = "\
@@ -219,17 +220,113 @@ fn the_command_says_that_bytecode_would_fit() {
     assert!(output.status.success(), "{}", stderr(&output));
 }
 
-#[test]
-fn what_cannot_be_translated_is_said() {
-    for (program, what) in [
-        ("LD I0.0\nAENO\n= Q0.0\n", "AENO"),
-        ("LDD= VD0, 5\n= Q0.0\n", "comparisons"),
-        ("LDI I0.0\n= Q0.0\n", "immediate contacts"),
-        ("NETWORK 1\nLSCR S0.0\nNETWORK 2\nSCRE\n", "sequence control"),
-        ("LD I0.0\nENI\n= Q0.0\n", "interrupts"),
-    ] {
-        let Err(error @ TranslateError::Missing { .. }) = translate(&assembled(program)) else { panic!("{program}") };
-        assert!(error.to_string().contains(what), "{error}");
+/// A main program with units of all kinds: `Work` is called by both, `Alone` by nobody.
+const UNITS: &str = "\
+ORGANIZATION_BLOCK MAIN:OB1
+BEGIN
+LBL 1
+LD SM0.1
+ATCH Timed, 10
+MOVB 20, SMB34
+ENI
+NETWORK 2
+LSCR S0.0
+LD I0.0
+SCRT S0.1
+SCRE
+LD I0.1
+CALL Work, 5, VD10
+LDR> VD10, 2.5
+AENO
+JMP 1
+END_ORGANIZATION_BLOCK
+INTERRUPT_BLOCK Timed:INT0
+BEGIN
+LD SM0.0
+CALL Work, 7, VD20
+JMP 2
+INCW VW0
+LBL 2
+MOVR 1.25, VD14
+END_INTERRUPT_BLOCK
+SUBROUTINE_BLOCK Work:SBR0
+VAR_INPUT
+n:INT;
+END_VAR
+VAR_OUTPUT
+sum:DINT;
+END_VAR
+BEGIN
+LD SM0.0
+MOVD 1000000, #sum
+FOR VW2, 1, #n
+INCD #sum
+NEXT
+LD I0.5
+CRET
+INCW VW4
+END_SUBROUTINE_BLOCK
+SUBROUTINE_BLOCK Alone:SBR1
+BEGIN
+LD SM0.0
+INCW VW6
+END_SUBROUTINE_BLOCK
+";
+
+/// The instructions of a unit from an offset on, to its end.
+fn unit<P: ProgramMemory>(memory: &P, mut at: u16) -> Vec<Op> {
+    let mut ops = Vec::new();
+    while !matches!(ops.last(), Some(Op::Ret | Op::MainEnd)) {
+        let decoded = decode(memory, at).unwrap();
+        ops.push(decoded.op);
+        at += decoded.len;
     }
-    translate(&assembled("LD I0.0\nLBL 1\nMOVR 1.5, VD0\n")).unwrap();
+    ops
+}
+
+#[test]
+fn what_interrupts_execute_stays_bytecode() {
+    let bytecode = assembled(UNITS);
+    let native = translated(UNITS);
+    let (before, after) = (verify(&bytecode).unwrap(), verify(Board(&native.image)).unwrap());
+    let (before, after) = (before.plan(), after.plan());
+    let named = |wanted| (0..before.header.routines).find(|&index| before.routine_name(index) == wanted).unwrap();
+    let (work, timed) = (named((false, 0)), named((true, 0)));
+    for routine in [work, timed] {
+        let ops = unit(&Board(&native.image), after.routine(routine));
+        assert_eq!(ops, unit(&bytecode, before.routine(routine)));
+    }
+    // Labels lead to where their routine has moved to: that of the main program is not needed.
+    let ops = unit(&Board(&native.image), after.label(1));
+    assert_eq!((before.header.labels, after.header.labels, ops[0]), (2, 2, Op::Lbl));
+    // Machine code: the main program and what it calls.
+    let translated = native.instructions.iter().map(|instruction| decode(&bytecode, instruction.at).unwrap().op);
+    let (main, work) = (unit(&bytecode, before.code_at()), unit(&bytecode, before.routine(work)));
+    assert_eq!(translated.collect::<Vec<_>>(), [main, work].concat());
+    let follow = native.instructions.windows(2).all(|pair| pair[0].native.end == pair[1].native.start);
+    assert!(follow, "one behind the other");
+}
+
+/// The assembler does not allow it, the loader does; the board would say so in SM4.3.
+#[test]
+fn calls_that_are_nested_too_deep_are_not_translated() {
+    let chain = |first: u8, last: u8| {
+        let routine = |number: u8| {
+            let next = if number < last { format!("CALL SBR{}", number + 1) } else { "INCW VW0".to_string() };
+            format!("SUBROUTINE_BLOCK S{number}:SBR{number}\nBEGIN\nLD SM0.0\n{next}\nEND_SUBROUTINE_BLOCK\n")
+        };
+        (first..=last).map(routine).collect::<String>()
+    };
+    let main = "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nLD SM0.0\nCALL SBR0\nCALL SBR20\nEND_ORGANIZATION_BLOCK\n";
+    let mut image = assembled(&format!("{main}{}{}", chain(0, 7), chain(20, 21)));
+    translate(&image).unwrap();
+    // The last but one of the long chain calls the first of the short one.
+    let call = |routine| Op::Call.instruction().encode(&[Operand::Number(routine)]).unwrap().bytes().to_vec();
+    let at = image.windows(2).position(|bytes| bytes == call(7)).unwrap();
+    image[at..at + 2].copy_from_slice(&call(8));
+    let end = image.len() - usize::from(CRC_LEN);
+    let crc = plc_isa::Crc32::of(&image[..end]);
+    image[end..].copy_from_slice(&crc.to_le_bytes());
+    let Err(error @ TranslateError::Missing { .. }) = translate(&image) else { panic!("it is translated") };
+    assert!(error.to_string().contains("nested so deep"), "{error}");
 }

@@ -27,6 +27,12 @@ fn random_programs_are_the_same_translated() {
     assert_random_programs_are_the_same(Code::Native, Programs::Core);
 }
 
+/// Comparisons and boxes of modules, immediate contacts, AENO, subroutines, sequences.
+#[test]
+fn random_modules_and_units_are_the_same_translated() {
+    assert_random_programs_are_the_same(Code::Native, Programs::Short);
+}
+
 /// Translated images with a few bytes changed and the checksum right again, in what the loader can check: header, tables,
 /// entry. The board says what the loader's check says on the host to a memory that takes machine code.
 #[test]

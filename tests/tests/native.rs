@@ -20,7 +20,7 @@ use tests::effort::effort;
 use tests::image::OnBoard;
 use tests::measure::programs;
 use tests::naive;
-use tests::random::{random_inputs, random_program, random_step_ms};
+use tests::random::{Offer, random_inputs, random_program, random_program_of, random_step_ms};
 
 /// Time stands still within a scan. A program that loops for longer than this has no end.
 #[derive(Default)]
@@ -285,7 +285,9 @@ fn random_programs_do_the_same_translated() {
     for seed in first..first + count {
         let mut rng = Rng::with_seed(seed);
         let size = rng.usize(5..220);
-        let text = random_program(&mut rng, size);
+        // Every third with subroutines and sequences.
+        let offer = if seed % 3 == 0 { Offer::units() } else { Offer::core() };
+        let text = random_program_of(&mut rng, size, offer);
         let image = image_of(&format!("seed {seed}"), &text);
         let options = Options { pins: seed % 4 != 0 };
         let translated = match translate_with(&image, options) {

@@ -133,8 +133,16 @@ pub enum Avr {
     Jmp(u16),
     /// Calls.
     Call(u16),
+    /// Calls at most 2,047 words away.
+    Rcall(u16),
     /// Returns.
     Ret,
+    /// Pushes onto the hardware stack.
+    Push(Reg),
+    /// Pops from there.
+    Pop(Reg),
+    /// Loads from an I/O address.
+    In(Reg, u8),
 }
 
 /// Words that a branch can go forward from the instruction behind it; back it is one more.
@@ -156,7 +164,8 @@ impl Avr {
     pub fn cycles(self) -> u32 {
         match self {
             Avr::Lds(..) | Avr::Sts(..) | Avr::Ldd(..) | Avr::Std(..) | Avr::Rjmp(_) => 2,
-            Avr::Jmp(_) => 3,
+            Avr::Push(_) | Avr::Pop(_) => 2,
+            Avr::Jmp(_) | Avr::Rcall(_) => 3,
             Avr::Call(_) | Avr::Ret => 4,
             _ => 1,
         }
@@ -199,7 +208,11 @@ impl Avr {
             Avr::Rjmp(target) => [0xC000 | relative(target) as u16 & 0x0FFF, 0],
             Avr::Jmp(target) => [0x940C, target / 2],
             Avr::Call(target) => [0x940E, target / 2],
+            Avr::Rcall(target) => [0xD000 | relative(target) as u16 & 0x0FFF, 0],
             Avr::Ret => [0x9508, 0],
+            Avr::Push(r) => [0x920F | d_field(r), 0],
+            Avr::Pop(d) => [0x900F | d_field(d), 0],
+            Avr::In(d, io) => [0xB000 | d_field(d) | u16::from(io & 0x30) << 5 | u16::from(io & 0x0F), 0],
         }
     }
 }
@@ -296,6 +309,10 @@ mod tests {
         (Avr::Branch(Condition::T_CLEAR, 0x6002), &[0xF406]),
         (Avr::Rjmp(0x7000), &[0xC7FF]),
         (Avr::Rjmp(0x5002), &[0xC800]),
+        (Avr::Rcall(0x7000), &[0xD7FF]),
+        (Avr::Push(Reg(16)), &[0x930F]),
+        (Avr::Pop(Reg(17)), &[0x911F]),
+        (Avr::In(Reg(24), 0x09), &[0xB189]),
     ];
 
     #[test]

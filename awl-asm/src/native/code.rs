@@ -19,11 +19,11 @@ pub struct Piece(usize);
 /// How far a jump can go.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Reach {
-    /// A branch alone; for jumps the same as [`Near`](Reach::Near).
+    /// A branch alone; for jumps and calls the same as [`Near`](Reach::Near).
     Short,
-    /// `rjmp`.
+    /// `rjmp` or `rcall`.
     Near,
-    /// `jmp`.
+    /// `jmp` or `call`.
     Far,
 }
 
@@ -34,6 +34,7 @@ enum Item {
     Branch(Condition, Label, Reach),
     Jump(Label, Reach),
     Call(Vector, Cycles),
+    CallRoutine(Label, Reach),
     /// Loads Z with the address of a piece.
     PieceAddress(Piece),
 }
@@ -132,6 +133,11 @@ impl Code {
         self.items.push(Item::Call(vector, cycles));
     }
 
+    /// Appends the call of a routine of this code.
+    pub fn call_routine(&mut self, to: Label) {
+        self.items.push(Item::CallRoutine(to, Reach::Short));
+    }
+
     /// Appends the load of Z with the address of a bytecode piece. Equal pieces are stored once.
     pub fn piece_address(&mut self, piece: Vec<u8>) {
         let known = self.pieces.iter().position(|other| *other == piece);
@@ -189,7 +195,9 @@ impl Code {
         let mut changed = false;
         for (item, &at) in self.items.iter_mut().zip(addresses) {
             let words = item.words();
-            let (Item::Branch(_, to, reach) | Item::Jump(to, reach)) = item else { continue };
+            let (Item::Branch(_, to, reach) | Item::Jump(to, reach) | Item::CallRoutine(to, reach)) = item else {
+                continue;
+            };
             let distance = (i64::from(labels[to.number]) - i64::from(at)) / 2 - i64::from(words);
             // The jump of a longer form ends where the item ends, so that the distance stays the same.
             let needed = if is_between(distance, BRANCH_WORDS) {
@@ -224,6 +232,8 @@ impl Code {
                 ops.push(jump(label, reach));
             }
             Item::Jump(label, reach) => ops.push(jump(label, reach)),
+            Item::CallRoutine(label, Reach::Far) => ops.push(Avr::Call(to(label))),
+            Item::CallRoutine(label, _) => ops.push(Avr::Rcall(to(label))),
             Item::Call(vector, cycles) => {
                 ops.push(Avr::Call(vector.address()));
                 callee = cycles;
@@ -258,7 +268,7 @@ impl Item {
             Item::Op(op) => u32::from(op.words()),
             Item::Label(_) => 0,
             Item::Branch(_, _, reach) => 1 + reach.jump_words() * u32::from(*reach != Reach::Short),
-            Item::Jump(_, reach) => reach.jump_words(),
+            Item::Jump(_, reach) | Item::CallRoutine(_, reach) => reach.jump_words(),
             Item::Call(..) | Item::PieceAddress(_) => 2,
         }
     }
@@ -274,8 +284,15 @@ impl Reach {
 mod tests {
     use super::*;
 
-    /// A branch, or a jump with `condition` none, over so many words, backward or forward.
-    fn over(words: usize, condition: Option<Condition>, backward: bool) -> (Vec<Placed>, u32) {
+    /// What leads over so many words, backward or forward.
+    #[derive(Clone, Copy)]
+    enum Over {
+        Branch,
+        Jump,
+        Call,
+    }
+
+    fn over(words: usize, way: Over, backward: bool) -> (Vec<Placed>, u32) {
         let mut code = Code::default();
         let label = code.target();
         let filler = |code: &mut Code| (0..words).for_each(|_| code.op(Avr::Set));
@@ -283,9 +300,10 @@ mod tests {
             code.bind(label);
             filler(&mut code);
         }
-        match condition {
-            Some(condition) => code.branch(condition, label),
-            None => code.jump(label),
+        match way {
+            Over::Branch => code.branch(Condition::T_SET, label),
+            Over::Jump => code.jump(label),
+            Over::Call => code.call_routine(label),
         }
         if !backward {
             filler(&mut code);
@@ -299,34 +317,36 @@ mod tests {
 
     #[test]
     fn jumps_are_as_long_as_they_must_be() {
-        let lengths = |words, condition, backward| {
-            let (jumps, target) = over(words, condition, backward);
+        let lengths = |words, way, backward| {
+            let (jumps, target) = over(words, way, backward);
             let Some(last) = jumps.last() else { return 0 };
             let leads_to = match last.op {
-                Avr::Branch(_, to) | Avr::Rjmp(to) | Avr::Jmp(to) => u32::from(to),
+                Avr::Branch(_, to) | Avr::Rjmp(to) | Avr::Jmp(to) | Avr::Rcall(to) | Avr::Call(to) => u32::from(to),
                 _ => 0,
             };
             assert_eq!(leads_to, target);
-            assert!(last.leaves && jumps.iter().filter(|placed| placed.leaves).count() == 1);
+            let leaving = jumps.iter().filter(|placed| placed.leaves).count();
+            assert_eq!((last.leaves, leaving), if matches!(way, Over::Call) { (false, 0) } else { (true, 1) });
             jumps.iter().map(|placed| placed.op.words()).sum()
         };
-        let branch = Some(Condition::T_SET);
         for (words, expected) in [(0, 1), (63, 1), (64, 2), (2047, 2), (2048, 3)] {
-            assert_eq!(lengths(words, branch, false), expected, "a branch over {words} words");
+            assert_eq!(lengths(words, Over::Branch, false), expected, "a branch over {words} words");
         }
         for (words, expected) in [(0, 1), (63, 1), (64, 2), (2046, 2), (2047, 3)] {
-            assert_eq!(lengths(words, branch, true), expected, "a branch back over {words} words");
+            assert_eq!(lengths(words, Over::Branch, true), expected, "a branch back over {words} words");
         }
         for (words, expected) in [(0, 1), (2047, 1), (2048, 2)] {
-            assert_eq!(lengths(words, None, false), expected, "a jump over {words} words");
-            assert_eq!(lengths(words, None, true), expected, "a jump back over {words} words");
+            for way in [Over::Jump, Over::Call] {
+                assert_eq!(lengths(words, way, false), expected, "a jump over {words} words");
+                assert_eq!(lengths(words, way, true), expected, "a jump back over {words} words");
+            }
         }
     }
 
     #[test]
     fn the_branch_of_a_longer_form_goes_over_its_jump() {
         for words in [64, 2048] {
-            let (jumps, _) = over(words, Some(Condition::T_SET), false);
+            let (jumps, _) = over(words, Over::Branch, false);
             let behind = jumps[1].at + 2 * u32::from(jumps[1].op.words());
             assert_eq!(jumps[0].op, Avr::Branch(Condition::T_CLEAR, behind as u16));
         }

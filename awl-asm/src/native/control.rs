@@ -7,6 +7,7 @@ use super::code::Label;
 use super::effects::Effects;
 use super::emitter::{Emitter, TEMP, TEMP2, WORD, WORD2, Word, ZERO};
 use super::translate::{Source, Translator};
+use super::units::called;
 use super::vectors::Vector;
 
 /// Passes that a loop is taken for when it does not say.
@@ -15,15 +16,18 @@ const PASSES: u32 = 8;
 const PASSES_MAX: u32 = 1 << 12;
 
 impl Source<'_> {
-    /// Offsets to which instructions lead: labels, the first instruction in a FOR, the first behind a NEXT.
+    /// Offsets to which instructions lead: labels, the first instruction in a FOR, the first behind a NEXT, the first
+    /// behind a call with parameters.
     pub fn targets<P: ProgramMemory>(&self, plan: &Plan<P>) -> Vec<u16> {
         let labels = (0..plan.header.labels).map(|index| plan.label(index as u8));
-        let loops = self
-            .code
-            .iter()
-            .zip(&self.offsets)
-            .filter_map(|(decoded, &at)| matches!(decoded.op, Op::For | Op::Next).then_some(at + decoded.len));
-        labels.chain(loops).collect()
+        let others = self.code.iter().zip(&self.offsets).filter_map(|(decoded, &at)| {
+            match (decoded.op, decoded.operands().next()) {
+                (Op::For | Op::Next, _) => Some(at + decoded.len),
+                (Op::CallBegin, Some((_, Operand::Offset(end)))) => Some(end),
+                _ => None,
+            }
+        });
+        labels.chain(others).collect()
     }
 
     /// Enters how often each instruction is executed in a scan, about.
@@ -48,6 +52,21 @@ impl Source<'_> {
                 *within = (*within * passes).min(PASSES_MAX);
             }
         }
+        self.count_calls();
+    }
+
+    /// A routine is executed as often as it is called. It stands behind everybody who calls it.
+    fn count_calls(&mut self) {
+        let mut ends: Vec<usize> = self.routines.values().skip(1).copied().collect();
+        ends.push(self.code.len());
+        for ((&routine, &begin), end) in self.routines.iter().zip(ends) {
+            let before = self.code.iter().zip(&self.passes).take(begin);
+            let calls = before.filter(|(decoded, _)| called(decoded) == Some(routine)).map(|(_, &passes)| passes);
+            let calls = calls.sum::<u32>().clamp(1, PASSES_MAX);
+            for within in self.passes.get_mut(begin..end).unwrap_or_default() {
+                *within = (*within * calls).min(PASSES_MAX);
+            }
+        }
     }
 }
 
@@ -62,7 +81,7 @@ fn passes_of(init: Operand, last: Operand) -> u32 {
 }
 
 impl Translator<'_> {
-    fn target(&mut self, offset: u16) -> Label {
+    pub(super) fn target(&mut self, offset: u16) -> Label {
         let emitter = &mut self.emitter;
         *self.targets.entry(offset).or_insert_with(|| emitter.code.target())
     }
@@ -140,6 +159,9 @@ impl Translator<'_> {
     /// What stands behind the program: the ways out of it.
     pub(super) fn stubs(&mut self) {
         let emitter = &mut self.emitter;
+        if let Some(look) = self.look {
+            emitter.look_for_events(look);
+        }
         if self.stops {
             emitter.code.bind(self.stop);
             emitter.flush();

@@ -3,12 +3,18 @@
 use std::ops::Range;
 
 use plc_isa::{
-    C_BITS_START, DATA_END, DATA_START, Decoded, Kind, L_START, Op, Operand, Plan, ProgramMemory, SM_START,
-    T_BITS_START,
+    C_BITS_START, DATA_END, DATA_START, Decoded, ENO, Group, Kind, L_START, Op, Operand, Place, Plan, ProgramMemory,
+    SM_START, T_BITS_START,
 };
 
 /// SMB1, where arithmetic leaves its results' properties.
 pub const STATUS: u16 = SM_START + 1;
+
+/// SMB4, where interrupts and errors leave their marks.
+const ERRORS: u16 = SM_START + 4;
+
+/// All of data memory.
+const EVERYTHING: Range<u16> = DATA_START..DATA_END;
 
 /// Bytes that 255 bits can touch.
 const RANGE_BYTES_MAX: u16 = 33;
@@ -30,10 +36,8 @@ impl Effects {
     /// Of a bytecode instruction.
     pub fn of<P: ProgramMemory>(decoded: &Decoded, plan: &Plan<P>) -> Effects {
         let mut effects = Effects::default();
-        // Pointers, texts and tables lead anywhere.
         if decoded.op.instruction().module().is_some() {
-            let all = DATA_START..DATA_END;
-            return Effects { reads: vec![all.clone()], writes: vec![all] };
+            return Effects::of_module(decoded);
         }
         let len = bits_len(decoded);
         for (kind, operand) in decoded.operands() {
@@ -56,10 +60,57 @@ impl Effects {
             Op::Refresh | Op::ResetTimers | Op::Ton | Op::Tof | Op::Tonr => {
                 effects.writes.extend([T_BITS_START..C_BITS_START, slots(plan)]);
             }
+            Op::Atch | Op::Dtch | Op::Cevnt | Op::Eni | Op::Disi => {
+                effects = Effects { reads: only(EVERYTHING), writes: only(ERRORS..ERRORS + 1) };
+            }
             Op::ResetCounters => effects.writes.extend([C_BITS_START..L_START, slots(plan)]),
             _ => {}
         }
         effects
+    }
+
+    /// Of an instruction of a module.
+    fn of_module(decoded: &Decoded) -> Effects {
+        let group = decoded.op.instruction().group;
+        let mut effects = Effects { reads: Vec::new(), writes: only(ENO..ENO + 1) };
+        match decoded.op {
+            Op::Ldi | Op::Ldni | Op::Ai | Op::Ani | Op::Oi | Op::Oni => return effects,
+            _ if group == Group::Compare => {
+                // One by an illegal pointer leaves the program.
+                effects.reads.push(EVERYTHING);
+                return effects;
+            }
+            _ => {}
+        }
+        let computes = [Group::Math, Group::Logic, Group::Shift, Group::Conversion, Group::Real, Group::Move];
+        if !computes.contains(&group) {
+            return Effects::everything();
+        }
+        for (kind, operand) in decoded.operands() {
+            let (Some(len), Operand::Reference(reference)) = (value_len(kind), operand) else {
+                return Effects::everything();
+            };
+            match reference.place() {
+                Some(Place::Direct(address)) => {
+                    let list = if kind.is_output() { &mut effects.writes } else { &mut effects.reads };
+                    list.push(address..address + len);
+                }
+                Some(Place::Constant(_) | Place::Pool(_)) => {}
+                _ => return Effects::everything(),
+            }
+        }
+        effects.writes.extend([STATUS..STATUS + 1, ERRORS..ERRORS + 1]);
+        effects
+    }
+
+    fn everything() -> Effects {
+        Effects { reads: only(EVERYTHING), writes: only(EVERYTHING) }
+    }
+
+    /// And those of another instruction.
+    pub fn add(&mut self, other: Effects) {
+        self.reads.extend(other.reads);
+        self.writes.extend(other.writes);
     }
 
     /// Whether the byte must stand in memory before.
@@ -70,6 +121,20 @@ impl Effects {
     /// Whether the byte may be another one afterwards.
     pub fn writes(&self, address: u16) -> bool {
         self.writes.iter().any(|range| range.contains(&address))
+    }
+}
+
+fn only(range: Range<u16>) -> Vec<Range<u16>> {
+    std::iter::once(range).collect()
+}
+
+/// Bytes of the value that a module's instruction reads or writes; `None` for texts, tables and what is no value.
+fn value_len(kind: Kind) -> Option<u16> {
+    match kind {
+        Kind::ByteIn | Kind::ByteTo => Some(1),
+        Kind::WordIn | Kind::WordTo => Some(2),
+        Kind::DoubleIn | Kind::DoubleTo | Kind::RealIn | Kind::RealTo => Some(4),
+        _ => None,
     }
 }
 

@@ -266,8 +266,7 @@ impl<'a> Emitter<'a> {
     /// A label that the program can jump to.
     pub fn bind_target(&mut self, label: Label) {
         self.code.bind(label);
-        let modified = &self.modified;
-        self.registers.at_label(|address| modified.contains(&address));
+        self.forget_registers();
     }
 
     /// Calls a routine with these effects on data memory. `arguments` writes what it expects in registers.
@@ -289,6 +288,17 @@ impl<'a> Emitter<'a> {
         self.registers.forget_if(|address| effects.writes(address));
         let weight = self.weight();
         self.traffic.calls.push((effects, weight));
+    }
+
+    /// Calls a routine of the program: afterwards no more is known than at a label.
+    pub fn call_routine(&mut self, routine: Label) {
+        self.code.call_routine(routine);
+        self.forget_registers();
+    }
+
+    fn forget_registers(&mut self) {
+        let modified = &self.modified;
+        self.registers.at_label(|address| modified.contains(&address));
     }
 
     /// Stores the pinned bytes that the program changes: all of them, wherever this is reached from.

@@ -5,8 +5,8 @@ use std::fmt;
 use std::ops::Range;
 
 use plc_isa::{
-    CRC_LEN, Decoded, ENTRY_LEN, Group, Header, ImageError, NATIVE_INTERFACE, Op, Plan, Program, SLOT_LEN, SLOT_START,
-    verify,
+    CRC_LEN, ENTRY_LEN, Header, ImageError, LABEL_LEN, NATIVE_INTERFACE, Plan, Program, ROUTINE_LEN, SLOT_LEN,
+    SLOT_START, verify,
 };
 
 use super::code::PlacedCode;
@@ -14,6 +14,7 @@ use super::cost::{Cycles, either, ways};
 use super::emitter::{Emitter, Traffic};
 use super::pins;
 use super::translate::{Marks, Source, Translator};
+use super::units::{Unit, Units};
 use crate::encode::seal;
 
 /// How a program is translated.
@@ -34,7 +35,7 @@ impl Default for Options {
 pub struct Translated {
     /// The image.
     pub image: Vec<u8>,
-    /// The instructions of the bytecode, hidden ones included, in order.
+    /// The instructions of the bytecode, hidden ones included, in order. Routines that stay bytecode are left out.
     pub instructions: Vec<TranslatedInstruction>,
     /// What is executed before the first.
     pub start: Cycles,
@@ -63,7 +64,7 @@ pub struct TranslatedInstruction {
 pub enum TranslateError {
     /// The image is not valid.
     Invalid(ImageError),
-    /// There is no machine code for this instruction yet: its offset in the bytecode image, and what it belongs to.
+    /// There is no machine code for what begins with this instruction.
     Missing {
         /// Its offset in the bytecode image.
         at: u16,
@@ -85,7 +86,7 @@ impl fmt::Display for TranslateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             TranslateError::Invalid(error) => write!(f, "{} (offset {:#06x})", error.fault.message(), error.at),
-            TranslateError::Missing { what, .. } => write!(f, "{what} cannot be translated to machine code yet"),
+            TranslateError::Missing { what, .. } => write!(f, "{what} cannot be translated to machine code"),
             TranslateError::TooLarge { total_len, .. } => {
                 write!(f, "translated the program needs {total_len} bytes, the program slot has {SLOT_LEN}")
             }
@@ -103,37 +104,19 @@ pub fn translate(image: &[u8]) -> Result<Translated, TranslateError> {
 /// The same with a say in how.
 pub fn translate_with(image: &[u8], options: Options) -> Result<Translated, TranslateError> {
     let program = verify(image).map_err(TranslateError::Invalid)?;
-    let missing = program.instructions().find_map(|(at, decoded)| Some((at, untranslated(&decoded)?)));
-    if let Some((at, what)) = missing {
-        return Err(TranslateError::Missing { at, what });
-    }
-    let source = source_of(image, &program);
-    let (plain, traffic) = attempt(&source, program.plan(), &[], BTreeSet::new());
+    let units = Units::of(&program)?;
+    let source = source_of(image, &program, &units);
+    let target = Target { source: &source, units: &units, plan: program.plan() };
+    let (plain, traffic) = target.attempt(&[], BTreeSet::new());
     if !options.pins {
         return plain.finish();
     }
     let pinned = pins::choose(&traffic, program.plan());
     let changed = pins::changed(&traffic, &pinned);
-    let (with_pins, _) = attempt(&source, program.plan(), &pinned, changed);
+    let (with_pins, _) = target.attempt(&pinned, changed);
     // Which bytes deserve a register was estimated; what counts is what has become of it.
     let best = if with_pins.rank() <= plain.rank() { with_pins } else { plain };
     best.finish()
-}
-
-/// What an instruction belongs to that cannot be translated.
-fn untranslated(decoded: &Decoded) -> Option<&'static str> {
-    let instruction = decoded.op.instruction();
-    match decoded.op {
-        Op::CallBegin | Op::Call => Some("subroutines"),
-        Op::Lscr | Op::Scrt | Op::Scre | Op::Cscre | Op::ScrAnd => Some("sequence control"),
-        Op::Poll | Op::Atch | Op::Dtch | Op::Cevnt | Op::Eni | Op::Disi => Some("interrupts"),
-        Op::Aeno => Some("AENO"),
-        // Boxes are left to the firmware, but not what works on the logic stack.
-        _ if instruction.module().is_none() => None,
-        _ if instruction.group == Group::Compare => Some("comparisons of double words, reals, texts and pointers"),
-        Op::Ldi | Op::Ldni | Op::Ai | Op::Ani | Op::Oi | Op::Oni => Some("immediate contacts"),
-        _ => None,
-    }
 }
 
 /// A program that has been translated in one way, and may be too large.
@@ -154,33 +137,39 @@ impl Attempt {
     }
 }
 
-/// Translates with these bytes pinned, of which the program changes some.
-fn attempt<'a>(
+/// What is to be translated.
+struct Target<'a> {
     source: &'a Source<'a>,
+    units: &'a Units,
     plan: &'a Plan<&'a [u8]>,
-    pinned: &[u16],
-    changed: BTreeSet<u16>,
-) -> (Attempt, Traffic) {
-    let (code, marks, traffic) = Translator::new(source, Emitter::new(plan, pinned, changed)).run();
-    let tables = tables(source.image, &plan.header);
-    let pieces = code.pieces();
-    let pieces_at = tables.len() + usize::from(ENTRY_LEN);
-    let entry = (pieces_at + pieces.len()).next_multiple_of(2);
-    let code = code.place(flash_address(pieces_at), flash_address(entry));
-    let (instructions, start) = costs(source, &code, &marks);
-    let weights = instructions.iter().map(|instruction| instruction.cycles).zip(&source.passes);
-    let weight = weights.map(|(cycles, &passes)| u64::from(cycles.min + cycles.max) * u64::from(passes));
-    let attempt = Attempt {
-        weight: u64::from(2 * start.max) + weight.sum::<u64>(),
-        too_large: too_large(source, &code, &marks),
-        translated: Translated {
-            image: native_image(plan.header, tables, &pieces, entry, &code),
-            instructions,
-            start,
-            pinned: pinned.to_vec(),
-        },
-    };
-    (attempt, traffic)
+}
+
+impl Target<'_> {
+    /// Translates with these bytes pinned, of which the program changes some.
+    fn attempt(&self, pinned: &[u16], changed: BTreeSet<u16>) -> (Attempt, Traffic) {
+        let source = self.source;
+        let (code, marks, traffic) = Translator::new(source, Emitter::new(self.plan, pinned, changed)).run();
+        let mut start = Start::new(source, self.plan, self.units);
+        let pieces_at = start.bytes.len();
+        start.bytes.extend(code.pieces());
+        let entry = start.bytes.len().next_multiple_of(2);
+        start.bytes.resize(entry, 0);
+        let code = code.place(flash_address(pieces_at), flash_address(entry));
+        let (instructions, begin) = costs(source, &code, &marks);
+        let weights = instructions.iter().map(|instruction| instruction.cycles).zip(&source.passes);
+        let weight = weights.map(|(cycles, &passes)| u64::from(cycles.min + cycles.max) * u64::from(passes));
+        let attempt = Attempt {
+            weight: u64::from(2 * begin.max) + weight.sum::<u64>(),
+            too_large: too_large(source, &code, &marks),
+            translated: Translated {
+                image: native_image(source.native_header(self.plan), start, &code),
+                instructions,
+                start: begin,
+                pinned: pinned.to_vec(),
+            },
+        };
+        (attempt, traffic)
+    }
 }
 
 fn too_large(source: &Source<'_>, code: &PlacedCode, marks: &Marks) -> Option<TranslateError> {
@@ -198,43 +187,98 @@ fn flash_address(offset: usize) -> u32 {
     u32::from(SLOT_START) + offset as u32
 }
 
-fn source_of<'a>(image: &'a [u8], program: &Program<&'a [u8]>) -> Source<'a> {
-    let (offsets, code) = program.instructions().unzip();
-    let mut source = Source { image, code, offsets, passes: Vec::new() };
+fn source_of<'a>(image: &'a [u8], program: &Program<&'a [u8]>, units: &Units) -> Source<'a> {
+    let mut source = Source { image, ..Source::default() };
+    for unit in &units.translated {
+        if let Some(routine) = unit.routine {
+            source.routines.insert(routine, source.code.len());
+        }
+        source.offsets.extend(unit.code.iter().map(|(at, _)| at));
+        source.code.extend(unit.code.iter().map(|(_, decoded)| decoded));
+    }
+    // Only bytecode needs labels.
+    let keeps_labels = units.bytecode.iter().any(Unit::has_labels);
+    source.lost_labels = if keeps_labels { 0 } else { program.plan().header.labels };
+    source.reads_eno = [&units.translated, &units.bytecode].into_iter().flatten().any(Unit::reads_eno);
     source.estimate_passes(program.plan());
     source
 }
 
-/// Header and tables of a bytecode image without its labels.
-fn tables(image: &[u8], header: &Header) -> Vec<u8> {
-    let part = |from: u16, to: u16| image.get(usize::from(from)..usize::from(to)).unwrap_or(&[]);
-    [part(0, header.labels_at()), part(header.retained_at(), header.code_at())].concat()
+impl Source<'_> {
+    fn native_header(&self, plan: &Plan<&[u8]>) -> Header {
+        let header = plan.header;
+        Header { interface: NATIVE_INTERFACE, labels: header.labels - self.lost_labels, ..header }
+    }
 }
 
-fn native_image(mut header: Header, tables: Vec<u8>, pieces: &[u8], entry: usize, code: &PlacedCode) -> Vec<u8> {
-    let code_at = tables.len();
-    let mut image = tables;
-    image.extend_from_slice(&(entry as u16).to_le_bytes());
-    image.extend_from_slice(pieces);
-    image.resize(entry, 0);
+/// What stands before the machine code.
+struct Start {
+    /// Header, tables, without labels that nobody needs, the word for the entry, routines that stay bytecode.
+    bytes: Vec<u8>,
+    /// Where the code begins, and where the table of routines.
+    code_at: usize,
+    routines_at: usize,
+}
+
+impl Start {
+    fn new(source: &Source<'_>, plan: &Plan<&[u8]>, units: &Units) -> Start {
+        let header = &plan.header;
+        let part = |from: u16, to: u16| source.image.get(usize::from(from)..usize::from(to)).unwrap_or(&[]);
+        let lost_len = LABEL_LEN * source.lost_labels;
+        let labels_end = header.retained_at() - lost_len;
+        let bytes = [part(0, labels_end), part(header.retained_at(), header.code_at()), &[0; ENTRY_LEN as usize]];
+        let mut start = Start {
+            bytes: bytes.concat(),
+            code_at: usize::from(header.code_at() - lost_len),
+            routines_at: usize::from(header.routines_at() - lost_len),
+        };
+        for unit in &units.bytecode {
+            let at = start.bytes.len() as u16;
+            start.bytes.extend(unit.bytes_at(source.image, at, source.lost_labels));
+            start.set_routine(unit.routine.unwrap_or(0), at);
+            for label in (0..header.labels - source.lost_labels).filter(|&label| unit.has(plan.label(label as u8))) {
+                let there = plan.label(label as u8) - unit.at() + at;
+                start.set_word(usize::from(header.labels_at() + LABEL_LEN * label), there);
+            }
+        }
+        start
+    }
+
+    /// Enters where a routine begins.
+    fn set_routine(&mut self, routine: u8, offset: u16) {
+        let at = self.routines_at + usize::from(routine) * usize::from(ROUTINE_LEN);
+        self.set_word(at, offset);
+    }
+
+    fn set_word(&mut self, at: usize, value: u16) {
+        if let Some(place) = self.bytes.get_mut(at..at + 2) {
+            place.copy_from_slice(&value.to_le_bytes());
+        }
+    }
+}
+
+/// The image. What interrupts do not call is found by machine code alone, and the table of routines says nothing of it.
+fn native_image(header: Header, mut start: Start, code: &PlacedCode) -> Vec<u8> {
+    let code_at = start.code_at;
+    start.set_word(code_at, start.bytes.len() as u16);
+    let mut image = start.bytes;
     for placed in &code.ops {
         let words = placed.op.encode(placed.at as u16);
         image.extend(words.iter().take(placed.op.words().into()).flat_map(|word| word.to_le_bytes()));
     }
-    (header.interface, header.labels) = (NATIVE_INTERFACE, 0);
     seal(header, image, code_at)
 }
 
 /// What each instruction costs, and what stands before the first.
 fn costs(source: &Source<'_>, code: &PlacedCode, marks: &Marks) -> (Vec<TranslatedInstruction>, Cycles) {
-    let (exit, stop) = (code.label(marks.exit), code.label(marks.stop));
+    let exits: Vec<u32> = marks.exits.iter().map(|&label| code.label(label)).collect();
     let stubs = code.address(marks.stubs);
     let leaving = |from: u32| {
         let first = code.ops.partition_point(|placed| placed.at < from);
         ways(code.ops.get(first..).unwrap_or(&[]), |_| Some(Cycles::default())).away
     };
     let elsewhere = |target: u32| match target {
-        _ if target == exit || target == stop => leaving(target),
+        _ if exits.contains(&target) => leaving(target),
         // Only when the watchdog time is over.
         _ if target >= stubs => None,
         _ => Some(Cycles::default()),

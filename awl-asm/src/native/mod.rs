@@ -4,6 +4,7 @@
 
 mod avr;
 mod bits;
+mod calls;
 mod code;
 mod compares;
 mod control;
@@ -19,6 +20,7 @@ mod registers;
 mod stack;
 mod timers;
 mod translate;
+mod units;
 mod vectors;
 mod words;
 

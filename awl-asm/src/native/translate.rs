@@ -2,21 +2,22 @@
 
 use std::collections::BTreeMap;
 
-use plc_isa::{Decoded, Group, LABEL_LEN, Op, Operand, Place, PowerFlow, Reference};
+use plc_isa::{Decoded, ENO, Group, Op, Operand, PowerFlow};
 
 use super::avr::{OfBit, Reg};
 use super::bits::{ALWAYS_ON, Combine};
 use super::code::{Code, Label};
 use super::effects::Effects;
-use super::emitter::{Emitter, Traffic};
-use super::stack;
-use super::vectors::{Vector, bytecode_cycles};
+use super::emitter::{Emitter, Traffic, ZERO};
+use super::stack::StackUse;
+use super::units::Moved;
+use super::vectors::{BYTECODE, Vector, bytecode_cycles, piece};
 
 /// The values below the top of the logic stack, a bit each.
 pub const STACK: Reg = Reg(16);
 
 /// A decoded program.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Source<'a> {
     /// The bytecode image.
     pub image: &'a [u8],
@@ -26,6 +27,12 @@ pub struct Source<'a> {
     pub offsets: Vec<u16>,
     /// How often each is executed in a scan, about; parallel to `code`.
     pub passes: Vec<u32>,
+    /// The routines among them: where each begins, by its index.
+    pub routines: BTreeMap<u8, usize>,
+    /// How many labels the native image does not have; all or none.
+    pub lost_labels: u16,
+    /// Whether any instruction of the program asks for ENO.
+    pub reads_eno: bool,
 }
 
 /// Where the parts of the machine code begin.
@@ -35,10 +42,8 @@ pub struct Marks {
     pub instructions: Vec<usize>,
     /// What is reached from several places: behind the last instruction.
     pub stubs: usize,
-    /// Where the end of the program is reached from END.
-    pub exit: Label,
-    /// Where it is left by STOP.
-    pub stop: Label,
+    /// Where the end of each unit is reached from END or CRET, and where the program is left by STOP.
+    pub exits: Vec<Label>,
 }
 
 /// A program on its way to machine code.
@@ -49,12 +54,19 @@ pub struct Translator<'a> {
     pub(super) index: usize,
     /// Where jumps of the program lead, by offset.
     pub(super) targets: BTreeMap<u16, Label>,
+    /// Where the routines begin, by their index.
+    pub(super) routines: BTreeMap<u8, Label>,
+    /// The end of the unit.
     pub(super) exit: Label,
     pub(super) stop: Label,
     pub(super) stops: bool,
+    /// The routine that looks for events, if there is one.
+    pub(super) look: Option<Label>,
     /// Jumps back: where they go when the watchdog time is over, and their offsets.
     pub(super) overdue: Vec<(Label, u16)>,
-    needed: Vec<bool>,
+    pub(super) stack_use: StackUse,
+    /// How many of the next instructions are executed already, in one go with the last.
+    executed: usize,
     /// Values below the top of the stack. Only the three lowest bits count.
     pushed: u8,
 }
@@ -67,30 +79,56 @@ impl<'a> Translator<'a> {
         for offset in source.targets(emitter.plan) {
             targets.entry(offset).or_insert_with(|| emitter.code.target());
         }
-        let needed = stack::needed(&source.code);
-        let (stops, overdue) = (false, Vec::new());
-        Translator { emitter, source, index: 0, targets, exit, stop, stops, overdue, needed, pushed: 0 }
+        let routines = source.routines.keys().map(|&routine| (routine, emitter.code.label())).collect();
+        let stack_use = StackUse::of(&source.code);
+        Translator {
+            emitter,
+            source,
+            index: 0,
+            targets,
+            routines,
+            exit,
+            stop,
+            stops: false,
+            look: None,
+            overdue: Vec::new(),
+            stack_use,
+            executed: 0,
+            pushed: 0,
+        }
     }
 
     /// Translates the whole program.
     pub fn run(mut self) -> (Code, Marks, Traffic) {
         let mut instructions = Vec::with_capacity(self.source.code.len());
+        let mut exits = vec![self.stop, self.exit];
+        let begins: BTreeMap<usize, Label> =
+            self.source.routines.iter().filter_map(|(routine, &at)| Some((at, *self.routines.get(routine)?))).collect();
         self.emitter.load_pinned();
         let source = self.source;
         for (index, (decoded, &at)) in source.code.iter().zip(&source.offsets).enumerate() {
             instructions.push(self.emitter.code.mark());
             self.index = index;
             self.emitter.passes = source.passes.get(index).copied().unwrap_or(1);
+            if let Some(&label) = begins.get(&index) {
+                self.emitter.bind_target(label);
+                self.emitter.power_flow = Some(true);
+                self.exit = self.emitter.code.target();
+                exits.push(self.exit);
+            }
             if let Some(&label) = self.targets.get(&at) {
                 self.emitter.bind_target(label);
                 self.emitter.power_flow = None;
             }
-            self.instruction(decoded);
+            match self.executed.checked_sub(1) {
+                Some(left) => self.executed = left,
+                None => self.instruction(decoded),
+            }
             self.emitter.power_flow = self.power_flow_after(decoded);
         }
         let stubs = self.emitter.code.mark();
         self.stubs();
-        let marks = Marks { instructions, stubs, exit: self.exit, stop: self.stop };
+        let marks = Marks { instructions, stubs, exits };
         (self.emitter.code, marks, self.emitter.traffic)
     }
 
@@ -101,6 +139,10 @@ impl<'a> Translator<'a> {
             (Op::Ld, Some((_, Operand::Bit(ALWAYS_ON)))) | (Op::Next, _) => Some(true),
             (Op::Ldn, Some((_, Operand::Bit(ALWAYS_ON)))) => Some(false),
             (Op::Lps | Op::Nop, _) => before,
+            // Whoever goes on without power flow is behind the call.
+            (Op::CallBegin, _) => Some(true),
+            (Op::ScrAnd, _) => None,
+            (Op::Call | Op::Scrt | Op::Cscre, _) => before,
             _ => match decoded.op.instruction().group {
                 Group::Coil | Group::Math | Group::Move | Group::Timer | Group::Counter | Group::Hidden => before,
                 _ => None,
@@ -168,28 +210,75 @@ impl<'a> Translator<'a> {
                 self.emitter.branch_if(true, self.stop);
             }
             (Op::MainEnd, _) => self.main_end(),
+            _ => self.instruction_of_units(decoded, operands),
+        }
+    }
+
+    /// Subroutines, sequence control and AENO; the rest is left to the firmware.
+    fn instruction_of_units(&mut self, decoded: &Decoded, operands: &[Operand]) {
+        match (decoded.op, operands) {
+            (Op::CallBegin, &[Operand::Offset(end)]) => {
+                let end = self.target(end);
+                self.emitter.branch_if(false, end);
+            }
+            (Op::Call, &[Operand::Number(routine), ..]) => self.call(routine),
+            (Op::BitCopy, &[Operand::Bit(from), Operand::Bit(to)]) => self.copy_bit(from, to),
+            (Op::Cret | Op::Creti, _) => self.emitter.branch_if(true, self.exit),
+            (Op::Ret, _) => self.return_(),
+            (Op::Lscr, &[Operand::Bit(bit), Operand::Bit(scr)]) => self.load_scr(bit, scr),
+            (Op::ScrAnd, &[Operand::Bit(scr)]) => self.contact(Combine::And, scr, true),
+            (Op::Scrt, &[Operand::Bit(bit), Operand::Bit(own)]) => self.scr_transition(bit, own),
+            (Op::Cscre, &[Operand::Bit(scr)]) => self.conditional_scr_end(scr),
+            (Op::Scre, _) => {}
+            (Op::Poll, _) => self.poll(),
+            (Op::Aeno, &[Operand::Number(errors)]) => self.and_eno(errors),
             _ => self.by_bytecode(decoded),
         }
     }
 
-    /// The firmware executes the instruction.
+    /// The firmware executes the instruction, and with it those that follow and can be executed in one go. What it loads
+    /// is the new top of the stack.
     pub(super) fn by_bytecode(&mut self, decoded: &Decoded) {
-        let (image, plan) = (self.source.image, self.emitter.plan);
-        let at = self.source.offsets.get(self.index).copied().unwrap_or(0);
-        let bytes = image.get(usize::from(at)..usize::from(at + decoded.len));
-        let mut piece = bytes.unwrap_or(&[]).to_vec();
-        move_constants(decoded, &mut piece, LABEL_LEN * plan.header.labels);
-        piece.extend(Op::MainEnd.instruction().encode(&[]).iter().flat_map(|encoded| encoded.bytes()));
-        let cycles = bytecode_cycles(decoded, plan, image);
+        let (source, plan) = (self.source, self.emitter.plan);
+        let len = self.run_len(decoded);
+        self.executed = len - 1;
+        let (mut bytes, mut effects, mut cycles) = (Vec::new(), Effects::default(), BYTECODE);
+        for (decoded, &at) in source.code.iter().zip(&source.offsets).skip(self.index).take(len) {
+            bytes.extend(Moved::piece(source.lost_labels).instruction(source.image, at, decoded));
+            effects.add(Effects::of(decoded, plan));
+            cycles = cycles.then(bytecode_cycles(decoded, plan, source.image));
+        }
         let call = |emitter: &mut Emitter<'_>| {
-            emitter.call(Vector::Bytecode, cycles, Effects::of(decoded, plan), |emitter| {
-                emitter.code.piece_address(piece);
-            });
+            emitter.call(Vector::Bytecode, cycles, effects, |emitter| emitter.code.piece_address(piece(&bytes)));
         };
-        match decoded.op.instruction().power_flow {
-            PowerFlow::Needed => self.emitter.with_power_flow(call),
+        if decoded.stack.adds > 0 {
+            self.push();
+        }
+        let instruction = decoded.op.instruction();
+        match instruction.power_flow {
+            PowerFlow::Needed => {
+                // A box of a module that is not executed has no ENO.
+                if source.reads_eno && instruction.module().is_some() {
+                    self.emitter.write(ENO, ZERO);
+                }
+                self.emitter.with_power_flow(call);
+            }
             PowerFlow::Always => call(&mut self.emitter),
         }
+    }
+
+    /// How many instructions from this one on are one piece: boxes, or contacts and comparisons of modules, of which only
+    /// the first may load. Nothing may lead to between them.
+    fn run_len(&self, first: &Decoded) -> usize {
+        if !is_of_run(first) {
+            return 1;
+        }
+        let behind = self.source.code.iter().zip(&self.source.offsets).skip(self.index + 1);
+        let continues = |(decoded, at): &(&Decoded, &u16)| {
+            let alike = decoded.op.instruction().power_flow == first.op.instruction().power_flow;
+            alike && is_of_run(decoded) && decoded.stack.adds == 0 && !self.targets.contains_key(at)
+        };
+        1 + behind.take_while(continues).count()
     }
 
     /// The top of the stack gets a neighbour below, for which it stands.
@@ -213,21 +302,15 @@ impl<'a> Translator<'a> {
 
     /// Whether the value that this instruction pushes down is read later.
     pub(super) fn is_needed(&self) -> bool {
-        self.needed.get(self.index).copied().unwrap_or(true)
+        self.stack_use.is_needed(self.index)
     }
 }
 
-/// The constants of a native image begin earlier: it has no labels.
-fn move_constants(decoded: &Decoded, piece: &mut [u8], by: u16) {
-    let operands_len: usize = decoded.operands().map(|(kind, _)| usize::from(kind.stored_len())).sum();
-    let mut at = piece.len().saturating_sub(operands_len);
-    for (kind, operand) in decoded.operands() {
-        let len = usize::from(kind.stored_len());
-        if let (Operand::Reference(reference), Some(place)) = (operand, piece.get_mut(at..at + len))
-            && let Some(Place::Pool(offset)) = reference.place()
-        {
-            place.copy_from_slice(&Reference::to(Place::Pool(offset - by)).0.to_le_bytes());
-        }
-        at += len;
-    }
+/// Whether an instruction can be one of several that the firmware executes in one go: of a module, a box, or what combines the
+/// top of the stack with something.
+fn is_of_run(decoded: &Decoded) -> bool {
+    let instruction = decoded.op.instruction();
+    let contacts = [Op::Ldi, Op::Ldni, Op::Ai, Op::Ani, Op::Oi, Op::Oni];
+    let combines = instruction.group == Group::Compare || contacts.contains(&decoded.op);
+    instruction.module().is_some() && (instruction.power_flow == PowerFlow::Needed || combines)
 }

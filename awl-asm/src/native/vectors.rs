@@ -1,6 +1,6 @@
 //! The routines of the firmware that machine code calls: where they are and how long they take.
 
-use plc_isa::{Decoded, NATIVE_VECTORS, Plan, PowerFlow, ProgramMemory};
+use plc_isa::{Decoded, NATIVE_VECTORS, Op, Plan, PowerFlow, ProgramMemory};
 
 use super::cost::Cycles;
 use crate::cost::interpreter;
@@ -54,15 +54,21 @@ impl Vector {
     }
 }
 
-/// From the vector to the handler, and back through the end of the program behind the instruction.
-const BYTECODE: u32 = 59;
+/// A piece of bytecode for [`Vector::Bytecode`]: an instruction, and the end behind it.
+pub fn piece(instruction: &[u8]) -> Vec<u8> {
+    let end = Op::MainEnd.instruction().encode(&[]);
+    instruction.iter().chain(end.iter().flat_map(|encoded| encoded.bytes())).copied().collect()
+}
 
-/// Cycles of [`Vector::Bytecode`] for an instruction of a bytecode image, with power flow where it needs that.
+/// From the vector to the handler, and back through the end of the program behind the instruction.
+pub const BYTECODE: Cycles = Cycles::exactly(59);
+
+/// Cycles that [`Vector::Bytecode`] takes more for an instruction of a bytecode image, with power flow where it needs that.
 pub fn bytecode_cycles<P: ProgramMemory>(decoded: &Decoded, plan: &Plan<P>, image: &[u8]) -> Cycles {
     let ways = interpreter::ways(decoded, plan, image, None);
     let next = match decoded.op.instruction().power_flow {
         PowerFlow::Needed => ways.on,
         PowerFlow::Always => ways.next(),
     };
-    next.unwrap_or_default().then(Cycles::exactly(BYTECODE))
+    next.unwrap_or_default()
 }
