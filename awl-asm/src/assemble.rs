@@ -13,6 +13,7 @@ use crate::parser::parse;
 use crate::plan::{Demand, demand};
 use crate::select::{Selected, select};
 use crate::source::Source;
+use crate::special;
 use crate::units::Units;
 
 /// Everything known about an assembled program.
@@ -61,8 +62,9 @@ pub fn assemble_with_data(source: &Source, symbols: Vec<Symbol>, data: &[DataLin
     join(&mut program.data, data, &mut diagnostics);
     mnemonic_set::check(&source.text, &program, &mut diagnostics);
     let code = select(&program, &mut diagnostics);
-    diagnostics.extend(hardware::shared_pin(&program, &code));
+    diagnostics.extend(hardware::shared_timer(&program, &code));
     diagnostics.extend(hardware::not_on_board(&program, &code));
+    diagnostics.extend(special::without_effect(&program, &code));
     let units = Units::new(&program, &code, &mut diagnostics);
     let control = control(&program, &code, &units, &mut diagnostics);
     placement(&program, &code, &units, &mut diagnostics);

@@ -6,7 +6,8 @@ use plc_isa::Op;
 use crate::address::Address;
 use crate::ast::{Instruction, Operand, Program, Section, Span, Type, UnitId, Value, Variable};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::select::{ARGUMENTS_MAX, Argument, Selected, pick, read_only};
+use crate::misfit::value_words;
+use crate::select::{Argument, Selected, hidden, pick, read_only};
 
 /// Selects a call.
 pub(crate) fn expand(
@@ -59,14 +60,6 @@ fn parameters(program: &Program, unit: UnitId) -> Vec<&Variable> {
     variables.filter(|variable| variable.section != Section::Temp).collect()
 }
 
-fn hidden(op: Op, arguments: &[Argument], statement: u32, parameter: Option<u8>) -> Selected {
-    let mut all = [Argument::None; ARGUMENTS_MAX];
-    all[..arguments.len()].copy_from_slice(arguments);
-    let form = op.instruction().forms.first();
-    let kinds = form.map_or(&[][..], |form| form.kinds);
-    Selected { op, relation: None, arguments: all, kinds, written: 0, statement, parameter }
-}
-
 fn wrong_count(unit: UnitId, parameters: &[&Variable], source: &Instruction) -> Diagnostic {
     let words = |count: usize| match count {
         0 => "no parameter".to_owned(),
@@ -106,19 +99,25 @@ impl Copy<'_> {
     /// What is wrong with it.
     fn wrong(&self) -> Option<Diagnostic> {
         let (parameter, operand) = (self.parameter, self.operand);
-        let error = |message: String| Diagnostic::new(Code::ParameterKind, operand.span, message);
+        let help = format!("the parameter is {}", described(parameter));
+        let error = |message: String| Diagnostic::new(Code::ParameterKind, operand.span, message).help(help.clone());
         let is_constant =
             matches!(operand.value, Value::Constant(_) | Value::Real(_) | Value::Text(_) | Value::AddressOf(_));
         if is_constant && parameter.section != Section::In {
-            let message = format!("{} comes back from {}: a constant cannot take it", parameter.name, self.unit);
-            return Some(error(message).help(format!("the parameter is {}", described(parameter))));
+            let (name, unit) = (&parameter.name, self.unit);
+            return Some(error(match parameter.section {
+                Section::InOut => format!("{name} goes to {unit} and comes back: a constant cannot take it"),
+                _ => format!("{name} comes back from {unit}: a constant cannot take it"),
+            }));
         }
         if !self.fits() {
-            let message = format!("{} is handed over as {}", parameter.name, type_words(parameter.kind));
-            return Some(error(message).help(format!("the parameter is {}", described(parameter))));
+            let (wanted, found) = (type_words(parameter), value_words(&operand.value));
+            return Some(error(format!("{} is handed over as {wanted}, found {found}", parameter.name)));
         }
         match operand.value {
-            Value::Address(address) if parameter.section != Section::In => read_only(address, operand.span),
+            Value::Address(address) if parameter.section != Section::In => {
+                read_only(address, operand.span).map(|diagnostic| diagnostic.help(help))
+            }
             _ => None,
         }
     }
@@ -201,15 +200,20 @@ impl Copy<'_> {
     }
 }
 
-fn type_words(kind: Type) -> &'static str {
-    match kind {
-        Type::Bool => "a bit, TRUE or FALSE",
-        Type::Byte | Type::Char => "a byte or a constant 0 to 255",
-        Type::Word => "a word or a constant -32768 to 65535",
-        Type::Int => "a word or a constant -32768 to 32767",
-        Type::Dword => "a double word or a constant -2147483648 to 4294967295",
-        Type::Dint => "a double word or a constant -2147483648 to 2147483647",
-        Type::Real => "a double word or a real constant",
-        Type::Text => "a double word that points to a text, such as &VB100",
+/// What can be handed over: constants for an IN parameter only, and what comes back is no bit of a timer or counter.
+fn type_words(parameter: &Variable) -> &'static str {
+    match (parameter.kind, parameter.section == Section::In) {
+        (Type::Bool, true) => "a bit, TRUE or FALSE",
+        (Type::Byte | Type::Char, true) => "a byte or a constant 0 to 255",
+        (Type::Word, true) => "a word or a constant -32768 to 65535",
+        (Type::Int, true) => "a word or a constant -32768 to 32767",
+        (Type::Dword, true) => "a double word or a constant -2147483648 to 4294967295",
+        (Type::Dint, true) => "a double word or a constant -2147483648 to 2147483647",
+        (Type::Real, true) => "a double word or a real constant",
+        (Type::Text, _) => "a double word that points to a text, such as &VB100",
+        (Type::Bool, false) => "a bit of memory",
+        (Type::Byte | Type::Char, false) => "a byte",
+        (Type::Word | Type::Int, false) => "a word",
+        (Type::Dword | Type::Dint | Type::Real, false) => "a double word",
     }
 }

@@ -87,6 +87,7 @@ codes! {
     NeverCalled = "W0020";
     MixedMnemonics = "W0030";
     NotOnBoard = "W0031";
+    NoEffect = "W0032";
 }
 
 impl Code {

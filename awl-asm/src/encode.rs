@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use plc_isa::{
-    Bit, CRC_LEN, Crc32, DIRECTORY_AT, Encoded, HEADER_LEN, Header, Kind, LABEL_LEN, MODULES, NAME_LEN_MAX, Op,
-    Operand, ROUTINE_LEN, SLOT_LEN, SLOT_START, TimerResolution, timer_resolution,
+    Bit, CRC_LEN, Crc32, DIRECTORY_AT, Encoded, HEADER_LEN, Header, Kind, LABEL_LEN, MODULE_NAMES, MODULES,
+    NAME_LEN_MAX, Op, Operand, ROUTINE_LEN, SLOT_LEN, SLOT_START, TimerResolution, timer_resolution,
 };
 
 use crate::address::Address;
@@ -89,7 +89,10 @@ pub fn encode(checked: Checked<'_>, name: &str, diagnostics: &mut Vec<Diagnostic
     let Encoder { image, lines, .. } = encoder;
     let total_len = image.len() + usize::from(CRC_LEN);
     if total_len > usize::from(SLOT_LEN) {
-        diagnostics.push(too_large(program, code, &lines, total_len, code_at, demand));
+        let mut diagnostic = too_large(program, code, &lines, total_len, code_at);
+        diagnostic.help.extend(modules.describe());
+        diagnostic.help.extend(demand.describe());
+        diagnostics.push(diagnostic);
         return Encoding { image: Vec::new(), lines };
     }
     Encoding { image: seal(header, image, code_at), lines }
@@ -113,6 +116,20 @@ impl Modules {
             modules.bytes.extend_from_slice(bytes);
         }
         modules
+    }
+
+    /// What they take of the program slot, in a line for people; none without modules.
+    fn describe(&self) -> Option<String> {
+        let numbers = self.directory.iter().zip(0..).filter(|&(&at, _)| at != 0).map(|(_, number)| number);
+        let lens = numbers.map(|number: u8| {
+            let name = MODULE_NAMES.get(usize::from(number)).copied().unwrap_or_default();
+            (modules::bytes(number).len(), name)
+        });
+        let mut lens: Vec<(usize, &str)> = lens.collect();
+        lens.sort_unstable_by(|a, b| b.cmp(a));
+        let words: Vec<String> = lens.iter().map(|(len, name)| format!("{name} {len}")).collect();
+        let total = self.bytes.len();
+        (total > 0).then(|| format!("{total} bytes of them are modules: {}", words.join(", ")))
     }
 
     /// Writes them behind the header, and where they are into it.
@@ -178,27 +195,17 @@ fn header_of(checked: Checked<'_>, name: &str) -> Header {
     }
 }
 
-fn too_large(
-    program: &Program,
-    code: &[Selected],
-    lines: &[Line],
-    total_len: usize,
-    code_at: usize,
-    demand: &Demand,
-) -> Diagnostic {
+fn too_large(program: &Program, code: &[Selected], lines: &[Line], total_len: usize, code_at: usize) -> Diagnostic {
     // The end of the program takes a byte behind the last instruction.
     let limit = u32::from(SLOT_LEN - CRC_LEN) - 1;
     let first_outside = lines.iter().position(|line| line.at + u32::from(line.len) > limit).unwrap_or(0);
     let span = code.get(first_outside).map(|selected| span_of(program, selected)).unwrap_or_default();
     let message = format!("the program needs {total_len} bytes, the program slot has {SLOT_LEN}");
-    let mut diagnostic =
-        Diagnostic::new(Code::ProgramTooLarge, span, message).label("from here on it does not fit").help(format!(
-            "{} instructions take {} bytes, header and tables {code_at}",
-            lines.len(),
-            total_len - code_at - usize::from(CRC_LEN)
-        ));
-    diagnostic.help.extend(demand.describe());
-    diagnostic
+    Diagnostic::new(Code::ProgramTooLarge, span, message).label("from here on it does not fit").help(format!(
+        "{} instructions take {} bytes, what stands before them {code_at}",
+        lines.len(),
+        total_len - code_at - usize::from(CRC_LEN)
+    ))
 }
 
 struct Encoder<'a> {

@@ -27,7 +27,7 @@ pub(crate) fn extent(program: &Program, selected: &Selected, index: usize) -> u1
         Argument::Memory(Address::Word { .. }) => 2,
         _ => 1,
     };
-    element * count(program, selected, index)
+    element * elements(program, selected, index)
 }
 
 /// How many bits an instruction can touch from its bit operand on: what a count at run time can reach is part of the
@@ -43,7 +43,7 @@ fn bits(selected: &Selected, index: usize) -> u16 {
 }
 
 /// How many elements an operand stands for.
-fn count(program: &Program, selected: &Selected, index: usize) -> u16 {
+pub(crate) fn elements(program: &Program, selected: &Selected, index: usize) -> u16 {
     let literal = |place: usize| match selected.arguments[place] {
         Argument::Literal(count) => (count.clamp(1, 255)) as u16,
         _ => 1,

@@ -222,6 +222,9 @@ fn is_signed(instruction: &Instruction) -> bool {
 }
 
 pub(crate) fn class_of(instruction: &Instruction, kind: Kind) -> Class {
+    if !kind.is_written() {
+        return Class::NotWritten;
+    }
     let (least, most) = kind.range().map_or((0, 0), |(least, most)| (i64::from(least), i64::from(most)));
     match kind {
         Kind::PageBit | Kind::PageBitOut | Kind::PageBitReset | Kind::FarBit | Kind::FarBitOut | Kind::FarBitReset => {
@@ -251,14 +254,9 @@ pub(crate) fn class_of(instruction: &Instruction, kind: Kind) -> Class {
         Kind::Level | Kind::Number | Kind::Loop | Kind::LabelIndex | Kind::LabelNumber => Class::Number(most),
         Kind::Routine => Class::Routine,
         Kind::Event => Class::Event,
-        Kind::Edge
-        | Kind::LoopEnd
-        | Kind::LoopStart
-        | Kind::CallEnd
-        | Kind::ScrBit
-        | Kind::ErrorMask
-        | Kind::Relation
-        | Kind::RelationByte
-        | Kind::Here => Class::NotWritten,
+        _ => {
+            debug_assert!(false, "{kind:?} is written, and has no class");
+            Class::NotWritten
+        }
     }
 }

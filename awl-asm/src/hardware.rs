@@ -11,33 +11,50 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::modules;
 use crate::select::{Argument, Selected};
 
-/// Instructions that no Uno can execute: mnemonic, reason, nearest way.
-const REFUSED: [(&str, &str, &str); 4] = [
-    ("NETR", "there is no PPI network behind the Uno's serial line", "send and receive with XMT and RCV"),
-    ("NETW", "there is no PPI network behind the Uno's serial line", "send and receive with XMT and RCV"),
-    ("GPA", "there is no PPI network behind the Uno's serial line, so it has no address", "leave the instruction out"),
-    ("SPA", "there is no PPI network behind the Uno's serial line, so it has no address", "leave the instruction out"),
-];
+/// An instruction that Micro/WIN knows and uno200 has not.
+#[derive(Debug)]
+pub struct Refused {
+    /// Its mnemonic.
+    pub mnemonic: &'static str,
+    /// Why it cannot be executed.
+    pub reason: &'static str,
+    /// What comes nearest.
+    pub way: &'static str,
+    code: Code,
+}
 
-/// Instructions that could be, but are not: mnemonic, and what is there instead.
-const MISSING: [(&str, &str); 2] = [
-    ("TODRX", "uno200's clock knows no daylight saving time: read it with TODR"),
-    ("TODWX", "uno200's clock knows no daylight saving time: set it with TODW"),
+const fn no_network(mnemonic: &'static str, reason: &'static str, way: &'static str) -> Refused {
+    Refused { mnemonic, reason, way, code: Code::Hardware }
+}
+
+const fn no_saving_time(mnemonic: &'static str, way: &'static str) -> Refused {
+    let reason = "the clock of an Uno is software and knows no daylight saving time";
+    Refused { mnemonic, reason, way, code: Code::NotSupported }
+}
+
+const NO_NETWORK: &str = "there is no PPI network behind the Uno's serial line";
+const NO_ADDRESS: &str = "there is no PPI network behind the Uno's serial line, so it has no address";
+
+/// All of them.
+pub const REFUSED: [Refused; 6] = [
+    no_network("NETR", NO_NETWORK, "send and receive with XMT and RCV"),
+    no_network("NETW", NO_NETWORK, "send and receive with XMT and RCV"),
+    no_network("GPA", NO_ADDRESS, "leave the instruction out"),
+    no_network("SPA", NO_ADDRESS, "leave the instruction out"),
+    no_saving_time("TODRX", "read it with TODR"),
+    no_saving_time("TODWX", "set it with TODW"),
 ];
 
 /// The words that begin such instructions.
 pub(crate) fn refused_words() -> impl Iterator<Item = &'static str> {
-    REFUSED.iter().map(|&(word, ..)| word).chain(MISSING.iter().map(|&(word, _)| word))
+    REFUSED.iter().map(|refused| refused.mnemonic)
 }
 
 /// Why an instruction cannot be executed; `word` is its mnemonic.
 pub(crate) fn refused(word: &str, span: Span) -> Option<Diagnostic> {
-    if let Some((name, instead)) = MISSING.iter().find(|(name, _)| name.eq_ignore_ascii_case(word)) {
-        let message = format!("{name} is an S7-200 instruction that uno200 does not have");
-        return Some(Diagnostic::new(Code::NotSupported, span, message).help(*instead));
-    }
-    let (name, reason, way) = REFUSED.iter().find(|(name, ..)| name.eq_ignore_ascii_case(word))?;
-    Some(Diagnostic::new(Code::Hardware, span, format!("{name}: {reason}")).help(*way))
+    let Refused { mnemonic, reason, way, code } =
+        REFUSED.iter().find(|refused| refused.mnemonic.eq_ignore_ascii_case(word))?;
+    Some(Diagnostic::new(*code, span, format!("{mnemonic}: {reason}")).help(*way))
 }
 
 /// A high-speed counter that the Uno lacks.
@@ -125,16 +142,22 @@ fn counter_mode(counter: u8, mode: u8, span: Span) -> Option<Diagnostic> {
     Some(Diagnostic::new(code, span, message).help(format!("HSC{counter} has the modes {words}")))
 }
 
-/// The pulse output and the analog output of one pin in one program.
-pub(crate) fn shared_pin(program: &Program, code: &[Selected]) -> Option<Diagnostic> {
-    let writes_analog = |selected: &&Selected| {
-        selected.arguments().any(|(argument, _)| argument == Argument::Memory(Address::AnalogOutput(0)))
+/// The pulse output and an analog output in one program: the same timer makes both.
+pub(crate) fn shared_timer(program: &Program, code: &[Selected]) -> Option<Diagnostic> {
+    let output = |selected: &Selected| {
+        selected.arguments().find_map(|(argument, is_written)| match argument {
+            Argument::Memory(Address::AnalogOutput(channel)) if is_written => Some(channel),
+            Argument::Pointer(Address::AnalogOutput(channel)) => Some(channel),
+            _ => None,
+        })
     };
-    let analog = code.iter().find(writes_analog)?;
+    let (analog, channel) = code.iter().find_map(|selected| Some((selected, output(selected)?)))?;
     let pulses = code.iter().find(|selected| selected.op == Op::Pls && selected.arguments[0] == Argument::Number(1))?;
-    let message = "PLS 1 and AQW0 are both at pin D9";
+    let address = Address::AnalogOutput(channel);
+    let message = format!("PLS 1 and {address} need the same timer of the Uno");
     let diagnostic = Diagnostic::new(Code::Hardware, span_of(program, pulses), message);
-    Some(diagnostic.related(span_of(program, analog), "AQW0 here").help("AQW2 is at pin D10"))
+    let diagnostic = diagnostic.related(span_of(program, analog), format!("{address} here"));
+    Some(diagnostic.help("AQW0 without AQW2 is what PWM of PLS 1 does too: SMB77, SMW78 and SMW80 set cycle and width"))
 }
 
 /// Instructions that the board's firmware lacks, each where it stands first.
@@ -158,7 +181,7 @@ fn is_missing_on_board(op: Op) -> bool {
 
 /// The events of an Uno.
 fn has_event(event: u8) -> bool {
-    matches!(event, 0..=12 | 21..=23 | 27 | 28 | 32)
+    matches!(event, 0..=12 | 20..=23 | 27 | 28 | 32)
 }
 
 fn no_event(event: u8, span: Span) -> Option<Diagnostic> {
@@ -169,7 +192,7 @@ fn no_event(event: u8, span: Span) -> Option<Diagnostic> {
     let (what, way) = match event {
         13..=15 => ("HSC1", counter),
         16..=18 => ("HSC2", counter),
-        19 | 20 => ("the end of a pulse output", "ask for the end in SM66.7 or SM76.7"),
+        19 => ("pulse output 0", "use pulse output 1 with event 20"),
         24..=26 => ("port 1", "the Uno has port 0 with the events 8, 9 and 23"),
         29..=31 => ("HSC4", counter),
         33 => ("HSC5", counter),

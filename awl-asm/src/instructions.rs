@@ -202,6 +202,7 @@ impl Parser<'_> {
                 // More than any instruction takes: one error about their number is enough.
                 Ahead::Text if operands.len() > OPERANDS_KEPT => {
                     self.lexer.skip_instruction();
+                    comma = None;
                     break;
                 }
                 Ahead::Text => {

@@ -80,19 +80,38 @@ fn wrong_operand(name: &str, operand: &ast::Operand, classes: &[Class]) -> Diagn
         [rest @ .., last] => format!("{} or {last}", rest.join(", ")),
     };
     let is_constant_class = |class: &Class| class.constants().is_some();
+    let is_word_class = |class: &Class| matches!(class, Class::Word | Class::AnyInt | Class::AnyWord);
     match operand.value {
+        // As an output it would have been taken.
+        Value::Address(address @ Address::AnalogOutput(_)) if classes.iter().any(is_word_class) => {
+            let message = format!("{name} reads this operand, but {address} can only be written");
+            let diagnostic = Diagnostic::new(Code::OperandKind, operand.span, message).label("write only");
+            diagnostic
+                .help(format!("keep the value in a word of its own, such as VW0, and copy it: `MOVW VW0, {address}`"))
+        }
         Value::Constant(constant) if classes.iter().any(is_constant_class) => {
             let message = format!("{}: {name} takes {wanted} here", constant.value);
             Diagnostic::new(Code::ConstantRange, operand.span, message).label("out of range")
         }
         _ => {
             let message = format!("{name} takes {wanted} here, found {}", value_words(&operand.value));
-            Diagnostic::new(Code::OperandKind, operand.span, message).label("wrong kind of operand")
+            let diagnostic = Diagnostic::new(Code::OperandKind, operand.span, message).label("wrong kind of operand");
+            match operand.value {
+                Value::Address(address @ Address::Analog(_)) if classes == [Class::Bit] => {
+                    diagnostic.help(format!("an analog input is compared, for example `LDW>= {address}, 16000`"))
+                }
+                Value::Indirect(address) if name == "FOR" => {
+                    let first = format!("`MOVW VW0, *{address}` as its first instruction");
+                    diagnostic.help(format!("let it count in a word that is named, such as VW0, with {first}"))
+                }
+                _ => diagnostic,
+            }
         }
     }
 }
 
-fn value_words(value: &Value) -> String {
+/// What an operand is, with the kind of its address.
+pub(crate) fn value_words(value: &Value) -> String {
     match value {
         Value::Address(address @ Address::Bit { .. }) => format!("the bit {address}"),
         Value::Address(address @ Address::Byte { .. }) => format!("the byte {address}"),

@@ -217,7 +217,7 @@ fn comparisons_beside_instructions_of_the_same_name() {
 #[test]
 fn missing_instructions() {
     bad("NETR VB0,0", &["E0084 1:1 `NETR`: NETR: there is no PPI network behind the Uno's serial line"]);
-    bad("todrx VB0", &["E0022 1:1 `todrx`: TODRX is an S7-200 instruction that uno200 does not have"]);
+    bad("todrx VB0", &["E0022 1:1 `todrx`: TODRX: the clock of an Uno is software and knows no daylight saving time"]);
     bad("RET", &["E0081 1:1 `RET`: RET returns from a subroutine only"]);
 }
 

@@ -290,6 +290,9 @@ impl Resolver<'_> {
     }
 
     fn address(&self, span: Span, text: &str) -> Result<Value, Box<Diagnostic>> {
+        if let Some(diagnostic) = part_of_analog(span, text) {
+            return Err(Box::new(diagnostic));
+        }
         match Address::parse(text) {
             Ok(address) => Ok(Value::Address(address)),
             Err(AddressError::OutOfRange(message, suggestion)) => {
@@ -322,6 +325,28 @@ impl Resolver<'_> {
         }
         Box::new(diagnostic)
     }
+}
+
+/// A bit, byte or double word of an analog input or output, which are words.
+fn part_of_analog(span: Span, text: &str) -> Option<Diagnostic> {
+    let (letters, number) = text.split_at(text.find(|c: char| c.is_ascii_digit())?);
+    let letters = letters.to_ascii_uppercase();
+    let has_bit = number.contains('.');
+    let (what, prefix) = match (letters.as_str(), has_bit) {
+        ("AI" | "AIW" | "AE" | "AEW", true) | ("AIB" | "AID" | "AEB" | "AED", _) => ("input", "AIW"),
+        ("AQ" | "AQW" | "AA" | "AAW", true) | ("AQB" | "AQD" | "AAB" | "AAD", _) => ("output", "AQW"),
+        _ => return None,
+    };
+    let word = Address::parse(&format!("{prefix}{}", number.split('.').next()?)).ok()?;
+    let diagnostic = |message: String| Diagnostic::new(Code::AddressRange, span, message);
+    if !has_bit {
+        return Some(diagnostic(format!("{text}: an analog {what} is a word")).suggest(word.to_string()));
+    }
+    let diagnostic = diagnostic(format!("{text}: an analog {what} is a word and has no bits"));
+    Some(match what {
+        "input" => diagnostic.help(format!("compare it, for example `LDW>= {word}, 16000`")),
+        _ => diagnostic.help(format!("write all of it, for example `MOVW 16000, {word}`")),
+    })
 }
 
 const ONE_A_LINE: &str = "one instruction stands on a line";

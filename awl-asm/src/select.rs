@@ -13,8 +13,10 @@ use crate::calls;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::fit::{fit_all, fit_beginning};
 use crate::hardware;
+use crate::limits;
 use crate::misfit::misfit;
 pub use crate::misfit::operand_name;
+use crate::pointers;
 
 /// An operand whose kind is settled, but not its place in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,7 +71,7 @@ pub struct Selected {
     pub written: u8,
     /// Its number among the statements of the program.
     pub statement: u32,
-    /// For what a call hands over: the number of the operand of CALL that it copies.
+    /// For what is copied for a call, or from where a pointer leads: the number of the operand of the text.
     pub parameter: Option<u8>,
 }
 
@@ -98,15 +100,22 @@ static BY_MNEMONIC: LazyLock<HashMap<&'static str, Vec<&'static Instruction>>> =
 /// its effect on the logic stack is not lost to the checks that follow. A call with parameters becomes several.
 pub fn select(program: &ast::Program, diagnostics: &mut Vec<Diagnostic>) -> Vec<Selected> {
     let mut selected = Vec::with_capacity(program.statements.len());
+    let mut open_loops = 0u16;
     for (index, statement) in program.statements.iter().enumerate() {
         match statement {
             Statement::Instruction(instruction) if instruction.mnemonic == "CALL" => {
                 calls::expand(program, instruction, index as u32, &mut selected, diagnostics);
             }
             Statement::Instruction(instruction) => {
-                selected.extend(select_one(instruction, index as u32, diagnostics));
+                select_one(program, instruction, index as u32, open_loops, &mut selected, diagnostics);
+                match instruction.mnemonic {
+                    "FOR" => open_loops += 1,
+                    "NEXT" => open_loops = open_loops.saturating_sub(1),
+                    _ => {}
+                }
             }
-            Statement::Network(_) | Statement::Unit(_) => {}
+            Statement::Unit(_) => open_loops = 0,
+            Statement::Network(_) => {}
         }
     }
     selected
@@ -129,25 +138,48 @@ pub(crate) fn pick(
     })
 }
 
-fn select_one(source: &ast::Instruction, statement: u32, diagnostics: &mut Vec<Diagnostic>) -> Option<Selected> {
-    if let Some(selected) = pick(source.mnemonic, source.relation, &source.operands, statement) {
-        check_values(source, &selected, diagnostics);
-        return Some(selected);
+/// An instruction that does not stand in the text, in its first form.
+pub(crate) fn hidden(op: Op, arguments: &[Argument], statement: u32, parameter: Option<u8>) -> Selected {
+    let mut all = [Argument::None; ARGUMENTS_MAX];
+    all[..arguments.len()].copy_from_slice(arguments);
+    let form = op.instruction().forms.first();
+    let kinds = form.map_or(&[][..], |form| form.kinds);
+    Selected { op, relation: None, arguments: all, kinds, written: 0, statement, parameter }
+}
+
+fn select_one(
+    program: &ast::Program,
+    source: &ast::Instruction,
+    statement: u32,
+    open_loops: u16,
+    code: &mut Vec<Selected>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let picked = pick(source.mnemonic, source.relation, &source.operands, statement).map(|selected| vec![selected]);
+    if let Some(picked) = picked.or_else(|| pointers::expand(source, statement, open_loops)) {
+        picked.last().into_iter().for_each(|selected| check_values(program, source, selected, diagnostics));
+        return code.extend(picked);
     }
     let fitting = |instruction: &&&'static Instruction| instruction.has_relation() == source.relation.is_some();
-    let candidates: Vec<_> = BY_MNEMONIC.get(source.mnemonic)?.iter().filter(fitting).copied().collect();
+    let Some(named) = BY_MNEMONIC.get(source.mnemonic) else { return };
+    let candidates: Vec<_> = named.iter().filter(fitting).copied().collect();
     if source.operands.iter().all(|operand| operand.value != Value::Invalid) {
         diagnostics.push(hardware::misfit(source).unwrap_or_else(|| misfit(source, &candidates)));
     }
-    let likely = candidates.first()?;
-    let kinds = likely.forms.first()?.kinds;
+    let Some(likely) = candidates.first() else { return };
+    let Some(kinds) = likely.forms.first().map(|form| form.kinds) else { return };
     let arguments = fit_beginning(likely, kinds, &source.operands);
     let (op, relation) = (likely.op, source.relation);
-    Some(Selected { op, relation, arguments, kinds, written: 0, statement, parameter: None })
+    code.push(Selected { op, relation, arguments, kinds, written: 0, statement, parameter: None });
 }
 
 /// Checks what the kinds leave open: writing to inputs, and timer numbers.
-fn check_values(source: &ast::Instruction, selected: &Selected, diagnostics: &mut Vec<Diagnostic>) {
+fn check_values(
+    program: &ast::Program,
+    source: &ast::Instruction,
+    selected: &Selected,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
     for ((argument, written), operand) in selected.arguments().zip(&source.operands) {
         if let (Argument::Bit(address) | Argument::Memory(address), true) = (argument, written) {
             diagnostics.extend(read_only(address, operand.span));
@@ -159,7 +191,7 @@ fn check_values(source: &ast::Instruction, selected: &Selected, diagnostics: &mu
     {
         diagnostics.push(wrong_family(source.mnemonic, number, kind, operand.span));
     }
-    diagnostics.extend(past_the_end(source, selected));
+    diagnostics.extend(limits::check(program, source, selected));
     for (argument, operand) in selected.arguments.iter().zip(&source.operands) {
         if let Argument::Bit(address) | Argument::Memory(address) = *argument {
             diagnostics.extend(torn(address, operand.span));
@@ -180,6 +212,7 @@ fn torn(address: Address, span: Span) -> Option<Diagnostic> {
     (byte < border && byte + len > border).then(|| {
         let message = format!("{address}: SMB{} and SMB{border} do not lie side by side on the Uno", border - 1);
         Diagnostic::new(Code::AddressRange, span, message)
+            .help(format!("use one operand up to SMB{} and another from SMB{border} on", border - 1))
     })
 }
 
@@ -236,34 +269,4 @@ fn ranges(numbers: &[u8]) -> String {
         rest = &rest[run..];
     }
     parts.join(", ")
-}
-
-/// A constant count that leads out of the area.
-fn past_the_end(source: &ast::Instruction, selected: &Selected) -> Option<Diagnostic> {
-    let &[first, Argument::Constant(count), ..] = &selected.arguments else { return None };
-    let (place, size, last) = match (selected.op, first) {
-        (Op::Set | Op::Reset, Argument::Bit(Address::Bit { area, byte, bit })) => (
-            u32::from(byte) * 8 + u32::from(bit),
-            u32::from(area.size()) * 8,
-            format!("{}{}.7", area.name(), area.size() - 1),
-        ),
-        (Op::Set, Argument::Bit(Address::Timer(number))) | (_, Argument::Timer(number)) => {
-            (u32::from(number), 256, "T255".into())
-        }
-        (Op::Set, Argument::Bit(Address::Counter(number))) | (_, Argument::Counter(number)) => {
-            (u32::from(number), 256, "C255".into())
-        }
-        _ => return None,
-    };
-    if matches!(selected.op, Op::Set | Op::Reset | Op::ResetTimers | Op::ResetCounters)
-        && u32::from(count) > size - place
-    {
-        let operand = source.operands.get(1)?;
-        let message = format!("{count}: the range ends behind {last}");
-        let most = size - place;
-        return Some(
-            Diagnostic::new(Code::ConstantRange, operand.span, message).help(format!("at most {most} fit here")),
-        );
-    }
-    None
 }

@@ -1,9 +1,10 @@
 //! Hidden instructions that let the board take over what the program has written to its analog outputs and to the
 //! settings of the serial line. They stand behind the instructions that write there.
 
-use plc_isa::{Area, FREEPORT_MODULE, Op, PULSES_MODULE};
+use plc_isa::{ANALOG_OUTPUTS, Area, FREEPORT_MODULE, Op, PULSES_MODULE, pointer};
 
 use crate::address::Address;
+use crate::constants::pointer_to;
 use crate::select::{Argument, Selected};
 
 /// The byte of special memory with the settings of the serial line.
@@ -22,18 +23,31 @@ pub(crate) struct Takeover {
 }
 
 impl Takeover {
-    /// Of all instructions of a program.
+    /// Of all instructions of a program. Where none writes through a pointer, pointers lead nowhere.
     pub fn of(code: &[&Selected]) -> Takeover {
         let mut all = Takeover::default();
-        for (argument, is_written) in code.iter().flat_map(|selected| selected.arguments()) {
-            match argument {
-                Argument::Pointer(Address::AnalogOutput(channel)) => all.outputs_by_pointer |= 1 << channel,
-                Argument::Pointer(address) => all.serial_by_pointer |= has_serial_settings(address),
-                _ if is_written => all.add(argument),
-                _ => {}
-            }
+        let arguments = || code.iter().flat_map(|selected| selected.arguments());
+        for (argument, _) in arguments().filter(|&(_, is_written)| is_written) {
+            all.add(argument);
+        }
+        if arguments().any(|(argument, is_written)| is_written && matches!(argument, Argument::Indirect(_))) {
+            arguments().for_each(|(argument, _)| all.add_pointer(argument));
         }
         all
+    }
+
+    /// A constant that may be a pointer, whether it is written as one or as its number.
+    fn add_pointer(&mut self, argument: Argument) {
+        let value = match argument {
+            Argument::Pointer(address) => pointer_to(address),
+            Argument::Literal(value) => Some(value as u32),
+            _ => None,
+        };
+        let [code, 0, 0, offset] = value.unwrap_or(0).to_be_bytes() else { return };
+        if code == pointer::ANALOG_OUTPUT {
+            self.outputs_by_pointer |= 1 << (offset / 2).min(ANALOG_OUTPUTS - 1);
+        }
+        self.serial_by_pointer |= pointer::code(Area::Sm) == Some(code) && u16::from(offset) == SERIAL_SETTINGS;
     }
 
     fn add(&mut self, argument: Argument) {

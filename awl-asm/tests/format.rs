@@ -86,6 +86,24 @@ END_INTERRUPT_BLOCK
 ";
 
 #[test]
+fn comments_in_a_declaration_and_a_header_keep_their_letters() {
+    becomes(
+        "ORGANIZATION_BLOCK main:ob1 (* the Plant *)\nVAR\nx:int (* in Litres *);; // One\ny:bool; ; z\nEND_VAR\nBEGIN\n\
+         Network 1 \nLD I0.0\n= Q0.0\nEND_ORGANIZATION_BLOCK\n",
+        "ORGANIZATION_BLOCK main:OB1 (* the Plant *)\nVAR\nx:INT (* in Litres *);  // One\ny:BOOL;\nz\nEND_VAR\nBEGIN\n\
+         Network 1 \nLD     I0.0\n=      Q0.0\nEND_ORGANIZATION_BLOCK\n",
+    );
+}
+
+#[test]
+fn blanks_of_other_kinds_and_many_operands_keep_the_words() {
+    becomes("LD\u{1A}I0.0\u{A0}\n=\u{A0}Q0.0 // a\u{1A}b\u{A0}c\n", "LD     I0.0\n=      Q0.0  // a\u{1A}b\u{A0}c\n");
+    let operands: Vec<String> = (0..40).map(|number| format!("VW{number}")).collect();
+    let line = format!("CALL   SBR0, {}\n", operands.join(", "));
+    becomes(&format!("CALL SBR0 {}\n", operands.join(" ")), &line);
+}
+
+#[test]
 fn an_export_stays_as_it_is() {
     stays(EXPORT);
     stays(&EXPORT.replace('\n', "\r\n"));

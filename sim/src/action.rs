@@ -33,6 +33,12 @@ impl Action {
         }
     }
 
+    /// Whether a machine that is told of it before lets it begin at its time. To a board with a clock of its own it would
+    /// come late by up to a scan otherwise.
+    pub fn keeps_its_time(&self) -> bool {
+        matches!(self, Action::Pulse(_) | Action::Receive { .. })
+    }
+
     /// When it is over.
     pub fn end_ms(&self) -> u64 {
         match self {

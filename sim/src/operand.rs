@@ -20,7 +20,8 @@ pub enum Operand {
     CounterCurrent(u8),
     /// A double word or accumulator that holds a real, written `VD20:real`.
     Real(Address),
-    /// The part of the time in thousandths that output Q0.n is on, written `Q0.1.duty`: what PLS makes of it.
+    /// The part of the time in thousandths that output Q0.n is on, written `Q0.1.duty`: what PLS, or the analog output
+    /// at the same pin, makes of it.
     Duty(u8),
 }
 

@@ -79,31 +79,50 @@ impl Pulse {
 /// The trains that are under way.
 #[derive(Debug, Clone, Default)]
 pub struct Pulses {
-    /// Each with the edges that are over.
-    trains: Vec<(Pulse, u64)>,
+    trains: Vec<Train>,
+}
+
+#[derive(Debug, Clone)]
+struct Train {
+    pulse: Pulse,
+    /// Edges that are over.
+    done: u64,
+    /// No edge comes from this time on.
+    end_ns: u64,
+}
+
+impl Train {
+    fn next(&self) -> Option<Edge> {
+        self.pulse.edge(self.done).filter(|edge| edge.at_ns < self.end_ns)
+    }
 }
 
 impl Pulses {
-    /// Begins a train. One that drives the same input ends.
+    /// A train begins, at its time. One that drives the same input ends then.
     pub fn begin(&mut self, pulse: Pulse) {
-        let inputs = 0..8;
-        self.trains.retain(|(train, _)| !inputs.clone().any(|input| train.drives(input) && pulse.drives(input)));
-        self.trains.push((pulse, 0));
+        for train in &mut self.trains {
+            if (0..8).any(|input| train.pulse.drives(input) && pulse.drives(input)) {
+                train.end_ns = train.end_ns.min(pulse.at_ms * NS_PER_MS);
+            }
+        }
+        self.trains.push(Train { pulse, done: 0, end_ns: u64::MAX });
     }
 
     /// When the next edge is.
     pub fn next_ns(&self) -> Option<u64> {
-        self.trains.iter().filter_map(|(pulse, done)| pulse.edge(*done)).map(|edge| edge.at_ns).min()
+        self.trains.iter().filter_map(Train::next).map(|edge| edge.at_ns).min()
     }
 
     /// Takes the next edge up to this time. The sooner first; of the same time that of the train that began first.
     pub fn take(&mut self, until_ns: u64) -> Option<Edge> {
-        let next = |(pulse, done): &(Pulse, u64)| pulse.edge(*done).filter(|edge| edge.at_ns <= until_ns);
-        let edge = self.trains.iter().filter_map(next).min_by_key(|edge| edge.at_ns)?;
-        if let Some((_, done)) = self.trains.iter_mut().find(|train| next(train) == Some(edge)) {
-            *done += 1;
+        let edge = self.trains.iter().filter_map(Train::next).min_by_key(|edge| edge.at_ns)?;
+        if edge.at_ns > until_ns {
+            return None;
         }
-        self.trains.retain(|(pulse, done)| *done < pulse.edges());
+        if let Some(train) = self.trains.iter_mut().find(|train| train.next() == Some(edge)) {
+            train.done += 1;
+        }
+        self.trains.retain(|train| train.next().is_some());
         Some(edge)
     }
 }
@@ -151,8 +170,12 @@ mod tests {
             std::iter::from_fn(|| pulses.take(3_000_000)).map(|edge| (edge.at_ns, edge.input)).collect();
         assert_eq!(order, [(2_000_000, 3), (2_500_000, 3), (3_000_000, 3), (3_000_000, 4)]);
         assert_eq!(pulses.next_ns(), Some(3_500_000));
-        pulses.begin(Pulse { at_ms: 9, count: 1, ..PULSE });
+        pulses.begin(Pulse { at_ms: 9, count: 9, ..PULSE });
+        // It is told of before its time, and ends the one before at its time.
+        pulses.begin(Pulse { at_ms: 10, count: 1, ..PULSE });
         let rest: Vec<_> = std::iter::from_fn(|| pulses.take(u64::MAX)).map(|edge| (edge.at_ns, edge.input)).collect();
-        assert_eq!(rest, [(3_500_000, 4), (9_000_000, 3), (9_500_000, 3)]);
+        let expected =
+            [(3_500_000, 3), (3_500_000, 4), (9_000_000, 3), (9_500_000, 3), (10_000_000, 3), (10_500_000, 3)];
+        assert_eq!(rest, expected);
     }
 }

@@ -167,7 +167,9 @@ impl<'a> Schedule<'a> {
             machine.write(setting.operand, setting.value)?;
         }
         while let Some(action) = self.actions.get(self.begun) {
-            if boundary(action.at_ms(), self.scan_ms) > scan {
+            // A scan before, where the machine waits for the time itself.
+            let ahead = u64::from(action.keeps_its_time());
+            if boundary(action.at_ms(), self.scan_ms) > scan + ahead {
                 break;
             }
             self.begun += 1;

@@ -7,6 +7,7 @@ use std::fmt::Write;
 use awl_asm::assemble::assemble;
 use awl_asm::diagnostic::{Code, Diagnostic};
 use awl_asm::source::Source;
+use plc_isa::MODULE_NAMES;
 use tests::case::{files, folder, read};
 
 /// What a file states about one diagnostic.
@@ -121,15 +122,15 @@ fn every_file_gets_the_messages_it_states() {
     assert!(all.is_empty(), "{} differences\n{}", all.len(), all.join("\n"));
 }
 
-/// The codes that a file cannot show, because it would be thousands of lines long.
-const LONG: [Code; 1] = [Code::ProgramTooLarge];
+/// The codes that a file cannot show: it would be thousands of lines long, or depends on the modules that there are.
+const NOT_SHOWN: [Code; 2] = [Code::ProgramTooLarge, Code::NotOnBoard];
 
 #[test]
 fn every_code_has_a_message() {
     let texts: Vec<String> = files(&folder("messages")).iter().map(|path| read(path)).collect();
     let shown = |code: &Code| texts.iter().flat_map(|text| stated(text)).flatten().any(|one| one.code == code.text());
     let missing: Vec<&str> =
-        Code::ALL.iter().filter(|code| !LONG.contains(code) && !shown(code)).map(|code| code.text()).collect();
+        Code::ALL.iter().filter(|code| !NOT_SHOWN.contains(code) && !shown(code)).map(|code| code.text()).collect();
     assert!(missing.is_empty(), "no file in tests/messages shows {missing:?}");
 }
 
@@ -143,12 +144,29 @@ fn diagnostics(text: String) -> Vec<(Code, usize, String)> {
 
 #[test]
 fn a_program_that_is_too_large() {
-    // Header 64 bytes, name 4, `LD` and `=` 2 each, end of program 1, checksum 4: 7680 bytes hold 3803 of them.
+    // Header 66 bytes, name 4, `LD` and `=` 2 each, end of program 1, checksum 4: 7680 bytes hold 3802 of them.
     let program = |lines: usize| "LD I0.0\n".to_string() + &"= M0.0\n".repeat(lines - 1);
-    assert_eq!(diagnostics(program(3803)), []);
-    let [(code, line, message)] = &diagnostics(program(3805))[..] else { panic!("one error") };
-    assert_eq!((*code, *line), (Code::ProgramTooLarge, 3804));
+    assert_eq!(diagnostics(program(3802)), []);
+    let [(code, line, message)] = &diagnostics(program(3804))[..] else { panic!("one error") };
+    assert_eq!((*code, *line), (Code::ProgramTooLarge, 3803));
     assert!(message.contains("7683 bytes") && message.contains("7680"), "{message}");
+}
+
+#[test]
+fn the_modules_of_a_program_that_is_too_large() {
+    let text = "LD I0.0\nMOVD 5, VD0\n".to_string() + &"= M0.0\n".repeat(3500);
+    let source = Source::new("long.awl", text).expect("a text");
+    let diagnostics = assemble(&source, Vec::new()).diagnostics;
+    let [error] = &diagnostics[..] else { panic!("one error") };
+    let len = |name: &str| awl_asm::modules::bytes(number(name)).len();
+    let (general, operands) = (len("general"), len("operands"));
+    let expected = format!("{} bytes of them are modules: general {general}, operands {operands}", general + operands);
+    assert!(error.code == Code::ProgramTooLarge && error.help.contains(&expected), "{:?}", error.help);
+}
+
+/// The number of a module.
+fn number(name: &str) -> u8 {
+    MODULE_NAMES.iter().position(|&other| other == name).expect("a module") as u8
 }
 
 #[test]

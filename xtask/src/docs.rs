@@ -5,6 +5,7 @@ use std::fs;
 
 use anyhow::{Context, Result, bail};
 use awl_asm::cost::of_form;
+use awl_asm::hardware::REFUSED;
 use plc_isa::{Form, Group, INSTRUCTIONS, Instruction, Kind, MODULE_NAMES, PowerFlow, WIDE_PREFIX};
 
 use crate::demo;
@@ -59,16 +60,10 @@ const MICRO_WIN: &str = "LD A O LDN AN ON LDI AI OI LDNI ANI ONI NOT EU ED ALD O
     LBL LSCR SCRT SCRE CSCRE END STOP WDR DLED SLB SLW SLD SRB SRW SRD RLB RLW RLD RRB RRW RRD SHRB SLEN SCPY SSCPY SCAT \
     SFND CFND FILL ATT FNDx LIFO FIFO TON TONR TOF BITIM CITIM CALL ENI DISI ATCH DTCH CEVNT CRET CRETI";
 
-/// Why an instruction of [`MICRO_WIN`] is missing.
-fn reason(mnemonic: &str) -> &'static str {
-    match mnemonic {
-        "TODRX" | "TODWX" => "the clock of an Uno is software and knows no daylight saving time; TODR and TODW work",
-        "NETR" | "NETW" => {
-            "PPI master: an Uno has one serial line, which is the programming port; XMT and RCV work on it"
-        }
-        "GPA" | "SPA" => "station addresses belong to PPI, which an Uno does not speak",
-        _ => "",
-    }
+/// Why an instruction of [`MICRO_WIN`] is missing, and what comes nearest.
+fn reason(mnemonic: &str) -> String {
+    let refused = REFUSED.iter().find(|refused| refused.mnemonic == mnemonic);
+    refused.map_or_else(String::new, |refused| format!("{}: {}", refused.reason, refused.way))
 }
 
 fn page() -> String {

@@ -115,10 +115,10 @@ impl Follow<'_> {
 
     fn check_needs(&mut self, selected: &Selected, instruction: &Instruction, needs: u8) {
         let span = || span_of(self.program, selected);
-        // What is hidden in a call has its name.
+        // What is hidden in another instruction has its name.
         let name = match instruction.mnemonic() {
-            "" => source_of(self.program, selected).map_or("", |source| source.mnemonic),
-            name => name,
+            name if selected.parameter.is_none() && !name.is_empty() => name,
+            _ => source_of(self.program, selected).map_or("", |source| source.mnemonic),
         };
         if let (Some((network, number)), 1..) = (self.at_start, needs) {
             let mut diagnostic = Diagnostic::new(

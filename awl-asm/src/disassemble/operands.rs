@@ -1,8 +1,8 @@
 //! Instructions and their operands as text.
 
 use plc_isa::{
-    AnalogInput, Area, Bit, Decoded, Group, Kind, L_START, Op, Operand, Place, Program, ProgramMemory, Reference,
-    Region, pointer,
+    ANALOG_INPUTS, ANALOG_OUTPUTS, AnalogInput, Area, Bit, Decoded, Group, Kind, L_START, Op, Operand, Place, Program,
+    ProgramMemory, Reference, Region, pointer,
 };
 
 use crate::address::Address;
@@ -170,6 +170,9 @@ impl<'a, P: ProgramMemory> Writer<'a, P> {
     /// A pointer to something in the plan, as a constant.
     fn pointer(&self, value: u32) -> Option<String> {
         let [code, high, ..] = value.to_be_bytes();
+        if let Some(address) = analog(value).filter(|_| self.has_pointers) {
+            return Some(format!("&{address}"));
+        }
         let (area, offset) = (pointer::area(code)?, value as u16);
         // A pointer to what is planned says so; others are more likely numbers in a program that follows none.
         if !self.has_pointers && !matches!(area, Area::V | Area::T | Area::C) {
@@ -187,6 +190,19 @@ impl<'a, P: ProgramMemory> Writer<'a, P> {
             }
         };
         Some(format!("&{address}"))
+    }
+}
+
+/// The analog input or output that a pointer leads to.
+fn analog(value: u32) -> Option<Address> {
+    let [code, 0, 0, offset] = value.to_be_bytes() else { return None };
+    let channel = offset.is_multiple_of(2).then_some(offset / 2)?;
+    match code {
+        pointer::ANALOG_INPUT if u16::from(channel) < ANALOG_INPUTS => {
+            Some(Address::Analog(AnalogInput::Scaled(channel)))
+        }
+        pointer::ANALOG_OUTPUT if channel < ANALOG_OUTPUTS => Some(Address::AnalogOutput(channel)),
+        _ => None,
     }
 }
 

@@ -322,7 +322,7 @@ impl<'s> Reader<'s> {
         self.lexer.go_back(word);
         let text = self.rest_of_statement();
         let Some((name, kind)) = text.split_once(':') else { return self.row.code.push_str(text) };
-        let kind = kind.trim_matches(is_blank).to_ascii_uppercase();
+        let kind = upper_case(kind.trim_matches(is_blank));
         self.row.code.push_str(&format!("{}:{kind};", name.trim_matches(is_blank)));
         if self.lexer.ahead() == Ahead::Semicolon {
             self.lexer.step();
@@ -350,11 +350,18 @@ fn is_blank(character: char) -> bool {
     matches!(character, ' ' | '\t' | '\u{B}' | '\u{C}' | '\u{1A}' | '\u{A0}')
 }
 
+/// In upper case, up to a comment or a quote.
+fn upper_case(text: &str) -> String {
+    let end = ["(*", "/*", "//", "\""].iter().filter_map(|start| text.find(start)).min().unwrap_or(text.len());
+    let (words, comment) = text.split_at(end);
+    words.to_ascii_uppercase() + comment
+}
+
 /// `name:SBR0`, without blanks around the colon.
 fn block_name(text: &str) -> String {
     match text.rsplit_once(':') {
         Some((name, number)) => {
-            format!("{}:{}", name.trim_end_matches(is_blank), number.trim_start_matches(is_blank).to_ascii_uppercase())
+            format!("{}:{}", name.trim_end_matches(is_blank), upper_case(number.trim_start_matches(is_blank)))
         }
         None => text.to_owned(),
     }

@@ -149,7 +149,7 @@ impl<P: ProgramMemory> Plc<P> {
         }
     }
 
-    /// The part of the time in thousandths that output Q0.`output` is on, where PLS drives it.
+    /// The part of the time in thousandths that output Q0.`output` is on, where PLS or an analog output drives its pin.
     #[cfg(not(target_arch = "avr"))]
     pub fn duty(&self, output: u8) -> Option<u16> {
         self.events.hardware.pulses.duty(output).filter(|_| self.mode == Mode::Run)

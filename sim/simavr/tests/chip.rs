@@ -1,7 +1,7 @@
 //! The chip with small programs, given as opcodes: marks, pins, converter, UART, EEPROM, watchdog, resets, crashes.
 #![cfg(feature = "link")]
 
-use simavr::{Avr, Pin, Port, Reset, Stopped};
+use simavr::{Avr, Edge, Pin, Port, Reset, Stopped};
 
 const GPIOR0: u8 = 0x1E;
 const PIND: u8 = 0x09;
@@ -357,8 +357,8 @@ const OCR1B: u16 = 0x8A;
 const WAVES: [Pin; 2] = [Pin { port: Port::B, bit: 1 }, Pin { port: Port::B, bit: 2 }];
 
 /// The levels that follow each other at a pin, each with the cycles to the next.
-fn wave(avr: &mut Avr, pin: Pin) -> Vec<(bool, u64)> {
-    let edges: Vec<_> = avr.take_waves().into_iter().filter(|edge| edge.pin == pin).collect();
+fn wave(edges: &[Edge], pin: Pin) -> Vec<(bool, u64)> {
+    let edges: Vec<_> = edges.iter().filter(|edge| edge.pin == pin).collect();
     edges.windows(2).map(|pair| (pair[0].high, pair[1].cycle - pair[0].cycle)).collect()
 }
 
@@ -380,8 +380,8 @@ fn timer_1_modulates_its_pins() {
         vec![out(GPIOR0, 16)],
     ]
     .concat();
-    // Some cycles later a new compare value, and then none.
-    program.extend([ldi(17, 0), 0x9511, 0xF7F1]);
+    // 256 times INC and BRNE, which is nearly a cycle of the timer, and then a new compare value.
+    program.extend([ldi(17, 0), 0x9513, 0xF7F1]);
     program.extend([set_word(OCR1A, 49), vec![out(GPIOR0, 16), rjmp(-1)]].concat());
     let mut avr = running(&program);
     avr.watch_waves();
@@ -389,11 +389,14 @@ fn timer_1_modulates_its_pins() {
     assert_eq!(WAVES.map(|pin| avr.level(pin)), [true, true], "forced");
     avr.run_to_mark(1_000);
     avr.take_waves();
-    avr.run_to_mark(2_000);
+    assert_eq!(avr.run_to_mark(2_000), Stopped::Mark(49));
     avr.run_for(4_000);
-    let near = |cycles: u64, due: u64| cycles.abs_diff(due) <= 4;
-    let first: Vec<_> = wave(&mut avr, WAVES[0]);
-    println!("{first:?}");
-    assert!(first.iter().all(|&(high, cycles)| near(cycles, if high { 560 } else { 240 }) || near(cycles, 400)));
-    assert!(first.iter().any(|&(_, cycles)| near(cycles, 400)));
+    let waves = avr.take_waves();
+    let [first, second] = WAVES.map(|pin| wave(&waves, pin));
+    // The new value counts from the end of a cycle on.
+    let changed = first.iter().position(|&part| part == (false, 400)).unwrap();
+    assert!(changed >= 2 && first.len() >= changed + 4, "{first:?}");
+    assert!(first[..changed].iter().all(|part| [(false, 240), (true, 560)].contains(part)), "{first:?}");
+    assert!(first[changed..].iter().all(|part| [(false, 400), (true, 400)].contains(part)), "{first:?}");
+    assert!(second.len() > 8 && second.iter().all(|part| [(true, 640), (false, 160)].contains(part)), "{second:?}");
 }

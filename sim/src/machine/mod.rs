@@ -57,7 +57,8 @@ pub trait Machine {
     /// I and Q are the physical points as logical values, in STOP Q is 0.
     fn read(&mut self, operand: Operand) -> Result<i32, MachineError>;
 
-    /// Something happens that is no value. What begins before the next scan has done so when that scan starts.
+    /// Something happens that is no value. What begins before the next scan has done so when that scan starts; pulses and
+    /// characters that are to begin later wait for their time.
     fn act(&mut self, action: &Action) -> Result<(), MachineError> {
         let what = match action {
             Action::Pulse(_) => "pulses",

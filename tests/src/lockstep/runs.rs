@@ -12,7 +12,7 @@ use awl_sim::machine::uno::{Code, Uno};
 use awl_sim::machine::{Machine, Mode};
 use awl_sim::operand::Operand;
 use fastrand::Rng;
-use plc_isa::{AnalogInput, Area, COUNTERS_MODULE, FREEPORT_MODULE, Group, Op, PULSES_MODULE};
+use plc_isa::{AnalogInput, Area, FREEPORT_MODULE, Group, Op, PULSES_MODULE};
 
 use super::{Pair, board};
 use crate::case::{Case, Prepared};
@@ -57,10 +57,10 @@ fn needs_engine(row: &Row) -> bool {
     instruction.module().is_some() || of_units || HIDDEN.contains(&instruction.op)
 }
 
-/// What the board does not have of an image's instructions, by their rows. And counters, pulses and the freeport, which
-/// have a time of their own there.
+/// What the board does not have of an image's instructions, by their rows. And pulses and the freeport, which have a time
+/// of their own there.
 fn missing(image: &[u8]) -> BTreeSet<String> {
-    const OWN_TIME: [u8; 3] = [COUNTERS_MODULE, PULSES_MODULE, FREEPORT_MODULE];
+    const OWN_TIME: [u8; 2] = [PULSES_MODULE, FREEPORT_MODULE];
     let has_engine = has_engine();
     let is_missing = |row: &Row| {
         let lacks = |module| OWN_TIME.contains(&module) || modules::routines(module) <= row.form.first_token;

@@ -12,8 +12,9 @@ use super::operands::{Count, Place, last_byte};
 
 /// The two strings.
 const TEXTS: [&str; 2] = ["VB200", "VB456"];
-/// Formats of numbers as characters.
-const FORMATS: [&str; 10] = ["0", "1", "3", "16#0A", "16#8A", "16#F5", "16#61", "16#40", "7", "16#31"];
+/// Formats of integers and of reals as characters. Illegal ones come from memory alone: the assembler refuses them.
+const FORMATS: [&str; 6] = ["0", "1", "3", "16#0A", "16#0D", "5"];
+const REAL_FORMATS: [&str; 6] = ["16#8A", "16#F5", "16#61", "16#40", "16#30", "16#31"];
 
 /// The data block of a program with modules.
 pub(super) const DATA: &str = "DATA_BLOCK\n\
@@ -41,6 +42,12 @@ impl Generator<'_> {
         for (index, &kind) in kinds.iter().enumerate() {
             texts.push(self.value(row, index, kind, &block)?.text);
         }
+        let is_constant = |text: &str| text.starts_with('"');
+        if matches!(row.op, Op::Sti | Op::Std | Op::Str | Op::Sscpy) && is_constant(&texts[0]) {
+            // The assembler refuses what lies behind the end.
+            texts[1] = "MB0".to_string();
+            texts[2] = if row.op == Op::Sscpy { "MB1".to_string() } else { texts[2].clone() };
+        }
         Some(texts)
     }
 
@@ -51,7 +58,9 @@ impl Generator<'_> {
         let compares = row.group == Group::Compare;
         match kind {
             Kind::FarBit => self.bit(None, true),
-            Kind::FarBitOut if row.op == Op::Shrb => self.bit(Some(&Count { at_most: 64, is_certain: false }), false),
+            Kind::FarBitOut if row.op == Op::Shrb => {
+                self.bit(Some(&Count { at_most: block.at_most, is_certain: block.is_certain }), false)
+            }
             Kind::FarBitOut => self.bit(Some(&Count { at_most: 255, is_certain: false }), true),
             Kind::FarBitReset => self.bit(Some(&Count { at_most: 255, is_certain: false }), false),
             Kind::ByteIn if self.one_in(3) => Some(Place::constant(self.byte_constant())),
@@ -93,11 +102,17 @@ impl Generator<'_> {
             (Op::Bmd, 1) => Some(self.block_at(4, true, block)),
             (Op::Fill | Op::Bmb | Op::Bmw | Op::Bmd | Op::Ath | Op::Hta, 2) => fixed(&block.text),
             (Op::SetImmediate | Op::ResetImmediate, 1) => fixed(&block.text),
-            (Op::Ita | Op::Dta | Op::Rta, 2) | (Op::Its | Op::Dts | Op::Rts, 1) if self.one_in(2) => {
-                fixed(FORMATS[self.rng.usize(..FORMATS.len())])
+            (Op::Ita | Op::Dta, 2) | (Op::Its | Op::Dts, 1) if self.one_in(2) => fixed(self.rng.choice(FORMATS)?),
+            (Op::Rta, 2) | (Op::Rts, 1) if self.one_in(2) => fixed(self.rng.choice(REAL_FORMATS)?),
+            (Op::Ita | Op::Dta | Op::Rta, 2) | (Op::Its | Op::Dts | Op::Rts, 1) => Some(self.anywhere(1, false, false)),
+            (Op::Sti | Op::Std | Op::Str | Op::Sscpy, 1) | (Op::Sscpy, 2) if self.one_in(3) => {
+                let number = self.rng.u8(1..8).to_string();
+                fixed(&number)
             }
+            (Op::Sti | Op::Std | Op::Str | Op::Sscpy, 1) | (Op::Sscpy, 2) => Some(self.anywhere(1, false, false)),
+            (Op::Todr, 0) => Some(self.block_at(1, true, block)),
             (Op::SetAny | Op::ResetAny, 1) => Some(self.anywhere(1, false, false)),
-            (Op::Shrb, 2) => fixed(["1", "8", "-8", "64", "-64", "3", "-1", "MB0"][self.rng.usize(..8)]),
+            (Op::Shrb, 2) => fixed(&block.text),
             _ => None,
         }
     }
@@ -105,6 +120,14 @@ impl Generator<'_> {
     fn block_len(&mut self, op: Op) -> Block {
         if matches!(op, Op::Ita | Op::Dta | Op::Rta) {
             return Block { text: String::new(), at_most: 15, is_certain: true };
+        }
+        if matches!(op, Op::Todr | Op::Todw) {
+            return Block { text: String::new(), at_most: 8, is_certain: true };
+        }
+        if op == Op::Shrb {
+            let counts = [("1", 1), ("8", 8), ("-8", 8), ("64", 64), ("-64", 64), ("3", 3), ("-1", 1), ("MB0", 64)];
+            let (text, at_most) = counts[self.rng.usize(..counts.len())];
+            return Block { text: text.to_string(), at_most, is_certain: text != "MB0" };
         }
         if matches!(op, Op::SetImmediate | Op::ResetImmediate) || !self.one_in(4) {
             let count = self.rng.u32(1..=if op == Op::SetImmediate || op == Op::ResetImmediate { 3 } else { 8 });

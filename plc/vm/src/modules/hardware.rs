@@ -92,6 +92,15 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
         }
     }
 
+    /// AnalogOutputs, behind what writes them: without power flow it has not.
+    pub(super) fn analog_outputs(&mut self) -> Result<(), Failure> {
+        let (outputs, interpreter) = (self.operands.number(0), &mut *self.interpreter);
+        if interpreter.stack.top() {
+            interpreter.events.hardware.pulses.drive_analog(outputs, interpreter.memory);
+        }
+        Ok(())
+    }
+
     /// XMT: the first byte of the table is the number of characters.
     fn transmit(&mut self) -> Result<(), Failure> {
         let table = self.source(0, Width::Byte, 1)?;

@@ -97,8 +97,9 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
             Group::Text => self.text(op),
             Group::Table => self.table(op),
             Group::InputOutput | Group::Communication => self.points(op),
+            Group::Hidden if op == Op::AnalogOutputs => self.analog_outputs(),
             // What the board must be told, the host sees.
-            Group::Hidden if matches!(op, Op::AnalogOutputs | Op::Freeport) => Ok(()),
+            Group::Hidden if op == Op::Freeport => Ok(()),
             _ => Err(Failure::Undefined),
         }
     }

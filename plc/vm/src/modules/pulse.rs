@@ -1,9 +1,10 @@
-//! Pulse outputs: PLS with pulse-width modulation (PWM), and with trains of a number of pulses (PTO, one segment).
+//! Pulse outputs: PLS with pulse-width modulation (PWM), and with trains of a number of pulses (PTO, one segment); and what
+//! analog outputs make of their pins.
 //!
 //! PLS 0 drives Q0.0 and PLS 1 drives Q0.1, as on the S7-200; while they do, the process image does not. Time comes in
 //! whole milliseconds, so a train ends with the first scan behind its end.
 
-use plc_isa::{Area, Plan, ProgramMemory};
+use plc_isa::{ANALOG_OUTPUTS, AQW_START, Area, Plan, ProgramMemory};
 
 use super::high_speed::{special, special_double};
 use crate::memory::Memory;
@@ -34,6 +35,13 @@ const IDLE: u8 = 1 << 7;
 const CYCLE_MIN: u16 = 2;
 /// Shortest cycle of trains in microseconds: the board makes each of their edges by an interrupt.
 const TRAIN_CYCLE_MIN_US: u32 = 50;
+
+/// The first output that an analog output shares its pin with.
+const ANALOG_OUTPUT: usize = 1;
+/// Values of an analog output from 0 to this are 0 to 100 %.
+const ANALOG_MAX: i16 = 32_000;
+/// They come in steps of so many.
+const ANALOG_STEP: i16 = 16;
 
 /// The special memory of an output, and its event.
 #[derive(Debug, Clone, Copy)]
@@ -90,12 +98,15 @@ struct Output {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct PulseOutputs {
     outputs: [Output; PULSE_OUTPUTS],
+    /// The part of the time in thousandths that the pin of an analog output is high.
+    analog: [Option<u16>; ANALOG_OUTPUTS as usize],
 }
 
 impl PulseOutputs {
     /// No output is driven: as after the change to RUN.
     pub const NONE: PulseOutputs = PulseOutputs {
         outputs: [Output { task: Task::None, passed_us: 0, cycle: CYCLE_MIN, width: 0, count: 1 }; PULSE_OUTPUTS],
+        analog: [None; ANALOG_OUTPUTS as usize],
     };
 
     /// PLS. Whether it could be done.
@@ -142,10 +153,23 @@ impl PulseOutputs {
         bits
     }
 
+    /// The analog outputs with a bit in `outputs` have been written.
+    pub fn drive_analog(&mut self, outputs: u8, memory: &Memory) {
+        for (channel, duty) in (0..ANALOG_OUTPUTS).zip(&mut self.analog) {
+            if outputs >> channel & 1 != 0 {
+                let value = memory.int(AQW_START + 2 * u16::from(channel)).clamp(0, ANALOG_MAX);
+                let [step, steps] = [value / ANALOG_STEP, ANALOG_MAX / ANALOG_STEP].map(i32::from);
+                *duty = Some((1000 * step / steps) as u16);
+            }
+        }
+    }
+
     /// The part of the time in thousandths that a driven output is on; of a train half.
     pub fn duty(&self, number: u8) -> Option<u16> {
-        match self.outputs.get(usize::from(number))?.task {
-            Task::None => None,
+        let number = usize::from(number);
+        let analog = number.checked_sub(ANALOG_OUTPUT).and_then(|channel| *self.analog.get(channel)?);
+        match self.outputs.get(number).map_or(Task::None, |output| output.task) {
+            Task::None => analog,
             Task::Modulation { cycle_us, width_us } => {
                 let part = u64::from(width_us.min(cycle_us)) * 1000 / u64::from(cycle_us.max(1));
                 Some(part as u16)
@@ -299,5 +323,11 @@ mod tests {
         outputs.outputs[1] = OFF;
         outputs.outputs[1].begin(ENABLE | MODULATION);
         assert_eq!((outputs.duty(1), outputs.levels()), (Some(300), (2, 2)));
+        let mut memory = Memory::new();
+        for (value, duty) in [(-1, 0), (31, 0), (32, 1), (16_000, 500), (31_999, 999), (32_000, 1000), (32_767, 1000)] {
+            memory.set_int(AQW_START + 2, value);
+            outputs.drive_analog(2, &memory);
+            assert_eq!((outputs.duty(1), outputs.duty(2), outputs.duty(3)), (Some(300), Some(duty), None));
+        }
     }
 }

@@ -24,6 +24,8 @@ pub const BY_ZERO: u8 = 1 << 3;
 /// How an instruction ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
+    /// It is no box: ENO is what it was.
+    NoBox,
     /// ENO = 1.
     Good,
     /// ENO = 0.
@@ -63,6 +65,9 @@ pub struct Machine {
 /// An instruction and its operands.
 pub type Line<'a> = (Op, &'a [Operand]);
 
+/// A value that no box gives ENO.
+const ENO_OF_OTHERS: u8 = 2;
+
 impl Machine {
     pub fn new() -> Machine {
         let outside = Outside { now_ms: 0, stacks: Vec::new() };
@@ -94,11 +99,13 @@ impl Machine {
 
     pub fn scan(&mut self) -> End {
         self.memory.set_byte(SM_START + 4, 0);
+        self.memory.set_byte(ENO, ENO_OF_OTHERS);
         self.outside.stacks.clear();
         self.plc.execute(&mut self.memory, &mut self.outside);
         match (self.plc.fault(), self.memory.byte(ENO), self.memory.byte(SM_START + 4)) {
             (Some(fault), ..) => End::Faulted(fault),
             (None, 1, 0) => End::Good,
+            (None, ENO_OF_OTHERS, 0) => End::NoBox,
             (None, 0, 0) => End::NoResult,
             (None, 0, 8) => End::BadOperand,
             (None, eno, smb4) => panic!("ENO {eno}, SMB4 {smb4}"),

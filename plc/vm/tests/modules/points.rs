@@ -22,7 +22,7 @@ fn contacts() {
                 let operands = [bit(I_START, 5)];
                 let end =
                     if power == 1 { machine.run(op, &operands) } else { machine.run_without_power(op, &operands) };
-                assert_eq!((end, machine.stack()), (End::Good, stack), "{op:?} {on} {power}");
+                assert_eq!((end, machine.stack()), (End::NoBox, stack), "{op:?} {on} {power}");
             }
         }
     }
@@ -31,7 +31,7 @@ fn contacts() {
 #[test]
 fn coils() {
     let mut machine = Machine::new();
-    assert_eq!((machine.run(Op::AssignImmediate, &[bit(Q_START, 3)]), machine.memory.byte(Q_START)), (End::Good, 8));
+    assert_eq!((machine.run(Op::AssignImmediate, &[bit(Q_START, 3)]), machine.memory.byte(Q_START)), (End::NoBox, 8));
     assert_eq!(machine.run(Op::SetImmediate, &[bit(Q_START, 6), c(4)]), End::Good);
     assert_eq!((machine.memory.byte(Q_START), machine.memory.byte(Q_START + 1)), (0xC8, 3));
     assert_eq!(machine.run(Op::ResetImmediate, &[bit(Q_START, 0), c(7)]), End::Good);
@@ -42,7 +42,7 @@ fn coils() {
     assert_eq!(machine.memory.byte(Q_START), 0x80);
     assert_eq!(machine.run(Op::SetImmediate, &[bit(Q_START, 0), c(128)]), End::Good);
     assert_eq!((machine.memory.byte(Q_START + 15), machine.memory.byte(M_START)), (0xFF, 0));
-    assert_eq!(machine.run_without_power(Op::AssignImmediate, &[bit(Q_START, 3)]), End::Good);
+    assert_eq!(machine.run_without_power(Op::AssignImmediate, &[bit(Q_START, 3)]), End::NoBox);
     assert_eq!(machine.memory.byte(Q_START), 0xF7);
 }
 
