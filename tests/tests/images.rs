@@ -78,8 +78,8 @@ fn the_image_itself_is_sound() {
 #[test]
 fn faults_of_the_header() {
     assert_eq!(fault_with(0, b"X"), Some(ImageFault::Magic));
-    assert_eq!(fault_with(4, &[1]), Some(ImageFault::Version), "before modules");
-    assert_eq!(fault_with(4, &[3]), Some(ImageFault::Version));
+    assert_eq!(fault_with(4, &[2]), Some(ImageFault::Version), "before modules with a state");
+    assert_eq!(fault_with(4, &[4]), Some(ImageFault::Version));
     assert_eq!(fault_with(5, &[1]), Some(ImageFault::Interface), "machine code, on the host");
     assert_eq!(fault_with(31, &[7]), Some(ImageFault::Settings));
     assert_eq!(fault_with(8, &[0xFF, 0xFF]), Some(ImageFault::Length), "code longer than the image");

@@ -35,6 +35,10 @@ const MODULATED: [(u8, u16); 2] = [(6, 0x88), (4, 0x8A)];
 /// while the interrupt makes the edges.
 const TICKS: u16 = state_at(PULSES_MODULE) + 6;
 
+/// A flag of the modules in GPIOR1: analog outputs are on. And the levels that the process image gives the pins, PORTB.
+const ANALOG_OUTPUTS_ON: (u16, u8) = (0x4A, 1 << 4);
+const IMAGE_LEVELS: u16 = 0x25;
+
 /// Longest time from power to the start of the first scan.
 pub const BOOT_MAX: u64 = 5_000 * MS;
 
@@ -211,11 +215,15 @@ impl Board {
         (0..DIGITAL_OUTPUTS).filter(is_driven).fold(0, |bits, output| bits | 1 << output)
     }
 
-    /// The level of each output pin that is driven, Q0.0 in bit 0; of one that is released the level for off.
+    /// The level of each output pin that is driven, Q0.0 in bit 0; of one that is released the level for off, and of an analog
+    /// output the one that the process image would give it.
     pub fn output_levels(&self, off_levels: u8) -> u8 {
         let driven = self.driven_outputs();
         let is_high = |output: &u8| self.avr.level(Pin::of_uno(FIRST_OUTPUT + output));
-        let levels = (0..DIGITAL_OUTPUTS).filter(is_high).fold(0, |bits, output| bits | 1 << output);
+        let levels = match self.byte(ANALOG_OUTPUTS_ON.0) & ANALOG_OUTPUTS_ON.1 {
+            0 => (0..DIGITAL_OUTPUTS).filter(is_high).fold(0, |bits, output| bits | 1 << output),
+            _ => self.byte(IMAGE_LEVELS),
+        };
         levels & driven | off_levels & !driven
     }
 
