@@ -169,6 +169,9 @@ impl Listing<'_> {
             };
             let _ = writeln!(self.text, "longest scan, {name}: {text}");
         }
+        if cost.is_typical {
+            self.text += "instructions of modules: as measured with usual values, others can take longer\n";
+        }
         if cost.translated.is_none() {
             self.text += "native: the program cannot be translated\n";
         }

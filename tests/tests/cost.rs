@@ -258,3 +258,43 @@ fn no_scan_is_longer_than_the_assembler_says() {
         assert!(found <= most, "{name}, {tier}: a scan took {found}, predicted {most}");
     }
 }
+
+/// Share by which an instruction of a module may take longer than with the values of its row.
+const UNUSUAL: f64 = 0.1;
+
+/// Instructions of modules in the examples and in the cases of the instruction set, with any inputs: values make them
+/// take longer than the assembler says, but not much.
+#[test]
+fn instructions_of_modules_cost_what_the_assembler_says() {
+    let cases = Case::examples().into_iter().chain(Case::all()).filter(|case| case.faults.is_empty());
+    let (mut instructions, mut worst) = (0, 0.0f64);
+    for case in cases {
+        let image = Source::new("case", &*case.awl).ok().and_then(|source| assemble(&source, Vec::new()).image);
+        let Some(cost) = image.and_then(|image| cost::cost(&image)).filter(|cost| cost.is_typical) else { continue };
+        let mut meter = Meter::new(Executable::new(&case.file, &case.awl, Tier::Interpreter));
+        meter.board.stop_clock();
+        let mut rng = Rng::with_seed(7);
+        for _ in 0..SCANS {
+            meter.board.drive_inputs(rng.u8(..64));
+            meter.pass(rng.u32(..120));
+            for step in meter.execute().steps {
+                let Some((op, most)) = most_of_module(&meter, &cost, &step) else { continue };
+                let share = step.cycles as f64 / f64::from(most) - 1.0;
+                assert!(share <= UNUSUAL, "{}: {op:?} took {}, not {most}", case.file, step.cycles);
+                instructions += 1;
+                worst = worst.max(share);
+            }
+        }
+    }
+    println!("{instructions} instructions of modules, at most {:.1} % longer", 100.0 * worst);
+    assert!(instructions > 1_000, "hardly any instruction of a module");
+}
+
+/// What the assembler says that an instruction of a module takes at most; `None` of others.
+fn most_of_module(meter: &Meter, cost: &ProgramCost, step: &Step) -> Option<(Op, u32)> {
+    let number = step.instruction?;
+    let op = meter.executable.code[number].1.op;
+    op.instruction().module()?;
+    let ways = cost.instructions[number].interpreted;
+    Some((op, (if step.flow { ways.on } else { ways.off })?.max))
+}

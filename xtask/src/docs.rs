@@ -5,9 +5,11 @@ use std::fs;
 
 use anyhow::{Context, Result, bail};
 use awl_asm::cost::of_form;
+use awl_asm::cost::typical::{self, Typical};
 use awl_asm::hardware::REFUSED;
 use plc_isa::{Form, Group, INSTRUCTIONS, Instruction, Kind, MODULE_NAMES, PowerFlow, WIDE_PREFIX};
 
+use crate::bench::number;
 use crate::demo;
 use crate::process::root;
 
@@ -67,14 +69,17 @@ fn reason(mnemonic: &str) -> String {
 }
 
 fn page() -> String {
-    let mut text = String::from(
+    let ([near, far], constant) = (typical::by_pointer(), typical::by_constant());
+    let mut text = format!(
         "# Instructions\n\n\
          Generated from the instruction table by `cargo xtask docs`; do not edit.\n\n\
          *Stack*: values an instruction needs on the logic stack, and what it adds or removes.\n\
          *Box*: executed only while the top of the stack is 1, which it keeps.\n\
          *Bytes*: length of each encoded form, in the order the assembler tries them.\n\
-         *Cycles*: of each form on the board with power flow, 16 to the microsecond; the name of a module where the instruction\n\
-         belongs to one ([docs/image.md](image.md)).\n\n\
+         *Cycles*: of each form on the board with power flow, 16 to the microsecond, in bytecode. Before a colon stands the\n\
+         module of the instruction ([docs/image.md](image.md)); its cycles go with values: what was seen with values as programs\n\
+         have them ([docs/benchmarks.md](benchmarks.md)), operands in memory. A pointer adds {near},\n\
+         to a timer or counter up to {far} and more where there are many, a constant {constant} at most.\n\n\
          Operands: **bit** I Q M SM S V T C L; **byte** IB QB MB SMB SB VB LB AC; **word** IW QW MW SMW SW VW LW T C AC AIW Ain;\n\
          **double word** and **real** ID QD MD SMD SD VD LD AC HC. Operands of module instructions can also be pointers (`*AC1`,\n\
          `*VD10`, `*LD0`). Outputs exclude inputs and SMB0 to SMB29.\n",
@@ -135,17 +140,37 @@ fn row(instruction: &Instruction, text: &mut String) {
     );
 }
 
-/// Cycles of each form, or the module.
+/// Cycles of each form, with the module where they belong to one.
 fn cycles(instruction: &Instruction) -> String {
+    let typical = typical::of_op(instruction.op).map_or("-".to_owned(), typical_cycles);
     if let Some(module) = instruction.module() {
-        return format!("*{}*", MODULE_NAMES.get(usize::from(module)).copied().unwrap_or_default());
+        return format!("*{}*: {typical}", MODULE_NAMES.get(usize::from(module)).copied().unwrap_or_default());
     }
     let of_form = |form: &Form| match of_form(instruction.op, form.kinds) {
-        Some([least, most]) if least == most => least.to_string(),
-        Some([least, most]) => format!("{least} to {most}"),
-        None => "-".to_owned(),
+        Some([least, most]) => range(least.into(), most.into()),
+        None => typical.clone(),
     };
     instruction.forms.iter().map(of_form).collect::<Vec<_>>().join(", ")
+}
+
+fn range(least: u32, most: u32) -> String {
+    let text = |cycles: u32| number(cycles.into());
+    if least == most { text(least) } else { format!("{} to {}", text(least), text(most)) }
+}
+
+/// Cycles that go with values: without what each element takes, and that.
+fn typical_cycles(Typical { on, each, .. }: Typical) -> String {
+    let elements = each.map_or(0, |(cycles, _, usual)| cycles * usual);
+    let [least, typical, most] = on.map(|cycles| cycles.saturating_sub(elements));
+    // Where one stands for all, a range says enough.
+    let text = match most - least {
+        spread if spread * 4 > most => format!("typically {}, {}", number(typical.into()), range(least, most)),
+        _ => range(least, most),
+    };
+    match each {
+        Some((cycles, unit, _)) => format!("{text} + {cycles} per {unit}"),
+        None => text,
+    }
 }
 
 /// Each operand with what its forms accept.

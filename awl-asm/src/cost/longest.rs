@@ -1,7 +1,7 @@
 //! The longest way through a program: every instruction once, those in loops as often as the loops say. How long an
 //! instruction takes comes from the caller.
 
-use plc_isa::{Decoded, Kind, Op, Operand, Program, Region};
+use plc_isa::{Decoded, Group, Kind, Op, Operand, Place, Program, Region};
 
 use super::{Ways, is_fast};
 
@@ -89,6 +89,15 @@ fn loop_of(program: &Program<&[u8]>, code: &[(u16, Decoded)], index: usize) -> R
 /// Most bits that S and R write.
 const RANGE_MAX: u16 = 255;
 
+/// Bytes of the longest value that a module writes to one operand.
+const DOUBLE_LEN: u16 = 4;
+
+/// Whether an instruction writes more than one value.
+fn writes_block(decoded: &Decoded) -> bool {
+    let group = decoded.op.instruction().group;
+    matches!(group, Group::Table | Group::Text | Group::Communication) || decoded.op == Op::Pid
+}
+
 /// Whether an instruction may write to a word.
 fn may_write(decoded: &Decoded, word: u16) -> bool {
     let count = decoded.operands().find_map(|(kind, operand)| match (kind, operand) {
@@ -108,6 +117,10 @@ fn may_write(decoded: &Decoded, word: u16) -> bool {
             };
             bit.address <= word + 1 && bit.address + (u16::from(bit.bit) + bits - 1) / 8 >= word
         }
+        Operand::Reference(to) if kind.is_output() => match to.place() {
+            Some(Place::Direct(at)) if !writes_block(decoded) => at < word + 2 && at + DOUBLE_LEN > word,
+            _ => true,
+        },
         _ => false,
     })
 }
@@ -152,6 +165,9 @@ mod tests {
             ("LD SM0.0\nFOR MW0, 1, 5\nINCW MW0\nNEXT\n", "NEXT"),
             ("LD SM0.0\nFOR MW0, 1, 5\nMOVB 0, MB1\nNEXT\n", "NEXT"),
             ("LD SM0.0\nFOR MW2, 1, 5\nS M0.0, 17\nNEXT\n", "NEXT"),
+            ("LD SM0.0\nFOR MW0, 1, 5\nMOVD VD0, MD2\nMOVD VD0, MD0\nNEXT\n", "NEXT"),
+            ("LD SM0.0\nMOVD &MB0, AC1\nFOR MW0, 1, 5\nMOVD VD0, *AC1\nNEXT\n", "NEXT"),
+            ("LD SM0.0\nFOR MW8, 1, 5\nFILL 0, MW0, 4\nNEXT\n", "NEXT"),
             ("LBL 1\nLD I0.0\nJMP 1\n", "JMP"),
         ] {
             let cost = cost_of(text);
@@ -161,5 +177,6 @@ mod tests {
         // Beside the counted word, or with known counts, nothing changes it.
         cycles("LD SM0.0\nFOR MW2, 1, 5\nMOVB 0, MB1\nMOVW 0, MW4\nS M0.0, 16\nR M4.0, 8\nNEXT\n");
         cycles("LD I0.0\nJMP 1\nLD I0.1\n= Q0.0\nLBL 1\n");
+        cycles("LD SM0.0\nFOR MW4, 1, 5\nMOVD VD0, MD0\nMOVD VD0, MD6\nNEXT\n");
     }
 }

@@ -3,6 +3,8 @@
 
 pub mod interpreter;
 mod longest;
+mod modules;
+pub mod typical;
 
 pub use interpreter::of_form;
 use plc_isa::{Area, Decoded, Op, Operand, Plan, PowerFlow, ProgramMemory, TimerResolution, timer_resolution, verify};
@@ -80,6 +82,9 @@ pub struct ProgramCost {
     pub translated: Option<Longest>,
     /// What a scan takes beside it at most.
     pub overhead: u32,
+    /// Whether there are instructions of modules, whose most was seen with values as programs have them: other values
+    /// can take longer.
+    pub is_typical: bool,
 }
 
 /// What the program of an image costs; `None` for an image that is not valid.
@@ -113,6 +118,7 @@ pub fn cost(image: &[u8]) -> Option<ProgramCost> {
             .zip(native.as_ref())
             .map(|(translated, ways)| longest(NATIVE_START + translated.start.max, ways)),
         overhead: overhead(program.plan()),
+        is_typical: code.iter().any(|(_, decoded)| decoded.op.instruction().module().is_some()),
     })
 }
 

@@ -45,32 +45,36 @@ pub struct Moment {
 }
 
 impl Moment {
-    /// This one.
+    /// This one. With interrupts enabled: the timer begins again, and its interrupt comes, before or behind both readings.
     #[inline(always)]
     pub fn now() -> Moment {
-        interrupt::free(|cs| {
-            // SAFETY: registers that are written at the start only are read.
-            let timer = unsafe { TC0::steal() };
-            let mut ms = UNO200_TICK.borrow(cs).get() as u16;
-            let counts = timer.tcnt0().read().bits();
-            // The timer has begun again, but the interrupt has not come yet.
-            if timer.tifr0().read().ocf0a().bit_is_set() && counts < COUNTS_PER_MS / 2 {
-                ms = ms.wrapping_add(1);
+        let tick = (&raw const UNO200_TICK).cast::<u8>();
+        loop {
+            // SAFETY: bytes of the clock are read, which its interrupt alone changes, and a register of its timer.
+            let (low, high, counts, again) = unsafe {
+                let (low, high) = (tick.read_volatile(), tick.add(1).read_volatile());
+                (low, high, TC0::steal().tcnt0().read().bits(), tick.read_volatile())
+            };
+            if low == again {
+                return Moment { ms: u16::from_le_bytes([low, high]), counts };
             }
-            Moment { ms, counts }
-        })
+        }
     }
 
     /// Counts of 4 us until a later moment.
     #[inline(always)]
     pub fn counts_until(self, later: Moment) -> u32 {
-        let mut counts = 0;
-        let ms = later.ms.wrapping_sub(self.ms);
-        if ms != 0 {
-            counts = u32::from(ms) * u32::from(COUNTS_PER_MS);
+        if later.ms == self.ms {
+            return u32::from(later.counts.wrapping_sub(self.counts));
         }
-        counts.wrapping_add_signed(i32::from(later.counts) - i32::from(self.counts))
+        counts_over_ms(later.ms.wrapping_sub(self.ms), later.counts, self.counts)
     }
+}
+
+/// The same when milliseconds have passed, which few scans take.
+#[inline(never)]
+fn counts_over_ms(ms: u16, later: u8, earlier: u8) -> u32 {
+    u32::from(ms) * u32::from(COUNTS_PER_MS) + u32::from(later) - u32::from(earlier)
 }
 
 #[avr_device::interrupt(atmega328p)]

@@ -24,6 +24,9 @@ pub fn end() {
     pulses.timsk1().reset();
     pulses.tccr1a().reset();
     timer.timsk2().reset();
+    // Setting the line up anew would break a character of the firmware's own.
+    if flags() & SERIAL != 0 {
+        serial::set_up();
+    }
     cpu.gpior1().reset();
-    serial::set_up();
 }

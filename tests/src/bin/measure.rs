@@ -5,8 +5,9 @@ use std::io::{self, Write};
 
 use plc_isa::Op;
 use tests::image::example_text;
+use tests::measure::module_rows::MODULE_CHAPTERS;
 use tests::measure::record::{self, Record};
-use tests::measure::rows::{CHAPTERS, Row};
+use tests::measure::rows::{CHAPTERS, Count, Row};
 use tests::measure::{self, Executable, Meter, Step, Tier, forms, programs, s7_200, scans, table};
 
 fn main() -> io::Result<()> {
@@ -15,6 +16,9 @@ fn main() -> io::Result<()> {
         return out.write_all(table::table().as_bytes());
     }
     writeln!(out, "{}", record::HEAD)?;
+    if let Some(word) = std::env::args().nth(1) {
+        return chapter_alone(&mut out, &word);
+    }
     for tier in Tier::ALL {
         for record in [program_records(tier), station_records(tier)].concat() {
             writeln!(out, "{record}")?;
@@ -28,6 +32,22 @@ fn main() -> io::Result<()> {
             for record in Tier::ALL.into_iter().flat_map(|tier| row_records(chapter.title, row, tier)) {
                 writeln!(out, "{record}")?;
             }
+        }
+    }
+    for chapter in &MODULE_CHAPTERS {
+        for record in chapter.rows.iter().flat_map(|row| module_row_records(chapter.title, row)) {
+            writeln!(out, "{record}")?;
+        }
+    }
+    Ok(())
+}
+
+/// The rows of modules of which one word is in the chapter's title or in the AWL, to look at them.
+fn chapter_alone(out: &mut impl Write, word: &str) -> io::Result<()> {
+    for chapter in &MODULE_CHAPTERS {
+        let rows = chapter.rows.iter().filter(|row| chapter.title.contains(word) || row.awl.contains(word));
+        for record in rows.flat_map(|row| module_row_records(chapter.title, row)) {
+            writeln!(out, "{record}")?;
         }
     }
     Ok(())
@@ -135,12 +155,13 @@ fn station_records(tier: Tier) -> Vec<Record> {
 
 fn row_records(chapter: &'static str, row: &Row, tier: Tier) -> Vec<Record> {
     let found = forms::measure(row, tier);
-    let record = |what: &str, (min, max): forms::Cycles, quoted_us: Option<f64>| Record {
+    let record = |what: &str, (min, max): (u64, u64), quoted_us: Option<f64>| Record {
         min: min as f64,
         quoted_us,
         ..single(chapter, tier, what, max as f64, row.awl)
     };
-    let (on, off) = (found.get(&true).copied(), found.get(&false).copied());
+    let range = |flow: bool| found.get(&flow).map(|spread| (spread.min, spread.max));
+    let (on, off) = (range(true), range(false));
     if row.is_box() {
         let on = on.map(|cycles| record("cycles", cycles, row.quoted_us()));
         let off_us = row.quoted_us().map(|us| us.min(s7_200::WITHOUT_POWER_FLOW_US));
@@ -148,4 +169,31 @@ fn row_records(chapter: &'static str, row: &Row, tier: Tier) -> Vec<Record> {
     }
     let both = on.into_iter().chain(off).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
     both.map(|cycles| record("cycles", cycles, row.quoted_us())).into_iter().collect()
+}
+
+/// Of an instruction whose time goes with values: what it takes as a rule, beside the fewest and the most. Machine code
+/// calls the interpreter for it.
+fn module_row_records(chapter: &'static str, row: &Row) -> Vec<Record> {
+    let tier = Tier::Interpreter;
+    let name = row.name();
+    let of = |what: &str, value: u64| single(chapter, tier, what, value as f64, &name);
+    let is_box = row.is_box();
+    // A contact is executed with power flow and without.
+    let executed = |mut found: forms::ByFlow| {
+        let off = if is_box { found.remove(&false) } else { None };
+        (found.into_values().reduce(scans::Spread::with), off)
+    };
+    let (Some(on), off) = executed(forms::measure(row, tier)) else { return Vec::new() };
+    let typical = if row.is_once { on.max } else { on.median };
+    let mut records = vec![
+        Record { min: on.min as f64, ..of("cycles", on.max) },
+        Record { quoted_us: row.quoted_us(), ..of("typical cycles", typical) },
+    ];
+    records.extend(off.map(|off| of("without power flow", off.max)));
+    if let Some(Count { unit, usual, many }) = row.count {
+        let (longer, _) = executed(forms::measure_with(row, tier, many));
+        let more = longer.map_or(0, |longer| longer.max.saturating_sub(on.max));
+        records.push(of(&format!("each {unit} of {usual}"), more.div_ceil(u64::from(many - usual))));
+    }
+    records
 }

@@ -7,7 +7,8 @@ use fastrand::Rng;
 use plc_isa::{M_START, PowerFlow};
 
 use super::rows::Row;
-use super::{Executable, Meter, Tier};
+use super::scans::Spread;
+use super::{Executable, Meter, Tier, values};
 
 impl Row {
     /// Whether it needs power flow.
@@ -22,11 +23,8 @@ impl Row {
     }
 }
 
-/// Fewest and most cycles.
-pub type Cycles = (u64, u64);
-
 /// What an instruction takes: without and with power flow, if it was executed so.
-pub type ByFlow = BTreeMap<bool, Cycles>;
+pub type ByFlow = BTreeMap<bool, Spread>;
 
 /// Scans of a row's program, each in another situation.
 const SITUATIONS: usize = 300;
@@ -36,12 +34,21 @@ const SITUATIONS: usize = 300;
 /// # Panics
 /// If its program has errors or does not run.
 pub fn measure(row: &Row, tier: Tier) -> ByFlow {
-    let (text, numbers) = row.program();
+    measure_with(row, tier, row.count.map_or(0, |count| count.usual))
+}
+
+/// The same with this count.
+///
+/// # Panics
+/// If its program has errors or does not run.
+pub fn measure_with(row: &Row, tier: Tier, count: u8) -> ByFlow {
+    let (text, numbers) = row.program_with(count);
     let mut meter = Meter::new(Executable::new(row.awl, &text, tier));
     meter.board.stop_clock();
-    let (mut rng, mut found) = (Rng::with_seed(200), ByFlow::new());
+    let (mut rng, mut found) = (Rng::with_seed(200), BTreeMap::<bool, Vec<u64>>::new());
     for _ in 0..SITUATIONS {
         situation(&mut meter, &mut rng);
+        values::write(&mut meter, row.items, count, &mut rng);
         let execution = meter.execute();
         let mut hidden = 0;
         for step in &execution.steps {
@@ -53,8 +60,7 @@ pub fn measure(row: &Row, tier: Tier) -> ByFlow {
             let taken = hidden + step.cycles;
             hidden = 0;
             if meter.executable.written(instruction).is_some_and(|number| numbers.contains(&number)) {
-                let cycles = found.entry(step.flow).or_insert((taken, taken));
-                *cycles = (cycles.0.min(taken), cycles.1.max(taken));
+                found.entry(step.flow).or_default().push(taken);
             }
         }
     }
@@ -62,9 +68,9 @@ pub fn measure(row: &Row, tier: Tier) -> ByFlow {
     let code = 0..meter.executable.code.len();
     let of_row = |&instruction: &usize| meter.executable.written(instruction).is_some_and(|n| numbers.contains(&n));
     if code.filter(of_row).all(|instruction| meter.executable.is_nothing(instruction)) {
-        found.insert(true, (0, 0));
+        found.insert(true, vec![0]);
     }
-    found
+    found.into_iter().map(|(flow, cycles)| (flow, Spread::of(cycles))).collect()
 }
 
 /// Words at the ends of ranges and around the constants of the programs.

@@ -6,12 +6,14 @@
 mod executable;
 pub mod forms;
 mod meter;
+pub mod module_rows;
 pub mod programs;
 pub mod record;
 pub mod rows;
 pub mod s7_200;
 pub mod scans;
 pub mod table;
+pub mod values;
 
 pub use executable::{Executable, Tier};
 pub use meter::{Execution, Meter, Step, elf};

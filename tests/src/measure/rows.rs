@@ -1,7 +1,8 @@
-//! The table of instructions: every form of every instruction with its operands, the small program it stands in, and
-//! what the S7-200 takes. Nothing is measured here.
+//! The table of instructions: every form of every instruction of the core with its operands, the small program it stands
+//! in, and what the S7-200 takes. Those of modules stand in `module_rows`. Nothing is measured here.
 
 use super::s7_200::{self, Quoted};
+use super::values::Item;
 
 /// An instruction in a form, as a row of the table.
 #[derive(Debug, Clone, Copy)]
@@ -12,33 +13,96 @@ pub struct Row {
     frame: &'static str,
     /// What the S7-200 takes, and for how many bits.
     quoted: Option<(Quoted, u32)>,
+    /// A line before the program.
+    settings: &'static str,
+    /// What stands in V memory before a scan.
+    pub items: &'static [Item],
+    /// What its time goes with.
+    pub count: Option<Count>,
+    /// It does its work once in a program, and refuses to do it again.
+    pub is_once: bool,
+}
+
+/// How many of something an instruction handles: `{n}` in its AWL and in its items.
+#[derive(Debug, Clone, Copy)]
+pub struct Count {
+    /// Of what.
+    pub unit: &'static str,
+    /// So many, as a rule.
+    pub usual: u8,
+    /// So many, to see what each takes.
+    pub many: u8,
 }
 
 impl Row {
+    /// A row with its program. `settings` is a line before it.
+    pub const fn new(awl: &'static str, settings: &'static str, frame: &'static str) -> Row {
+        Row { awl, frame, quoted: None, settings, items: &[], count: None, is_once: false }
+    }
+
+    /// The same with what the S7-200 takes.
+    pub const fn quoted(mut self, quoted: Quoted) -> Row {
+        let usual = if let Some(count) = self.count { count.usual } else { 0 };
+        self.quoted = Some((quoted, usual as u32));
+        self
+    }
+
+    /// The same with other values in V memory.
+    pub const fn with(mut self, items: &'static [Item]) -> Row {
+        self.items = items;
+        self
+    }
+
+    /// The same, of which the longest time counts.
+    pub const fn once(mut self) -> Row {
+        self.is_once = true;
+        self
+    }
+
+    /// The same with a count.
+    pub const fn count(mut self, unit: &'static str, usual: u8, many: u8) -> Row {
+        self.count = Some(Count { unit, usual, many });
+        self
+    }
+
+    /// Its AWL, with the usual count.
+    pub fn name(&self) -> String {
+        let usual = self.count.map_or(0, |count| count.usual);
+        self.awl.replace("{n}", &usual.to_string())
+    }
+
     /// What the S7-200 takes, in microseconds.
     pub fn quoted_us(&self) -> Option<f64> {
         self.quoted.map(|(quoted, count)| quoted.us(count))
     }
 
     /// The instructions of this row.
-    fn instructions(&self) -> Vec<String> {
+    fn instructions(&self, count: u8) -> Vec<String> {
         const RELATIONS: [&str; 6] = ["=", "<>", "<", ">", "<=", ">="];
         match (self.awl.contains("{b}"), self.awl.contains("{x}")) {
             (true, _) => (0..8).map(|bit| self.awl.replace("{b}", &bit.to_string())).collect(),
             (_, true) => RELATIONS.iter().map(|relation| self.awl.replace("{x}", relation)).collect(),
-            _ => vec![self.awl.to_string()],
+            _ => vec![self.awl.replace("{n}", &count.to_string())],
         }
     }
 
     /// The program, and the numbers of the instructions that are this row.
     pub fn program(&self) -> (String, Vec<usize>) {
-        let (mut text, mut numbers) = (String::new(), Vec::new());
-        let instructions = self.instructions();
+        self.program_with(self.count.map_or(0, |count| count.usual))
+    }
+
+    /// The same with this count.
+    pub fn program_with(&self, count: u8) -> (String, Vec<usize>) {
+        let (mut text, mut numbers) = (self.settings.to_string(), Vec::new());
+        let instructions = self.instructions(count);
         let lines = instructions.iter().flat_map(|instruction| self.frame.lines().map(move |line| (line, instruction)));
-        for (number, (line, instruction)) in lines.enumerate() {
+        let mut number = 0;
+        for (line, instruction) in lines {
             if line == "{}" {
                 numbers.push(number);
             }
+            // What opens and closes a block is no instruction.
+            number += usize::from(!line.contains("_BLOCK") && line != "BEGIN");
             text += &line.replace("{}", instruction);
             text.push('\n');
         }
@@ -54,15 +118,17 @@ const TWO: &str = "LD M30.0\nLD M30.1\n{}\n= M31.7";
 const THREE: &str = "LD M30.2\nLD M30.1\nLD M30.0\n{}";
 
 const fn row(awl: &'static str, frame: &'static str, quoted: Quoted) -> Row {
-    Row { awl, frame, quoted: Some((quoted, 0)) }
+    Row::new(awl, "", frame).quoted(quoted)
 }
 
 const fn range(awl: &'static str, frame: &'static str, count: u32) -> Row {
-    Row { awl, frame, quoted: Some((s7_200::SET, count)) }
+    let mut row = Row::new(awl, "", frame);
+    row.quoted = Some((s7_200::SET, count));
+    row
 }
 
 const fn unquoted(awl: &'static str, frame: &'static str) -> Row {
-    Row { awl, frame, quoted: None }
+    Row::new(awl, "", frame)
 }
 
 const CONTACTS: &[Row] = &[

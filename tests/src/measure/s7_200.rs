@@ -20,8 +20,14 @@ impl Quoted {
     }
 }
 
-const fn fixed(base_us: f64) -> Quoted {
+/// A time that does not depend on a count.
+pub const fn fixed(base_us: f64) -> Quoted {
     Quoted { base_us, each_us: 0.0 }
+}
+
+/// A time with a share for each of what the instruction handles.
+pub const fn each(base_us: f64, each_us: f64) -> Quoted {
+    Quoted { base_us, each_us }
 }
 
 /// A conditional instruction without power flow: "about 1 us" for all of them. Those that are quoted with less take

@@ -33,6 +33,12 @@ impl Spread {
         let mean = values.iter().sum::<u64>().div_ceil(values.len() as u64);
         Spread { min: at(0.0), median: at(0.5), p99: at(0.99), max: at(1.0), mean }
     }
+
+    /// Both together, with the middle and the rest of the one that has more.
+    pub fn with(self, other: Spread) -> Spread {
+        let more = if self.median < other.median { other } else { self };
+        Spread { min: self.min.min(other.min), max: self.max.max(other.max), ..more }
+    }
 }
 
 /// The scans of a program.

@@ -6,6 +6,7 @@ use std::fs;
 use anyhow::{Context, Result, ensure};
 
 use super::budget;
+use super::costs;
 use super::exceptions;
 use super::page;
 use super::record::{Record, parse_all, text_of};
@@ -15,12 +16,14 @@ use crate::{firmware, packages};
 
 const FIGURES: &str = "docs/benchmarks.csv";
 const PAGE: &str = "docs/benchmarks.md";
+/// What the assembler knows about modules.
+const COSTS: &str = "awl-asm/src/cost/modules.rs";
 
 /// Share by which a figure may change without being a change. What the assembler engine does is exact; another version
 /// of the compiler makes other code of the rest.
 const TOLERANCE: f64 = 0.03;
 
-/// Measures and writes both files, unless something has become slower. Then prints what misses its budget.
+/// Measures and writes the files, unless something has become slower. Then prints what misses its budget.
 pub fn write() -> Result<()> {
     let records = measure()?;
     if root().join(FIGURES).exists() {
@@ -30,15 +33,18 @@ pub fn write() -> Result<()> {
     }
     put(FIGURES, &text_of(&records))?;
     put(PAGE, &page::page(&records))?;
-    println!("{} figures in {PAGE} and {FIGURES}", records.len());
+    put(COSTS, &costs::table(&records)?)?;
+    println!("{} figures in {PAGE} and {FIGURES}, those of modules in {COSTS}", records.len());
     judge(&records)
 }
 
 /// Measures, and fails where a budget is missed or the files say something else.
 pub fn check() -> Result<()> {
     let (known, records) = (known()?, measure()?);
-    let page = fs::read_to_string(root().join(PAGE)).with_context(|| format!("cannot read {PAGE}"))?;
-    ensure!(page == page::page(&known), "{PAGE} is not what {FIGURES} says: run `cargo xtask bench`");
+    for (file, text) in [(PAGE, page::page(&known)), (COSTS, costs::table(&known)?)] {
+        let kept = fs::read_to_string(root().join(file)).with_context(|| format!("cannot read {file}"))?;
+        ensure!(kept == text, "{file} is not what {FIGURES} says: run `cargo xtask bench`");
+    }
     let (better, bad): (Vec<_>, Vec<_>) =
         changes(&known, &records).into_iter().partition(|change| change.kind == Kind::Better);
     if !better.is_empty() {

@@ -3,6 +3,8 @@
 
 mod board;
 mod budget;
+mod comparison;
+mod costs;
 mod exceptions;
 mod host;
 mod page;
@@ -10,6 +12,7 @@ mod record;
 mod text;
 
 use anyhow::Result;
+pub use page::number;
 
 use crate::process::{cargo, run as run_command};
 

@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 
 use super::budget;
+use super::comparison::{self, Line};
 use super::exceptions::{CYCLES_A_US, EXCEPTIONS, is_slower};
-use super::record::{Record, TIERS, find};
+use super::record::{INTERPRETER, Record, TIERS, TYPICAL, find};
 use super::text;
 use crate::budgets;
 
@@ -17,9 +18,11 @@ pub fn page(records: &[Record]) -> String {
     budgets_table(&mut page, records);
     programs_table(&mut page, records);
     scans_table(&mut page, records);
+    comparison_tables(&mut page, records);
     others_table(&mut page);
     host_table(&mut page);
     instruction_tables(&mut page, records);
+    module_tables(&mut page, records);
     exceptions_table(&mut page, records);
     page
 }
@@ -101,6 +104,45 @@ fn scans_table(page: &mut String, records: &[Record]) {
     }
 }
 
+/// Groups of instructions against the S7-200.
+fn comparison_tables(page: &mut String, records: &[Record]) {
+    let columns = ["instructions", "interpreter", "native", "S7-200", "interpreter is", "native is"];
+    section(page, "Against the S7-200", text::COMPARISON, &columns);
+    let us = |[least, most]: [f64; 2]| {
+        let [least, most] = [least, most].map(short);
+        if least == most { least } else { format!("{least} to {most}") }
+    };
+    for Line { title, interpreter, native, quoted, speed } in comparison::lines(records) {
+        let speed = speed.map(|speed| speed.map_or(String::new(), how_fast));
+        let native = native.map_or(String::new(), us);
+        line(page, &[vec![title.to_string(), us(interpreter), native, us(quoted)], speed.to_vec()].concat());
+    }
+    let _ = write!(page, "\n{}\n", text::VERIFIED);
+    line(page, &["row", "interpreter", "CPU 226XM", "which is", "interpreter is"]);
+    let _ = writeln!(page, "|---|---|---|---|---|");
+    for (name, what, ours, theirs) in comparison::verified(records) {
+        line(page, &[format!("`{name}`"), short(ours), short(theirs), what.to_string(), how_fast(theirs / ours)]);
+    }
+}
+
+/// In words; the slower is marked.
+fn how_fast(times: f64) -> String {
+    match times {
+        times if times < 0.95 => format!("**{} times slower**", short(1.0 / times)),
+        times if times < 1.05 => "as fast".to_string(),
+        times => format!("{} times faster", short(times)),
+    }
+}
+
+/// A number with three digits that count.
+fn short(value: f64) -> String {
+    match value {
+        value if value < 10.0 => number((value * 100.0).round() / 100.0),
+        value if value < 100.0 => number((value * 10.0).round() / 10.0),
+        value => number(value.round()),
+    }
+}
+
 fn others_table(page: &mut String) {
     section(page, "Other systems", text::OTHERS_HEAD, &["system", "kind", "cycles an AWL instruction"]);
     for (name, kind, cycles) in text::OTHERS {
@@ -130,7 +172,7 @@ a budget that is missed fails them.
 fn instruction_tables(page: &mut String, records: &[Record]) {
     let _ = write!(page, "\n## Instructions\n\n{}", text::INSTRUCTIONS);
     let mut chapters: Vec<&str> = Vec::new();
-    for record in records {
+    for record in records.iter().filter(|record| !is_typical(records, record)) {
         if !chapters.contains(&&*record.section) && !OTHER_SECTIONS.contains(&&*record.section) {
             chapters.push(&record.section);
         }
@@ -149,6 +191,41 @@ fn instruction_tables(page: &mut String, records: &[Record]) {
             cells.push(quoted.and_then(|record| record.quoted_us).map_or("-".to_string(), number));
             line(page, &cells);
         }
+    }
+}
+
+/// Whether a figure is of an instruction whose time goes with values.
+fn is_typical(records: &[Record], record: &Record) -> bool {
+    record.what == TYPICAL || find(records, INTERPRETER, TYPICAL, &record.name).is_some()
+}
+
+/// Instructions whose time goes with values.
+fn module_tables(page: &mut String, records: &[Record]) {
+    let _ = write!(page, "\n## Instructions of modules\n\n{}", text::MODULES);
+    let mut chapter = "";
+    for record in records.iter().filter(|record| record.what == TYPICAL) {
+        if record.section != chapter {
+            chapter = &record.section;
+            let _ = write!(page, "\n### {chapter}\n\n");
+            line(page, &["AWL", "typical", "us", "least-most", "each", "off", "S7-200"]);
+            let _ = writeln!(page, "|{}", "---|".repeat(7));
+        }
+        let of = |what: &str| find(records, INTERPRETER, what, &record.name);
+        let each = records.iter().filter(|other| other.name == record.name).find_map(Record::each);
+        let each = each.filter(|(cycles, ..)| *cycles > 0.0);
+        let mark = if is_slower(record) { " !" } else { "" };
+        line(
+            page,
+            &[
+                format!("`{}`", record.name),
+                number(record.max),
+                format!("{:.1}{mark}", record.max / CYCLES_A_US),
+                of("cycles").filter(|range| range.min < range.max).map_or(String::new(), span),
+                each.map_or(String::new(), |(cycles, unit, _)| format!("{} a {unit}", number(cycles))),
+                of("without power flow").map_or(String::new(), span),
+                record.quoted_us.map_or("-".to_string(), number),
+            ],
+        );
     }
 }
 
@@ -194,7 +271,7 @@ fn span(record: &Record) -> String {
 }
 
 /// A number with commas between thousands and at most two digits behind the point.
-fn number(value: f64) -> String {
+pub fn number(value: f64) -> String {
     let text = format!("{:.2}", value);
     let (whole, fraction) = text.split_once('.').unwrap_or((&text, ""));
     let mut grouped = String::new();

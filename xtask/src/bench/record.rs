@@ -61,6 +61,12 @@ impl Record {
             && ["max", "p99", "mean"].iter().any(|word| self.what.ends_with(word))
     }
 
+    /// What each of something takes, of what, and how many there are in the row: of `each word of 8`.
+    pub fn each(&self) -> Option<(f64, &str, u32)> {
+        let (unit, usual) = self.what.strip_prefix("each ")?.split_once(" of ")?;
+        Some((self.max, unit, usual.parse().ok()?))
+    }
+
     /// What it is, for messages.
     pub fn title(&self) -> String {
         format!("{}, {}, {}, {}", self.name, self.what, self.tier, self.section)
@@ -74,6 +80,9 @@ impl fmt::Display for Record {
         write!(f, "{section},{tier},{what},{min},{max},{quoted},\"{name}\"")
     }
 }
+
+/// What an instruction takes whose time goes with values: as a rule.
+pub const TYPICAL: &str = "typical cycles";
 
 /// Reads figures, a line each.
 pub fn parse_all(text: &str) -> Result<Vec<Record>> {
