@@ -3,9 +3,9 @@
 use plc_isa::{AnalogInput, CRC_LEN, DATA_START, I_START, ProgramMemory, Settings};
 use plc_vm::{Exit, Fault, Mode, Plc};
 
+use crate::board::clock::Moment;
 use crate::board::data::Data;
 use crate::board::eeprom::Eeprom;
-use crate::board::clock::Moment;
 use crate::board::flash::ProgramSlot;
 use crate::board::ports::{self, Ports};
 use crate::board::serial::Serial;

@@ -8,13 +8,13 @@ use core::mem::offset_of;
 use core::ptr;
 
 use plc_isa::{
-    COUNTERS_ENTRY, COUNTERS_MODULE, DIRECTORY_AT, ENO, EVENTS_ENTRY, EVENTS_MODULE, EVENTS_SEEN, Execute, FREEPORT_ENTRY,
-    FREEPORT_MODULE, MODULE_HEAD_LEN, PULSES_ENTRY, PULSES_MODULE, SLOT_START, TimerResolution,
+    COUNTERS_ENTRY, COUNTERS_MODULE, DIRECTORY_AT, ENO, EVENTS_ENTRY, EVENTS_MODULE, EVENTS_SEEN, Execute,
+    FREEPORT_ENTRY, FREEPORT_MODULE, MODULE_HEAD_LEN, PULSES_ENTRY, PULSES_MODULE, SLOT_START, TimerResolution,
 };
 use plc_vm::{CALLS_MAX, Environment, Exit, Interpreter};
 
-use crate::board::{clock, takeover};
 use crate::board::flash::ProgramSlot;
+use crate::board::{clock, takeover};
 use crate::environment::ScanTime;
 
 /// The firmware's interface to native programs.
