@@ -111,12 +111,6 @@ pub static EXCEPTIONS: &[Exception] = &[
         names: &["INCB", "DECB", "S V100", "R V100", "HDEF"],
         reason: "the way to the module, and to read its operands, is most of the time",
     },
-    Exception {
-        tiers: BYTECODE,
-        what: TYPICAL,
-        names: &["MUL"],
-        reason: "words are multiplied as double words, bit by bit",
-    },
 ];
 
 /// Whether a figure is of an instruction and above what is quoted.
