@@ -63,7 +63,7 @@ pub fn assemble_with_data(source: &Source, symbols: Vec<Symbol>, data: &[DataLin
     mnemonic_set::check(&source.text, &program, &mut diagnostics);
     let code = select(&program, &mut diagnostics);
     diagnostics.extend(hardware::shared_timer(&program, &code));
-    diagnostics.extend(hardware::not_on_board(&program, &code));
+    diagnostics.extend(hardware::shared_pins(&program, &code));
     diagnostics.extend(special::without_effect(&program, &code));
     let units = Units::new(&program, &code, &mut diagnostics);
     let control = control(&program, &code, &units, &mut diagnostics);
@@ -94,7 +94,6 @@ fn drop_follow_ups(diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.retain(|diagnostic| is_guess(&diagnostic) || !guesses.contains(&diagnostic.span));
     // Whether a value or a routine is used cannot be told while instructions are missing.
     if diagnostics.iter().any(|diagnostic| diagnostic.severity() == Severity::Error) {
-        diagnostics
-            .retain(|diagnostic| !matches!(diagnostic.code, Code::UnusedValue | Code::NeverCalled | Code::NotOnBoard));
+        diagnostics.retain(|diagnostic| !matches!(diagnostic.code, Code::UnusedValue | Code::NeverCalled));
     }
 }

@@ -86,7 +86,6 @@ codes! {
     UnusedValue = "W0010";
     NeverCalled = "W0020";
     MixedMnemonics = "W0030";
-    NotOnBoard = "W0031";
     NoEffect = "W0032";
 }
 

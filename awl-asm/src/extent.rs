@@ -11,6 +11,8 @@ use crate::select::{Argument, Selected};
 const PID_TABLE: u16 = 36;
 /// Bytes of a time.
 const TIME: u16 = 8;
+/// Most characters of a real.
+const REAL_LEN_MAX: u16 = 15;
 
 /// Bytes from the first that an operand names, as far as the text tells; what only the running program knows counts as
 /// one element.
@@ -42,11 +44,16 @@ fn bits(selected: &Selected, index: usize) -> u16 {
     }
 }
 
-/// How many elements an operand stands for.
+/// How many elements an operand stands for: where a format in memory decides, as many as it can ask for.
 pub(crate) fn elements(program: &Program, selected: &Selected, index: usize) -> u16 {
     let literal = |place: usize| match selected.arguments[place] {
         Argument::Literal(count) => (count.clamp(1, 255)) as u16,
         _ => 1,
+    };
+    // The upper half of FMT; one that only the running program knows can ask for all.
+    let characters = |place: usize| match selected.arguments[place] {
+        Argument::Literal(format) => format as u16 >> 4 & REAL_LEN_MAX,
+        _ => REAL_LEN_MAX,
     };
     match (selected.op, index) {
         (Op::Bmb | Op::Bmw | Op::Bmd, 0 | 1) | (Op::Fill, 1) => literal(2),
@@ -56,10 +63,10 @@ pub(crate) fn elements(program: &Program, selected: &Selected, index: usize) -> 
         (Op::Todr | Op::Todw, 0) => TIME,
         (Op::Ita, 1) => 8,
         (Op::Dta, 1) => 12,
-        (Op::Rta, 1) => literal(2) >> 4 & 15,
+        (Op::Rta, 1) => characters(2),
         (Op::Its, 2) => 1 + 8,
         (Op::Dts, 2) => 1 + 12,
-        (Op::Rts, 2) => 1 + (literal(1) >> 4 & 15),
+        (Op::Rts, 2) => 1 + characters(1),
         (Op::Scpy, 1) => 1 + text_len(program, selected, 0),
         (Op::Sscpy, 3) => 1 + literal(2),
         _ => 1,

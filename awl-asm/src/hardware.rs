@@ -1,14 +1,11 @@
 //! What an S7-200 has and an Uno has not: says so at assembly, with the reason and the nearest way that works.
 
-use std::collections::BTreeSet;
-
-use plc_isa::{DIGITAL_INPUTS, DIGITAL_OUTPUTS, Op};
+use plc_isa::{Area, DIGITAL_INPUTS, DIGITAL_OUTPUTS, Op};
 
 use crate::address::Address;
 use crate::ast::{Instruction, Program, Span, Value};
 use crate::check::span_of;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::modules;
 use crate::select::{Argument, Selected};
 
 /// An instruction that Micro/WIN knows and uno200 has not.
@@ -137,7 +134,10 @@ fn counter_mode(counter: u8, mode: u8, span: Span) -> Option<Diagnostic> {
     if possible.contains(&mode) {
         return None;
     }
-    let message = format!("mode {mode}: HSC{counter} has no inputs for it");
+    let message = match mode {
+        0..=12 => format!("mode {mode}: HSC{counter} has no inputs for it"),
+        _ => format!("{mode}: high-speed counters have the modes 0 to 12"),
+    };
     let code = if mode > 12 { Code::ConstantRange } else { Code::Hardware };
     Some(Diagnostic::new(code, span, message).help(format!("HSC{counter} has the modes {words}")))
 }
@@ -160,23 +160,21 @@ pub(crate) fn shared_timer(program: &Program, code: &[Selected]) -> Option<Diagn
     Some(diagnostic.help("AQW0 without AQW2 is what PWM of PLS 1 does too: SMB77, SMW78 and SMW80 set cycle and width"))
 }
 
-/// Instructions that the board's firmware lacks, each where it stands first.
-pub(crate) fn not_on_board(program: &Program, code: &[Selected]) -> Vec<Diagnostic> {
-    let mut seen = BTreeSet::new();
-    let missing = code.iter().filter(|selected| is_missing_on_board(selected.op) && seen.insert(selected.op));
-    let diagnostic = |selected: &Selected| {
-        let name = selected.op.instruction().mnemonic();
-        let message = format!("{name}: the board does not have this instruction yet, the simulator runs it");
-        Diagnostic::new(Code::NotOnBoard, span_of(program, selected), message)
+/// An analog output and the digital output at the same pin in one program.
+pub(crate) fn shared_pins(program: &Program, code: &[Selected]) -> Vec<Diagnostic> {
+    let writer = |wanted: Argument| {
+        let writes = |selected: &&Selected| selected.arguments().any(|written| written == (wanted, true));
+        code.iter().find(writes)
     };
-    missing.map(diagnostic).collect()
-}
-
-/// Whether there is no machine code for an instruction of a module.
-fn is_missing_on_board(op: Op) -> bool {
-    let instruction = op.instruction();
-    let (Some(module), Some(form)) = (instruction.module(), instruction.forms.first()) else { return false };
-    form.first_token >= modules::routines(module)
+    let shared = |(channel, pin): (u8, &str)| {
+        let (analog, bit) = (Address::AnalogOutput(channel), Address::Bit { area: Area::Q, byte: 0, bit: channel + 1 });
+        let (written, digital) = (writer(Argument::Memory(analog))?, writer(Argument::Bit(bit))?);
+        let message = format!("{bit} and {analog} are the same pin of the Uno, {pin}");
+        let diagnostic = Diagnostic::new(Code::Hardware, span_of(program, digital), message);
+        let diagnostic = diagnostic.related(span_of(program, written), format!("{analog} here"));
+        Some(diagnostic.help("the other digital outputs, Q0.0 and Q0.3 to Q0.5, share nothing"))
+    };
+    [(0, "D9"), (1, "D10")].into_iter().filter_map(shared).collect()
 }
 
 /// The events of an Uno.

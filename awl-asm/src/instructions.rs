@@ -7,6 +7,7 @@ use crate::ast::{self, Operand, Span, Statement, UnitKind, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::hardware;
 use crate::lexer::{Ahead, Cut};
+use crate::limits::relations;
 use crate::locals::PARAMETERS_MAX;
 use crate::mnemonics::{Meaning, comparison, comparisons, confused, first_words, meaning, written_operands};
 use crate::parser::Parser;
@@ -31,10 +32,10 @@ impl Parser<'_> {
             (true, true) => {
                 let sign = self.lexer.relation();
                 mnemonic_span.end = sign.end;
-                Some(self.relation(sign))
+                Some(self.relation(entry, sign))
             }
             (true, false) => {
-                self.relation_missing(word);
+                self.relation_missing(entry, word);
                 Some(Relation::Equal)
             }
             (false, true) => return self.wrong_relation(word),
@@ -161,22 +162,29 @@ impl Parser<'_> {
         }
     }
 
-    fn relation(&mut self, sign: Span) -> Relation {
+    /// The comparison that is written. What the instruction does not know is reported where its operands are.
+    fn relation(&mut self, entry: &Instruction, sign: Span) -> Relation {
         let text = sign.text(self.text);
         if let Some(relation) = Relation::ALL.into_iter().find(|relation| relation.symbol() == text) {
             return relation;
         }
-        let message = format!("{text}: no such comparison; there are = <> < > <= >=");
+        let possible = relations(entry.op);
+        let all = possible.iter().map(|relation| relation.symbol()).collect::<Vec<_>>().join(" ");
+        let message = format!("{text}: no such comparison; there are {all}");
         let mut diagnostic = Diagnostic::new(Code::Syntax, sign, message);
         let meant = [("==", "="), ("=>", ">="), ("=<", "<="), ("!=", "<>"), ("><", "<>")];
-        diagnostic.suggestion = meant.iter().find(|(wrong, _)| *wrong == text).map(|(_, right)| (*right).to_owned());
+        diagnostic.suggestion = meant
+            .iter()
+            .find(|(wrong, right)| *wrong == text && possible.iter().any(|relation| relation.symbol() == *right))
+            .map(|(_, right)| (*right).to_owned());
         self.diagnostics.push(diagnostic);
         Relation::Equal
     }
 
-    fn relation_missing(&mut self, word: Span) {
+    fn relation_missing(&mut self, entry: &Instruction, word: Span) {
         let text = word.text(self.text);
-        let all = Relation::ALL.map(|relation| format!("{text}{}", relation.symbol())).join(" ");
+        let all = relations(entry.op).iter().map(|relation| format!("{text}{}", relation.symbol()));
+        let all = all.collect::<Vec<_>>().join(" ");
         let diagnostic = Diagnostic::new(Code::Syntax, word, format!("{text}: the comparison is missing"));
         self.diagnostics.push(diagnostic.help(format!("there are {all}")));
     }

@@ -21,6 +21,33 @@ const TABLE_WORDS: u16 = 3;
 /// Words from EC on to the first entry.
 const FOUND_WORDS: u16 = 2;
 
+/// The comparisons that an instruction with one knows: texts are equal or not, and tables are searched by four.
+pub(crate) fn relations(op: Op) -> &'static [Relation] {
+    use Relation::{Equal, Greater, Less, NotEqual};
+    match op {
+        Op::LoadText | Op::AndText | Op::OrText => &[Equal, NotEqual],
+        Op::Fnd => &[Equal, NotEqual, Less, Greater],
+        _ => &Relation::ALL,
+    }
+}
+
+/// Least and most of what a constant may be, in ascending order, where it is less than the kind of the operand takes.
+fn constants(op: Op, index: usize) -> Option<&'static [(i32, i32)]> {
+    Some(match (op, index) {
+        (Op::Fill | Op::Bmb | Op::Bmw | Op::Bmd | Op::Ath | Op::Hta, 2) => &[(1, 255)],
+        (Op::SetImmediate | Op::ResetImmediate, 1) => &[(1, 128)],
+        (Op::Sti | Op::Std | Op::Str | Op::Sscpy, 1) => &[(1, TEXT_MAX)],
+        (Op::Shrb, 2) => &[(-64, -1), (1, 64)],
+        _ => return None,
+    })
+}
+
+/// What may stand at a place whose constants are fewer than its kind takes.
+pub(crate) fn constant_words(op: Op, index: usize) -> Option<String> {
+    let ranges = constants(op, index)?.iter().map(|(least, most)| format!("{least} to {most}"));
+    Some(format!("a byte or a constant {}", ranges.collect::<Vec<_>>().join(" or ")))
+}
+
 /// What is wrong with an instruction whose operands are of the right kinds.
 pub(crate) fn check(program: &Program, source: &Instruction, selected: &Selected) -> Option<Diagnostic> {
     let operands = Operands { source, selected };
@@ -54,20 +81,16 @@ impl Operands<'_> {
         }
     }
 
-    /// Texts are equal or not, and tables are searched by four relations.
+    /// A comparison that the instruction does not know.
     fn relation(&self) -> Option<Diagnostic> {
-        use Relation::{GreaterOrEqual, LessOrEqual};
         let relation = self.selected.relation?;
-        let (what, possible) = match self.selected.op {
-            Op::LoadText | Op::AndText | Op::OrText => ("an S7-200 compares texts", "= or <>"),
-            Op::Fnd if matches!(relation, LessOrEqual | GreaterOrEqual) => {
-                ("an S7-200 searches tables", "=, <>, < or >")
-            }
-            _ => return None,
-        };
-        if matches!(relation, Relation::Equal | Relation::NotEqual) {
+        if relations(self.selected.op).contains(&relation) {
             return None;
         }
+        let (what, possible) = match self.selected.op {
+            Op::Fnd => ("an S7-200 searches tables", "=, <>, < or >"),
+            _ => ("an S7-200 compares texts", "= or <>"),
+        };
         let name = self.name();
         let message = format!("{name}{}: {what} with {possible} only", relation.symbol());
         let diagnostic = Diagnostic::new(Code::UnknownMnemonic, self.source.mnemonic_span, message);
@@ -79,18 +102,24 @@ impl Operands<'_> {
 
     /// A constant that the instruction refuses.
     fn constant(&self) -> Option<Diagnostic> {
-        let (index, least, most) = match self.selected.op {
+        let op = self.selected.op;
+        match op {
             Op::Ita | Op::Dta | Op::Rta => return self.format(2),
             Op::Its | Op::Dts | Op::Rts => return self.format(1),
-            Op::Fill | Op::Bmb | Op::Bmw | Op::Bmd | Op::Ath | Op::Hta => (2, 1, 255),
-            Op::SetImmediate | Op::ResetImmediate => (1, 1, 128),
-            Op::Sti | Op::Std | Op::Str | Op::Sscpy => (1, 1, TEXT_MAX),
-            _ => return None,
-        };
-        let value = self.literal(index).filter(|value| !(least..=most).contains(value))?;
-        let message = format!("{value}: {} takes a byte or a constant {least} to {most} here", self.name());
+            _ => {}
+        }
+        let (index, value) = (0..self.selected.arguments.len()).find_map(|index| {
+            let value = self.literal(index)?;
+            // The sign is the direction.
+            let value = if op == Op::Shrb { i32::from(value as i8) } else { value };
+            let is_outside =
+                |ranges: &[(i32, i32)]| !ranges.iter().any(|&(least, most)| (least..=most).contains(&value));
+            constants(op, index).is_some_and(is_outside).then_some((index, value))
+        })?;
+        let message = format!("{value}: {} takes {} here", self.name(), constant_words(op, index)?);
         let diagnostic = Diagnostic::new(Code::ConstantRange, self.span(index), message).label("out of range");
-        Some(match self.selected.op {
+        Some(match op {
+            Op::Shrb => diagnostic.help("its sign is the direction, and a shift by no bit is no shift"),
             Op::Sti | Op::Std | Op::Str | Op::Sscpy => diagnostic.help("the first character of a text is number 1"),
             _ => diagnostic.help("it is how many are copied, converted or written"),
         })
@@ -212,6 +241,9 @@ impl Operands<'_> {
             (Op::Att, 1) | (Op::Fifo | Op::Lifo, 0) => TABLE_WORDS,
             (Op::Fnd, 0) => FOUND_WORDS,
             (Op::Sscpy, 3) => 1 + self.literal(2).unwrap_or(0).unsigned_abs() as u16,
+            // What FMT in memory asks for is left to the running program.
+            (Op::Rta, 1) if self.literal(2).is_none() => 1,
+            (Op::Rts, 2) if self.literal(1).is_none() => 1,
             _ => elements(program, self.selected, index),
         };
         let room = room_at(address, width);

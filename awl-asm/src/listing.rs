@@ -4,6 +4,8 @@
 use std::collections::HashMap;
 use std::fmt::Write as _;
 
+use plc_isa::{Op, decode};
+
 use crate::assemble::Assembly;
 use crate::ast::{Network, Statement};
 use crate::check::span_of;
@@ -164,7 +166,9 @@ impl Listing<'_> {
                     format!("it depends on how often the loop is repeated that closes in line {}", self.line_of(at))
                 }
                 Longest::Unknown(at) => {
-                    format!("the cycles of the instruction in line {} are not known", self.line_of(at))
+                    let is_poll = decode(&self.image, at).is_ok_and(|decoded| decoded.op == Op::Poll);
+                    let hidden = if is_poll { "look for interrupt events before the " } else { "" };
+                    format!("the cycles of the {hidden}instruction in line {} are not known", self.line_of(at))
                 }
             };
             let _ = writeln!(self.text, "longest scan, {name}: {text}");
@@ -212,4 +216,21 @@ fn cycles_text(cycles: u64) -> String {
 /// Bytes as hexadecimal digits, with blanks between.
 fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assemble::assemble;
+
+    #[test]
+    fn an_instruction_is_not_blamed_for_the_look_for_events_before_it() {
+        let text = "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNetwork 1\nLD SM0.1\nATCH I0, 10\nEND_ORGANIZATION_BLOCK\n\
+                    INTERRUPT_BLOCK I0:INT0\nBEGIN\nLD SM0.0\nINCW VW0\nEND_INTERRUPT_BLOCK\n";
+        let source = Source::new("test.awl", text).unwrap();
+        let listing = listing(&source, &assemble(&source, Vec::new()));
+        let expected =
+            "interpreter: the cycles of the look for interrupt events before the instruction in line 4 are not known";
+        assert!(listing.contains(expected), "{listing}");
+    }
 }

@@ -202,12 +202,6 @@ fn assemble_file(path: &Path, arguments: &Arguments) -> Result<bool> {
     if arguments.check {
         return Ok(true);
     }
-    // A board would lose the program that it has, and refuse this one.
-    let is_for_board = arguments.flash.is_some() || output.as_deref().is_some_and(|path| has_extension(path, "hex"));
-    if is_for_board && assembly.diagnostics.iter().any(|diagnostic| diagnostic.code == Code::NotOnBoard) {
-        eprintln!("{}: not written, the board does not have all of its instructions (W0031)", path.display());
-        return Ok(false);
-    }
     // The image last: when it is there, everything is.
     if let Some(path) = &arguments.listing {
         write_whole(path, listing(&source, &assembly).as_bytes())?;

@@ -6,6 +6,7 @@ use crate::address::Address;
 use crate::ast::{self, Span, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::fit::{Class, class_of, fit, written_kinds};
+use crate::limits::constant_words;
 
 /// Why no form of the candidates fits.
 pub(crate) fn misfit(source: &ast::Instruction, candidates: &[&'static Instruction]) -> Diagnostic {
@@ -33,7 +34,8 @@ pub(crate) fn misfit(source: &ast::Instruction, candidates: &[&'static Instructi
     let Some(operand) = source.operands.get(position) else { return wrong_count(source, 0) };
     let prefix = &source.operands[..position];
     let classes = classes_at(candidates, prefix, position);
-    wrong_operand(name, operand, &classes).help(usage(candidates))
+    let narrower = candidates.first().and_then(|instruction| constant_words(instruction.op, position));
+    wrong_operand(name, operand, &classes, narrower).help(usage(candidates))
 }
 
 /// What may stand at a position, given the operands before it.
@@ -73,13 +75,15 @@ fn wrong_count(source: &ast::Instruction, wanted: usize) -> Diagnostic {
     Diagnostic::new(Code::OperandCount, span, message)
 }
 
-fn wrong_operand(name: &str, operand: &ast::Operand, classes: &[Class]) -> Diagnostic {
-    let wanted = match classes.iter().map(|class| class.words()).collect::<Vec<_>>().as_slice() {
+/// `narrower` says what may stand there if the instruction takes fewer constants than their class has.
+fn wrong_operand(name: &str, operand: &ast::Operand, classes: &[Class], narrower: Option<String>) -> Diagnostic {
+    let is_constant_class = |class: &Class| class.constants().is_some();
+    let words = |class: &Class| narrower.clone().filter(|_| is_constant_class(class)).unwrap_or_else(|| class.words());
+    let wanted = match classes.iter().map(words).collect::<Vec<_>>().as_slice() {
         [] => "something else".to_string(),
         [one] => one.clone(),
         [rest @ .., last] => format!("{} or {last}", rest.join(", ")),
     };
-    let is_constant_class = |class: &Class| class.constants().is_some();
     let is_word_class = |class: &Class| matches!(class, Class::Word | Class::AnyInt | Class::AnyWord);
     match operand.value {
         // As an output it would have been taken.

@@ -210,6 +210,12 @@ fn comparisons_beside_instructions_of_the_same_name() {
         "LDS 1\nLDS= VB0,\"ab\"\nOR<> VD0,1.5\nFND< VW0,5,AC0",
         "LDS 1; LDS= VB0,\"ab\"; OR<> VD0,1.5; FND< VW0,5,AC0",
     );
+    bad("FND=> VW0,5,VW2", &["E0002 1:4 `=>`: =>: no such comparison; there are = <> < >"]);
+    bad("LDS== VB0,VB1", &["E0002 1:4 `==`: ==: no such comparison; there are = <> -> ="]);
+    let help = |text| parse(&source(text), Vec::new()).1.into_iter().flat_map(|diagnostic| diagnostic.help);
+    assert!(help("FND VW0,5,VW2").eq(["there are FND= FND<> FND< FND>"]));
+    assert!(help("AS VB0,VB1").eq(["there are AS= AS<>"]));
+    assert!(help("AW VW0,1").eq(["there are AW= AW<> AW< AW> AW<= AW>="]));
     bad("OR I0.0", &["E0001 1:1 `OR`: OR: no such instruction -> O"]);
     bad("LD= 1", &["E0001 1:1 `LD=`: LD=: no such instruction -> LDW="]);
 }

@@ -27,9 +27,7 @@ impl Takeover {
     pub fn of(code: &[&Selected]) -> Takeover {
         let mut all = Takeover::default();
         let arguments = || code.iter().flat_map(|selected| selected.arguments());
-        for (argument, _) in arguments().filter(|&(_, is_written)| is_written) {
-            all.add(argument);
-        }
+        code.iter().for_each(|selected| all.add_written(selected));
         if arguments().any(|(argument, is_written)| is_written && matches!(argument, Argument::Indirect(_))) {
             arguments().for_each(|(argument, _)| all.add_pointer(argument));
         }
@@ -50,6 +48,18 @@ impl Takeover {
         self.serial_by_pointer |= pointer::code(Area::Sm) == Some(code) && u16::from(offset) == SERIAL_SETTINGS;
     }
 
+    /// What an instruction writes where its operands say. A block that begins with an output reaches those behind it.
+    fn add_written(&mut self, selected: &Selected) {
+        for (argument, _) in selected.arguments().filter(|&(_, is_written)| is_written) {
+            self.add(argument);
+            if let (Op::Bmw | Op::Fill, Argument::Memory(Address::AnalogOutput(first))) = (selected.op, argument)
+                && selected.arguments[2] != Argument::Literal(1)
+            {
+                (first..ANALOG_OUTPUTS).for_each(|channel| self.outputs |= 1 << channel);
+            }
+        }
+    }
+
     fn add(&mut self, argument: Argument) {
         match argument {
             Argument::Memory(Address::AnalogOutput(channel)) => self.outputs |= 1 << channel,
@@ -68,12 +78,10 @@ impl Takeover {
     /// The hidden instructions that belong behind an instruction of this program, each with its operand.
     pub fn behind(self, selected: &Selected) -> impl Iterator<Item = (Op, Option<u8>)> {
         let mut own = Takeover::default();
-        for (argument, _) in selected.arguments().filter(|&(_, is_written)| is_written) {
-            own.add(argument);
-            if let Argument::Indirect(_) = argument {
-                own.outputs |= self.outputs_by_pointer;
-                own.serial |= self.serial_by_pointer;
-            }
+        own.add_written(selected);
+        if selected.arguments().any(|(argument, is_written)| is_written && matches!(argument, Argument::Indirect(_))) {
+            own.outputs |= self.outputs_by_pointer;
+            own.serial |= self.serial_by_pointer;
         }
         let outputs = (own.outputs != 0).then_some((Op::AnalogOutputs, Some(self.all_outputs())));
         outputs.into_iter().chain(own.serial.then_some((Op::Freeport, None)))

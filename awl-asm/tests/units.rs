@@ -154,6 +154,31 @@ fn constants_stand_once_and_data_as_it_was() {
 }
 
 #[test]
+fn pointers_to_special_memory_that_nothing_follows_come_back() {
+    // The byte has a place because of the pointer alone.
+    let back = comes_back("LD SM0.0\nMOVD &SMB86, AC1\nMOVD 16#06000057, AC2\nMOVD &SMB5, AC3\n");
+    for piece in ["MOVD   &SMB86, AC1", "MOVD   100663383, AC2", "MOVD   100663301, AC3"] {
+        assert!(back.contains(piece), "{piece}: {back}");
+    }
+    comes_back("LD SM0.0\nMOVB SMB87, VB0\nMOVD 16#06000057, AC2\n");
+    comes_back(
+        &(main_block("LD SM0.0\nCALL SBR0, &SMB186")
+            + &subroutine("a:SBR0", "VAR_INPUT\na:DWORD;\nEND_VAR\n", "LD L0.0\n= Q0.0")),
+    );
+}
+
+#[test]
+fn what_a_format_in_memory_can_ask_for_has_a_place() {
+    let demand = |text: &str| assembled(&format!("LD SM0.0\n{text}\n")).demand.v_ranges;
+    assert_eq!(demand("RTA 5.0, VB10, VB500"), [(10, 15), (500, 1)]);
+    assert_eq!(demand("RTS 5.0, VB500, VB10"), [(10, 16), (500, 1)]);
+    assert_eq!(demand("RTA 5.0, VB10, 16#A2"), [(10, 10)]);
+    assert_eq!(demand("RTS 5.0, 16#A2, VB10"), [(10, 11)]);
+    // At the end of an area it may be fewer.
+    assert_eq!(demand("RTA 5.0, VB10235, VB500"), [(500, 1), (10235, 5)]);
+}
+
+#[test]
 fn memory_that_only_the_running_program_knows_takes_the_rest() {
     let demand = |text: &str| assembled(text).demand;
     assert_eq!(demand("LD SM0.0\nMOVW VW10, VW20\n").v_ranges, [(10, 2), (20, 2)]);

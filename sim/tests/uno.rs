@@ -178,6 +178,43 @@ fn an_endless_scan_ends_with_the_held_clock_too() {
     assert_ends_an_endless_scan(Code::Native);
 }
 
+/// What stops a program on a board with its own clock.
+fn fault_of(code: Code, text: &str) -> String {
+    let mut uno = board_with(code, image(text), Clock::FreeRunning);
+    uno.scan(0);
+    uno.catch_up(2_000);
+    uno.fault().unwrap_or_else(|| panic!("no fault: {text}"))
+}
+
+#[test]
+fn what_is_no_place_of_the_bytecode_is_not_named_as_one() {
+    let unsound = "LD SM0.0\nMOVD 16#7FC00000, VD8\nINCW VW20\nLD I0.1\nAR> VD8, 5.0\n= Q0.2\n";
+    let endless = "LBL 1\nLD SM0.0\nJMP 1\n";
+    let interrupted = format!(
+        "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nLD SM0.1\nMOVB 5, SMB34\nATCH I0, 10\nENI\nLD I0.0\nLBL 0\nLD I0.1\nJMP 0\n\
+         LD I0.2\n= Q0.1\nEND_ORGANIZATION_BLOCK\nINTERRUPT_BLOCK I0:INT0\nBEGIN\n{endless}END_INTERRUPT_BLOCK\n"
+    );
+    // Longer and longer routines: one of them closes its loop at the offset of that of the main program.
+    let longer =
+        (8..14).map(|len| interrupted.replace(endless, &format!("LD SM0.0\n{}{endless}", "NOT\n".repeat(len))));
+    for text in longer.chain([unsound.to_string(), interrupted.clone()]) {
+        let interpreted = fault_of(Code::Bytecode, &text);
+        assert!(interpreted.contains(" at byte "), "{interpreted}");
+        let translated = fault_of(Code::Native, &text);
+        assert!(
+            translated.contains(" at offset 0x") && translated.ends_with("of the translated image"),
+            "{translated}"
+        );
+    }
+    // Loops of the main program are named by the bytecode, also where there are interrupts.
+    let both = interrupted.replacen("LD I0.1", "LDN I0.1", 1);
+    for text in [endless, &both.replace(endless, "LD SM0.0\nINCW VW0\nLBL 1\nLD I0.1\nJMP 1\n")] {
+        let translated = fault_of(Code::Native, text);
+        assert_eq!(translated, fault_of(Code::Bytecode, text));
+        assert!(translated.contains(" at byte "), "{translated}");
+    }
+}
+
 #[test]
 fn what_does_not_fit_when_it_is_translated_is_an_error_and_changes_nothing() {
     let mut uno = board_with(Code::Native, image("LD SM0.0\n= Q0.1\n"), Clock::LockStep);

@@ -107,22 +107,12 @@ fn they_do_what_their_scenarios_expect() {
     assert!(complaints.is_empty(), "{}", complaints.join("\n"));
 }
 
-/// Whether the board runs a program: it has all of its instructions, no interrupts yet, and its clock is set by nobody
-/// but the program.
-#[cfg(feature = "uno")]
-fn is_for_the_board(name: &str) -> bool {
-    let scenario = fs::read_to_string(folder().join(name).with_extension("scn")).unwrap();
-    let lacks_instructions = open(name, Target::Host).warnings.contains("W0031");
-    let has_interrupts = source(name).text.contains("ATCH ");
-    !lacks_instructions && !has_interrupts && !scenario.contains(" clock ")
-}
-
 #[cfg(feature = "uno")]
 #[test]
 fn the_board_does_the_same() {
-    let names: Vec<String> = names().into_iter().filter(|name| is_for_the_board(name)).collect();
-    assert!(names.len() >= 10, "{names:?}");
-    let complaints: Vec<String> = names.iter().flat_map(|name| complaints(name, Target::Uno)).collect();
+    // The scenario of `messung` expects analog values to the unit; the board's converter has steps of 31.
+    let on_board: Vec<String> = names().into_iter().filter(|name| name != "messung").collect();
+    let complaints: Vec<String> = on_board.iter().flat_map(|name| complaints(name, Target::Uno)).collect();
     assert!(complaints.is_empty(), "{}", complaints.join("\n"));
 }
 

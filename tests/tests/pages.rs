@@ -4,9 +4,8 @@ use awl_asm::assemble::assemble;
 use awl_asm::diagnostic::Code;
 use awl_asm::source::Source;
 
-/// Codes without a wrong example: it would be thousands of lines long, and `messages.rs` makes one; or it depends on the
-/// modules that there are.
-const NOT_SHOWN: [Code; 2] = [Code::ProgramTooLarge, Code::NotOnBoard];
+/// Codes without a wrong example: it would be thousands of lines long, and `messages.rs` makes one.
+const NOT_SHOWN: [Code; 1] = [Code::ProgramTooLarge];
 
 /// The program in the block behind a line.
 fn example<'p>(page: &'p str, line: &str) -> Option<&'p str> {

@@ -14,8 +14,8 @@ use anyhow::{Context, Result, bail, ensure};
 use plc_isa::{
     AC_START, AIW_START, AQW_START, ARENA_START, COUNTER_SLOT_LEN, COUNTERS_MODULE, DATA_END, DATA_START, DIRECTORY_AT,
     ENO, EVENTS_MODULE, EVENTS_SEEN, FREEPORT_MODULE, HC0, HC3, HEADER_LEN, Instruction, MODULE_NAMES, OPERANDS_MODULE,
-    PULSES_MODULE, PowerFlow, SLOT_START, SM_IN_V, SM_START, TIMER_SLOT_LEN, kind_numbers, module_instructions,
-    packed_stack, state_at,
+    PULSES_MODULE, PowerFlow, REAL_MODULE, SLOT_START, SM_IN_V, SM_START, TIMER_SLOT_LEN, kind_numbers,
+    module_instructions, packed_stack, state_at,
 };
 
 use crate::packages;
@@ -47,8 +47,6 @@ fn entries_behind(number: u8) -> &'static [&'static str] {
         _ => &[],
     }
 }
-
-const REAL_MODULE: u8 = 1;
 
 /// Writes the modules whose sources are there, or only compares them.
 pub fn run(check: bool) -> Result<()> {

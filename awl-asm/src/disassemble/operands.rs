@@ -175,7 +175,8 @@ impl<'a, P: ProgramMemory> Writer<'a, P> {
         }
         let (area, offset) = (pointer::area(code)?, value as u16);
         // A pointer to what is planned says so; others are more likely numbers in a program that follows none.
-        if !self.has_pointers && !matches!(area, Area::V | Area::T | Area::C) {
+        let is_planned = matches!(area, Area::V | Area::T | Area::C) || area == Area::Sm && offset >= area.page_len();
+        if !self.has_pointers && !is_planned {
             return None;
         }
         let plan = self.program.plan();

@@ -3,8 +3,8 @@
 use core::arch::asm;
 
 use plc_isa::{
-    Crc32, DATA_END, DIRECTORY_AT, MODULE_HEAD_LEN, MODULE_KINDS_AT, MODULES, OPERANDS_MODULE, Op, ProgramMemory,
-    Routine, SLOT_LEN, SLOT_START, TOKEN_TABLE, TOKEN_TABLE_LEN,
+    Crc32, DATA_END, DIRECTORY_AT, FUNCTION_MODULE, MODULE_HEAD_LEN, MODULE_KINDS_AT, MODULES, OPERANDS_MODULE, Op,
+    PID_MODULE, ProgramMemory, REAL_MODULE, Routine, SLOT_LEN, SLOT_START, TOKEN_TABLE, TOKEN_TABLE_LEN,
 };
 
 use crate::engine;
@@ -90,7 +90,7 @@ impl ProgramMemory for ProgramSlot {
         let (mut number, mut state_len) = (0, 0);
         while number < MODULES as u8 {
             let table = self.jump_table(number);
-            if table != NO_MODULE {
+            if self.word(DIRECTORY_AT + 2 * u16::from(number)) != 0 {
                 if !self.is_known(number, table) {
                     return None;
                 }
@@ -119,7 +119,16 @@ impl ProgramSlot {
     /// Whether the module with this jump table is the one that the firmware knows by this number.
     #[inline(never)]
     fn is_known(&self, number: u8, table: u16) -> bool {
-        let start = self.module_start(table);
+        let distance = self.word(table.wrapping_sub(4));
+        let start = table.wrapping_sub(distance);
+        // The jump table is where the module itself says, which is what the checksum is of.
+        if self.word(start) != distance || self.word(DIRECTORY_AT + 2 * OPERANDS_MODULE as u16) == 0 {
+            return false;
+        }
+        // Functions and controllers call the module of reals.
+        if matches!(number, FUNCTION_MODULE | PID_MODULE) && self.word(DIRECTORY_AT + 2 * REAL_MODULE as u16) == 0 {
+            return false;
+        }
         let known = (&raw const KNOWN_MODULES as u16 + 4 * u16::from(number)).wrapping_sub(SLOT_START);
         let mut crc = Crc32::new();
         crc.bytes(self, start, start.wrapping_add(self.word(table.wrapping_sub(MODULE_HEAD_LEN))));

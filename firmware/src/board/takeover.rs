@@ -19,8 +19,9 @@ pub fn flags() -> u8 {
 pub fn end() {
     // SAFETY: interrupts of modules are switched off, and the registers are used by nobody else.
     let (cpu, external, pulses, timer) = unsafe { (CPU::steal(), EXINT::steal(), TC1::steal(), TC2::steal()) };
-    external.eimsk().reset();
+    // In this order: changes of pins switch the external interrupts on.
     external.pcicr().reset();
+    external.eimsk().reset();
     pulses.timsk1().reset();
     pulses.tccr1a().reset();
     timer.timsk2().reset();

@@ -35,9 +35,10 @@ pub use image::{
 };
 pub use layout::*;
 pub use modules::{
-    COUNTERS_ENTRY, COUNTERS_MODULE, EVENTS_ENTRY, EVENTS_MODULE, FREEPORT_ENTRY, FREEPORT_MODULE, MODULE_HEAD_LEN,
-    MODULE_KINDS_AT, MODULE_NAMES, MODULES, OPERANDS_MODULE, PULSES_ENTRY, PULSES_MODULE, ROUTINES_MAX, Routine,
-    data_end, kind_numbers, module_instructions, module_of_token, needed_modules, packed_stack, state_at,
+    COUNTERS_ENTRY, COUNTERS_MODULE, EVENTS_ENTRY, EVENTS_MODULE, FREEPORT_ENTRY, FREEPORT_MODULE, FUNCTION_MODULE,
+    MODULE_HEAD_LEN, MODULE_KINDS_AT, MODULE_NAMES, MODULES, OPERANDS_MODULE, PID_MODULE, PULSES_ENTRY, PULSES_MODULE,
+    REAL_MODULE, ROUTINES_MAX, Routine, data_end, kind_numbers, module_instructions, module_of_token, needed_modules,
+    packed_stack, state_at,
 };
 pub use operand::{Bit, ByteSource, Kind, Operand, OperandKind, OperandReader, Relation, WordSource, kinds};
 pub use plan::{CounterSlot, Plan, Region, SM_IN_V, TimerKind, TimerSlot, counter_bit, timer_bit};

@@ -24,6 +24,12 @@ pub const MODULE_NAMES: [&str; MODULES] = [
     "numerals",
     "pid",
 ];
+/// The module of arithmetic with reals, which others call.
+pub const REAL_MODULE: u8 = 1;
+/// The module of functions.
+pub const FUNCTION_MODULE: u8 = 2;
+/// The module of the controller PID.
+pub const PID_MODULE: u8 = 12;
 /// The module that looks for interrupt events on the board.
 pub const EVENTS_MODULE: u8 = 5;
 /// Where in its jump table that begins: behind its routines.
@@ -52,8 +58,8 @@ pub const fn module_of_token(token: u8) -> Option<u8> {
 /// The modules that a module calls, beside that of operands.
 pub const fn needed_modules(module: u8) -> &'static [u8] {
     match module {
-        // Functions and controllers compute with the operations of reals.
-        2 | 12 => &[1],
+        // They compute with the operations of reals.
+        FUNCTION_MODULE | PID_MODULE => &[REAL_MODULE],
         _ => &[],
     }
 }

@@ -207,7 +207,6 @@ impl<'a> Parser<'a, '_> {
             "pulse" => return self.pulse(after_word, at_ms),
             "clock" => return self.clock(after_word, at_ms),
             "receive" => return self.receive(after_word, at_ms),
-            "expect" if is_sent(after_word) => return self.sent(after_word.split_word().1, at_ms, line),
             _ => {}
         }
         let is_expect = word.text.eq_ignore_ascii_case("expect");
@@ -217,7 +216,11 @@ impl<'a> Parser<'a, '_> {
             return self.fail(list, format!("nothing is {what} here: write operand = value"));
         }
         for piece in list.split(',') {
-            self.assignment(piece, is_expect, at_ms, line);
+            if is_expect && is_sent(piece) {
+                self.sent(piece.split_word().1, at_ms, line);
+            } else {
+                self.assignment(piece, is_expect, at_ms, line);
+            }
         }
     }
 

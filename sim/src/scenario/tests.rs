@@ -116,6 +116,28 @@ fn strings_are_length_and_characters() {
 }
 
 #[test]
+fn a_text_that_was_sent_is_one_item_of_a_list() {
+    let scenario =
+        parse("at 1s expect sent \"X\", MW2=1, VB0 = \"Y\"\nat 2s expect MW4 = 2, sent \"a, \\x22b\\\\\" # c\n")
+            .unwrap();
+    let sent: Vec<_> = scenario.sent.iter().map(|sent| (sent.line, sent.at_ms, &*sent.bytes)).collect();
+    assert_eq!(sent, [(1, 1000, &b"X"[..]), (2, 2000, b"a, \"b\\")]);
+    let expectations: Vec<_> = scenario.expectations.iter().map(|e| (&*e.name, *e.values.start())).collect();
+    assert_eq!(expectations, [("MW2", 1), ("VB0", 1), ("VB1", 89), ("MW4", 2)]);
+    let follows = "nothing may follow the quote that ends the text; one in the text is \\x22";
+    let expected = [
+        format!("1:19 {follows}"),
+        "2:18 a text in quotes is missing".to_string(),
+        format!("3:15 {follows}"),
+        format!("4:13 {follows}"),
+        "5:19 \"X, MW2 = 1 does not end with a quote".to_string(),
+    ];
+    let text = "at 1s expect sent \"X\" \"Y\"\nat 1s expect sent, MW2 = 1\nat 1s receive \"X\", VB0 = \"Y\"\n\
+                at 1s VB0 = \"X\" + \"Y\"\nat 1s expect sent \"X, MW2 = 1";
+    assert_eq!(errors(text), expected);
+}
+
+#[test]
 fn pulses_and_the_clock() {
     let text = "at 100ms pulse start 1000Hz for 2s # a symbol\nat 1s PULSE I0.2 0.5kHz 500 times\n\
                 at 0s pulse I0.0, I0.1 12.5Hz for 1s\nat 0s pulse I0.0,\"a, b = c # d\" 1Hz 1 times reverse\n\

@@ -108,10 +108,13 @@ fn not_a_number(text: &str) -> String {
     }
 }
 
-/// The bytes of a text in quotes: Latin-1, with `\r`, `\n`, `\\` and `\x1B`.
+/// The bytes of a text in quotes: Latin-1, with `\r`, `\n`, `\\` and `\x1B`; a quote is `\x22`.
 pub(super) fn text_bytes(quoted: &str) -> Result<Vec<u8>, String> {
-    let inner = quoted.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
-    let mut rest = inner.filter(|_| quoted.len() > 1).ok_or_else(|| format!("{quoted} does not end with a quote"))?;
+    let closed = quoted.strip_prefix('"').and_then(|text| text.split_once('"'));
+    let (mut rest, behind) = closed.ok_or_else(|| format!("{quoted} does not end with a quote"))?;
+    if !behind.is_empty() {
+        return Err(format!("nothing may follow the quote that ends the text; one in the text is {}", r"\x22"));
+    }
     let mut bytes = Vec::new();
     while let Some(c) = rest.chars().next() {
         let (byte, len) = match (c, rest.as_bytes().get(1)) {

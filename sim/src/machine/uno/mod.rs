@@ -11,8 +11,8 @@ mod lock_step;
 mod pulses;
 
 use anyhow::Result;
-use awl_asm::native::{TranslateError, translate};
-use plc_isa::{DIGITAL_INPUTS, Plan, Program, Settings, verify};
+use awl_asm::native::{TranslateError, Translated, translate};
+use plc_isa::{DIGITAL_INPUTS, ENTRY_LEN, LABEL_LEN, Op, Plan, Program, Settings, decode, verify};
 use plc_vm::{Fault, Inputs, TimeOfDay};
 use simavr::Avr;
 
@@ -82,6 +82,8 @@ pub struct Uno {
     /// In bytecode, whatever the board has: it tells plan and settings, which are the same in both.
     program: Option<Program<Vec<u8>>>,
     place_of: PlaceOf,
+    /// Of a translated program, where faults name a place in its bytecode image.
+    loops: Option<Vec<u16>>,
     inputs: Inputs,
     writes: Vec<Write>,
     /// The clock is set to this before the next scan.
@@ -108,6 +110,7 @@ impl Uno {
             at: At::Off,
             program: None,
             place_of,
+            loops: None,
             inputs: Inputs::default(),
             writes: Vec::new(),
             time_of_day: None,
@@ -124,9 +127,10 @@ impl Uno {
         let program = verify(image.clone()).ok();
         // What is wrong with a bad image is for the board to say.
         let translates = self.code == Code::Native && program.is_some();
-        let translated = if translates { Some(translate(&image)?.image) } else { None };
+        let translated = if translates { Some(translate(&image)?) } else { None };
         self.board.renew();
-        self.board.insert(translated.as_ref().unwrap_or(&image));
+        self.board.insert(translated.as_ref().map_or(&image, |translated| &translated.image));
+        self.loops = program.as_ref().zip(translated.as_ref()).map(|(program, translated)| loops(program, translated));
         self.program = program;
         self.board.pulses = BoardPulses::default();
         self.board.characters = BoardCharacters::default();
@@ -234,6 +238,24 @@ impl Uno {
     }
 }
 
+/// Where the watchdog ends machine code, by offsets of the bytecode image: the jumps back. What the translated image
+/// keeps as bytecode, interrupt routines and the look for their events, is ended at an offset of that image: an offset
+/// that could be either is left out.
+fn loops(program: &Program<Vec<u8>>, translated: &Translated) -> Vec<u16> {
+    let header = &program.plan().header;
+    // Before the machine code; it begins earlier in an image that has lost its labels.
+    let kept_at = header.code_at() - LABEL_LEN * header.labels + ENTRY_LEN;
+    let kept_end = translated.instructions.iter().map(|instruction| instruction.native.start).min();
+    let kept = kept_at..kept_end.filter(|_| header.events > 0).unwrap_or(kept_at);
+    let ends_kept = |at: u16| {
+        kept.contains(&at)
+            && decode(&translated.image, at).is_ok_and(|decoded| matches!(decoded.op, Op::Jmp | Op::Next | Op::Poll))
+    };
+    let is_translated = |at: u16| translated.instructions.iter().any(|instruction| instruction.at == at);
+    let back = program.instructions().filter(|(_, decoded)| matches!(decoded.op, Op::Jmp | Op::Next)).map(|(at, _)| at);
+    back.filter(|&at| is_translated(at) && !ends_kept(at)).collect()
+}
+
 impl Points for Uno {
     fn plan(&self) -> Option<&Plan<Vec<u8>>> {
         self.program.as_ref().map(Program::plan)
@@ -337,7 +359,14 @@ impl Machine for Uno {
             return Some(text.to_string());
         }
         let limit_ms = u64::from(self.settings().watchdog_ms);
-        self.board.fault().map(|kind| fault::text(kind, limit_ms, &self.place_of))
+        let in_translated: PlaceOf = Box::new(|at| format!("offset {at:#06x} of the translated image"));
+        let names_bytecode = |kind| match (&self.loops, kind) {
+            (None, _) => true,
+            (Some(loops), Fault::Watchdog { at }) => loops.contains(&at),
+            (Some(_), _) => false,
+        };
+        let place_of = |kind| if names_bytecode(kind) { &self.place_of } else { &in_translated };
+        self.board.fault().map(|kind| fault::text(kind, limit_ms, place_of(kind)))
     }
 
     fn pin_levels(&mut self) -> u8 {

@@ -110,7 +110,7 @@ impl<'a> Parser<'a, '_> {
         }
     }
 
-    /// `expect sent "text"`.
+    /// `sent "text"` of an `expect`.
     pub(super) fn sent(&mut self, rest: Piece<'a>, at_ms: u64, line: usize) {
         if let Some(bytes) = self.text_alone(rest) {
             self.scenario.sent.push(SentExpectation { line, at_ms, bytes });
