@@ -369,7 +369,8 @@ const ANALOG_CYCLE: u64 = 2_000;
 
 #[test]
 fn analog_outputs() {
-    let mut board = watched("LD SM0.0\nMOVW MW2, AQW0\nMOVW MW4, AQW2\nLD I0.5\n= Q0.1\n= Q0.2\n");
+    let mut board =
+        watched("LD SM0.0\nMOVW MW2, AQW0\nMOVW MW4, AQW2\nLD I0.5\nMOVB 2#110, QB0\nLDN I0.5\nMOVB 0, QB0\n");
     for (value, on) in [
         (0_i16, 0),
         (-1, 0),
@@ -411,7 +412,8 @@ fn analog_outputs() {
 #[test]
 fn an_analog_output_leaves_the_others_digital() {
     for (analog, pin, other) in [("AQW0", PULSES, ANALOG_2), ("AQW2", ANALOG_2, PULSES)] {
-        let mut board = watched(&format!("LD SM0.0\nMOVW 3200, {analog}\nLD I0.5\n= Q0.1\n= Q0.2\n"));
+        let mut board =
+            watched(&format!("LD SM0.0\nMOVW 3200, {analog}\nLD I0.5\nMOVB 2#110, QB0\nLDN I0.5\nMOVB 0, QB0\n"));
         for high in [true, false, true] {
             board.drive_inputs(u8::from(high) << 5);
             board.scans(3);
