@@ -58,7 +58,7 @@ fn every_example_does_what_its_scenario_expects() {
         assert_eq!((outcome.unreached_expectations, outcome.unreached_settings), (0, 0), "{stem}");
         assert!(outcome.met >= 20, "{stem} expects only {} values", outcome.met);
     }
-    assert_eq!(count, 13);
+    assert_eq!(count, 14);
 }
 
 #[test]

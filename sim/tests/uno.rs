@@ -323,7 +323,7 @@ fn assert_examples_do_what_they_shall(target: Target) {
         assert!(outcome.failures.is_empty() && outcome.fault.is_none(), "{stem}: {:#?}", outcome.failures);
         assert!(outcome.met >= 2, "{stem}: {}", outcome.met);
     }
-    assert_eq!(count, 13);
+    assert_eq!(count, 14);
 }
 
 #[test]
