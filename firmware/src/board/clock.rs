@@ -72,7 +72,6 @@ impl Moment {
 }
 
 /// The same when milliseconds have passed, which few scans take.
-#[inline(never)]
 fn counts_over_ms(ms: u16, later: u8, earlier: u8) -> u32 {
     u32::from(ms) * u32::from(COUNTS_PER_MS) + u32::from(later) - u32::from(earlier)
 }
