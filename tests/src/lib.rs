@@ -15,6 +15,8 @@ pub mod measure;
 pub mod mutate;
 pub mod naive;
 #[cfg(feature = "uno")]
+pub mod own_clock;
+#[cfg(feature = "uno")]
 pub mod power;
 pub mod random;
 pub mod retained;

@@ -4,14 +4,15 @@
 
 use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
-use awl_sim::machine::uno::{Clock, Code, Mark, Uno};
+use awl_sim::machine::uno::Mark;
 use awl_sim::operand::Operand;
 use awl_sim::symbols::Symbols;
 use fastrand::Rng;
 use plc_isa::{ARENA_START, HC0, HC3, SM_START};
-use tests::bench_board::{BenchBoard, MS, example_text, firmware};
+use tests::bench_board::{BenchBoard, MS, example_text};
 use tests::case::{Case, host};
 use tests::image::image;
+use tests::own_clock::assert_cases_hold;
 
 /// Cycles in a second.
 const S: u64 = 1_000 * MS;
@@ -317,12 +318,6 @@ fn interrupts_are_short() {
     }
 }
 
-/// A board with its own clock.
-fn free_running(code: Code) -> Uno {
-    Uno::new(&firmware(), code, Clock::FreeRunning, Box::new(|_| String::new()))
-        .unwrap_or_else(|error| panic!("{error}"))
-}
-
 /// Many pulses, as a scenario says it.
 const PULSES: &str = "LD SM0.1\nMOVB 16#F8, SMB37\nMOVB 16#F8, SMB137\nHDEF 0, 0\nHDEF 3, 0\nHSC 0\nHSC 3\n\
     //$ at 10ms pulse I0.0 30kHz for 300ms\n//$ at 10ms pulse I0.1 12.5kHz for 300ms\n\
@@ -335,18 +330,7 @@ fn cases_hold_on_a_board_with_its_own_clock() {
     let is_possible = |case: &Case| case.awl.contains("HDEF") && !case.awl.contains("I1.") && !case.awl.contains("IB1");
     let pulses = Case::new("pulses".to_string(), PULSES.to_string());
     let cases = Case::all().into_iter().chain(Case::examples()).filter(is_possible).chain([pulses]);
-    let cases: Vec<_> = cases.map(|case| case.prepare().unwrap_or_else(|errors| panic!("{errors}"))).collect();
-    assert!(cases.len() >= 7, "{}", cases.len());
-    let mut failures = Vec::new();
-    for code in [Code::Bytecode, Code::Native] {
-        let mut uno = free_running(code);
-        for case in &cases {
-            failures.extend(case.failures(&mut host(&case.image)));
-            uno.load(case.image.clone()).unwrap_or_else(|error| panic!("{error}"));
-            failures.extend(case.failures(&mut uno).into_iter().map(|failure| format!("{code:?}: {failure}")));
-        }
-    }
-    assert!(failures.is_empty(), "{}", failures.join("\n"));
+    assert_cases_hold(cases, 7);
 }
 
 /// A program that does something else, and counts.

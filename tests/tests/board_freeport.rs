@@ -6,14 +6,15 @@ use std::collections::BTreeMap;
 
 use awl_sim::action::Action;
 use awl_sim::machine::Machine;
-use awl_sim::machine::uno::{Clock, Code, Uno};
+use awl_sim::machine::uno::Code;
 use awl_sim::operand::Operand;
 use awl_sim::symbols::Symbols;
 use fastrand::Rng;
 use plc_isa::{ARENA_START, SM_START};
-use tests::bench_board::{BenchBoard, MS, firmware, image};
-use tests::case::{Case, Prepared, host};
+use tests::bench_board::{BenchBoard, MS, image};
+use tests::case::{Case, host};
 use tests::effort::effort;
+use tests::own_clock::{assert_cases_hold, free_running};
 
 /// Registers: control B and C of the UART, its divider, the direction of port D, flags of modules.
 const CONTROL_B: u16 = 0xC1;
@@ -426,33 +427,10 @@ fn what_the_firmware_was_saying_is_not_garbled() {
     assert!(rest.starts_with("fault none\r\n"), "{rest}");
 }
 
-/// A board with its own clock.
-fn free_running(code: Code) -> Uno {
-    Uno::new(&firmware(), code, Clock::FreeRunning, Box::new(|_| String::new()))
-        .unwrap_or_else(|error| panic!("{error}"))
-}
-
-/// The cases and examples that use the line.
-fn with_the_line() -> Vec<Prepared> {
-    let cases = Case::all().into_iter().chain(Case::examples());
-    let uses = |case: &Case| ["XMT", "RCV", "receive "].iter().any(|word| case.awl.contains(word));
-    cases.filter(uses).map(|case| case.prepare().unwrap_or_else(|errors| panic!("{errors}"))).collect()
-}
-
 #[test]
 fn host_and_board_do_what_cases_and_examples_want() {
-    let cases = with_the_line();
-    assert!(cases.len() >= 8, "{}", cases.len());
-    let mut failures = Vec::new();
-    for code in [Code::Bytecode, Code::Native] {
-        let mut uno = free_running(code);
-        for case in &cases {
-            failures.extend(case.failures(&mut host(&case.image)));
-            uno.load(case.image.clone()).unwrap_or_else(|error| panic!("{error}"));
-            failures.extend(case.failures(&mut uno).into_iter().map(|failure| format!("{code:?}: {failure}")));
-        }
-    }
-    assert!(failures.is_empty(), "{}", failures.join("\n"));
+    let uses = |case: &Case| ["XMT", "RCV", "receive "].iter().any(|word| case.awl.contains(word));
+    assert_cases_hold(Case::all().into_iter().chain(Case::examples()).filter(uses), 8);
 }
 
 /// Cycles of the longest interrupt. At 115200 baud a character takes 1,400, and two can wait.

@@ -93,10 +93,6 @@ fn build(number: u8, source: &Path) -> Result<Vec<u8>> {
 fn text(number: u8, source: &Path) -> Result<String> {
     let instructions: Vec<_> = module_instructions(number).collect();
     let (entries, kinds) = entries(&instructions)?;
-    let missing = missing(source)?;
-    let is_written = |instruction: &&&Instruction| !missing.contains(&format!("{:?}", instruction.op));
-    let written = instructions.iter().take_while(is_written).count();
-    ensure!(written + missing.len() == instructions.len(), "what is missing must be the last routines: {missing:?}");
     let mut head = [entries, kinds].concat();
     if !(head.len() + instructions.len()).is_multiple_of(2) {
         head.push(0);
@@ -107,30 +103,22 @@ fn text(number: u8, source: &Path) -> Result<String> {
         let _ = writeln!(text, ".byte {byte}");
     }
     let state = DATA_END - state_at(number);
-    let _ = writeln!(text, ".word module_end - module, jump_table - module\n.byte {state}, {written}\njump_table:");
-    for (routine, instruction) in instructions.iter().enumerate() {
-        // The loader refuses bytecode with one that is missing; in machine code it cannot see it.
-        let label = if routine < written { format!("{:?}", instruction.op) } else { "not_yet".to_owned() };
-        let _ = writeln!(text, "rjmp {label}");
+    let _ = writeln!(
+        text,
+        ".word module_end - module, jump_table - module\n.byte {state}, {}\njump_table:",
+        instructions.len()
+    );
+    for instruction in &instructions {
+        let _ = writeln!(text, "rjmp {:?}", instruction.op);
     }
     for entry in entries_behind(number) {
         let _ = writeln!(text, "rjmp {entry}");
-    }
-    if !missing.is_empty() {
-        text.push_str("not_yet:\nldi r24, 0\njmp MODULE_FAULT\n");
     }
     let _ = writeln!(text, ".include {:?}\n.balign 2, 0\nmodule_end:", source);
     for (name, value) in shared() {
         let _ = writeln!(text, ".if {name} != {value}\n.error \"{name} is not {value}, as plc-isa has it\"\n.endif");
     }
     Ok(text)
-}
-
-/// The instructions that a source says it does not have yet. The board refuses programs with them.
-fn missing(source: &Path) -> Result<Vec<String>> {
-    let text = fs::read_to_string(source).with_context(|| format!("cannot read {}", source.display()))?;
-    let lines = text.lines().filter_map(|line| line.strip_prefix("; not yet: "));
-    Ok(lines.flat_map(str::split_ascii_whitespace).map(str::to_owned).collect())
 }
 
 /// Constants of interface.inc that plc-isa has, too.

@@ -199,7 +199,7 @@ macro_rules! instruction_table {
                 fn $method(&mut self, $( $arg: $value ),*) -> Flow;
             )+
             /// An instruction of a module. `next` is the offset behind it.
-            fn module_instruction(&mut self, op: Op, operands: &Operands, next: u16) -> Flow;
+            fn module_instruction(&mut self, op: Op, operands: &Operands) -> Flow;
             /// The byte at a data address.
             fn byte_at(&self, address: u16) -> u8;
             /// The word at a data address.
@@ -241,7 +241,7 @@ macro_rules! instruction_table {
             if module_of_token(code.byte(pc)).is_none() || !fetched.fetch(code, pc) {
                 return engine.undefined();
             }
-            let flow = engine.module_instruction(fetched.op, &Operands::of(&fetched.operands), fetched.next);
+            let flow = engine.module_instruction(fetched.op, &Operands::of(&fetched.operands));
             go_on(flow, fetched.next)
         }
 
@@ -270,7 +270,7 @@ macro_rules! instruction_table {
                     Op::$op if E::EXECUTED_ELSEWHERE >> Op::$op as u32 & 1 == 1 => engine.undefined(),
                     Op::$op => { $( let $arg = <$value>::of_value(raw.take()); )* engine.$method( $( $arg ),* ) }
                 )+
-                op => engine.module_instruction(op, &Operands::of(&fetched.operands), fetched.next),
+                op => engine.module_instruction(op, &Operands::of(&fetched.operands)),
             };
             go_on(flow, fetched.next)
         }

@@ -477,13 +477,13 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
     }
 
     #[cfg(not(target_arch = "avr"))]
-    fn module_instruction(&mut self, op: Op, operands: &Operands<'_>, _next: u16) -> Flow {
+    fn module_instruction(&mut self, op: Op, operands: &Operands<'_>) -> Flow {
         crate::modules::execute(self, op, operands)
     }
 
     /// On the board they are machine code.
     #[cfg(target_arch = "avr")]
-    fn module_instruction(&mut self, _op: Op, _operands: &Operands<'_>, _next: u16) -> Flow {
+    fn module_instruction(&mut self, _op: Op, _operands: &Operands<'_>) -> Flow {
         self.leave(Exit::Undefined)
     }
 
