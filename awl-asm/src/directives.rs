@@ -1,6 +1,9 @@
 //! The lines that begin with `//#`: system settings and symbols. Micro/WIN sees comments in them.
 
-use plc_isa::{Area, DIGITAL_INPUTS, DIGITAL_OUTPUTS, NAME_LEN_MAX, Retained, Settings, TimerFamily, timer_family};
+use plc_isa::{
+    Area, DIGITAL_INPUTS, DIGITAL_OUTPUTS, LineSettings, NAME_LEN_MAX, Parity, Retained, Settings, TimerFamily,
+    timer_family,
+};
 
 use crate::address::{Address, AddressError};
 use crate::ast::{Program, RetainedRange, Span, Symbol, Value};
@@ -8,7 +11,12 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::suggest::{Suggester, nearby_address};
 use crate::symbols::{SymbolTable, check_name, read_value};
 
-const WORDS: [&str; 9] = ["pullup", "invert", "retain", "memory", "watchdog", "scan", "filter", "name", "symbol"];
+const WORDS: [&str; 10] =
+    ["pullup", "invert", "retain", "memory", "watchdog", "scan", "filter", "modbus", "name", "symbol"];
+/// What the setting `modbus` is followed by, each word with its value.
+const MODBUS_WORDS: [&str; 3] = ["address", "baud", "parity"];
+/// The values of `parity`.
+const PARITIES: [(&str, Parity); 3] = [("none", Parity::None), ("even", Parity::Even), ("odd", Parity::Odd)];
 
 /// Whether a comment is a setting, whatever stands before it.
 pub(crate) fn is_setting(comment: &str) -> bool {
@@ -24,6 +32,7 @@ pub(crate) struct Directives {
     watchdog: Option<Span>,
     scan: Option<Span>,
     filter: Option<Span>,
+    modbus: Option<Span>,
     name: Option<Span>,
 }
 
@@ -129,21 +138,26 @@ impl Directives {
                 once(&mut self.filter, line, word)?;
                 program.settings.filter = power;
             }
+            () if is("modbus") => {
+                once(&mut self.modbus, line, word)?;
+                modbus(word, values, targets);
+            }
             () if is("name") => {
                 let name = name(word, values)?;
                 once(&mut self.name, line, word)?;
                 program.name = Some(name);
             }
-            () => return Err(unknown(word, targets.suggester)),
+            () => return Err(unknown(word, "no such setting", &WORDS, targets.suggester)),
         }
         Ok(())
     }
 }
 
-fn unknown(word: Piece<'_>, suggester: &Suggester) -> Box<Diagnostic> {
-    let mut diagnostic = word.error("no such setting");
-    diagnostic.suggestion = suggester.nearest(word.text, WORDS.into_iter()).map(str::to_owned);
-    diagnostic.help.push(format!("there are {}", WORDS.join(", ")));
+/// A word that is none of those that can stand here.
+fn unknown(word: Piece<'_>, why: &str, words: &[&str], suggester: &Suggester) -> Box<Diagnostic> {
+    let mut diagnostic = word.error(why);
+    diagnostic.suggestion = suggester.nearest(word.text, words.iter().copied()).map(str::to_owned);
+    diagnostic.help.push(format!("there are {}", words.join(", ")));
     diagnostic
 }
 
@@ -386,6 +400,78 @@ fn filter(value: Piece<'_>) -> Outcome<u8> {
     let samples = value.text.parse::<u32>().ok();
     let power = (0..=Settings::FILTER_MAX).find(|&power| samples == Some(1 << power));
     power.ok_or_else(|| value.error("a filter has 1, 2, 4, 8, 16, 32 or 64 samples"))
+}
+
+/// Reads how the controller is reached on its serial line; every bad word is reported.
+fn modbus(word: Piece<'_>, list: Piece<'_>, targets: &mut Targets<'_>) {
+    if list.text.is_empty() {
+        targets.diagnostics.push(*word.error("address, baud or parity is missing, such as address 5"));
+    }
+    let mut places = [None; MODBUS_WORDS.len()];
+    let mut rest = list;
+    while !rest.text.is_empty() {
+        let (word, behind) = rest.first_word();
+        let (value, last) = behind.first_word();
+        // Where the next word follows, the value is missing.
+        let is_missing = MODBUS_WORDS.iter().any(|known| value.text.eq_ignore_ascii_case(known));
+        let value = if is_missing { behind.split(0).0 } else { value };
+        rest = if is_missing { behind } else { last };
+        let outcome = modbus_word(word, value, &mut places, targets);
+        targets.diagnostics.extend(outcome.err().map(|diagnostic| *diagnostic));
+    }
+}
+
+/// Sets what a word of the setting `modbus` stands for. `places` are those of the words that have been.
+fn modbus_word(
+    word: Piece<'_>,
+    value: Piece<'_>,
+    places: &mut [Option<Span>; MODBUS_WORDS.len()],
+    targets: &mut Targets<'_>,
+) -> Outcome<()> {
+    let Some(index) = MODBUS_WORDS.iter().position(|known| word.text.eq_ignore_ascii_case(known)) else {
+        return Err(unknown(word, "cannot be set for modbus", &MODBUS_WORDS, targets.suggester));
+    };
+    once(&mut places[index], word.span(), word)?;
+    if value.text.is_empty() {
+        return Err(word.error("its value is missing"));
+    }
+    let settings = &mut targets.program.settings;
+    let mut line = LineSettings::of_byte(settings.line);
+    match index {
+        0 => settings.modbus_address = modbus_address(value)?,
+        1 => line.rate = baud(value)?,
+        _ => line.parity = parity(value, targets.suggester)?,
+    }
+    settings.line = line.to_byte();
+    Ok(())
+}
+
+fn modbus_address(value: Piece<'_>) -> Outcome<u8> {
+    let max = Settings::MODBUS_ADDRESS_MAX;
+    let address = value.text.parse().ok().filter(|address| (1..=max).contains(address));
+    address.ok_or_else(|| value.error(format!("a Modbus address is 1 to {max}")))
+}
+
+/// The index of a rate.
+fn baud(value: Piece<'_>) -> Outcome<u8> {
+    let asked = value.text.parse::<u32>().ok();
+    let rates = LineSettings::RATES;
+    (0..).zip(rates).find(|&(_, rate)| asked == Some(rate)).map(|(index, _)| index).ok_or_else(|| {
+        let shown: Vec<String> = rates.iter().rev().map(u32::to_string).collect();
+        let mut diagnostic = value.error("the board does not have this rate");
+        let nearest = asked.and_then(|asked| rates.into_iter().min_by_key(|rate| rate.abs_diff(asked)));
+        diagnostic.suggestion = nearest.map(|rate| rate.to_string());
+        diagnostic.help.push(format!("there are {}", shown.join(", ")));
+        diagnostic
+    })
+}
+
+fn parity(value: Piece<'_>, suggester: &Suggester) -> Outcome<Parity> {
+    let known = PARITIES.into_iter().find(|(name, _)| value.text.eq_ignore_ascii_case(name));
+    known.map(|(_, parity)| parity).ok_or_else(|| {
+        let words = PARITIES.map(|(name, _)| name);
+        unknown(value, "is no parity", &words, suggester)
+    })
 }
 
 fn name(word: Piece<'_>, value: Piece<'_>) -> Outcome<String> {

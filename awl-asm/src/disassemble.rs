@@ -6,8 +6,8 @@ mod operands;
 use std::fmt::Write as _;
 
 use plc_isa::{
-    Area, CRC_LEN, DEFAULT_WATCHDOG_MS, Decoded, INITIAL_HEAD_LEN, ImageError, Op, Program, ProgramMemory, Retained,
-    SM_IN_V, STACK_LEVELS, decode, verify,
+    Area, CRC_LEN, DEFAULT_WATCHDOG_MS, Decoded, INITIAL_HEAD_LEN, ImageError, LineSettings, Op, Parity, Program,
+    ProgramMemory, Retained, SM_IN_V, STACK_LEVELS, Settings, decode, verify,
 };
 
 use crate::assemble::assemble;
@@ -191,10 +191,32 @@ fn settings<P: ProgramMemory>(program: &Program<P>, text: &mut String) {
     if settings.filter != 0 {
         let _ = writeln!(text, "//# filter {}", 1u32 << settings.filter);
     }
+    let modbus = modbus_text(&settings);
+    if !modbus.is_empty() {
+        let _ = writeln!(text, "//# modbus{modbus}");
+    }
     // A line each: their order and number are part of the image.
     for range in plan.retained() {
         let _ = writeln!(text, "//# retain {}", retained_text(range));
     }
+}
+
+/// What the setting `modbus` must say; empty where everything is as it is without it.
+fn modbus_text(settings: &Settings) -> String {
+    let mut text = String::new();
+    if settings.modbus_address != Settings::DEFAULT.modbus_address {
+        let _ = write!(text, " address {}", settings.modbus_address);
+    }
+    let line = LineSettings::of_byte(settings.line);
+    if let Some(rate) = LineSettings::RATES.get(usize::from(line.rate)).filter(|_| line.rate != 0) {
+        let _ = write!(text, " baud {rate}");
+    }
+    text.push_str(match line.parity {
+        Parity::None => "",
+        Parity::Even => " parity even",
+        Parity::Odd => " parity odd",
+    });
+    text
 }
 
 /// `VB0-VB31`, `C3`.

@@ -55,6 +55,46 @@ fn memory_ranges() {
 }
 
 #[test]
+fn serial_line() {
+    let set = |text: &str| {
+        let settings = good_program(text).settings;
+        (settings.modbus_address, settings.line)
+    };
+    assert_eq!(set("LD I0.0"), (1, 0));
+    assert_eq!(set("//# modbus address 5 baud 19200 parity even"), (5, 0x13));
+    assert_eq!(set("//# MODBUS Parity Odd ADDRESS 247 // slow\n"), (247, 0x20));
+    assert_eq!(set("//# modbus baud 1200"), (1, 7));
+    assert_eq!(set("//# modbus parity none baud 115200"), (1, 0));
+    bad(
+        "//# modbus adress 5 baud 19000 parity evn\n",
+        &[
+            "E0020 1:12 `adress`: adress: cannot be set for modbus -> address",
+            "E0020 1:26 `19000`: 19000: the board does not have this rate -> 19200",
+            "E0020 1:39 `evn`: evn: is no parity -> even",
+        ],
+    );
+    bad(
+        "//# modbus address 0 baud fast 7\n//# modbus baud 9600",
+        &[
+            "E0020 1:20 `0`: 0: a Modbus address is 1 to 247",
+            "E0020 1:27 `fast`: fast: the board does not have this rate",
+            "E0020 1:32 `7`: 7: cannot be set for modbus",
+            "E0020 2:5 `modbus`: modbus: is already set (first set here: 1:5 `modbus address 0 baud fast 7`)",
+        ],
+    );
+    bad(
+        "//# modbus baud address 248 parity odd baud 300 address\n",
+        &[
+            "E0020 1:12 `baud`: baud: its value is missing",
+            "E0020 1:25 `248`: 248: a Modbus address is 1 to 247",
+            "E0020 1:40 `baud`: baud: is already set (first set here: 1:12 `baud`)",
+            "E0020 1:49 `address`: address: is already set (first set here: 1:17 `address`)",
+        ],
+    );
+    bad("//# modbus", &["E0020 1:5 `modbus`: modbus: address, baud or parity is missing, such as address 5"]);
+}
+
+#[test]
 fn setting_errors() {
     bad(
         "//# pulup I0.0\n//# pullup\n//# pullup I0.6, Q0.0, IB0, I0.8, I0.x\n//# invert Q0.4-Q1.0, M0.0",

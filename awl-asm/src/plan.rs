@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use plc_isa::{
-    AC_START, AQW_START, ARENA_START, Area, Bit, COUNTER_SLOT_LEN, EVENT_LEN, HC0, HC3, Header, Kind, MODULES, Op,
-    Operand, Place, Plan, RETAINED_LEN_MAX, Reference, Retained, SM_IN_V, TIMER_SLOT_LEN, TimerKind, counter_bit,
-    data_end, timer_bit,
+    AC_START, AQW_START, ARENA_START, Area, Bit, COUNTER_SLOT_LEN, EVENT_LEN, HC0, HC3, Header, Kind, LINE_ROOM,
+    MODULES, Op, Operand, Place, Plan, RETAINED_LEN_MAX, Reference, Retained, SM_IN_V, TIMER_SLOT_LEN, TimerKind,
+    counter_bit, data_end, timer_bit,
 };
 
 use crate::address::Address;
@@ -73,10 +73,10 @@ impl Demand {
         self.v_len() + self.timers_len() + self.counters_len() + self.edges_len() + self.events_len()
     }
 
-    /// Bytes of the arena that modules leave to the program.
+    /// Bytes of the arena that modules and serial line leave to the program.
     pub fn arena_max(&self) -> usize {
         let modules = (0..).zip(self.modules).filter(|&(_, is_needed)| is_needed).map(|(number, _)| number);
-        usize::from(data_end(modules) - ARENA_START)
+        usize::from(data_end(modules) - LINE_ROOM - ARENA_START)
     }
 
     /// Bytes of the arena that the program takes: the plan and the copy of what is retained.

@@ -152,6 +152,7 @@ fn networks() {
 #[test]
 fn comments() {
     stays("// file\n//# symbol Start I0.0  green\n//#pullup I0.0\n//text  with trailing blanks  \nLD     Start\n");
+    stays("//# modbus address 5 baud 19200 parity even\nLD     I0.0\n");
     becomes("   // moved\n\t//# scan 10ms\nLD I0.0\n", "// moved\n//# scan 10ms\nLD     I0.0\n");
     // In a run in which nothing changes, comments stay where they are; otherwise they get a column.
     stays("LD     I0.0 // near\nA      I0.1        // far\n                   // goes on\n=      Q0.0\t// tab\n");

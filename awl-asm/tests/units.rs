@@ -64,6 +64,23 @@ fn calls_with_parameters_come_back() {
 }
 
 #[test]
+fn settings_come_back() {
+    let program = |settings: &str| format!("{settings}LD I0.0\n= Q0.0\n");
+    for settings in [
+        "//# pullup I0.0, I0.5\n",
+        "//# invert I0.3, Q0.0, Q0.4\n",
+        "//# watchdog 200ms\n//# scan 10ms\n//# filter 16\n",
+        "//# modbus address 5 baud 19200 parity even\n",
+        "//# modbus address 247\n",
+        "//# modbus baud 1200 parity odd\n",
+    ] {
+        let back = comes_back(&program(settings));
+        assert!(back.contains(settings), "{back}");
+    }
+    assert!(!comes_back(&program("//# modbus parity none baud 115200 address 1\n")).contains("modbus"));
+}
+
+#[test]
 fn a_call_without_parameters_is_one_instruction() {
     let text = main_block("LD I0.0\nCALL SBR0") + &subroutine("a:SBR0", "", "LD I0.1\n= Q0.0");
     let units = ops(&image(&text));
@@ -182,11 +199,11 @@ fn what_a_format_in_memory_can_ask_for_has_a_place() {
 fn memory_that_only_the_running_program_knows_takes_the_rest() {
     let demand = |text: &str| assembled(text).demand;
     assert_eq!(demand("LD SM0.0\nMOVW VW10, VW20\n").v_ranges, [(10, 2), (20, 2)]);
-    assert_eq!(demand("LD SM0.0\nMOVW *VD10, VW20\n").v_ranges, [(10, 960)]);
-    assert_eq!(demand("LD SM0.0\nATT VW0, VW20\nTON T37, 5\nEU\n").v_ranges, [(0, 954)]);
+    assert_eq!(demand("LD SM0.0\nMOVW *VD10, VW20\n").v_ranges, [(10, 896)]);
+    assert_eq!(demand("LD SM0.0\nATT VW0, VW20\nTON T37, 5\nEU\n").v_ranges, [(0, 890)]);
     assert_eq!(demand("LD SM0.0\nBMB VB0, VB100, 10\n").v_ranges, [(0, 10), (100, 10)]);
     // Too far apart for one range: each takes a share.
-    assert_eq!(demand("LD SM0.0\nMOVW *VD0, VW4000\n").v_ranges, [(0, 481), (4000, 479)]);
+    assert_eq!(demand("LD SM0.0\nMOVW *VD0, VW4000\n").v_ranges, [(0, 449), (4000, 447)]);
     assert_eq!(demand("//# memory VB0-VB99\nLD SM0.0\nMOVW *VD10, VW20\n").v_ranges, [(0, 100)]);
     comes_back("//# memory VB0-VB99\nLD SM0.0\nMOVW *VD10, VW20\n");
 }

@@ -3,9 +3,7 @@
 use plc_isa::LogicStack;
 #[cfg(feature = "engine")]
 use plc_isa::{Plan, ProgramMemory, TimerResolution};
-#[cfg(feature = "engine")]
-use plc_vm::Memory;
-use plc_vm::{Environment, SCAN_MS_MAX};
+use plc_vm::{Environment, Memory, SCAN_MS_MAX};
 
 use crate::board::{clock, watchdog};
 use crate::engine;
@@ -61,7 +59,7 @@ impl Environment for ScanTime {
     }
 
     /// Code without loops can take longer than the hardware watchdog waits, too.
-    fn executed(&mut self, _at: u16, _stack: LogicStack) {
+    fn executed(&mut self, _at: u16, _stack: LogicStack, _memory: &mut Memory) {
         self.executed = self.executed.wrapping_add(1);
         if self.executed == 0 {
             watchdog::feed(clock::now_ms());

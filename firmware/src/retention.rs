@@ -18,6 +18,8 @@ const INTERVAL_MIN: u16 = units(60_000);
 const BYTES_PER_SCAN: u8 = 4;
 /// Bytes of a sequence number, which begins a copy.
 const SEQUENCE_LEN: u16 = 2;
+/// What an erased byte holds.
+const ERASED: u8 = 0xFF;
 
 /// Waiting is measured in units of 256 ms, which is near enough and fits 16 bits.
 const fn units(ms: u32) -> u16 {
@@ -31,11 +33,11 @@ fn unit_of(ms: u32) -> u16 {
 /// What is being done, a little in every scan.
 #[derive(Clone, Copy)]
 enum Phase {
+    /// Looks for values that differ from the last copy.
+    Comparing,
     /// Nothing valid was found. What others have left is erased, so that none of it is ever taken for the last copy.
     /// The first copy waits for the end of a scan, which has seen that values were lost.
     Erasing,
-    /// Looks for values that differ from the last copy.
-    Comparing,
     /// Writes the snapshot.
     Writing,
 }
@@ -67,9 +69,8 @@ pub struct Retention {
 }
 
 impl Retention {
-    /// Nothing is retained. No constant: that would take SRAM a second time.
-    #[inline(always)]
-    pub fn none() -> Retention {
+    /// Nothing is retained.
+    pub const fn none() -> Retention {
         Retention {
             len: 0,
             identity: Crc32::new(),
@@ -89,25 +90,24 @@ impl Retention {
     /// Brings the values of the last complete copy back. Returns whether there should be one and is none.
     #[inline(never)]
     pub fn restore<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory, eeprom: &Eeprom) -> bool {
-        self.len = plan.retained_len();
+        self.identity = Crc32::new();
+        self.len = plan.retained_into(&mut self.identity);
         if self.len == 0 {
             return false;
         }
-        self.identity = plan.retained_identity();
         // A write that a reset has interrupted goes on.
         while !eeprom.is_ready() {}
-        let is_lost = !self.find_last(eeprom);
         // The first change is saved at once.
         self.is_due = true;
         self.has_run = false;
-        if is_lost {
-            self.enter(Phase::Erasing);
-        } else {
-            self.read_back(plan, memory, eeprom);
-            self.take_snapshot(plan, memory);
-            self.enter(Phase::Comparing);
+        let is_found = self.find_last(plan, memory, eeprom);
+        if is_found {
+            self.read_copy(self.copy, plan, memory, eeprom);
+            self.exchange(plan, memory, true);
+            self.exchange(plan, memory, false);
         }
-        is_lost
+        self.enter(if is_found { Phase::Comparing } else { Phase::Erasing });
+        !is_found
     }
 
     fn copy_len(&self) -> u16 {
@@ -115,45 +115,57 @@ impl Retention {
     }
 
     /// Looks for the newest complete copy. The number of copies there can be gives the time between two.
-    fn find_last(&mut self, eeprom: &Eeprom) -> bool {
-        let (mut copies, mut found) = (0, false);
+    #[inline(never)]
+    fn find_last<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory, eeprom: &Eeprom) -> bool {
+        let (mut at, mut copies, mut is_found) = (0, 0, false);
         (self.copy, self.sequence) = (0, 0);
-        let (mut at, len) = (0, self.copy_len());
-        while at + len <= RETENTION_LEN {
-            let mut crc = self.identity;
-            for address in at..at + len {
-                crc.byte(eeprom.read(address));
+        while at + self.copy_len() <= RETENTION_LEN {
+            if self.read_copy(at, plan, memory, eeprom) {
+                let sequence = u16::from_le_bytes([eeprom.read(at), eeprom.read(at + 1)]);
+                // Sequence numbers wrap; all in the ring lie close together.
+                if !is_found || sequence.wrapping_sub(self.sequence) as i16 > 0 {
+                    (self.copy, self.sequence, is_found) = (at, sequence, true);
+                }
             }
-            let sequence = u16::from_le_bytes([eeprom.read(at), eeprom.read(at + 1)]);
-            // Sequence numbers wrap; all in the ring lie close together.
-            let is_newer = !found || sequence.wrapping_sub(self.sequence) as i16 > 0;
-            if crc.is_complete() && is_newer {
-                (self.copy, self.sequence, found) = (at, sequence, true);
-            }
-            at += len;
+            at += self.copy_len();
             copies += 1;
         }
-        self.interval = COPY_INTERVAL.checked_div(copies).unwrap_or(0).max(INTERVAL_MIN);
-        found
+        self.interval = (COPY_INTERVAL / copies.max(1)).max(INTERVAL_MIN);
+        is_found
     }
 
-    fn read_back<P: ProgramMemory>(&self, plan: &Plan<P>, memory: &mut Memory, eeprom: &Eeprom) {
-        let (mut walk, mut from) = (RetainedWalk::START, self.copy + SEQUENCE_LEN);
-        while let Some((address, len)) = walk.next(plan, u16::MAX) {
-            for to in address..address + len {
-                memory.set_byte(to, eeprom.read(from));
-                from += 1;
-            }
-        }
-    }
-
-    /// The values of this moment, behind the program's memory.
+    /// Reads a whole copy to a place behind the program's memory, which leaves room for it. Returns whether it is complete.
     #[inline(never)]
-    fn take_snapshot<P: ProgramMemory>(&self, plan: &Plan<P>, memory: &mut Memory) {
-        let (mut walk, mut place) = (RetainedWalk::START, plan.end());
-        while let Some((address, len)) = walk.next(plan, u16::MAX) {
-            memory.copy_up(address, place, len);
-            place += len;
+    fn read_copy<P: ProgramMemory>(
+        &mut self,
+        mut at: u16,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+        eeprom: &Eeprom,
+    ) -> bool {
+        self.enter(Phase::Comparing);
+        let (mut place, end) = (plan.end(), at + self.copy_len());
+        while at != end {
+            let byte = eeprom.read(at);
+            memory.set_byte(place, byte);
+            self.crc.byte(byte);
+            (at, place) = (at + 1, place + 1);
+        }
+        self.crc.is_complete()
+    }
+
+    /// Brings the values to the snapshot behind the program's memory, or `back` to where they belong from a copy there.
+    #[inline(never)]
+    fn exchange<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory, back: bool) {
+        self.walk = RetainedWalk::START;
+        let mut place = plan.end();
+        if back {
+            place += SEQUENCE_LEN;
+        }
+        while self.walk.next(plan, u16::MAX) {
+            let (from, to) = if back { (place, self.walk.address) } else { (self.walk.address, place) };
+            memory.copy(from, to, self.walk.len);
+            place += self.walk.len;
         }
     }
 
@@ -179,36 +191,22 @@ impl Retention {
     /// A little work after a scan in which there is, and in which the program `was_executed` or not.
     pub fn step<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory, eeprom: &Eeprom, was_executed: bool) {
         self.has_run |= was_executed;
-        match self.phase {
-            Phase::Comparing => self.compare(plan, memory),
-            _ if !eeprom.is_ready() => {}
-            Phase::Erasing => self.erase(plan, memory, eeprom),
-            Phase::Writing => self.write(plan, memory, eeprom),
+        if matches!(self.phase, Phase::Comparing) {
+            self.compare(plan, memory);
+        } else if eeprom.is_ready() {
+            self.write(plan, memory, eeprom);
         }
     }
 
     fn compare<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory) {
-        let Some((address, len)) = self.walk.next(plan, u16::from(BYTES_PER_SCAN)) else {
+        if !self.walk.next(plan, u16::from(BYTES_PER_SCAN)) {
             return self.enter(Phase::Comparing);
-        };
-        let copy = plan.end() + self.done;
-        self.done += len;
-        if (0..len).any(|offset| memory.byte(address + offset) != memory.byte(copy + offset)) {
-            self.begin(plan, memory);
         }
-    }
-
-    fn erase<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory, eeprom: &Eeprom) {
-        for _ in 0..BYTES_PER_SCAN {
-            if self.done == RETENTION_LEN {
-                if self.has_run {
-                    self.begin(plan, memory);
-                }
-                return;
-            }
-            self.done += 1;
-            if eeprom.update(self.done - 1, 0xFF) {
-                return;
+        let copy = plan.end() + self.done;
+        self.done += self.walk.len;
+        for offset in 0..self.walk.len {
+            if memory.byte(self.walk.address + offset) != memory.byte(copy + offset) {
+                return self.begin(plan, memory);
             }
         }
     }
@@ -216,7 +214,7 @@ impl Retention {
     /// Begins the next copy.
     #[inline(never)]
     fn begin<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory) {
-        self.take_snapshot(plan, memory);
+        self.exchange(plan, memory, false);
         self.copy += self.copy_len();
         if self.copy + self.copy_len() > RETENTION_LEN {
             self.copy = 0;
@@ -227,26 +225,41 @@ impl Retention {
         self.enter(Phase::Writing);
     }
 
-    /// Goes on with the copy: over bytes that are right already up to one that is written.
-    fn write<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &Memory, eeprom: &Eeprom) {
-        let values_end = SEQUENCE_LEN + self.len;
+    /// Goes on with the copy, or with erasing: over bytes that are right already up to one that is written.
+    fn write<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory, eeprom: &Eeprom) {
         for _ in 0..BYTES_PER_SCAN {
-            if self.done == self.copy_len() {
-                return self.enter(Phase::Comparing);
+            let is_erasing = matches!(self.phase, Phase::Erasing);
+            if self.done == if is_erasing { RETENTION_LEN } else { self.copy_len() } {
+                if !is_erasing {
+                    self.enter(Phase::Comparing);
+                } else if self.has_run {
+                    self.begin(plan, memory);
+                }
+                return;
             }
-            let byte = match self.done {
-                0 => self.sequence as u8,
-                1 => (self.sequence >> 8) as u8,
-                done if done < values_end => memory.byte(plan.end() + done - SEQUENCE_LEN),
-                done => self.crc.value().to_le_bytes().get(usize::from(done - values_end)).copied().unwrap_or(0),
-            };
-            if self.done < values_end {
-                self.crc.byte(byte);
-            }
+            let byte = if is_erasing { ERASED } else { self.next_byte(plan, memory) };
+            let address = self.copy + self.done;
             self.done += 1;
-            if eeprom.update(self.copy + self.done - 1, byte) {
+            if eeprom.update(address, byte) {
                 return;
             }
         }
+    }
+
+    /// The next byte of the copy.
+    fn next_byte<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &Memory) -> u8 {
+        let byte = match self.done {
+            0 => self.sequence as u8,
+            1 => (self.sequence >> 8) as u8,
+            done if done < SEQUENCE_LEN + self.len => memory.byte(plan.end() + done - SEQUENCE_LEN),
+            _ => {
+                // Its own lowest byte moves the rest of the checksum down.
+                let byte = self.crc.value() as u8;
+                self.crc.byte(!byte);
+                return byte;
+            }
+        };
+        self.crc.byte(byte);
+        byte
     }
 }

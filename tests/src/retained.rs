@@ -44,7 +44,7 @@ pub fn generation_programs() -> [String; 3] {
     [
         generation_program("VB0-VB1", &[]),
         generation_program("VB0-VB15, MB0-MB7, C0-C9, T0-T31, VB100-VB103, VB8-VB11", &mixed),
-        generation_program("VB0-VB457, MB0-MB31", &[words("V", 2..458), words("M", 0..32)].concat()),
+        generation_program("VB0-VB405, MB0-MB31, VB0-VB51", &[words("V", 2..406), words("M", 0..32)].concat()),
     ]
 }
 

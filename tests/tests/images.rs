@@ -1,6 +1,6 @@
 //! The loader's check: for every fault an image that has it, right in all else, and the fault is named.
 
-use plc_isa::{HEADER_LEN, Header, ImageFault, Op, verify};
+use plc_isa::{DATA_END, HEADER_LEN, Header, ImageFault, LINE_ROOM, Op, verify};
 use tests::image::sign;
 
 /// A program that has something in every table.
@@ -79,15 +79,28 @@ fn the_image_itself_is_sound() {
 fn faults_of_the_header() {
     assert_eq!(fault_with(0, b"X"), Some(ImageFault::Magic));
     assert_eq!(fault_with(4, &[2]), Some(ImageFault::Version), "before modules with a state");
-    assert_eq!(fault_with(4, &[4]), Some(ImageFault::Version));
+    assert_eq!(fault_with(4, &[3]), Some(ImageFault::Version), "before settings of the serial line");
+    assert_eq!(fault_with(4, &[5]), Some(ImageFault::Version));
     assert_eq!(fault_with(5, &[1]), Some(ImageFault::Interface), "machine code, on the host");
-    assert_eq!(fault_with(31, &[7]), Some(ImageFault::Settings));
+    assert_eq!(fault_with(29, &[7]), Some(ImageFault::Settings));
     assert_eq!(fault_with(8, &[0xFF, 0xFF]), Some(ImageFault::Length), "code longer than the image");
     assert_eq!(fault_with(18, &[0xFF, 0xFF]), Some(ImageFault::Length), "more timers than bytes");
     assert_eq!(fault_with(10, &[1]), Some(ImageFault::Plan), "another arena than the tables need");
     assert_eq!(fault_with(12, &[0x01, 0x01]), Some(ImageFault::Plan), "257 edges");
     assert_eq!(fault_with(22, &[0, 0]), Some(ImageFault::Settings), "no watchdog");
     assert_eq!(fault_with(26, &[0x40]), Some(ImageFault::Settings), "pull-up of I0.6");
+    for (address, line, fault) in [
+        (1, 0, None),
+        (247, 0x27, None),
+        (5, 0x13, None),
+        (0, 0, Some(ImageFault::Settings)),
+        (248, 0, Some(ImageFault::Settings)),
+        (1, 0x08, Some(ImageFault::Settings)),
+        (1, 0x30, Some(ImageFault::Settings)),
+        (1, 0x80, Some(ImageFault::Settings)),
+    ] {
+        assert_eq!(fault_with(30, &[address, line]), fault, "address {address}, line {line:02X}");
+    }
     assert_eq!(fault_with(HEADER_LEN, &[7]), Some(ImageFault::Name));
 
     let (image, _) = image();
@@ -96,7 +109,7 @@ fn faults_of_the_header() {
     assert_eq!(fault(&image[..image.len() - 1]), Err(ImageFault::Length));
     assert_eq!(fault(&[]), Err(ImageFault::Length));
     let mut flipped = image.clone();
-    flipped[40] ^= 1;
+    flipped[42] ^= 1;
     assert_eq!(fault(&flipped), Err(ImageFault::Crc));
 }
 
@@ -259,6 +272,31 @@ fn faults_of_references() {
     for legal in [0x021C, 0x821C, 0x0100, 0xC000, 0xDFFF] {
         assert_eq!(with(input, legal), None, "{legal:04X}");
     }
+}
+
+/// Programs leave 64 bytes free behind their memory and the copy of what is retained.
+#[test]
+fn the_serial_line_has_its_room() {
+    let of_ranges = |ranges: &str| {
+        let text = format!("//# memory VB0-VB{ranges}\nLD SM0.0\n= Q0.0\n");
+        tests::image::image(&text)
+    };
+    let image = of_ranges("895");
+    let program = verify(image.as_slice()).unwrap();
+    assert_eq!(program.plan().end() + LINE_ROOM, DATA_END);
+    // VB0 to VB896, and an arena that is a byte longer.
+    let header = Header::read(&image).unwrap();
+    let mut longer = image.clone();
+    longer[10..12].copy_from_slice(&897u16.to_le_bytes());
+    assert_eq!(fault_in(longer, header.v_ranges_at() + 2, &897u16.to_le_bytes()), Some(ImageFault::Plan));
+    // What is retained needs its copy.
+    let image = of_ranges("447\n//# retain VB0-VB447");
+    assert!(verify(image.as_slice()).is_ok());
+    let header = Header::read(&image).unwrap();
+    assert_eq!(fault_in(image.clone(), header.retained_at() + 3, &447u16.to_le_bytes()), None);
+    let mut longer = image;
+    longer[10..12].copy_from_slice(&449u16.to_le_bytes());
+    assert_eq!(fault_in(longer, header.v_ranges_at() + 2, &449u16.to_le_bytes()), Some(ImageFault::Retained));
 }
 
 /// The last number is not one too many.

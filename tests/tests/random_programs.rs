@@ -33,7 +33,7 @@ impl<const COMPACT: bool> Environment for Time<COMPACT> {
         self.looped_bytes > 10_000_000
     }
     fn retrigger_watchdog(&mut self) {}
-    fn executed(&mut self, _at: u16, _stack: LogicStack) {
+    fn executed(&mut self, _at: u16, _stack: LogicStack, _memory: &mut Memory) {
         self.executed += 1;
     }
 }

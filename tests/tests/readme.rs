@@ -34,7 +34,7 @@ fn the_mended_program_meets_its_scenario() {
     let assembly = assemble(&Source::new("lamp.awl", text).unwrap(), Vec::new());
     assert!(assembly.diagnostics.is_empty());
     let image = assembly.image.expect("no errors, so an image");
-    let summary = format!("{} instructions, {} of 7680 bytes; data 5 of 960 bytes", assembly.code.len(), image.len());
+    let summary = format!("{} instructions, {} of 7680 bytes; data 5 of 896 bytes", assembly.code.len(), image.len());
     assert!(block("$ awl-asm lamp.awl\nlamp.bin").contains(&summary), "{summary}");
 
     let (symbols, mut has_operand) = (Symbols::new(), |_| Ok(()));

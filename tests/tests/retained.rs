@@ -58,7 +58,7 @@ fn plan(text: &str) -> Plan<Vec<u8>> {
 /// All bytes of a walk in pieces of at most `len_max`.
 fn walked(plan: &Plan<Vec<u8>>, len_max: u16) -> Vec<u16> {
     let mut walk = RetainedWalk::START;
-    std::iter::from_fn(|| walk.next(plan, len_max))
+    std::iter::from_fn(|| walk.next(plan, len_max).then_some((walk.address, walk.len)))
         .inspect(|&(_, len)| assert!(len <= len_max))
         .flat_map(|(address, len)| address..address + len)
         .collect()

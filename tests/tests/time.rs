@@ -18,7 +18,7 @@ impl Environment for Time {
         true
     }
     fn retrigger_watchdog(&mut self) {}
-    fn executed(&mut self, _at: u16, _stack: LogicStack) {}
+    fn executed(&mut self, _at: u16, _stack: LogicStack, _memory: &mut Memory) {}
 }
 
 /// A program in RUN.

@@ -3,7 +3,7 @@
 use core::arch::asm;
 
 use plc_isa::{
-    Crc32, DATA_END, DIRECTORY_AT, FUNCTION_MODULE, MODULE_HEAD_LEN, MODULE_KINDS_AT, MODULES, OPERANDS_MODULE, Op,
+    Crc32, DATA_END, DIRECTORY_AT, FIELDS_AT, FUNCTION_MODULE, Header, MODULE_HEAD_LEN, MODULES, OPERANDS_MODULE, Op,
     PID_MODULE, ProgramMemory, REAL_MODULE, Routine, SLOT_LEN, SLOT_START, TOKEN_TABLE, TOKEN_TABLE_LEN,
 };
 
@@ -64,37 +64,53 @@ impl ProgramMemory for ProgramSlot {
         word(SLOT_START.wrapping_add(offset))
     }
 
-    fn token_table(&self, offset: u16) -> u8 {
-        if offset >= MODULE_KINDS_AT {
-            return self.byte(offset - MODULE_KINDS_AT);
-        }
-        byte((&raw const TOKENS as u16).wrapping_add(offset))
+    fn token_table(&self, offset: u16) -> [u8; 2] {
+        word(self.kinds_at(offset)).to_le_bytes()
+    }
+
+    fn kinds_at(&self, offset: u16) -> u16 {
+        (&raw const TOKENS as u16).wrapping_add(offset)
+    }
+
+    fn kind(&self, at: u16) -> u8 {
+        byte(at)
     }
 
     fn routine(&self, module: u8, routine: u8) -> Option<Routine> {
-        let table = self.jump_table(module);
-        if !engine::HAS_MODULES || table == NO_MODULE || routine >= self.byte(table.wrapping_sub(1)) {
+        let table = jump_table(module);
+        if !engine::HAS_MODULES || table == 0 || routine >= byte(table.wrapping_sub(1)) {
             return None;
         }
-        let start = self.module_start(table);
-        let entry = start + 2 + 2 * u16::from(routine);
-        let kinds_at = MODULE_KINDS_AT + start + u16::from(self.byte(entry + 1));
-        Some(Routine { op: Op::Movd, stack: self.byte(entry), kinds_at })
+        let start = module_start(table);
+        let [stack, kinds] = word(start + 2 + 2 * u16::from(routine)).to_le_bytes();
+        Some(Routine { op: Op::Movd, stack, kinds_at: start + u16::from(kinds) })
+    }
+
+    fn read_header(&self, header: &mut Header) {
+        const LEN: usize = (DIRECTORY_AT - FIELDS_AT) as usize;
+        const { assert!(size_of::<Header>() == LEN) };
+        // SAFETY: a header is numbers one behind the other, of which any bytes are a value.
+        let bytes: &mut [u8; LEN] = unsafe { &mut *(&raw mut *header).cast() };
+        let mut at = SLOT_START + FIELDS_AT;
+        for place in bytes {
+            *place = byte(at);
+            at += 1;
+        }
     }
 
     #[inline(never)]
     fn modules_end(&self) -> Option<u16> {
         if !engine::HAS_MODULES {
-            return (self.jump_table(OPERANDS_MODULE) == NO_MODULE).then_some(DATA_END);
+            return (!is_used(OPERANDS_MODULE)).then_some(DATA_END);
         }
         let (mut number, mut state_len) = (0, 0);
         while number < MODULES as u8 {
-            let table = self.jump_table(number);
-            if self.word(DIRECTORY_AT + 2 * u16::from(number)) != 0 {
-                if !self.is_known(number, table) {
+            if is_used(number) {
+                let table = jump_table(number);
+                if !is_known(number, table) {
                     return None;
                 }
-                state_len = state_len.max(self.byte(table.wrapping_sub(2)));
+                state_len = state_len.max(byte(table.wrapping_sub(2)));
             }
             number += 1;
         }
@@ -102,37 +118,44 @@ impl ProgramMemory for ProgramSlot {
     }
 }
 
-/// What stands for the offset of a jump table that is not there.
-const NO_MODULE: u16 = SLOT_START.wrapping_neg();
+/// Word address of a module's jump table; 0: the program does not use it.
+fn directory(number: u8) -> u16 {
+    word(SLOT_START + DIRECTORY_AT + 2 * u16::from(number))
+}
 
-impl ProgramSlot {
-    /// Offset of a module's jump table in the image.
-    fn jump_table(&self, number: u8) -> u16 {
-        (2 * self.word(DIRECTORY_AT + 2 * u16::from(number))).wrapping_sub(SLOT_START)
-    }
+fn is_used(number: u8) -> bool {
+    directory(number) != 0
+}
 
-    /// Offset of the module whose jump table this is.
-    fn module_start(&self, table: u16) -> u16 {
-        table.wrapping_sub(self.word(table.wrapping_sub(4)))
-    }
+/// Address of a module's jump table. Wraps: the program uses a module that is not there.
+fn jump_table(number: u8) -> u16 {
+    directory(number).wrapping_mul(2)
+}
 
-    /// Whether the module with this jump table is the one that the firmware knows by this number.
-    #[inline(never)]
-    fn is_known(&self, number: u8, table: u16) -> bool {
-        let distance = self.word(table.wrapping_sub(4));
-        let start = table.wrapping_sub(distance);
-        // The jump table is where the module itself says, which is what the checksum is of.
-        if self.word(start) != distance || self.word(DIRECTORY_AT + 2 * OPERANDS_MODULE as u16) == 0 {
-            return false;
-        }
-        // Functions and controllers call the module of reals.
-        if matches!(number, FUNCTION_MODULE | PID_MODULE) && self.word(DIRECTORY_AT + 2 * REAL_MODULE as u16) == 0 {
-            return false;
-        }
-        let known = (&raw const KNOWN_MODULES as u16 + 4 * u16::from(number)).wrapping_sub(SLOT_START);
-        let mut crc = Crc32::new();
-        crc.bytes(self, start, start.wrapping_add(self.word(table.wrapping_sub(MODULE_HEAD_LEN))));
-        crc.bytes(self, known, known.wrapping_add(4));
-        crc.is_complete()
+/// Address of the module whose jump table this is.
+fn module_start(table: u16) -> u16 {
+    table.wrapping_sub(word(table.wrapping_sub(4)))
+}
+
+/// Whether the module with this jump table is the one that the firmware knows by this number.
+#[inline(never)]
+fn is_known(number: u8, table: u16) -> bool {
+    let distance = word(table.wrapping_sub(4));
+    let start = table.wrapping_sub(distance);
+    // The jump table is where the module itself says, which is what the checksum is of.
+    if word(start) != distance || !is_used(OPERANDS_MODULE) {
+        return false;
     }
+    // Functions and controllers call the module of reals.
+    if matches!(number, FUNCTION_MODULE | PID_MODULE) && !is_used(REAL_MODULE) {
+        return false;
+    }
+    let mut crc = Crc32::new();
+    let mut take = |from: u16, len: u16| {
+        let from = from.wrapping_sub(SLOT_START);
+        crc.bytes(&ProgramSlot, from, from.wrapping_add(len));
+    };
+    take(start, word(table.wrapping_sub(MODULE_HEAD_LEN)));
+    take(&raw const KNOWN_MODULES as u16 + 4 * u16::from(number), 4);
+    crc.is_complete()
 }

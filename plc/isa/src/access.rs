@@ -4,15 +4,16 @@
 use crate::image::ProgramMemory;
 use crate::layout::*;
 use crate::plan::Plan;
+use crate::tokens::{BESIDE_PAGE_AT, ENTRY_LEN, IN_PAGE_AT, entry_for};
 
 /// What may be done at a data address.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Access {
-    /// Bytes from this one to the end of what it belongs to; 0: a program has no business here.
-    pub room: u16,
+    /// Bytes from this one to the end of what it belongs to, at most 255; 0: a program has no business here.
+    pub room: u8,
     /// What is allowed: [`READ`](Access::READ) and those that follow.
     pub traits: u8,
-    /// The special areas: [`INPUT`](Access::INPUT) and those that follow; 0: any other.
+    /// The area: [`INPUT`](Access::INPUT) or one of those that follow.
     pub area: u8,
 }
 
@@ -29,91 +30,103 @@ impl Access {
     pub const WHOLE: u8 = 16;
     /// It can hold a pointer.
     pub const POINTER: u8 = 32;
+    /// Only its first byte can be named.
+    const START: u8 = 64;
 
     /// Process image of the inputs.
     pub const INPUT: u8 = 1;
     /// Process image of the outputs.
     pub const OUTPUT: u8 = 2;
     /// Bits of timers and counters.
-    pub const NUMBERED: u8 = 3;
+    pub const NUMBERED: u8 = 4;
+    /// Any other area.
+    pub const OTHER: u8 = 8;
 
     const MEMORY: u8 = Self::READ | Self::WRITE | Self::BITS | Self::VALUES;
+    const VALUE: u8 = Self::VALUES | Self::WHOLE;
     const NOTHING: Access = Access { room: 0, traits: 0, area: 0 };
 
-    /// In the bit page, by the low byte of the address.
+    /// At a place in something whose last one is `last`.
     #[inline(always)]
-    fn in_page(low: u8) -> Access {
-        const fn low_of(address: u16) -> u8 {
-            address as u8
-        }
-        // Areas of 16 bytes, then of 32, and local memory of 64 at the end, each at a multiple of its length.
-        const _: () = assert!(M_START == DATA_START + 2 * 16 && L_START == M_START + 5 * 32);
-        const FIRST_WRITABLE_SM: u8 = low_of(SM_START) + 30;
-        let (mut traits, mut area, mut last) = (Self::MEMORY, 0, 31);
-        if low < low_of(M_START) {
-            (area, last) = (Self::OUTPUT, 15);
-            if low < low_of(Q_START) {
-                (area, traits) = (Self::INPUT, Self::READ | Self::BITS | Self::VALUES);
-            }
-        } else if low >= low_of(L_START) {
-            (traits, last) = (Self::MEMORY | Self::POINTER, 63);
-        } else if low >= low_of(T_BITS_START) {
-            (traits, area) = (Self::READ | Self::WRITE | Self::BITS, Self::NUMBERED);
-        } else if low >= low_of(SM_START) && low < FIRST_WRITABLE_SM {
-            traits = Self::READ | Self::BITS | Self::VALUES;
-        }
-        Access { room: u16::from(last - (low & last)) + 1, traits, area }
+    fn at(place: u8, last: u8, traits: u8, area: u8) -> Access {
+        let is_named = traits & Self::START == 0 || place == 0;
+        Access { room: if is_named { last - place + 1 } else { 0 }, traits, area }
     }
+}
 
-    /// Between the bit page and the arena, by the low byte of the address.
-    #[inline(always)]
-    fn beside_page(low: u8) -> Access {
-        const AC: u8 = AC_START as u8;
-        const AC_END: u8 = AC + 4 * ACCUMULATORS;
-        const VALUE: u8 = Access::VALUES | Access::WHOLE;
-        let (room, traits) = if low < AC {
-            (if low.is_multiple_of(2) { 2 } else { 0 }, Self::READ | VALUE)
-        } else if low < AC_END {
-            let room = 4 - (low & 3);
-            let pointer = if room == 4 && low != AC { Self::POINTER } else { 0 };
-            (room, Self::READ | Self::WRITE | VALUE | pointer)
-        } else if low == HC0 as u8 || low == HC3 as u8 {
-            (4, Self::READ | VALUE)
-        } else if low == AQW_START as u8 || low == AQW_START as u8 + 2 {
-            (2, Self::WRITE | VALUE)
-        } else {
-            (0, 0)
-        };
-        Access { room: u16::from(room), traits, area: 0 }
-    }
+/// What an entry says of a data address: its low byte, the length of what it belongs to less 1, traits, area. What is
+/// longer than a byte stands at a multiple of its length, a power of two.
+type Entry = [u8; ENTRY_LEN];
+
+/// What is in the bit page, by the low byte of the first address.
+pub(crate) const IN_PAGE: [Entry; 7] = {
+    const INPUTS: u8 = Access::READ | Access::BITS | Access::VALUES;
+    const NUMBERS: u8 = Access::READ | Access::WRITE | Access::BITS;
+    [
+        [low(I_START), 15, INPUTS, Access::INPUT],
+        [low(Q_START), 15, Access::MEMORY, Access::OUTPUT],
+        [low(M_START), 31, Access::MEMORY, Access::OTHER],
+        [low(SM_START), 31, INPUTS, Access::OTHER],
+        // From SMB30 on a program can write, see `Area::first_writable`.
+        [low(SM_START) + 30, 31, Access::MEMORY, Access::OTHER],
+        [low(T_BITS_START), 31, NUMBERS, Access::NUMBERED],
+        [low(L_START), 63, Access::MEMORY | Access::POINTER, Access::OTHER],
+    ]
+};
+
+/// What is between the bit page and the arena.
+pub(crate) const BESIDE_PAGE: [Entry; 6] = {
+    const VALUE: u8 = Access::VALUE;
+    const ACCUMULATOR: u8 = Access::READ | Access::WRITE | VALUE;
+    [
+        [low(AIW_START), 1, Access::READ | VALUE | Access::START, Access::OTHER],
+        [low(AC_START), 3, ACCUMULATOR, Access::OTHER],
+        [low(AC_START) + 4, 3, ACCUMULATOR | Access::POINTER, Access::OTHER],
+        [low(HC0), 3, Access::READ | VALUE | Access::START, Access::OTHER],
+        [low(AQW_START), 1, Access::WRITE | VALUE | Access::START, Access::OTHER],
+        [low(ENO), u8::MAX, Access::START, Access::OTHER],
+    ]
+};
+
+const fn low(address: u16) -> u8 {
+    address as u8
 }
 
 impl<P: ProgramMemory> Plan<P> {
     /// What may be done at a data address.
-    #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn access(&self, address: u16) -> Access {
-        if address < ARENA_START {
-            let low = address as u8;
-            return match address >> 8 {
-                1 => Access::in_page(low),
-                2 => Access::beside_page(low),
-                _ => Access::NOTHING,
-            };
+        if address >= ARENA_START {
+            return self.access_in_arena(address);
         }
-        if address < self.timers_start {
-            let room = self.room_in_v(address);
-            return Access { room, traits: Access::MEMORY | Access::POINTER, area: 0 };
-        }
-        // Of a timer or counter only the current value can be named, with which its slot begins.
-        let offset = if address < self.counters_start {
-            (address - self.timers_start) % TIMER_SLOT_LEN
-        } else if address < self.edges_start {
-            (address - self.counters_start) % COUNTER_SLOT_LEN
-        } else {
-            1
+        let [low, page] = address.to_le_bytes();
+        let entries = match page {
+            1 => IN_PAGE_AT,
+            2 => BESIDE_PAGE_AT,
+            _ => return Access::NOTHING,
         };
-        let traits = Access::READ | Access::WRITE | Access::VALUES | Access::WHOLE;
-        Access { room: if offset == 0 { 2 } else { 0 }, traits, area: 0 }
+        let at = entry_for(&self.memory, entries, low);
+        let ([_, last], [traits, area]) = (self.memory.token_table(at), self.memory.token_table(at + 2));
+        Access::at(low & last, last, traits, area)
+    }
+
+    /// The same in the arena.
+    #[inline(always)]
+    fn access_in_arena(&self, address: u16) -> Access {
+        if address < self.timers_start {
+            let room = self.room_in_v(address).min(u16::from(u8::MAX)) as u8;
+            return Access { room, traits: Access::MEMORY | Access::POINTER, area: Access::OTHER };
+        }
+        let (start, len) = match address {
+            _ if address < self.counters_start => (self.timers_start, TIMER_SLOT_LEN),
+            _ if address < self.edges_start => (self.counters_start, COUNTER_SLOT_LEN),
+            _ => return Access::NOTHING,
+        };
+        let mut place = address - start;
+        while place >= len {
+            place -= len;
+        }
+        // Only the current value can be named, with which the slot begins.
+        Access::at(place as u8, 1, Access::READ | Access::WRITE | Access::VALUE | Access::START, Access::OTHER)
     }
 }
 
@@ -147,19 +160,21 @@ mod tests {
             assert_eq!(allows(Access::WRITE), region.is_writable(), "{address:#x}");
             assert_eq!(allows(Access::READ), region.is_readable(), "{address:#x}");
             for len in 1..=9 {
-                assert_eq!(allows(Access::BITS) && len <= access.room, region.holds_bits(len), "{address:#x} {len}");
+                assert_eq!(
+                    allows(Access::BITS) && len <= access.room,
+                    region.holds_bits(len.into()),
+                    "{address:#x} {len}"
+                );
                 let is_whole = !allows(Access::WHOLE) || len == access.room;
                 let holds = allows(Access::VALUES) && len <= access.room && is_whole;
-                assert_eq!(holds, region.holds_value(len), "{address:#x} {len}");
+                assert_eq!(holds, region.holds_value(len.into()), "{address:#x} {len}");
             }
-            assert_eq!(
-                allows(Access::POINTER),
-                matches!(
-                    region,
-                    Region::Byte { area: crate::Area::V | crate::Area::L, .. }
-                        | Region::Accumulator { number: 1.., room: 4 }
-                )
-            );
+            let holds_pointer = match region {
+                Region::Byte { area, .. } => matches!(area, crate::Area::V | crate::Area::L),
+                Region::Accumulator { number, .. } => number > 0,
+                _ => false,
+            };
+            assert_eq!(allows(Access::POINTER), holds_pointer, "{address:#x}");
         }
     }
 }

@@ -2,7 +2,8 @@
 
 use crate::image::ProgramMemory;
 
-/// A CRC-32 being computed. The firmware feeds it in small slices.
+/// A CRC-32 being computed. The firmware feeds it in small slices. It holds the checksum of the bytes so far, so that it
+/// begins with zero.
 #[derive(Debug, Clone, Copy)]
 pub struct Crc32(u32);
 
@@ -15,13 +16,13 @@ impl Default for Crc32 {
 impl Crc32 {
     /// The start value.
     pub const fn new() -> Self {
-        Crc32(u32::MAX)
+        Crc32(0)
     }
 
     /// Takes one byte in.
     #[cfg_attr(target_arch = "avr", inline(never))]
     pub const fn byte(&mut self, byte: u8) {
-        let (mut crc, mut byte, mut bits) = (self.0, byte, 8u8);
+        let (mut crc, mut byte, mut bits) = (!self.0, byte, 8u8);
         while bits != 0 {
             let is_odd = (crc as u8 ^ byte) & 1 != 0;
             crc >>= 1;
@@ -31,12 +32,12 @@ impl Crc32 {
             }
             bits -= 1;
         }
-        self.0 = crc;
+        self.0 = !crc;
     }
 
     /// The checksum of the bytes so far.
     pub const fn value(self) -> u32 {
-        !self.0
+        self.0
     }
 
     /// Takes bytes of program memory in, from one offset to before another.
@@ -50,9 +51,10 @@ impl Crc32 {
     }
 
     /// Whether what has been taken in ends with its own checksum, low byte first.
-    pub const fn is_complete(self) -> bool {
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    pub const fn is_complete(&self) -> bool {
         // What is left after any data followed by its checksum.
-        self.0 == 0xDEBB_20E3
+        self.0 == !0xDEBB_20E3
     }
 
     /// The checksum of a slice.

@@ -3,7 +3,7 @@
 use crate::image::ProgramMemory;
 use crate::operand::{Kind, Operand, Raw, Relation};
 use crate::table::{Op, StackEffect};
-use crate::tokens::{Fetched, OPERANDS_MAX};
+use crate::tokens::{Fetched, OPERANDS_MAX, unpacked};
 
 /// Why bytes are no instruction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,13 +25,12 @@ pub struct Decoded {
     pub stack: StackEffect,
     /// Its length in bytes.
     pub len: u16,
-    kinds: [Option<Kind>; OPERANDS_MAX],
     raw: [Raw; OPERANDS_MAX],
 }
 
 /// Decodes the instruction at offset `pc` without executing it.
 pub fn decode<P: ProgramMemory>(code: &P, pc: u16) -> Result<Decoded, DecodeError> {
-    let mut fetched = Fetched::nothing();
+    let mut fetched = Fetched::NOTHING;
     if !fetched.fetch(code, pc) {
         return Err(DecodeError::UndefinedToken);
     }
@@ -39,9 +38,9 @@ pub fn decode<P: ProgramMemory>(code: &P, pc: u16) -> Result<Decoded, DecodeErro
     if next > code.len() || next <= pc {
         return Err(DecodeError::Truncated);
     }
-    let mut decoded = Decoded { op: fetched.op, stack: fetched.stack, len: next - pc, kinds: fetched.kinds, raw };
-    for (&kind, &raw) in fetched.kinds.iter().zip(&raw) {
-        match kind {
+    let mut decoded = Decoded { op: fetched.op, stack: unpacked(fetched.stack), len: next - pc, raw };
+    for raw in raw {
+        match raw.kind() {
             Some(kind) if !kind.is_canonical(raw) => return Err(DecodeError::Malformed),
             Some(Kind::Level) => decoded.stack.needs = decoded.stack.needs.saturating_add(raw.value as u8),
             _ => {}
@@ -53,8 +52,7 @@ pub fn decode<P: ProgramMemory>(code: &P, pc: u16) -> Result<Decoded, DecodeErro
 impl Decoded {
     /// The operands with their kinds, in order.
     pub fn operands(&self) -> impl Iterator<Item = (Kind, Operand)> + '_ {
-        let kinds = self.kinds.iter().map_while(|&kind| kind);
-        kinds.zip(&self.raw).map(|(kind, &raw)| (kind, kind.operand(raw)))
+        self.raw.iter().map_while(|&raw| raw.kind().map(|kind| (kind, kind.operand(raw))))
     }
 
     /// The comparison, if the instruction is one.

@@ -13,12 +13,25 @@ use crate::tokens::{TOKEN_TABLE, TOKEN_TABLE_LEN};
 /// First bytes of every image.
 pub const MAGIC: [u8; 4] = *b"U200";
 /// Version of the image format and of the instruction set it is written in.
-pub const FORMAT_VERSION: u8 = 3;
+pub const FORMAT_VERSION: u8 = 4;
 /// Bytes of the header.
 pub const HEADER_LEN: u16 = DIRECTORY_AT + 2 * MODULES as u16;
 /// Offset of the directory of modules in the header: for each the word address of its jump table in flash, 0 where the
 /// program does not use it.
-pub const DIRECTORY_AT: u16 = 40;
+pub const DIRECTORY_AT: u16 = 42;
+/// Offset of the first field of [`Header`].
+pub const FIELDS_AT: u16 = 5;
+// Offsets of what the loader's check names.
+pub(crate) const TOTAL_LEN_AT: u16 = 6;
+pub(crate) const ARENA_LEN_AT: u16 = 10;
+pub(crate) const SETTINGS_AT: u16 = 22;
+// Offsets of numbers that the check of operands asks for; the last two are bytes.
+pub(crate) const EDGES_AT: u8 = 12;
+pub(crate) const LABELS_AT: u8 = 14;
+pub(crate) const TIMERS_AT: u8 = 18;
+pub(crate) const COUNTERS_AT: u8 = 20;
+pub(crate) const ROUTINES_AT: u8 = 38;
+pub(crate) const EVENTS_AT: u8 = 39;
 /// Bytes of the checksum at the end.
 pub const CRC_LEN: u16 = 4;
 /// Longest program name in bytes.
@@ -41,14 +54,20 @@ pub trait ProgramMemory {
     fn word(&self, offset: u16) -> u16 {
         u16::from_le_bytes([self.byte(offset), self.byte(offset.wrapping_add(1))])
     }
-    /// The byte at an offset of [`TOKEN_TABLE`](crate::TOKEN_TABLE), which the board keeps in flash like the program;
-    /// 0 past the end. From [`MODULE_KINDS_AT`] on: kinds of module routines.
-    fn token_table(&self, offset: u16) -> u8 {
+    /// The two bytes at an offset of [`TOKEN_TABLE`](crate::TOKEN_TABLE), which the board keeps in flash like the program;
+    /// 0 past the end.
+    fn token_table(&self, offset: u16) -> [u8; 2] {
         static TABLE: [u8; TOKEN_TABLE_LEN] = TOKEN_TABLE;
-        if offset >= MODULE_KINDS_AT {
-            return modules::kind_byte(offset - MODULE_KINDS_AT);
-        }
-        TABLE.get(usize::from(offset)).copied().unwrap_or(0)
+        let byte = |at: usize| TABLE.get(at).copied().unwrap_or(0);
+        [byte(usize::from(offset)), byte(usize::from(offset) + 1)]
+    }
+    /// Where [`kind`](Self::kind) finds the list of kinds that stands at an offset of the token table.
+    fn kinds_at(&self, offset: u16) -> u16 {
+        offset
+    }
+    /// The number of a kind in a list of the token table or of a [`Routine`].
+    fn kind(&self, at: u16) -> u8 {
+        if at < MODULE_KINDS_AT { self.token_table(at)[0] } else { modules::kind_byte(at - MODULE_KINDS_AT) }
     }
     /// A routine of a module; `None` where there is none.
     fn routine(&self, module: u8, routine: u8) -> Option<Routine> {
@@ -59,6 +78,11 @@ pub trait ProgramMemory {
     fn modules_end(&self) -> Option<u16> {
         let is_used = |module: &u8| self.word(DIRECTORY_AT + 2 * u16::from(*module)) != 0;
         Some(modules::data_end((0..MODULES as u8).filter(is_used)))
+    }
+    /// Reads the fields of the header in place, whatever they say. The board copies them: they stand in the image as they
+    /// lie in its memory.
+    fn read_header(&self, header: &mut Header) {
+        header.read_fields(self);
     }
     /// Whether there is nothing to read.
     fn is_empty(&self) -> bool {
@@ -204,7 +228,8 @@ impl ImageFault {
     }
 }
 
-/// The header: lengths and settings.
+/// The header: lengths and settings, in the order in which they stand in the image.
+#[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Header {
     /// The firmware interface that the code was translated for; 0: bytecode.
@@ -225,10 +250,6 @@ pub struct Header {
     pub timers: u16,
     /// Counters in the plan.
     pub counters: u16,
-    /// Retained ranges.
-    pub retained: u8,
-    /// Bytes of the name.
-    pub name_len: u8,
     /// System settings.
     pub settings: Settings,
     /// Bytes of the modules.
@@ -241,6 +262,10 @@ pub struct Header {
     pub routines: u8,
     /// Interrupt events that the program names.
     pub events: u8,
+    /// Retained ranges.
+    pub retained: u8,
+    /// Bytes of the name.
+    pub name_len: u8,
 }
 
 /// Bytes of a V range in the image: first byte, length.
@@ -292,20 +317,20 @@ impl Header {
             place.copy_from_slice(&word.to_le_bytes());
         }
         let settings = &self.settings;
-        let tail = [
+        let head = [
             settings.pullup,
             settings.invert_inputs,
             settings.invert_outputs,
-            self.retained,
-            self.name_len,
             settings.filter,
+            settings.modbus_address,
+            settings.line,
         ];
-        bytes[26..32].copy_from_slice(&tail);
+        bytes[26..32].copy_from_slice(&head);
         let words = [self.modules_len, self.constants_len, self.initial_len];
         for (place, word) in bytes[32..38].chunks_exact_mut(2).zip(words) {
             place.copy_from_slice(&word.to_le_bytes());
         }
-        bytes[38..40].copy_from_slice(&[self.routines, self.events]);
+        bytes[38..42].copy_from_slice(&[self.routines, self.events, self.retained, self.name_len]);
         bytes
     }
 
@@ -348,14 +373,12 @@ impl Header {
     /// The header, whatever it says.
     pub(crate) fn fields<P: ProgramMemory>(memory: &P) -> Header {
         let mut header = Header::default();
-        header.read_fields(memory);
+        memory.read_header(&mut header);
         header
     }
 
-    /// The same in place.
-    #[cfg_attr(target_arch = "avr", inline(never))]
-    pub(crate) fn read_fields<P: ProgramMemory>(&mut self, memory: &P) {
-        // One after the other: the board has no registers to hold them all.
+    /// The same in place, field by field.
+    fn read_fields<P: ProgramMemory + ?Sized>(&mut self, memory: &P) {
         self.interface = memory.byte(5);
         self.total_len = memory.word(6);
         self.code_len = memory.word(8);
@@ -370,14 +393,16 @@ impl Header {
         self.settings.pullup = memory.byte(26);
         self.settings.invert_inputs = memory.byte(27);
         self.settings.invert_outputs = memory.byte(28);
-        self.retained = memory.byte(29);
-        self.name_len = memory.byte(30);
-        self.settings.filter = memory.byte(31);
+        self.settings.filter = memory.byte(29);
+        self.settings.modbus_address = memory.byte(30);
+        self.settings.line = memory.byte(31);
         self.modules_len = memory.word(32);
         self.constants_len = memory.word(34);
         self.initial_len = memory.word(36);
         self.routines = memory.byte(38);
         self.events = memory.byte(39);
+        self.retained = memory.byte(40);
+        self.name_len = memory.byte(41);
     }
 
     /// Offset of the V ranges.

@@ -65,10 +65,16 @@ pub const EVENTS_SEEN: u16 = 0x0235;
 /// The value of that byte when RUN begins and nothing has been seen.
 pub const EVENTS_RUN_BEGINS: u8 = 0xFF;
 
+/// On the board: what is forced of IB0, then of QB0, for immediate access. For each a byte with the bits that are forced, and one with their
+/// values, 0 in the others. No instruction names these bytes.
+pub const FORCED: u16 = 0x023C;
+
 /// The arena: memory planned per program.
 pub const ARENA_START: u16 = 0x0240;
 /// Bytes in the arena.
-pub const ARENA_LEN: u16 = DATA_END - ARENA_START;
+pub const ARENA_LEN: u16 = DATA_END - LINE_ROOM - ARENA_START;
+/// Bytes of data memory that every program leaves free behind its arena: for requests on the serial line and their answers.
+pub const LINE_ROOM: u16 = 64;
 
 /// Arena bytes per timer: current value (2), preset (2), state (1).
 pub const TIMER_SLOT_LEN: u16 = 5;

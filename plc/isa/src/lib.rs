@@ -30,21 +30,21 @@ pub use area::{AnalogInput, Area, TimerFamily, TimerResolution, timer_family, ti
 pub use crc::Crc32;
 pub use decode::{DecodeError, Decoded, decode};
 pub use image::{
-    CRC_LEN, DIRECTORY_AT, ENTRY_LEN, EVENT_LEN, FORMAT_VERSION, HEADER_LEN, Header, INITIAL_HEAD_LEN, ImageError,
-    ImageFault, LABEL_LEN, MAGIC, NAME_LEN_MAX, NATIVE_INTERFACE, ProgramMemory, ROUTINE_LEN,
+    CRC_LEN, DIRECTORY_AT, ENTRY_LEN, EVENT_LEN, FIELDS_AT, FORMAT_VERSION, HEADER_LEN, Header, INITIAL_HEAD_LEN,
+    ImageError, ImageFault, LABEL_LEN, MAGIC, NAME_LEN_MAX, NATIVE_INTERFACE, ProgramMemory, ROUTINE_LEN, TIMER_LEN,
 };
 pub use layout::*;
 pub use modules::{
     COUNTERS_ENTRY, COUNTERS_MODULE, EVENTS_ENTRY, EVENTS_MODULE, FREEPORT_ENTRY, FREEPORT_MODULE, FUNCTION_MODULE,
-    MODULE_HEAD_LEN, MODULE_KINDS_AT, MODULE_NAMES, MODULES, OPERANDS_MODULE, PID_MODULE, PULSES_ENTRY, PULSES_MODULE,
-    REAL_MODULE, ROUTINES_MAX, Routine, data_end, kind_numbers, module_instructions, module_of_token, needed_modules,
-    packed_stack, state_at,
+    MODULE_HEAD_LEN, MODULE_NAMES, MODULES, OPERANDS_MODULE, PID_MODULE, PULSES_ENTRY, PULSES_MODULE, REAL_MODULE,
+    ROUTINES_MAX, Routine, data_end, kind_numbers, module_instructions, module_of_token, needed_modules, packed_stack,
+    state_at,
 };
 pub use operand::{Bit, ByteSource, Kind, Operand, OperandKind, OperandReader, Relation, WordSource, kinds};
 pub use plan::{CounterSlot, Plan, Region, SM_IN_V, TimerKind, TimerSlot, counter_bit, timer_bit};
 pub use reference::{Operands, Place, Reference, pointer};
 pub use retention::RetainedWalk;
-pub use settings::{DEFAULT_WATCHDOG_MS, Retained, Settings};
+pub use settings::{DEFAULT_WATCHDOG_MS, LineSettings, Parity, Retained, Settings};
 pub use stack::{LogicStack, STACK_LEVELS};
 pub use table::{
     CORE_INSTRUCTIONS, Encoded, Execute, Flow, Form, Group, INSTRUCTIONS, Instruction, MODULE_PREFIX, Op, PowerFlow,

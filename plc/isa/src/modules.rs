@@ -90,8 +90,8 @@ pub fn data_end(modules: impl Iterator<Item = u8>) -> u16 {
 /// program leaves alone, routines.
 pub const MODULE_HEAD_LEN: u16 = 6;
 
-/// Kinds of module routines are asked for at [`ProgramMemory::token_table`](crate::ProgramMemory) from here on.
-pub const MODULE_KINDS_AT: u16 = 0x8000;
+/// Kinds of module routines are asked for at [`ProgramMemory::kind`](crate::ProgramMemory::kind) from here on.
+pub(crate) const MODULE_KINDS_AT: u16 = 0x8000;
 
 /// What decoding needs of a module's routine.
 #[derive(Debug, Clone, Copy)]
@@ -100,7 +100,7 @@ pub struct Routine {
     pub op: Op,
     /// Its effect on the stack, packed as in the token table.
     pub stack: u8,
-    /// Where its kinds stand in the token table, a 0 behind the last.
+    /// Where its kinds stand for [`ProgramMemory::kind`](crate::ProgramMemory::kind), a 0 behind the last.
     pub kinds_at: u16,
 }
 

@@ -118,17 +118,24 @@ pub enum Operand {
     Reference(Reference),
 }
 
-/// An operand of any kind as it was read, in three bytes: what handles operands without knowing their kinds.
+/// An operand of any kind as it was read, in four bytes: what handles operands without knowing their kinds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Raw {
-    /// The bit's number, the relation, or the mode of a source.
+    /// The number of its kind; 0: no operand.
+    pub kind: u8,
+    /// The bit's number, or the mode of a source.
     pub tag: u8,
-    /// The address, the constant or the number.
+    /// The address, the constant, the number or the relation.
     pub value: u16,
 }
 
 impl Raw {
-    pub const ZERO: Raw = Raw { tag: 0, value: 0 };
+    pub const NONE: Raw = Raw { kind: 0, tag: 0, value: 0 };
+
+    /// Its kind; `None` if there is no operand.
+    pub fn kind(self) -> Option<Kind> {
+        Kind::of_number(self.kind)
+    }
 }
 
 /// The values of operands, as they are read from [`Raw`].
@@ -187,7 +194,7 @@ impl OfRaw for ByteSource {
 impl OfRaw for Relation {
     #[inline]
     fn of_raw(raw: Raw) -> Relation {
-        Relation::of_token_offset(raw.tag)
+        Relation::of_token_offset(raw.value as u8)
     }
 }
 
@@ -444,7 +451,7 @@ impl Kind {
         match self {
             Kind::AnyByte if raw.tag == MODE_CONSTANT => raw.value <= 255,
             Kind::AnyByte | Kind::AnyInt => raw.tag <= MODE_MEMORY,
-            Kind::RelationByte => raw.tag < Relation::ALL.len() as u8,
+            Kind::RelationByte => raw.value < Relation::ALL.len() as u16,
             _ => true,
         }
     }

@@ -9,7 +9,7 @@ use crate::image::{
 };
 use crate::layout::*;
 use crate::operand::Bit;
-use crate::settings::Retained;
+use crate::settings::{Retained, Settings};
 use crate::table::Op;
 
 /// The V ranges carry SM bytes that are not in the bit page with this added to their number.
@@ -165,13 +165,19 @@ pub struct Plan<P> {
     end: u16,
 }
 
+/// What stands behind `count` entries of `len` bytes. Wraps.
+#[inline(always)]
+fn behind(start: u16, count: u16, len: u16) -> u16 {
+    start.wrapping_add(count.wrapping_mul(len))
+}
+
 impl<P: ProgramMemory> Plan<P> {
     /// A plan of nothing, to be read into.
     #[inline(always)]
     pub(crate) fn blank(memory: P) -> Self {
         Plan {
             memory,
-            header: Header::default(),
+            header: Header { settings: Settings::BLANK, ..Header::default() },
             v_ranges_at: 0,
             timers_at: 0,
             counters_at: 0,
@@ -208,7 +214,7 @@ impl<P: ProgramMemory> Plan<P> {
     /// Reads the header. Returns whether it is plausible.
     #[inline(always)]
     pub(crate) fn read(&mut self) -> bool {
-        self.header.read_fields(&self.memory);
+        self.memory.read_header(&mut self.header);
         self.header.is_plausible()
     }
 
@@ -223,16 +229,25 @@ impl<P: ProgramMemory> Plan<P> {
     #[inline(always)]
     fn place_tables(&mut self) {
         let header = &self.header;
-        self.v_ranges_at = HEADER_LEN + header.modules_len + u16::from(header.name_len);
-        self.timers_at = entry_at(self.v_ranges_at, header.v_ranges, V_RANGE_LEN);
-        self.counters_at = entry_at(self.timers_at, header.timers, TIMER_LEN);
-        self.labels_at = entry_at(self.counters_at, header.counters, COUNTER_LEN);
-        self.retained_at = entry_at(self.labels_at, header.labels, LABEL_LEN);
-        self.routines_at = entry_at(self.retained_at, u16::from(header.retained), Retained::STORED_LEN);
-        self.events_at = entry_at(self.routines_at, u16::from(header.routines), ROUTINE_LEN);
-        self.constants_at = self.events_at + u16::from(header.events);
-        self.initial_at = self.constants_at + header.constants_len;
-        self.code_at = self.initial_at + header.initial_len;
+        let mut at = HEADER_LEN.wrapping_add(header.modules_len).wrapping_add(u16::from(header.name_len));
+        self.v_ranges_at = at;
+        at = behind(at, header.v_ranges, V_RANGE_LEN);
+        self.timers_at = at;
+        at = behind(at, header.timers, TIMER_LEN);
+        self.counters_at = at;
+        at = behind(at, header.counters, COUNTER_LEN);
+        self.labels_at = at;
+        at = behind(at, header.labels, LABEL_LEN);
+        self.retained_at = at;
+        at = entry_at(at, u16::from(header.retained), Retained::STORED_LEN);
+        self.routines_at = at;
+        at = behind(at, u16::from(header.routines), ROUTINE_LEN);
+        self.events_at = at;
+        at = behind(at, u16::from(header.events), EVENT_LEN);
+        self.constants_at = at;
+        at = behind(at, header.constants_len, 1);
+        self.initial_at = at;
+        self.code_at = behind(at, header.initial_len, 1);
     }
 
     /// Places the memory in the arena by header and tables.
@@ -240,16 +255,19 @@ impl<P: ProgramMemory> Plan<P> {
     fn place_memory(&mut self) {
         let header = &self.header;
         // Lengths that are not checked yet may wrap: then they are not valid, and nothing is placed by them.
-        self.timers_start = ARENA_START;
-        let mut at = self.v_ranges_at + 2;
+        let (mut start, mut at) = (ARENA_START, self.v_ranges_at + 2);
         while at < self.timers_at {
-            self.timers_start = self.timers_start.wrapping_add(self.memory.word(at));
+            start = start.wrapping_add(self.memory.word(at));
             at += V_RANGE_LEN;
         }
-        self.counters_start = entry_at(self.timers_start, header.timers, TIMER_SLOT_LEN);
-        self.edges_start = entry_at(self.counters_start, header.counters, COUNTER_SLOT_LEN);
-        self.events_start = self.edges_start.wrapping_add(header.edges.wrapping_add(7) / 8);
-        self.end = self.events_start.wrapping_add(u16::from(header.events));
+        self.timers_start = start;
+        start = entry_at(start, header.timers, TIMER_SLOT_LEN);
+        self.counters_start = start;
+        start = entry_at(start, header.counters, COUNTER_SLOT_LEN);
+        self.edges_start = start;
+        start = behind(start, header.edges.wrapping_add(7) / 8, 1);
+        self.events_start = start;
+        self.end = behind(start, u16::from(header.events), 1);
     }
 
     /// Offset of the first instruction in the image.
@@ -355,23 +373,37 @@ impl<P: ProgramMemory> Plan<P> {
         Some(Retained { area, first: self.memory.word(at + 1), count: self.memory.word(at + 3) })
     }
 
+    /// Offset of the program's name.
+    pub(crate) fn name_at(&self) -> u16 {
+        HEADER_LEN + self.header.modules_len
+    }
+
     /// The program's name, byte by byte.
     pub fn name(&self) -> impl Iterator<Item = u8> + '_ {
-        (0..u16::from(self.header.name_len))
-            .map(|index| self.memory.byte(crate::image::HEADER_LEN + self.header.modules_len + index))
+        (0..u16::from(self.header.name_len)).map(|index| self.memory.byte(self.name_at() + index))
     }
 
     /// Data address of a byte of V memory.
-    #[cfg_attr(target_arch = "avr", inline(never))]
+    #[inline]
     pub fn v_address(&self, byte: u16) -> Option<u16> {
-        let mut start = ARENA_START;
-        for (first, len) in self.v_ranges() {
-            if byte >= first && byte - first < len {
-                return Some(start + (byte - first));
+        let address = self.v_place(byte);
+        (address != 0).then_some(address)
+    }
+
+    /// The same; 0: there is none.
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    fn v_place(&self, byte: u16) -> u16 {
+        let (mut start, mut at) = (ARENA_START, self.v_ranges_at);
+        while at < self.timers_at {
+            let (first, len) = (self.memory.word(at), self.memory.word(at + 2));
+            let offset = byte.wrapping_sub(first);
+            if offset < len {
+                return start + offset;
             }
             start += len;
+            at += V_RANGE_LEN;
         }
-        None
+        0
     }
 
     /// Data address of a byte of an area that has bytes.

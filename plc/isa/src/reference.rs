@@ -37,18 +37,16 @@ impl Reference {
 
     /// What it names; `None` if it is no reference.
     pub const fn place(self) -> Option<Place> {
+        let address = self.0 & !INDIRECT;
         match self.0 {
-            DATA_START..DATA_END => Some(Place::Direct(self.0)),
-            INDIRECT..CONSTANT => {
-                let address = self.0 & !INDIRECT;
-                if DATA_START <= address && address < DATA_END { Some(Place::Indirect(address)) } else { None }
-            }
-            CONSTANT..POOL => {
+            POOL.. => Some(Place::Pool(self.0 & !POOL)),
+            CONSTANT.. => {
                 let unused = u16::BITS - CONSTANT_BITS;
                 Some(Place::Constant((self.0 << unused) as i16 >> unused))
             }
-            POOL.. => Some(Place::Pool(self.0 & !POOL)),
-            _ => None,
+            _ if address < DATA_START || address >= DATA_END => None,
+            INDIRECT.. => Some(Place::Indirect(address)),
+            _ => Some(Place::Direct(address)),
         }
     }
 
@@ -82,7 +80,7 @@ impl<'a> Operands<'a> {
     }
 
     fn raw(&self, index: usize) -> Raw {
-        self.raw.get(index).copied().unwrap_or(Raw::ZERO)
+        self.raw.get(index).copied().unwrap_or(Raw::NONE)
     }
 
     /// A reference.

@@ -237,7 +237,7 @@ macro_rules! instruction_table {
         /// An instruction of a module, or none.
         #[inline(never)]
         fn execute_module<E: Execute, P: ProgramMemory>(engine: &mut E, code: &P, pc: u16) -> Flow {
-            let mut fetched = Fetched::nothing();
+            let mut fetched = Fetched::NOTHING;
             if module_of_token(code.byte(pc)).is_none() || !fetched.fetch(code, pc) {
                 return engine.undefined();
             }
@@ -249,18 +249,17 @@ macro_rules! instruction_table {
         /// kinds, as the decoder does, sources by their addresses, and there is one arm for an instruction instead of
         /// one for a form.
         pub fn execute_compact<E: Execute, P: ProgramMemory>(engine: &mut E, code: &P, pc: u16) -> Flow {
-            let mut fetched = Fetched::nothing();
+            let mut fetched = Fetched::NOTHING;
             if !fetched.fetch(code, pc) {
                 return engine.undefined();
             }
-            for (operand, kind) in fetched.operands.iter_mut().zip(&fetched.kinds) {
-                let Some(kind) = kind else { break };
+            for operand in &mut fetched.operands {
                 if operand.tag != MODE_MEMORY {
                     continue;
                 }
-                match kind {
-                    Kind::Byte | Kind::AnyByte => operand.value = u16::from(engine.byte_at(operand.value)),
-                    Kind::Word | Kind::AnyInt => operand.value = engine.word_at(operand.value),
+                match operand.kind() {
+                    Some(Kind::Byte | Kind::AnyByte) => operand.value = u16::from(engine.byte_at(operand.value)),
+                    Some(Kind::Word | Kind::AnyInt) => operand.value = engine.word_at(operand.value),
                     _ => {}
                 }
             }
@@ -278,10 +277,9 @@ macro_rules! instruction_table {
         const _: () = assert!(CORE_INSTRUCTIONS <= 128, "sets of instructions are 128 bits");
 
         impl Op {
-            /// The instruction with this number in the order of the table.
+            /// The instruction of the core with this number in the order of the table.
             pub(crate) fn of_number(number: u8) -> Option<Op> {
                 $( if number == Op::$op as u8 { return Some(Op::$op); } )+
-                $( if number == Op::$module_op as u8 { return Some(Op::$module_op); } )+
                 None
             }
         }
@@ -298,7 +296,7 @@ impl RawOperands<'_> {
     #[inline(always)]
     fn take(&mut self) -> Raw {
         self.next += 1;
-        self.raw.get(self.next - 1).copied().unwrap_or(Raw::ZERO)
+        self.raw.get(self.next - 1).copied().unwrap_or(Raw::NONE)
     }
 }
 

@@ -1,26 +1,33 @@
-//! The instruction table as bytes, for those who look a token up: the decoder and the compact engine.
+//! The instruction table as bytes, for those who look a token up: the decoder and the compact engine. With it what the
+//! loader's check looks up: the rules for kinds of operands and for data addresses.
 //!
 //! On the board a constant with pointers would cost SRAM, so that the table is an array which the board keeps in flash
 //! and hands out byte by byte ([`ProgramMemory::token_table`]).
 
+use crate::access::{BESIDE_PAGE, IN_PAGE};
 use crate::image::ProgramMemory;
-use crate::modules::module_of_token;
-use crate::operand::{Kind, OperandReader, Raw};
-use crate::rules::{KIND_RULES_LEN, read_raw};
+use crate::layout::{DATA_START, PAGE_START};
+use crate::modules::{Routine, module_of_token};
+use crate::operand::{Kind, MODE_MEMORY, Raw};
+use crate::rules::{KIND_RULES_LEN, Storage};
 use crate::table::{CORE_INSTRUCTIONS, Form, INSTRUCTIONS, Instruction, Op, StackEffect, WIDE_PREFIX};
 
 /// Most operands of an instruction.
 pub(crate) const OPERANDS_MAX: usize = 4;
 
-/// Bytes of an entry: first token, instruction, effect on the stack, where its kinds stand.
-const ENTRY_LEN: usize = 4;
+/// Bytes of an entry: first token, instruction, effect on the stack, where its kinds stand. So long are entries for data
+/// addresses too.
+pub(crate) const ENTRY_LEN: usize = 4;
 /// The instruction in entries for tokens that are not defined.
 const UNDEFINED: u8 = 0xFF;
-/// Entries for tokens, then for those behind the prefix: an entry is for its first token and all up to that of the next.
-const TOKEN_ENTRIES: usize = entries(false);
-const WIDE_ENTRIES: usize = entries(true);
-/// Where the lists of kinds begin, each ended by 0.
-const KINDS_AT: usize = (TOKEN_ENTRIES + WIDE_ENTRIES) * ENTRY_LEN;
+/// Where the entries begin for tokens, for tokens behind the prefix, for addresses in the bit page and for those behind it:
+/// an entry is for its first token or address and all up to that of the next. A group begins with 0.
+const TOKENS_AT: usize = 0;
+const WIDE_AT: usize = TOKENS_AT + entries(false) * ENTRY_LEN;
+pub(crate) const IN_PAGE_AT: usize = WIDE_AT + entries(true) * ENTRY_LEN;
+pub(crate) const BESIDE_PAGE_AT: usize = IN_PAGE_AT + IN_PAGE.len() * ENTRY_LEN;
+/// Where the lists of kinds begin, each ended by 0; the first is empty.
+const KINDS_AT: usize = BESIDE_PAGE_AT + BESIDE_PAGE.len() * ENTRY_LEN;
 
 /// The form that a token of the core belongs to, and its instruction.
 const fn form_of(token: u8, is_wide: bool) -> Option<(&'static Instruction, &'static Form)> {
@@ -62,8 +69,7 @@ const fn entries(is_wide: bool) -> usize {
 /// Bytes of the token table.
 pub const TOKEN_TABLE_LEN: usize = LONG_TABLE.1;
 
-/// The token table: the entries by ascending tokens, then those behind the prefix, then the lists of kinds, which many
-/// forms share, then the rules for the kinds.
+/// The token table: the entries, then the lists of kinds, which many forms share, then the rules for the kinds.
 pub const TOKEN_TABLE: [u8; TOKEN_TABLE_LEN] = {
     let (mut table, mut at) = ([0; TOKEN_TABLE_LEN], 0);
     while at < TOKEN_TABLE_LEN {
@@ -85,7 +91,7 @@ pub(crate) fn rules_at(number: u8) -> u16 {
 
 /// The table with room behind it, and its length.
 const LONG_TABLE: ([u8; LONG_TABLE_LEN], usize) = {
-    let (mut table, mut end) = ([0; LONG_TABLE_LEN], KINDS_AT);
+    let (mut table, mut end) = ([0; LONG_TABLE_LEN], KINDS_AT + 1);
     // Tokens, then tokens behind the prefix.
     let (mut number, mut at) = (0, 0);
     while number < 512 {
@@ -101,6 +107,8 @@ const LONG_TABLE: ([u8; LONG_TABLE_LEN], usize) = {
         }
         number += 1;
     }
+    table = with_entries(table, IN_PAGE_AT, &IN_PAGE);
+    table = with_entries(table, BESIDE_PAGE_AT, &BESIDE_PAGE);
     let mut kind = 0;
     while kind < Kind::ALL.len() {
         (table[end], table[end + 1]) = (Kind::ALL[kind].rules()[0], Kind::ALL[kind].rules()[1]);
@@ -117,8 +125,33 @@ pub(crate) const fn packed(effect: StackEffect) -> u8 {
     effect.needs | (effect.adds as u8) << 4
 }
 
-const fn unpacked(byte: u8) -> StackEffect {
+pub(crate) const fn unpacked(byte: u8) -> StackEffect {
     StackEffect { needs: byte & 7, adds: byte as i8 >> 4 }
+}
+
+/// Copies entries to an offset.
+const fn with_entries(mut table: [u8; LONG_TABLE_LEN], at: usize, entries: &[[u8; ENTRY_LEN]]) -> [u8; LONG_TABLE_LEN] {
+    let mut byte = 0;
+    while byte < entries.len() * ENTRY_LEN {
+        table[at + byte] = entries[byte / ENTRY_LEN][byte % ENTRY_LEN];
+        byte += 1;
+    }
+    table
+}
+
+/// Where in the token table the entry is for a token or the low byte of an address, in the group that begins at `at`.
+#[cfg_attr(target_arch = "avr", inline(never))]
+pub(crate) fn entry_for<P: ProgramMemory>(memory: &P, at: usize, key: u8) -> u16 {
+    let mut at = at as u16;
+    loop {
+        let next = at + ENTRY_LEN as u16;
+        // Behind the last entry stands the 0 of the next group, which wraps.
+        let [first, _] = memory.token_table(next);
+        if first.wrapping_sub(1) >= key {
+            return at;
+        }
+        at = next;
+    }
 }
 
 /// Enters a list of kinds behind the others, unless it is there already. Returns where, from [`KINDS_AT`] on, and the
@@ -149,68 +182,97 @@ const fn with_kinds(mut table: [u8; LONG_TABLE_LEN], end: usize, kinds: &[Kind])
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fetched {
     pub op: Op,
-    pub stack: StackEffect,
-    /// The operands, as many as there are kinds.
-    pub operands: [Raw; OPERANDS_MAX],
+    /// The effect on the stack, [`packed`].
+    pub stack: u8,
+    /// How far the token is from the first one of its form.
+    in_token: u8,
     /// Offset of the first byte behind the instruction.
     pub next: u16,
-    /// The operands' kinds, `None` behind the last.
-    pub kinds: [Option<Kind>; OPERANDS_MAX],
+    /// The operands; behind the last there are none.
+    pub operands: [Raw; OPERANDS_MAX],
 }
 
 impl Fetched {
-    /// Nothing yet. No constant: the board would keep it in SRAM to copy it from there.
-    #[inline(always)]
-    pub fn nothing() -> Fetched {
-        Fetched {
-            op: Op::MainEnd,
-            stack: StackEffect { needs: 0, adds: 0 },
-            operands: [Raw::ZERO; OPERANDS_MAX],
-            next: 0,
-            kinds: [None; OPERANDS_MAX],
-        }
-    }
+    /// Nothing yet: all 0. Anything else the board would keep in SRAM to copy it from there.
+    pub const NOTHING: Fetched =
+        Fetched { op: Op::Ld, stack: 0, in_token: 0, next: 0, operands: [Raw::NONE; OPERANDS_MAX] };
 
     /// Fetches the instruction at `pc`. Returns whether its token is in the table.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn fetch<P: ProgramMemory>(&mut self, code: &P, pc: u16) -> bool {
-        let (mut token, mut operands_at) = (code.byte(pc), pc.wrapping_add(1));
-        if let Some(module) = module_of_token(token) {
-            let Some(routine) = code.routine(module, code.byte(operands_at)) else { return false };
-            (self.op, self.stack) = (routine.op, unpacked(routine.stack));
-            self.operands(code, routine.kinds_at, OperandReader::new(code, pc, pc.wrapping_add(2), 0));
-            return true;
-        }
-        let (mut at, mut left) = (0, TOKEN_ENTRIES as u8);
-        if token == WIDE_PREFIX {
-            (token, operands_at) = (code.byte(operands_at), pc.wrapping_add(2));
-            (at, left) = ((TOKEN_ENTRIES * ENTRY_LEN) as u16, WIDE_ENTRIES as u8);
-        }
-        // The last entry that does not begin behind the token.
-        while left > 1 && code.token_table(at + ENTRY_LEN as u16) <= token {
-            at += ENTRY_LEN as u16;
-            left -= 1;
-        }
-        let Some(op) = Op::of_number(code.token_table(at + 1)) else { return false };
-        self.op = op;
-        self.stack = unpacked(code.token_table(at + 2));
-        let kinds_at = KINDS_AT as u16 + u16::from(code.token_table(at + 3));
-        let in_token = token.wrapping_sub(code.token_table(at));
-        self.operands(code, kinds_at, OperandReader::new(code, pc, operands_at, in_token));
+        let (mut token, mut group) = (code.byte(pc), TOKENS_AT);
+        self.next = pc.wrapping_add(1);
+        self.in_token = 0;
+        let routine = if let Some(module) = module_of_token(token) {
+            let number = self.byte(code);
+            code.routine(module, number)
+        } else {
+            if token == WIDE_PREFIX {
+                (token, group) = (self.byte(code), WIDE_AT);
+            }
+            self.core_routine(code, group, token)
+        };
+        let Some(routine) = routine else { return false };
+        (self.op, self.stack) = (routine.op, routine.stack);
+        self.operands(code, pc, routine.kinds_at);
         true
     }
 
-    /// Fetches the operands whose kinds stand at `kinds_at` in the token table.
-    #[cfg_attr(target_arch = "avr", inline(never))]
-    fn operands<P: ProgramMemory>(&mut self, code: &P, mut kinds_at: u16, mut reader: OperandReader<'_, P>) {
-        for (operand, kind) in self.operands.iter_mut().zip(&mut self.kinds) {
-            let number = code.token_table(kinds_at);
-            *kind = Kind::of_number(number);
+    /// Looks up a token of the core.
+    #[inline(always)]
+    fn core_routine<P: ProgramMemory>(&mut self, code: &P, group: usize, token: u8) -> Option<Routine> {
+        let at = entry_for(code, group, token);
+        let ([first, op], [stack, kinds]) = (code.token_table(at), code.token_table(at + 2));
+        self.in_token = token.wrapping_sub(first);
+        Some(Routine { op: Op::of_number(op)?, stack, kinds_at: code.kinds_at(KINDS_AT as u16 + u16::from(kinds)) })
+    }
+
+    /// Fetches the operands of the instruction at `pc`, whose kinds stand at `kinds_at`.
+    #[inline(always)]
+    fn operands<P: ProgramMemory>(&mut self, code: &P, pc: u16, mut kinds_at: u16) {
+        for index in 0..OPERANDS_MAX {
+            let kind = code.kind(kinds_at);
+            self.operands[index].kind = kind;
             // The 0 that ends the list is read again for every operand that there is not.
-            if number != 0 {
-                *operand = read_raw(code.token_table(rules_at(number)), &mut reader);
+            if kind != 0 {
+                let (tag, value) = self.operand(code, pc, kind);
+                (self.operands[index].tag, self.operands[index].value) = (tag, value);
                 kinds_at += 1;
             }
         }
-        self.next = reader.position();
+    }
+
+    /// Reads the next operand of the instruction at `pc`: tag and value.
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    fn operand<P: ProgramMemory>(&mut self, code: &P, pc: u16, kind: u8) -> (u8, u16) {
+        let [rule, _] = code.token_table(rules_at(kind));
+        let storage = Storage::of_rule(rule);
+        let (mut tag, mut value) = (0, 0);
+        if storage.has_byte() {
+            value = u16::from(self.byte(code));
+        }
+        if storage.has_word() {
+            tag = value as u8;
+            value = code.word(self.next);
+            self.next = self.next.wrapping_add(2);
+        }
+        match storage {
+            Storage::HERE => value = pc,
+            Storage::ONE => value = 1,
+            Storage::IN_TOKEN => value = u16::from(self.in_token),
+            Storage::PAGE_BIT => (tag, value) = (self.in_token, value + PAGE_START),
+            Storage::SOURCE => tag = MODE_MEMORY,
+            Storage::FAR_BIT => (tag, value) = (value as u8 & 7, DATA_START + (value >> 3)),
+            _ => {}
+        }
+        (tag, value)
+    }
+
+    /// The next byte.
+    #[inline(always)]
+    fn byte<P: ProgramMemory>(&mut self, code: &P) -> u8 {
+        let byte = code.byte(self.next);
+        self.next = self.next.wrapping_add(1);
+        byte
     }
 }

@@ -8,21 +8,21 @@ use crate::access::Access;
 use crate::area::{Area, TimerFamily, timer_family};
 use crate::decode::{Decoded, decode};
 use crate::image::{
-    COUNTER_LEN, CRC_LEN, DIRECTORY_AT, ENTRY_LEN, EVENT_LEN, Header, INITIAL_HEAD_LEN, ImageError, ImageFault,
-    ProgramMemory, TIMER_LEN,
+    ARENA_LEN_AT, COUNTER_LEN, CRC_LEN, DIRECTORY_AT, ENTRY_LEN, EVENT_LEN, Header, INITIAL_HEAD_LEN, ImageError,
+    ImageFault, LABEL_LEN, ProgramMemory, ROUTINES_AT, SETTINGS_AT, TIMER_LEN, TOTAL_LEN_AT, V_RANGE_LEN,
 };
 use crate::layout::*;
 use crate::modules::EVENTS_MODULE;
-use crate::operand::{Kind, MODE_MEMORY, Raw};
-use crate::plan::{Plan, SM_IN_V};
+use crate::operand::{MODE_CONSTANT, MODE_MEMORY, Raw};
+use crate::plan::{Plan, SM_IN_V, TimerKind};
 use crate::reference::{Place, Reference};
 use crate::rules::{
-    CONSTANT, LIMIT_COUNTERS, LIMIT_EDGES, LIMIT_EVENTS, LIMIT_LABELS, LIMIT_NUMBERS, LIMIT_ROUTINES, LIMIT_TIMERS,
-    NOT_NUMBERED, REFERENCE, TEXT, len_of_rule,
+    ANY, CONSTANT, COUNT, LEVEL, NUMBER, NUMBERS, REFERENCE, RELATION, Storage, TEXT, WANTS, len_of_rule,
 };
+use crate::settings::Retained;
 use crate::stack::STACK_LEVELS;
 use crate::table::Op;
-use crate::tokens::{Fetched, rules_at};
+use crate::tokens::{Fetched, OPERANDS_MAX, rules_at, unpacked};
 
 /// Deepest nesting of FOR (reference 1.8).
 pub const LOOPS_MAX: usize = 8;
@@ -85,7 +85,7 @@ pub fn verify_into<P: ProgramMemory>(place: &mut Option<Program<P>>, memory: P) 
     *place = None;
     Header::check(&memory)?;
     let plan = &mut place.insert(Program { plan: Plan::blank(memory) }).plan;
-    let checked = check(plan);
+    let checked = check(core::hint::black_box(plan));
     if checked.is_err() {
         *place = None;
     }
@@ -95,34 +95,30 @@ pub fn verify_into<P: ProgramMemory>(place: &mut Option<Program<P>>, memory: P) 
 /// The check of what the header leads to.
 #[cfg_attr(target_arch = "avr", inline(never))]
 fn check<P: ProgramMemory>(plan: &mut Plan<P>) -> Result<(), ImageError> {
-    if !plan.read() {
-        return Err(ImageError { fault: ImageFault::Length, at: 6 });
-    }
+    ensure_at(plan.read(), ImageFault::Length, TOTAL_LEN_AT)?;
     plan.place();
     let Some(data_end) = plan.memory.modules_end() else {
         return Err(ImageError { fault: ImageFault::Module, at: DIRECTORY_AT });
     };
-    check_tables(plan, data_end).map_err(|fault| ImageError { fault, at: place_of(plan, fault) })?;
+    check_tables(plan, data_end - LINE_ROOM)?;
     if is_native(plan) {
-        return ensure(entry_is_valid(plan), ImageFault::Interface)
-            .map_err(|fault| ImageError { fault, at: plan.code_at() });
+        return ensure_at(entry_is_valid(plan), ImageFault::Interface, plan.code_at());
     }
-    let mut check = CodeCheck {
-        plan,
-        loops: [Loop::default(); LOOPS_MAX],
-        open_loops: 0,
-        next_label: 0,
-        depth: 0,
-        next_routine: 0,
-        call_end: 0,
-    };
-    check.run().map_err(|(fault, at)| ImageError { fault, at })
+    let mut check = CodeCheck::new(plan);
+    check.run().map_err(|fault| ImageError { fault, at: check.at })
 }
 
 #[cfg_attr(not(target_arch = "avr"), inline(always))]
 fn is_native<P: ProgramMemory>(plan: &Plan<P>) -> bool {
     P::NATIVE_INTERFACE != 0 && plan.header.interface != 0
 }
+
+// The areas in the image's table of retained ranges.
+const RETAINED_V: u8 = 0;
+const RETAINED_M: u8 = 1;
+const RETAINED_T: u8 = 2;
+const RETAINED_C: u8 = 3;
+const _: () = assert!(matches!(Retained::AREAS, [Area::V, Area::M, Area::T, Area::C]));
 
 /// Whether machine code has its entry word, and there an even offset behind the word in the code.
 fn entry_is_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
@@ -135,71 +131,112 @@ fn ensure(holds: bool, fault: ImageFault) -> Result<(), ImageFault> {
     if holds { Ok(()) } else { Err(fault) }
 }
 
-/// Checks the tables of a program whose data memory ends at `data_end`.
-fn check_tables<P: ProgramMemory>(plan: &Plan<P>, data_end: u16) -> Result<(), ImageFault> {
+fn ensure_at(holds: bool, fault: ImageFault, at: u16) -> Result<(), ImageError> {
+    if holds { Ok(()) } else { Err(ImageError { fault, at }) }
+}
+
+/// Checks the tables of a program whose plan and copy of what is retained end at `data_end` or before.
+#[cfg_attr(target_arch = "avr", inline(never))]
+fn check_tables<P: ProgramMemory>(plan: &Plan<P>, data_end: u16) -> Result<(), ImageError> {
     let header = &plan.header;
     // The sum of all parts is the length.
-    ensure(plan.code_at() + header.code_len == header.total_len - CRC_LEN, ImageFault::Length)?;
-    ensure(plan.name().all(|byte| matches!(byte, 0x20..=0x7E)), ImageFault::Name)?;
-    ensure(header.settings.is_valid(), ImageFault::Settings)?;
-    ensure(v_ranges_are_valid(plan), ImageFault::VRanges)?;
-    ensure(timers_are_valid(plan), ImageFault::Timers)?;
-    ensure(is_ascending(&plan.memory, plan.counters_at, COUNTER_LEN, header.counters), ImageFault::Counters)?;
-    ensure(header.edges <= EDGES_MAX && header.labels <= 256, ImageFault::Plan)?;
-    ensure(events_are_valid(plan), ImageFault::Event)?;
-    ensure(initial_is_valid(plan), ImageFault::Initial)?;
-    ensure((0..u16::from(header.retained)).all(|index| retained_is_valid(plan, index)), ImageFault::Retained)?;
+    let len = plan.code_at() + header.code_len + CRC_LEN;
+    ensure_at(len == header.total_len, ImageFault::Length, TOTAL_LEN_AT)?;
+    ensure_at(name_is_valid(plan), ImageFault::Name, plan.name_at())?;
+    ensure_at(header.settings.is_valid(), ImageFault::Settings, SETTINGS_AT)?;
+    ensure_at(v_ranges_are_valid(plan), ImageFault::VRanges, plan.v_ranges_at)?;
+    ensure_at(timers_are_valid(plan), ImageFault::Timers, plan.timers_at)?;
+    let counters_ascend = is_ascending(&plan.memory, plan.counters_at, plan.labels_at, COUNTER_LEN);
+    ensure_at(counters_ascend, ImageFault::Counters, plan.counters_at)?;
+    ensure_at(header.edges <= EDGES_MAX && header.labels <= 256, ImageFault::Plan, ARENA_LEN_AT)?;
+    ensure_at(events_are_valid(plan), ImageFault::Event, plan.events_at)?;
+    ensure_at(initial_is_valid(plan), ImageFault::Initial, plan.initial_at)?;
+    ensure_at(retained_is_valid(plan), ImageFault::Retained, plan.retained_at)?;
     let end = plan.end();
-    ensure(end <= data_end && end - ARENA_START == header.arena_len, ImageFault::Plan)?;
+    ensure_at(end <= data_end && end - ARENA_START == header.arena_len, ImageFault::Plan, ARENA_LEN_AT)?;
     // A copy of what is retained stands behind the plan.
     let retained_len = plan.retained_len();
-    ensure(retained_len <= RETAINED_LEN_MAX && retained_len <= data_end - end, ImageFault::Retained)
+    let fits = retained_len <= RETAINED_LEN_MAX && retained_len <= data_end - end;
+    ensure_at(fits, ImageFault::Retained, plan.retained_at)
 }
 
-/// Where in the image a fault of the tables is.
-fn place_of<P: ProgramMemory>(plan: &Plan<P>, fault: ImageFault) -> u16 {
-    match fault {
-        ImageFault::Length => 6,
-        ImageFault::Name => crate::image::HEADER_LEN + plan.header.modules_len,
-        ImageFault::Settings => 22,
-        ImageFault::VRanges => plan.v_ranges_at,
-        ImageFault::Timers => plan.timers_at,
-        ImageFault::Counters => plan.counters_at,
-        ImageFault::Retained => plan.retained_at,
-        ImageFault::Event => plan.events_at,
-        ImageFault::Initial => plan.initial_at,
-        ImageFault::Module => DIRECTORY_AT,
-        _ => 10,
-    }
-}
-
-/// Whether the bytes at `at`, `at + step`, ... ascend; no more than 256 can.
-#[cfg_attr(target_arch = "avr", inline(never))]
-fn is_ascending<P: ProgramMemory>(memory: &P, at: u16, step: u16, count: u16) -> bool {
-    (1..count).all(|index| memory.byte(at + step * (index - 1)) < memory.byte(at + step * index))
-}
-
-fn v_ranges_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
-    let mut least = 0;
-    plan.v_ranges().all(|(first, len)| {
-        let mut size = Area::V.size();
-        if first >= SM_IN_V {
-            // What is in the bit page is not in V memory.
-            least = least.max(SM_IN_V + Area::Sm.page_len());
-            size = SM_IN_V + Area::Sm.size();
+#[inline(always)]
+fn name_is_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
+    let mut at = plan.name_at();
+    while at != plan.v_ranges_at {
+        if !matches!(plan.memory.byte(at), 0x20..=0x7E) {
+            return false;
         }
-        let valid = first >= least && is_within(first, len, size);
+        at += 1;
+    }
+    true
+}
+
+/// Whether the first bytes of the entries from one offset to another ascend; no more than 256 can.
+#[cfg_attr(target_arch = "avr", inline(never))]
+fn is_ascending<P: ProgramMemory>(memory: &P, mut at: u16, end: u16, step: u16) -> bool {
+    let mut least = 0;
+    while at != end {
+        let number = u16::from(memory.byte(at));
+        if number < least {
+            return false;
+        }
+        least = number + 1;
+        at += step;
+    }
+    true
+}
+
+#[inline(always)]
+fn v_ranges_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
+    let (mut at, mut least) = (plan.v_ranges_at, 0);
+    while at != plan.timers_at {
+        let (first, len) = (plan.memory.word(at), plan.memory.word(at + 2));
+        if !v_range_is_valid(first, len, least) {
+            return false;
+        }
         // Adjacent ranges would be one range.
-        least = first.wrapping_add(len).wrapping_add(1);
-        valid
-    })
+        least = first + len + 1;
+        at += V_RANGE_LEN;
+    }
+    true
+}
+
+/// Whether a range of V memory begins at `least` or behind and ends in its area.
+#[cfg_attr(target_arch = "avr", inline(never))]
+fn v_range_is_valid(first: u16, len: u16, least: u16) -> bool {
+    if first < SM_IN_V {
+        return first >= least && is_within(first, len, Area::V.size());
+    }
+    // What is in the bit page is not in V memory.
+    first >= least && first >= SM_IN_V + Area::Sm.page_len() && is_within(first, len, SM_IN_V + Area::Sm.size())
+}
+
+/// Whether there are `count` from `first` on, at least one, and all below `size`.
+#[cfg_attr(target_arch = "avr", inline(never))]
+fn is_within(first: u16, count: u16, size: u16) -> bool {
+    count > 0 && first < size && count <= size - first
+}
+
+/// Whether the timers ascend and each is of a kind that its number can be.
+#[inline(always)]
+fn timers_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
+    let mut at = plan.timers_at;
+    while at != plan.counters_at {
+        let [number, kind] = plan.memory.word(at).to_le_bytes();
+        if !TimerKind::of_code(kind).is_some_and(|kind| kind.fits(number)) {
+            return false;
+        }
+        at += TIMER_LEN;
+    }
+    is_ascending(&plan.memory, plan.timers_at, at, TIMER_LEN)
 }
 
 /// Whether the events ascend, and the module that the board finds them with is in the image.
+#[inline(always)]
 fn events_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
     let has_module = plan.memory.word(DIRECTORY_AT + 2 * EVENTS_MODULE as u16) != 0;
-    (has_module || plan.header.events == 0)
-        && is_ascending(&plan.memory, plan.events_at, EVENT_LEN, u16::from(plan.header.events))
+    (has_module || plan.header.events == 0) && is_ascending(&plan.memory, plan.events_at, plan.constants_at, EVENT_LEN)
 }
 
 /// Whether V memory has these bytes side by side.
@@ -209,6 +246,7 @@ fn is_in_v<P: ProgramMemory>(plan: &Plan<P>, first: u16, len: u16) -> bool {
 }
 
 /// Whether the initial values are ranges of V memory one behind the other.
+#[cfg_attr(target_arch = "avr", inline(never))]
 fn initial_is_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
     let mut at = plan.initial_at;
     while at < plan.code_at() {
@@ -221,258 +259,335 @@ fn initial_is_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
     at == plan.code_at()
 }
 
-/// Whether there are `count` from `first` on, at least one, and all below `size`.
-fn is_within(first: u16, count: u16, size: u16) -> bool {
-    count > 0 && first < size && count <= size - first
+#[inline(always)]
+fn retained_is_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
+    let mut at = plan.retained_at;
+    while at != plan.routines_at {
+        let (area, first, count) = (plan.memory.byte(at), plan.memory.word(at + 1), plan.memory.word(at + 3));
+        if !retained_range_is_valid(plan, area, first, count) {
+            return false;
+        }
+        at += Retained::STORED_LEN;
+    }
+    true
 }
 
-fn timers_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
-    let header = &plan.header;
-    let kinds_fit = (0..header.timers).all(|slot| {
-        let (number, kind) = plan.timer_entry(slot);
-        kind.is_some_and(|kind| kind.fits(number))
-    });
-    kinds_fit && is_ascending(&plan.memory, plan.timers_at, TIMER_LEN, header.timers)
-}
-
+/// Whether a retained range is in its area; of timers only those that are made for it can be retained.
 #[cfg_attr(target_arch = "avr", inline(never))]
-fn retained_is_valid<P: ProgramMemory>(plan: &Plan<P>, index: u16) -> bool {
-    let Some(range) = plan.retained_entry(index) else { return false };
-    if !is_within(range.first, range.count, range.area.size()) {
-        return false;
-    }
-    let end = range.first + range.count;
-    match range.area {
-        Area::V => is_in_v(plan, range.first, range.count),
-        Area::T => (range.first..end).all(|number| timer_family(number as u8) == TimerFamily::Tonr),
-        _ => true,
-    }
+fn retained_range_is_valid<P: ProgramMemory>(plan: &Plan<P>, area: u8, first: u16, count: u16) -> bool {
+    let size = match area {
+        RETAINED_V => Area::V.size(),
+        RETAINED_M => Area::M.size(),
+        RETAINED_T | RETAINED_C => Area::T.size(),
+        _ => 0,
+    };
+    is_within(first, count, size)
+        && match area {
+            RETAINED_V => is_in_v(plan, first, count),
+            RETAINED_T => are_retentive(first as u8, count),
+            _ => true,
+        }
 }
 
-#[derive(Clone, Copy, Default)]
+/// Whether these timers are made to be retained.
+fn are_retentive(mut number: u8, mut count: u16) -> bool {
+    while count != 0 {
+        if timer_family(number) != TimerFamily::Tonr {
+            return false;
+        }
+        number = number.wrapping_add(1);
+        count -= 1;
+    }
+    true
+}
+
+/// A loop that is open: the offset of its FOR, and that behind its NEXT.
+#[derive(Clone, Copy)]
 struct Loop {
     start: u16,
     end: u16,
 }
 
-struct CodeCheck<'a, P> {
-    plan: &'a Plan<P>,
-    loops: [Loop; LOOPS_MAX],
-    open_loops: u8,
-    next_label: u16,
+/// What the check of the code has found so far, in an order that lets the board reach all but the loops directly.
+#[repr(C)]
+struct Found {
+    /// The instruction that is checked.
+    fetched: Fetched,
+    /// How many follow the operand in front of a count.
+    followers: u8,
+    /// Values that the instruction needs on the stack.
+    needs: u8,
+    /// Values that are on it for certain.
     depth: u8,
-    /// The index of the first routine behind the unit that is checked.
-    next_routine: u8,
     /// Where an open call with parameters ends; 0: none is open.
     call_end: u16,
+    /// Where the unit begins that is checked.
+    unit_start: u16,
+    /// The index of the first routine behind it.
+    next_routine: u8,
+    open_loops: u8,
+    loops: [Loop; LOOPS_MAX],
 }
 
-impl<P: ProgramMemory> CodeCheck<'_, P> {
-    /// Checks the code. Says what is wrong and where.
+impl Found {
+    /// Before the first instruction: all 0, which is quickly written.
+    const NOTHING: Found = Found {
+        fetched: Fetched::NOTHING,
+        followers: 0,
+        needs: 0,
+        depth: 0,
+        call_end: 0,
+        unit_start: 0,
+        next_routine: 0,
+        open_loops: 0,
+        loops: [Loop { start: 0, end: 0 }; LOOPS_MAX],
+    };
+}
+
+/// The check of the code, instruction by instruction.
+#[repr(C)]
+struct CodeCheck<'a, P> {
+    plan: &'a Plan<P>,
+    /// Offset of the instruction that is checked.
+    at: u16,
+    /// Where the code ends.
+    code_end: u16,
+    /// Where the next label stands in the table of labels.
+    label_at: u16,
+    /// Where the unit ends that is checked; 0: it is the last one.
+    unit_end: u16,
+    found: Found,
+}
+
+impl<'a, P: ProgramMemory> CodeCheck<'a, P> {
+    /// Before the first instruction.
+    #[inline(always)]
+    fn new(plan: &'a Plan<P>) -> Self {
+        CodeCheck {
+            plan,
+            at: plan.code_at(),
+            code_end: plan.header.total_len - CRC_LEN,
+            label_at: plan.labels_at,
+            unit_end: plan.code_at(),
+            found: Found::NOTHING,
+        }
+    }
+
+    /// Checks the code. What is wrong is at the instruction that is checked then.
     #[cfg_attr(target_arch = "avr", inline(never))]
-    fn run(&mut self) -> Result<(), (ImageFault, u16)> {
-        let plan = self.plan;
-        let (mut at, end) = (plan.code_at(), plan.header.total_len - CRC_LEN);
-        let mut fetched = Fetched::nothing();
+    fn run(&mut self) -> Result<(), ImageFault> {
         loop {
-            // Behind the code stands the checksum, which is not to be read as an instruction.
-            if at >= end {
-                return Err((ImageFault::Truncated, at));
+            self.enter_unit();
+            self.unit()?;
+            if self.found.next_routine == self.plan.header.routines {
+                break;
             }
-            if !fetched.fetch(&plan.memory, at) {
-                return Err((ImageFault::UndefinedToken, at));
-            }
-            if fetched.next > end {
-                return Err((ImageFault::Truncated, at));
-            }
-            self.instruction(&fetched, at).map_err(|fault| (fault, at))?;
-            at = fetched.next;
-            // A unit ends; another begins where the table says, or the code ends.
-            if matches!(fetched.op, Op::MainEnd | Op::Ret) {
-                self.end_of_unit().map_err(|fault| (fault, at))?;
-                if self.next_routine == plan.header.routines {
-                    break;
-                }
-                if plan.routine(self.next_routine) != at {
-                    return Err((ImageFault::Routine, at));
-                }
-                self.next_routine += 1;
-            }
+            ensure(self.unit_end == self.at, ImageFault::Routine)?;
+            self.found.next_routine += 1;
         }
-        let fault = if at != end {
-            ImageFault::Truncated
-        } else if self.next_label != plan.header.labels {
-            ImageFault::Label
-        } else {
-            return Ok(());
-        };
-        Err((fault, at))
+        ensure(self.at == self.code_end, ImageFault::Truncated)?;
+        ensure(self.label_at == self.plan.retained_at, ImageFault::Label)
     }
 
-    fn end_of_unit(&mut self) -> Result<(), ImageFault> {
-        self.depth = 0;
-        ensure(self.open_loops == 0, ImageFault::Loop)?;
-        ensure(self.call_end == 0, ImageFault::Routine)
+    /// Begins with the unit behind the one that was checked, which ends where the table says that the next routine begins.
+    #[inline(always)]
+    fn enter_unit(&mut self) {
+        let is_last = self.found.next_routine == self.plan.header.routines;
+        let end = if is_last { 0 } else { self.plan.routine(self.found.next_routine) };
+        (self.found.unit_start, self.unit_end) = (self.unit_end, end);
+        self.found.depth = 0;
     }
 
-    fn instruction(&mut self, fetched: &Fetched, at: u16) -> Result<(), ImageFault> {
-        let mut needs = fetched.stack.needs;
-        // The last one first: a count stands behind what it counts.
-        let mut count = 1;
-        for (&kind, &raw) in fetched.kinds.iter().zip(&fetched.operands).rev() {
-            let Some(kind) = kind else { continue };
-            self.operand(kind, raw, count)?;
-            match kind {
-                Kind::Count => {
-                    ensure(raw.value != 0, ImageFault::Operand)?;
-                    count = raw.value;
-                }
-                Kind::Level => needs += raw.value as u8,
-                _ => {}
+    /// Checks the instructions of a unit.
+    #[inline(always)]
+    fn unit(&mut self) -> Result<(), ImageFault> {
+        loop {
+            self.instruction()?;
+            self.at = self.found.fetched.next;
+            if matches!(self.found.fetched.op, Op::MainEnd | Op::Ret) {
+                break;
             }
         }
-        ensure(self.depth >= needs, ImageFault::StackUnderflow)?;
-        self.depth = match fetched.op {
-            // Where control comes from two sides only the top of the stack is certain.
-            Op::Lbl | Op::For | Op::Next => 1,
-            _ => self.depth.wrapping_add_signed(fetched.stack.adds).min(STACK_LEVELS),
-        };
-        self.control(fetched, at)
+        ensure(self.found.open_loops == 0, ImageFault::Loop)?;
+        ensure(self.found.call_end == 0, ImageFault::Routine)
+    }
+
+    /// Checks an instruction.
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    fn instruction(&mut self) -> Result<(), ImageFault> {
+        self.fetch()?;
+        self.operands()?;
+        self.stack()?;
+        self.control()?;
+        self.within_call()
+    }
+
+    /// Fetches an instruction of the code. Behind it stands the checksum, which is not to be read as an instruction.
+    #[inline(always)]
+    fn fetch(&mut self) -> Result<(), ImageFault> {
+        ensure(self.at < self.code_end, ImageFault::Truncated)?;
+        ensure(self.found.fetched.fetch(&self.plan.memory, self.at), ImageFault::UndefinedToken)?;
+        ensure(self.found.fetched.next <= self.code_end, ImageFault::Truncated)
+    }
+
+    /// Checks the operands, the last one first: a count stands behind what it counts.
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    fn operands(&mut self) -> Result<(), ImageFault> {
+        self.found.needs = unpacked(self.found.fetched.stack).needs;
+        self.found.followers = 0;
+        for index in (0..OPERANDS_MAX).rev() {
+            let Raw { kind, tag, value } = self.found.fetched.operands[index];
+            if kind != 0 {
+                self.operand(kind, tag, value)?;
+            }
+        }
+        Ok(())
     }
 
     /// Checks an operand by the rules for its kind.
-    fn operand(&self, kind: Kind, raw: Raw, count: u16) -> Result<(), ImageFault> {
-        let memory = &self.plan.memory;
-        let rules_at = rules_at(kind.number());
-        let (storage, rule) = (memory.token_table(rules_at), memory.token_table(rules_at + 1));
-        let (wants, detail) = (rule & 0x0F, rule >> 4);
-        if wants == 0 {
-            return ensure(self.is_below_limit(detail, raw.value, count), ImageFault::Operand);
-        }
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    fn operand(&mut self, kind: u8, tag: u8, value: u16) -> Result<(), ImageFault> {
+        let (memory, rules_at) = (&self.plan.memory, rules_at(kind));
+        let [storage, rule] = memory.token_table(rules_at);
         let len = len_of_rule(storage);
-        if storage & REFERENCE != 0 {
-            return self.reference(wants, detail, len, raw.value);
+        if len == NUMBER {
+            return ensure(self.is_valid_number(rule, value), ImageFault::Operand);
         }
-        if matches!(kind, Kind::AnyByte | Kind::AnyInt) {
-            ensure(kind.is_canonical(raw), ImageFault::Malformed)?;
-            if raw.tag != MODE_MEMORY {
-                return Ok(());
-            }
+        if storage & REFERENCE != 0 {
+            return self.reference(rule, len, value);
+        }
+        if Storage::of_rule(storage) == Storage::MODE_AND_WORD && tag != MODE_MEMORY {
+            let fits = tag == MODE_CONSTANT && (len != 1 || value <= 255);
+            return ensure(fits, ImageFault::Malformed);
         }
         // Bits have no length; those that are counted reach into the bytes that follow.
-        let len = if len == 0 { (u16::from(raw.tag) + count - 1) / 8 + 1 } else { len };
-        self.memory(wants, detail, len, raw.value)
+        let len = if len == 0 { (self.found.followers / 8) + (self.found.followers % 8 + tag) / 8 + 1 } else { len };
+        self.memory(rule & WANTS, rule >> 4, len, value)
     }
 
-    /// Whether a number is below what the rule says.
-    fn is_below_limit(&self, limit: u8, value: u16, count: u16) -> bool {
-        let header = &self.plan.header;
-        value
-            < match limit {
-                0 => return true,
-                LIMIT_NUMBERS => 257 - count,
-                LIMIT_TIMERS => header.timers,
-                LIMIT_COUNTERS => header.counters,
-                LIMIT_EDGES => header.edges,
-                LIMIT_LABELS => header.labels,
-                LIMIT_ROUTINES => u16::from(header.routines),
-                LIMIT_EVENTS => u16::from(header.events),
-                most => u16::from(most),
+    /// Whether a number is what the rule says. Notes what a count counts and what a level needs.
+    #[inline(always)]
+    fn is_valid_number(&mut self, rule: u8, value: u16) -> bool {
+        let limit = match rule {
+            ANY => return true,
+            COUNT => {
+                self.found.followers = (value as u8).wrapping_sub(1);
+                return value != 0;
             }
+            NUMBERS => 256 - u16::from(self.found.followers),
+            RELATION..=LEVEL => {
+                if rule == LEVEL {
+                    self.found.needs = self.found.needs.wrapping_add(value as u8);
+                }
+                u16::from(rule)
+            }
+            ROUTINES_AT.. => u16::from(self.plan.memory.byte(u16::from(rule))),
+            _ => self.plan.memory.word(u16::from(rule)),
+        };
+        value < limit
     }
 
-    /// Whether `len` bytes at an address are what the rule wants.
+    /// Whether `len` bytes at an address are what a rule wants, in one of these areas.
     #[cfg_attr(target_arch = "avr", inline(never))]
-    fn memory(&self, wants: u8, detail: u8, len: u16, address: u16) -> Result<(), ImageFault> {
+    fn memory(&self, wants: u8, areas: u8, len: u8, address: u16) -> Result<(), ImageFault> {
         let access = self.plan.access(address);
         let missing = wants & !access.traits;
-        let in_area = match detail {
-            NOT_NUMBERED => access.area != Access::NUMBERED,
-            Access::INPUT..=Access::NUMBERED => access.area == detail,
-            _ => true,
-        };
         let is_whole = access.traits & Access::WHOLE == 0 || len == access.room;
-        let fits = len <= access.room && is_whole && in_area && missing & !Access::WRITE == 0;
-        ensure(fits, ImageFault::Operand)?;
+        let fits = len <= access.room && is_whole && access.area & areas != 0;
+        ensure(fits && missing & !Access::WRITE == 0, ImageFault::Operand)?;
         ensure(missing == 0, ImageFault::ReadOnly)
     }
 
     /// An operand of a module instruction.
-    fn reference(&self, wants: u8, detail: u8, len: u16, reference: u16) -> Result<(), ImageFault> {
+    #[inline(always)]
+    fn reference(&self, rule: u8, len: u8, reference: u16) -> Result<(), ImageFault> {
+        let detail = rule >> 4;
         let holds = match Reference(reference).place() {
             None => return Err(ImageFault::Malformed),
-            Some(Place::Direct(address)) => return self.memory(wants, 0, len, address),
-            Some(Place::Indirect(address)) => {
-                let access = self.plan.access(address);
-                access.traits & Access::POINTER != 0 && access.room >= 4
-            }
+            Some(Place::Direct(address)) => return self.memory(rule & WANTS, u8::MAX, len, address),
+            Some(Place::Indirect(address)) => return self.memory(Access::POINTER, u8::MAX, 4, address),
             Some(Place::Constant(_)) => detail == CONSTANT,
             Some(Place::Pool(offset)) => {
                 let text = if detail == TEXT { u16::from(self.plan.memory.byte(offset)) } else { 0 };
-                detail >= CONSTANT && offset >= self.plan.constants_at && offset + len + text <= self.plan.initial_at
+                let end = offset + u16::from(len) + text;
+                detail >= CONSTANT && offset >= self.plan.constants_at && end <= self.plan.initial_at
             }
         };
         ensure(holds, ImageFault::Operand)
     }
 
-    /// Whether an offset lies in the code of the unit that is checked. Where it begins, the labels before it say.
-    fn is_in_unit(&self, offset: u16) -> bool {
-        let plan = self.plan;
-        let start = match self.next_routine.checked_sub(1) {
-            Some(unit) => plan.routine(unit),
-            None => plan.code_at(),
+    /// Whether the stack holds what the instruction needs, and what it holds then.
+    #[inline(always)]
+    fn stack(&mut self) -> Result<(), ImageFault> {
+        ensure(self.found.depth >= self.found.needs, ImageFault::StackUnderflow)?;
+        self.found.depth = match self.found.fetched.op {
+            // Where control comes from two sides only the top of the stack is certain.
+            Op::Lbl | Op::For | Op::Next => 1,
+            _ => self.found.depth.wrapping_add_signed(unpacked(self.found.fetched.stack).adds).min(STACK_LEVELS),
         };
-        let is_last = self.next_routine == plan.header.routines;
-        offset >= start && (is_last || offset < plan.routine(self.next_routine))
+        Ok(())
     }
 
-    fn control(&mut self, fetched: &Fetched, at: u16) -> Result<(), ImageFault> {
-        let [first, ..] = fetched.operands;
-        match fetched.op {
+    /// Checks what an instruction does to the order of execution, and what a timer's says of its kind.
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    fn control(&mut self) -> Result<(), ImageFault> {
+        let (plan, op) = (self.plan, self.found.fetched.op);
+        let [first, .., last] = self.found.fetched.operands;
+        let first = first.value;
+        match op {
             Op::Ton | Op::Tof | Op::Tonr => {
-                let kind = self.plan.memory.byte(self.plan.timers_at + TIMER_LEN * first.value + 1);
-                ensure(fetched.op as u8 - Op::Ton as u8 == kind, ImageFault::Operand)
+                let kind = plan.memory.byte(plan.timers_at + TIMER_LEN * first + 1);
+                ensure(op as u8 - Op::Ton as u8 == kind, ImageFault::Operand)
             }
-            Op::Jmp => ensure(self.is_in_unit(self.plan.label(first.value as u8)), ImageFault::Operand),
+            Op::Jmp => ensure(self.is_in_unit(plan.label(first as u8)), ImageFault::Operand),
             // Only routines behind this one: none can call itself, by whatever way.
-            Op::Call => ensure(first.value >= u16::from(self.next_routine), ImageFault::Routine),
+            Op::Call => ensure(first >= u16::from(self.found.next_routine), ImageFault::Routine),
             Op::Lbl => {
-                let listed = self.next_label < self.plan.header.labels && self.plan.label(self.next_label as u8) == at;
-                self.next_label += 1;
-                ensure(listed, ImageFault::Label)
+                let label_at = self.label_at;
+                self.label_at += LABEL_LEN;
+                let is_listed = label_at != plan.retained_at && plan.memory.word(label_at) == self.at;
+                ensure(is_listed, ImageFault::Label)
             }
             Op::For => {
-                let place = self.loops.get_mut(usize::from(self.open_loops)).ok_or(ImageFault::Loop)?;
-                let [_, _, _, end] = fetched.operands;
-                *place = Loop { start: at, end: end.value };
-                self.open_loops += 1;
+                let place = self.found.loops.get_mut(usize::from(self.found.open_loops)).ok_or(ImageFault::Loop)?;
+                *place = Loop { start: self.at, end: last.value };
+                self.found.open_loops += 1;
                 Ok(())
             }
             Op::Next => {
-                self.open_loops = self.open_loops.wrapping_sub(1);
-                let open = self.loops.get(usize::from(self.open_loops));
-                ensure(open.is_some_and(|open| open.end == fetched.next && open.start == first.value), ImageFault::Loop)
+                self.found.open_loops = self.found.open_loops.wrapping_sub(1);
+                let open = self.found.loops.get(usize::from(self.found.open_loops)).ok_or(ImageFault::Loop)?;
+                ensure(open.end == self.found.fetched.next && open.start == first, ImageFault::Loop)
             }
             Op::CallBegin => {
-                ensure(self.call_end == 0 && first.value > at, ImageFault::Routine)?;
-                self.call_end = first.value;
+                ensure(self.found.call_end == 0 && first > self.at, ImageFault::Routine)?;
+                self.found.call_end = first;
                 Ok(())
             }
-            Op::MainEnd | Op::End => ensure(self.next_routine == 0, ImageFault::Routine),
-            Op::Ret | Op::Cret | Op::Creti => ensure(self.next_routine != 0, ImageFault::Routine),
+            Op::MainEnd | Op::End => ensure(self.found.next_routine == 0, ImageFault::Routine),
+            Op::Ret | Op::Cret | Op::Creti => ensure(self.found.next_routine != 0, ImageFault::Routine),
             _ => Ok(()),
         }
-        .and_then(|()| self.within_call(fetched))
+    }
+
+    /// Whether an offset lies in the unit that is checked.
+    #[inline(always)]
+    fn is_in_unit(&self, offset: u16) -> bool {
+        offset.wrapping_sub(self.found.unit_start) < self.unit_end.wrapping_sub(self.found.unit_start)
     }
 
     /// A call with parameters ends where an instruction does, and holds nothing that jumps.
-    fn within_call(&mut self, fetched: &Fetched) -> Result<(), ImageFault> {
-        if self.call_end == 0 || fetched.next < self.call_end {
-            let jumps = matches!(fetched.op, Op::Lbl | Op::For | Op::Next | Op::Jmp | Op::Ret | Op::MainEnd);
-            return ensure(self.call_end == 0 || !jumps, ImageFault::Routine);
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    fn within_call(&mut self) -> Result<(), ImageFault> {
+        if self.found.call_end == 0 {
+            return Ok(());
         }
-        ensure(fetched.next == self.call_end, ImageFault::Routine)?;
-        self.call_end = 0;
+        if self.found.fetched.next < self.found.call_end {
+            let jumps = matches!(self.found.fetched.op, Op::Lbl | Op::For | Op::Next | Op::Jmp | Op::Ret | Op::MainEnd);
+            return ensure(!jumps, ImageFault::Routine);
+        }
+        ensure(self.found.fetched.next == self.found.call_end, ImageFault::Routine)?;
+        self.found.call_end = 0;
         Ok(())
     }
 }

@@ -4,7 +4,8 @@
 
 use crate::special::{HALF_MINUTE, HALF_SECOND};
 
-const MINUTE_MS: u32 = 60_000;
+/// From so many milliseconds on all timers come to their ends. No scan takes as long: see [`SCAN_MS_MAX`](crate::SCAN_MS_MAX).
+const PASSED_MS_MAX: u16 = 65_500;
 
 /// The intervals since the last scan, and what is left over for the next.
 #[derive(Debug, Clone, Copy)]
@@ -44,42 +45,36 @@ impl Clock {
         }
     }
 
-    /// The intervals begin now.
+    /// The intervals begin with the next scan, which [resumes](Self::resume) the clock.
     pub fn start(&mut self) {
-        (self.scan_start_ms, self.fast_ms) = (self.now_ms, self.now_ms);
         (self.rest_10, self.rest_100, self.rest_500, self.rest_30_000) = (0, 0, 0, 0);
         self.bits = 0;
     }
 
-    /// A scan starts. Returns the milliseconds since the last one started.
-    pub fn advance(&mut self) -> u32 {
-        let passed = self.now_ms.wrapping_sub(self.scan_start_ms);
-        self.scan_start_ms = self.now_ms;
-        (self.ticks_10, self.ticks_100) = (0, 0);
-        let rest = if passed < MINUTE_MS { passed as u16 } else { self.pass_minutes(passed) };
-        self.pass(rest);
-        passed
+    /// The time since the last scan is not counted.
+    pub fn resume(&mut self) {
+        (self.scan_start_ms, self.fast_ms) = (self.now_ms, self.now_ms);
     }
 
-    /// Takes whole minutes off. They change nothing but the ticks, which so many take to their ends.
-    #[cfg_attr(target_arch = "avr", inline(never))]
-    fn pass_minutes(&mut self, ms: u32) -> u16 {
-        for _ in 0..(ms / MINUTE_MS).min(110) as u8 {
-            self.pass(MINUTE_MS as u16);
+    /// A scan starts. Returns the milliseconds since the last one started, at most [`PASSED_MS_MAX`].
+    pub fn advance(&mut self) -> u16 {
+        let passed = since(&mut self.scan_start_ms, self.now_ms);
+        self.pass(passed);
+        if passed == PASSED_MS_MAX {
+            (self.ticks_10, self.ticks_100) = (u16::MAX, u16::MAX);
         }
-        (ms % MINUTE_MS) as u16
+        passed
     }
 
     #[cfg_attr(target_arch = "avr", inline(never))]
     fn pass(&mut self, ms: u16) {
-        let tens = intervals(&mut self.rest_10, ms, 10);
-        if tens == 0 {
+        self.ticks_10 = intervals(&mut self.rest_10, ms, 10);
+        self.ticks_100 = 0;
+        if self.ticks_10 == 0 {
             return;
         }
-        self.ticks_10 = self.ticks_10.saturating_add(tens);
-        let hundreds = intervals(&mut self.rest_100, tens, 10);
-        self.ticks_100 = self.ticks_100.saturating_add(hundreds);
-        let half_seconds = intervals(&mut self.rest_500, hundreds, 5);
+        self.ticks_100 = intervals(&mut self.rest_100, self.ticks_10, 10);
+        let half_seconds = intervals(&mut self.rest_500, self.ticks_100, 5);
         if half_seconds as u8 & 1 != 0 {
             self.bits ^= HALF_SECOND;
         }
@@ -90,27 +85,29 @@ impl Clock {
 
     /// Milliseconds since the 1 ms timers were last brought up to date, which is now.
     pub fn take_fast_ms(&mut self, now_ms: u32) -> u16 {
-        let passed = now_ms.wrapping_sub(self.fast_ms);
-        self.fast_ms = now_ms;
-        at_most_u16(passed)
+        since(&mut self.fast_ms, now_ms)
     }
+}
+
+/// Milliseconds since a time, which becomes now.
+#[cfg_attr(target_arch = "avr", inline(never))]
+fn since(time_ms: &mut u32, now_ms: u32) -> u16 {
+    let passed = now_ms.wrapping_sub(*time_ms);
+    *time_ms = now_ms;
+    let [low, high] = [passed as u16, (passed >> 16) as u16];
+    if high != 0 || low > PASSED_MS_MAX { PASSED_MS_MAX } else { low }
 }
 
 /// Whole intervals of so many parts when some pass, and what is left for the next time.
 #[cfg_attr(target_arch = "avr", inline(never))]
 fn intervals(rest: &mut u8, passed: u16, parts: u8) -> u16 {
-    let (mut left, mut count) = (u16::from(*rest) + passed, 0);
-    let parts = u16::from(parts);
-    if left >= parts {
-        (left, count) = (left % parts, left / parts);
+    let (left, mut count) = (u16::from(*rest) + passed, 0);
+    if left >= u16::from(parts) {
+        count = left / u16::from(parts);
     }
-    *rest = left as u8;
+    // What is left is less than a byte holds.
+    *rest = (left as u8).wrapping_sub((count as u8).wrapping_mul(parts));
     count
-}
-
-/// More than 65,535 count as so many, which every timer's range ends before.
-fn at_most_u16(count: u32) -> u16 {
-    u16::try_from(count).unwrap_or(u16::MAX)
 }
 
 #[cfg(test)]
@@ -120,6 +117,7 @@ mod tests {
     fn starting(now_ms: u32) -> Clock {
         let mut clock = Clock { now_ms, ..Clock::zero() };
         clock.start();
+        clock.resume();
         clock
     }
 
@@ -128,10 +126,10 @@ mod tests {
         let start = u32::MAX - 9_999;
         let mut clock = starting(start);
         let (mut tens, mut hundreds, mut total) = (0u32, 0u32, 0u32);
-        for step in (1..=97u32).cycle().take(1_000).chain([59_999, 60_001, 65_535, 65_536, 200_003, 7]) {
+        for step in (1..=97u32).cycle().take(1_000).chain([59_999, 60_001, 65_499, 7]) {
             total += step;
             clock.now_ms = start.wrapping_add(total);
-            assert_eq!(clock.advance(), step);
+            assert_eq!(u32::from(clock.advance()), step);
             tens += u32::from(clock.ticks_10);
             hundreds += u32::from(clock.ticks_100);
             assert_eq!((tens, hundreds), (total / 10, total / 100));
@@ -142,11 +140,28 @@ mod tests {
     }
 
     #[test]
-    fn the_longest_pause_is_no_trouble() {
-        let mut clock = starting(1);
-        clock.now_ms = 0;
+    fn a_pause_too_long_for_a_scan_is_no_trouble() {
+        for pause in [65_500, 65_501, 65_535, 65_536, 65_537, 1_000_000, u32::MAX] {
+            let mut clock = starting(1);
+            clock.now_ms = 1 + 99;
+            clock.advance();
+            clock.take_fast_ms(100);
+            clock.now_ms = clock.now_ms.wrapping_add(pause);
+            assert_eq!(clock.advance(), 65_500);
+            assert_eq!((clock.ticks_10, clock.ticks_100), (u16::MAX, u16::MAX));
+            assert_eq!(clock.take_fast_ms(clock.now_ms), 65_500);
+        }
+    }
+
+    #[test]
+    fn going_on_leaves_out_the_time_between_and_keeps_what_is_left_over() {
+        let mut clock = starting(0);
+        clock.now_ms = 97;
         clock.advance();
-        assert_eq!((clock.ticks_10, clock.ticks_100), (u16::MAX, u16::MAX));
-        assert_eq!(clock.take_fast_ms(0), u16::MAX);
+        assert_eq!((clock.ticks_10, clock.take_fast_ms(97)), (9, 97));
+        clock.now_ms = 50_000;
+        clock.resume();
+        clock.now_ms = 50_003;
+        assert_eq!((clock.advance(), clock.ticks_10, clock.ticks_100, clock.take_fast_ms(50_003)), (3, 1, 1, 3));
     }
 }

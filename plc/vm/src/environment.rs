@@ -39,9 +39,10 @@ pub trait Environment {
         timer::advance(memory, plan, resolution, ticks);
     }
 
-    /// Called by the interpreter's own loop after every instruction, with its offset and the stack it left. For monitors and tests.
+    /// Called by the interpreter's own loop after every instruction, with its offset, and the stack and memory it left.
+    /// For monitors, which write down what they see behind the program's own memory, and for tests.
     #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn executed(&mut self, at: u16, stack: LogicStack) {
-        let _ = (at, stack);
+    fn executed(&mut self, at: u16, stack: LogicStack, memory: &mut Memory) {
+        let _ = (at, stack, memory);
     }
 }

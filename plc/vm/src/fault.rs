@@ -41,21 +41,35 @@ impl Fault {
     /// No fault, as bytes.
     pub const NONE: [u8; 4] = [0; 4];
 
+    /// [`to_bytes`](Self::to_bytes) as a number, low byte first; 0 stands for no fault.
+    #[cfg_attr(target_arch = "avr", inline(always))]
+    pub const fn to_word(self) -> u32 {
+        u32::from_le_bytes(self.to_bytes())
+    }
+
+    /// [`BadImage`](Self::BadImage) as such a number.
+    #[cfg_attr(target_arch = "avr", inline(always))]
+    pub(crate) const fn bad_image(ImageError { fault, at }: ImageError) -> u32 {
+        let [low, high] = at.to_le_bytes();
+        u32::from_le_bytes([1, fault as u8, low, high])
+    }
+
     /// Code, detail and offset, low byte first: how the board keeps and reports a fault.
-    pub fn to_bytes(self) -> [u8; 4] {
-        let (code, detail, at) = match self {
-            Fault::BadImage(ImageError { fault, at }) => (1, fault as u8, at),
-            Fault::Watchdog { at } => (2, 0, at),
-            Fault::UndefinedInstruction { at } => (3, 0, at),
-            Fault::ProgramChanged => (4, 0, 0),
-            Fault::StackOverflow => (5, 0, 0),
-            Fault::Hang => (6, 0, 0),
-            Fault::Panic => (7, 0, 0),
-            Fault::ComparedPointer { at } => (8, 0, at),
-            Fault::ComparedReal { at } => (9, 0, at),
+    #[cfg_attr(target_arch = "avr", inline(always))]
+    pub const fn to_bytes(self) -> [u8; 4] {
+        let (code, at) = match self {
+            Fault::BadImage(error) => return Self::bad_image(error).to_le_bytes(),
+            Fault::Watchdog { at } => (2, at),
+            Fault::UndefinedInstruction { at } => (3, at),
+            Fault::ProgramChanged => (4, 0),
+            Fault::StackOverflow => (5, 0),
+            Fault::Hang => (6, 0),
+            Fault::Panic => (7, 0),
+            Fault::ComparedPointer { at } => (8, at),
+            Fault::ComparedReal { at } => (9, at),
         };
         let [low, high] = at.to_le_bytes();
-        [code, detail, low, high]
+        [code, 0, low, high]
     }
 
     /// The fault in such bytes; `None` for [`NONE`](Self::NONE) and what is no fault.

@@ -64,11 +64,11 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
             };
             match flow {
                 Flow::Jump(next) => {
-                    self.environment.executed(pc, self.stack);
+                    self.environment.executed(pc, self.stack, self.memory);
                     pc = next;
                 }
                 Flow::Leave | Flow::Next => {
-                    self.environment.executed(pc, self.stack);
+                    self.environment.executed(pc, self.stack, self.memory);
                     return (self.exit, pc);
                 }
             }

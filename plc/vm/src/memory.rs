@@ -1,5 +1,7 @@
 //! Data memory: 1,280 bytes at the addresses of [`plc_isa`]'s layout. Big-endian, as on the S7-200.
 
+use core::cell::Cell;
+
 use plc_isa::{Bit, ByteSource, DATA_LEN, DATA_START, WordSource};
 
 /// The data memory of the controller.
@@ -61,12 +63,15 @@ impl Memory {
         }
     }
 
-    /// Copies bytes to an address behind them.
-    pub fn copy_up(&mut self, from: u16, to: u16, len: u16) {
-        let Some((below, above)) = self.bytes.split_at_mut_checked(index(to)) else { return };
-        let source = below.get(index(from)..).unwrap_or(&[]);
-        for (to, &from) in above.iter_mut().zip(source).take(usize::from(len)) {
-            *to = from;
+    /// Copies bytes to another place, from the first to the last.
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    pub fn copy(&mut self, from: u16, to: u16, len: u16) {
+        let bytes = Cell::from_mut(self.bytes.as_mut_slice()).as_slice_of_cells();
+        let part = |start: usize| bytes.get(start..)?.get(..usize::from(len));
+        if let (Some(from), Some(to)) = (part(index(from)), part(index(to))) {
+            for (from, to) in from.iter().zip(to) {
+                to.set(from.get());
+            }
         }
     }
 

@@ -36,7 +36,7 @@ pub struct Inputs {
 
 impl Inputs {
     /// Writes them into the process image.
-    fn write(&self, memory: &mut Memory) {
+    pub fn write(&self, memory: &mut Memory) {
         for (address, &byte) in (I_START..).zip(&self.digital) {
             memory.set_byte(address, byte);
         }
@@ -61,19 +61,22 @@ pub enum Mode {
 pub struct Plc<P> {
     program: Option<Program<P>>,
     mode: Mode,
-    fault: Option<Fault>,
+    /// As [`Fault::to_word`].
+    fault: u32,
     clock: Clock,
     timers: AtScanStart,
     scans: Scans,
     events: Events,
-    /// Bits of SMB0 in the next first scan.
-    bits_of_first_scan: u8,
+    /// Bits of SMB0 that the next first scan has otherwise than the first one since power-up.
+    changed_bits: u8,
 }
 
 /// How far the scans since RUN have come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Scans {
     None,
+    /// STOP was between, and they go on with the next.
+    Resumed,
     First,
     /// More, and it is another time.
     More,
@@ -96,12 +99,12 @@ impl<P: ProgramMemory> Plc<P> {
         Plc {
             program: None,
             mode: Mode::Stop,
-            fault: None,
+            fault: 0,
             clock: Clock::zero(),
-            timers: AtScanStart { ms_1: false, ms_10: false },
+            timers: AtScanStart::NONE,
             scans: Scans::None,
             events: Events::NONE,
-            bits_of_first_scan: special::FIRST_SCAN | special::POWER_UP,
+            changed_bits: 0,
         }
     }
 
@@ -113,12 +116,13 @@ impl<P: ProgramMemory> Plc<P> {
         if let Err(error) = verify_into(&mut self.program, image) {
             self.program = before;
             if self.program.is_none() {
-                self.fault = Some(Fault::BadImage(error));
+                self.stop_with(Fault::bad_image(error));
             }
             return Err(error);
         }
         self.stop();
-        self.fault = None;
+        self.fault = 0;
+        self.scans = Scans::None;
         memory.clear();
         self.write_initial_values(memory);
         Ok(())
@@ -129,14 +133,17 @@ impl<P: ProgramMemory> Plc<P> {
     fn write_initial_values(&self, memory: &mut Memory) {
         let Some(program) = &self.program else { return };
         let (plan, image) = (program.plan(), program.memory());
-        let mut at = plan.initial_at;
+        let (mut at, mut address, mut left) = (plan.initial_at, 0, 0);
         while at < plan.code_at() {
-            let (first, len) = (image.word(at), u16::from(image.byte(at + 2)));
-            let address = plan.v_address(first).unwrap_or(0);
-            for offset in 0..len {
-                memory.set_byte(address + offset, image.byte(at + INITIAL_HEAD_LEN + offset));
+            if left == 0 {
+                address = plan.v_address(image.word(at)).unwrap_or(0);
+                left = image.byte(at + INITIAL_HEAD_LEN - 1);
+                at += INITIAL_HEAD_LEN;
+            } else {
+                memory.set_byte(address, image.byte(at));
+                (address, left) = (address + 1, left - 1);
+                at += 1;
             }
-            at += INITIAL_HEAD_LEN + len;
         }
     }
 
@@ -178,7 +185,7 @@ impl<P: ProgramMemory> Plc<P> {
 
     /// Says before RUN that values that should have been kept were lost: SM0.2 in the first scan.
     pub fn retentive_data_lost(&mut self) {
-        self.bits_of_first_scan |= special::RETENTIVE_LOST;
+        self.changed_bits |= special::RETENTIVE_LOST;
     }
 
     /// The mode.
@@ -188,6 +195,11 @@ impl<P: ProgramMemory> Plc<P> {
 
     /// The fault that led to STOP. RUN clears it.
     pub fn fault(&self) -> Option<Fault> {
+        Fault::from_bytes(self.fault.to_le_bytes())
+    }
+
+    /// The same as [`Fault::to_word`]; 0 if there is none.
+    pub fn fault_word(&self) -> u32 {
         self.fault
     }
 
@@ -196,10 +208,25 @@ impl<P: ProgramMemory> Plc<P> {
     pub fn run(&mut self) -> bool {
         if self.mode == Mode::Stop && self.program.is_some() {
             self.mode = Mode::Run;
-            self.fault = None;
+            self.fault = 0;
             self.scans = Scans::None;
         }
         self.mode == Mode::Run
+    }
+
+    /// STOP to RUN, to go on where the program stood: the next scan is a first scan only if there has been none since the
+    /// program was loaded or [`run`](Self::run). The time between does not count. Otherwise as `run`.
+    pub fn go_on(&mut self) -> bool {
+        let scans = if self.scans == Scans::None { Scans::None } else { Scans::Resumed };
+        if self.mode == Mode::Stop && self.run() {
+            self.scans = scans;
+        }
+        self.mode == Mode::Run
+    }
+
+    /// In STOP there is no fault any more.
+    pub fn clear_fault(&mut self) {
+        self.fault = 0;
     }
 
     /// RUN to STOP.
@@ -208,9 +235,15 @@ impl<P: ProgramMemory> Plc<P> {
     }
 
     /// RUN to STOP because of a fault that was found outside of the program. RUN clears it.
+    #[inline(always)]
     pub fn fail(&mut self, fault: Fault) {
+        self.stop_with(fault.to_word());
+    }
+
+    #[cfg_attr(target_arch = "avr", inline(never))]
+    fn stop_with(&mut self, fault: u32) {
         self.mode = Mode::Stop;
-        self.fault = Some(fault);
+        self.fault = fault;
     }
 
     /// The first half of a scan: takes the inputs into the process image and, in RUN, executes the
@@ -286,27 +319,34 @@ impl<P: ProgramMemory> Plc<P> {
         let mut bits = 0;
         if self.scans == Scans::None {
             self.start_run(memory);
-            bits = self.bits_of_first_scan;
-            self.bits_of_first_scan = special::FIRST_SCAN;
+            bits = self.changed_bits ^ (special::FIRST_SCAN | special::POWER_UP);
+            self.changed_bits = special::POWER_UP;
+        }
+        let is_resumed = self.scans == Scans::Resumed;
+        if self.scans == Scans::None || is_resumed {
+            self.clock.resume();
         }
         let passed_ms = self.clock.advance();
-        special::write_scan_time(memory, passed_ms, self.scans == Scans::First);
+        if !is_resumed {
+            special::write_scan_time(memory, passed_ms, self.scans == Scans::First);
+        }
         self.scans = match self.scans {
             Scans::None => Scans::First,
+            Scans::Resumed => Scans::More,
             _ if passed_ms == 0 => Scans::Still,
             _ => Scans::Moved,
         };
         special::write_system_bits(memory, bits | self.clock.bits);
         let Some(program) = &self.program else { return };
         let plan = program.plan();
-        let fast_ms = self.clock.take_fast_ms(self.clock.now_ms);
-        if self.timers.ms_1 {
+        if self.timers.has(TimerResolution::Ms1) {
+            let fast_ms = self.clock.take_fast_ms(self.clock.now_ms);
             E::advance_timers(memory, plan, TimerResolution::Ms1, fast_ms);
         }
-        if self.timers.ms_10 {
+        if self.timers.has(TimerResolution::Ms10) {
             E::advance_timers(memory, plan, TimerResolution::Ms10, self.clock.ticks_10);
         }
-        self.events.pass(passed_ms, self.clock.now_ms, plan, memory);
+        self.events.pass(u32::from(passed_ms), self.clock.now_ms, plan, memory);
     }
 
     #[cfg_attr(target_arch = "avr", inline(never))]
@@ -315,7 +355,7 @@ impl<P: ProgramMemory> Plc<P> {
         special::clear_scan_times(memory);
         if let Some(program) = &self.program {
             let plan = program.plan();
-            self.timers = timer::start_of_run(memory, plan);
+            self.timers = timer::start_of_run(memory, program);
             self.events.restart(plan, memory);
         }
     }
@@ -323,15 +363,14 @@ impl<P: ProgramMemory> Plc<P> {
     /// The program was left, at this offset.
     #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn finish(&mut self, exit: Exit, at: u16) {
-        self.fault = match exit {
+        self.fail(match exit {
             Exit::End => return,
-            Exit::Stop => None,
-            Exit::Watchdog => Some(Fault::Watchdog { at }),
-            Exit::Undefined => Some(Fault::UndefinedInstruction { at }),
-            Exit::ComparedPointer => Some(Fault::ComparedPointer { at }),
-            Exit::ComparedReal => Some(Fault::ComparedReal { at }),
-        };
-        self.mode = Mode::Stop;
+            Exit::Stop => return self.stop_with(0),
+            Exit::Watchdog => Fault::Watchdog { at },
+            Exit::Undefined => Fault::UndefinedInstruction { at },
+            Exit::ComparedPointer => Fault::ComparedPointer { at },
+            Exit::ComparedReal => Fault::ComparedReal { at },
+        });
     }
 
     /// Output byte `byte` as logical values: the process image in RUN, all off otherwise.

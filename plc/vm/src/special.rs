@@ -52,9 +52,9 @@ pub(crate) fn write_no_scan_time(memory: &mut Memory) {
 }
 
 /// Enters the time from one scan start to the next; `first` when it is the first since RUN.
-pub(crate) fn write_scan_time(memory: &mut Memory, passed_ms: u32, first: bool) {
-    let last = u16::try_from(passed_ms).unwrap_or(u16::MAX).min(i16::MAX as u16);
-    let ([high, low], bytes) = (last.to_be_bytes(), memory.bytes_mut());
+pub(crate) fn write_scan_time(memory: &mut Memory, passed_ms: u16, first: bool) {
+    let [high, low] = passed_ms.min(i16::MAX as u16).to_be_bytes();
+    let bytes = memory.bytes_mut();
     [bytes[SMW22_LAST], bytes[SMW22_LAST + 1]] = [high, low];
     if first || (high, low) < (bytes[SMW24_MIN], bytes[SMW24_MIN + 1]) {
         [bytes[SMW24_MIN], bytes[SMW24_MIN + 1]] = [high, low];

@@ -4,8 +4,8 @@
 //! scan start and whenever they are executed or read. The execution that starts a timer adds nothing.
 
 use plc_isa::{
-    C_BITS_START, Plan, ProgramMemory, T_BITS_START, TimerFamily, TimerKind, TimerResolution, TimerSlot, timer_bit,
-    timer_family, timer_resolution,
+    C_BITS_START, DATA_START, Plan, Program, ProgramMemory, T_BITS_START, TIMER_LEN, TIMER_SLOT_LEN, TimerFamily,
+    TimerKind, TimerResolution, TimerSlot, timer_bit, timer_family, timer_resolution,
 };
 
 use crate::memory::Memory;
@@ -119,32 +119,38 @@ pub(crate) fn advance<P: ProgramMemory>(memory: &mut Memory, plan: &Plan<P>, res
     }
 }
 
-/// Whether a program has timers that advance at scan start.
+/// The resolutions of a program's timers: those of 1 ms and 10 ms advance at scan start.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct AtScanStart {
-    /// Of 1 ms.
-    pub ms_1: bool,
-    /// Of 10 ms.
-    pub ms_10: bool,
+pub(crate) struct AtScanStart(u8);
+
+impl AtScanStart {
+    /// No timers.
+    pub const NONE: AtScanStart = AtScanStart(0);
+
+    /// Whether there are any of this resolution.
+    pub fn has(self, resolution: TimerResolution) -> bool {
+        self.0 & 1 << resolution as u8 != 0
+    }
 }
 
+/// Where the bits are in data memory.
+const BITS: core::ops::Range<usize> = (T_BITS_START - DATA_START) as usize..(C_BITS_START - DATA_START) as usize;
+
 /// The change to RUN (reference 2.2): no timer runs, all bits are 0; only TONR keeps its current value.
-pub(crate) fn start_of_run<P: ProgramMemory>(memory: &mut Memory, plan: &Plan<P>) -> AtScanStart {
-    let mut found = AtScanStart { ms_1: false, ms_10: false };
-    for address in T_BITS_START..C_BITS_START {
-        memory.set_byte(address, 0);
-    }
-    for slot in plan.timers() {
-        let mut timer = Timer { memory, slot };
-        timer.set_state(0);
-        if timer_family(slot.number) == TimerFamily::TonTof {
-            timer.set_current(0);
+pub(crate) fn start_of_run<P: ProgramMemory>(memory: &mut Memory, program: &Program<P>) -> AtScanStart {
+    let mut found = 0;
+    memory.bytes_mut()[BITS].fill(0);
+    let plan = program.plan();
+    let (mut at, mut address) = (plan.timers_at, plan.timers_start);
+    while at != plan.counters_at {
+        let number = program.memory().byte(at);
+        memory.set_byte(address + 4, 0);
+        if timer_family(number) == TimerFamily::TonTof {
+            memory.set_word(address, 0);
         }
-        match timer_resolution(slot.number) {
-            TimerResolution::Ms1 => found.ms_1 = true,
-            TimerResolution::Ms10 => found.ms_10 = true,
-            TimerResolution::Ms100 => {}
-        }
+        found |= 1 << timer_resolution(number) as u8;
+        at += TIMER_LEN;
+        address += TIMER_SLOT_LEN;
     }
-    found
+    AtScanStart(found)
 }

@@ -61,7 +61,7 @@ impl Environment for Counting {
         true
     }
     fn retrigger_watchdog(&mut self) {}
-    fn executed(&mut self, _at: u16, _stack: LogicStack) {
+    fn executed(&mut self, _at: u16, _stack: LogicStack, _memory: &mut Memory) {
         self.executed += 1;
     }
 }

@@ -50,7 +50,7 @@ impl Environment for Outside {
         false
     }
     fn retrigger_watchdog(&mut self) {}
-    fn executed(&mut self, _at: u16, stack: LogicStack) {
+    fn executed(&mut self, _at: u16, stack: LogicStack, _memory: &mut Memory) {
         self.stacks.push(stack);
     }
 }
