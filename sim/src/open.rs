@@ -33,9 +33,9 @@ pub enum Target {
 }
 
 /// A machine with its program.
-pub struct Opened {
+pub struct Opened<M: ?Sized = dyn Machine> {
     /// The machine before its first scan.
-    pub machine: Box<dyn Machine>,
+    pub machine: Box<M>,
     /// The names the program gives to addresses.
     pub symbols: Symbols,
     /// What the program uses: bits of I, of Q and of memory, timers, counters, words. Without special memory.
@@ -63,6 +63,20 @@ impl std::error::Error for ProgramErrors {}
 /// Errors in the program come as [`ProgramErrors`], all at once. A bad image is none: it is opened, and the machine is
 /// in STOP with a fault, as a board would be.
 pub fn open_machine(program: &Path, symbol_files: &[PathBuf], target: Target) -> Result<Opened> {
+    open_on(program, symbol_files, |image, place_of| machine(image, place_of, target))
+}
+
+/// The same on the host, as a machine that can be more than run scan by scan.
+pub fn open_host(program: &Path, symbol_files: &[PathBuf]) -> Result<Opened<Host>> {
+    open_on(program, symbol_files, |image, place_of| Ok(Box::new(Host::new(image, place_of))))
+}
+
+/// `make` makes the machine of an image.
+fn open_on<M: Machine + ?Sized>(
+    program: &Path,
+    symbol_files: &[PathBuf],
+    make: impl FnOnce(Vec<u8>, PlaceOf) -> Result<Box<M>>,
+) -> Result<Opened<M>> {
     let has_ending = |ending| program.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(ending));
     if has_ending("hex") {
         bail!("{}: Intel HEX is for avrdude; awl-sim takes AWL text or a .bin image", program.display());
@@ -71,11 +85,12 @@ pub fn open_machine(program: &Path, symbol_files: &[PathBuf], target: Target) ->
     let name = program.display().to_string();
     let mut shown = Shown::default();
     let symbols = load_symbols(symbol_files, &mut shown)?;
-    if bytes.starts_with(&MAGIC) || has_ending("bin") {
-        open_image(name, bytes, symbols, shown, target)
+    let (image, assembly, place_of) = if bytes.starts_with(&MAGIC) || has_ending("bin") {
+        open_image(name, bytes, symbols, &shown)?
     } else {
-        open_text(&Source::from_bytes(name, &bytes)?, symbols, shown, target)
-    }
+        open_text(&Source::from_bytes(name, &bytes)?, symbols, &mut shown)?
+    };
+    Ok(opened(make(image, place_of)?, &assembly, shown.text))
 }
 
 fn load_symbols(files: &[PathBuf], shown: &mut Shown) -> Result<Vec<ast::Symbol>> {
@@ -89,20 +104,23 @@ fn load_symbols(files: &[PathBuf], shown: &mut Shown) -> Result<Vec<ast::Symbol>
     Ok(symbols)
 }
 
-fn open_text(source: &Source, symbols: Vec<ast::Symbol>, mut shown: Shown, target: Target) -> Result<Opened> {
+/// An image, what is known about its program, and where its offsets are.
+type Read = (Vec<u8>, Assembly, PlaceOf);
+
+fn open_text(source: &Source, symbols: Vec<ast::Symbol>, shown: &mut Shown) -> Result<Read> {
     let mut assembly = assemble(source, symbols);
     shown.add(source, &assembly.diagnostics);
     let Some(image) = assembly.image.take().filter(|_| !shown.has_errors) else {
-        return Err(ProgramErrors(shown.text).into());
+        return Err(ProgramErrors(std::mem::take(&mut shown.text)).into());
     };
     let places = places(source, &assembly);
-    opened(image, &assembly, places, shown.text, target)
+    Ok((image, assembly, places))
 }
 
 /// The disassembly of an image tells what the program uses; of a bad image nothing is known.
-fn open_image(name: String, image: Vec<u8>, symbols: Vec<ast::Symbol>, shown: Shown, target: Target) -> Result<Opened> {
+fn open_image(name: String, image: Vec<u8>, symbols: Vec<ast::Symbol>, shown: &Shown) -> Result<Read> {
     if shown.has_errors {
-        return Err(ProgramErrors(shown.text).into());
+        return Err(ProgramErrors(shown.text.clone()).into());
     }
     let lines = match verify(image.as_slice()) {
         Ok(program) => instructions(&program),
@@ -117,22 +135,21 @@ fn open_image(name: String, image: Vec<u8>, symbols: Vec<ast::Symbol>, shown: Sh
         let line = lines.iter().find(|line| (line.at..line.at + line.decoded.len).contains(&at));
         line.map_or_else(String::new, |line| format!("`{}` (offset {at:#06x})", line.text))
     };
-    opened(image, &assembly, Box::new(place_of), shown.text, target)
+    Ok((image, assembly, Box::new(place_of)))
 }
 
-fn opened(image: Vec<u8>, assembly: &Assembly, place_of: PlaceOf, warnings: String, target: Target) -> Result<Opened> {
+fn opened<M: Machine + ?Sized>(mut machine: Box<M>, assembly: &Assembly, warnings: String) -> Opened<M> {
     let scan_ms = u64::from(assembly.program.settings.scan_ms);
-    let mut machine = machine(image, place_of, target)?;
     let mut default_signals = default_signals(assembly);
     // A timer that is only reset has a bit, but no current value.
     default_signals.retain(|&signal| machine.read(signal).is_ok());
-    Ok(Opened {
+    Opened {
         machine,
         symbols: symbols_of(&assembly.program.symbols),
         default_signals,
         scan_ms: (scan_ms > 0).then_some(scan_ms),
         warnings,
-    })
+    }
 }
 
 fn machine(image: Vec<u8>, place_of: PlaceOf, target: Target) -> Result<Box<dyn Machine>> {

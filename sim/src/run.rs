@@ -58,16 +58,11 @@ pub fn run(
 ) -> Result<Outcome, MachineError> {
     let scan_ms = job.scan_ms.max(1);
     let scans = scans(job.length, scenario, scan_ms);
-    let mut schedule = Schedule::new(scenario, scan_ms);
-    let mut wiring = job.plant.take().map(Wiring::new);
+    let mut course = Course::new(scenario, job.plant.take(), scan_ms);
     let mut outcome = Outcome::new(scans, scan_ms, Trace::new(job.signals, scan_ms));
     for scan in 0..scans {
         let now_ms = scan * scan_ms;
-        schedule.check(scan, machine, &mut outcome)?;
-        schedule.set(scan, machine)?;
-        if let Some(wiring) = &mut wiring {
-            wiring.step(now_ms, machine)?;
-        }
+        course.go_on(now_ms, machine, &mut outcome)?;
         machine.scan(now_ms);
         if machine.mode() == Mode::Stop {
             outcome.stopped_at(now_ms, machine);
@@ -77,15 +72,51 @@ pub fn run(
             progress(scan, scans);
         }
     }
-    schedule.check(scans, machine, &mut outcome)?;
-    schedule.count_unreached(&mut outcome);
-    outcome.plant = wiring.map(|wiring| wiring.report());
+    course.schedule.check(scans * scan_ms, machine, &mut outcome)?;
+    course.finish(&mut outcome);
     Ok(outcome)
 }
 
 /// The boundary between two scans that a time belongs to: the number of scans that start before it.
 fn boundary(at_ms: u64, scan_ms: u64) -> u64 {
     at_ms.div_ceil(scan_ms)
+}
+
+/// What goes on around a machine: a scenario, and a plant.
+pub struct Course<'a> {
+    schedule: Schedule<'a>,
+    wiring: Option<Wiring>,
+}
+
+impl<'a> Course<'a> {
+    /// Nothing has happened yet. `scan_ms`: time from scan start to scan start in milliseconds, at least 1.
+    pub fn new(scenario: &'a Scenario, plant: Option<Box<dyn Plant>>, scan_ms: u64) -> Course<'a> {
+        Course { schedule: Schedule::new(scenario, scan_ms), wiring: plant.map(Wiring::new) }
+    }
+
+    /// Everything up to the scan that starts at `now_ms`. Times never decrease. Fails only if the machine cannot access an
+    /// operand.
+    pub fn go_on(
+        &mut self,
+        now_ms: u64,
+        machine: &mut (impl Machine + ?Sized),
+        outcome: &mut Outcome,
+    ) -> Result<(), MachineError> {
+        self.schedule.check(now_ms, machine, outcome)?;
+        self.schedule.set(now_ms, machine)?;
+        self.wiring.as_mut().map_or(Ok(()), |wiring| wiring.step(now_ms, machine))
+    }
+
+    /// Whether the scenario still waits for something to be sent on the serial line.
+    pub fn expects_sent(&self) -> bool {
+        self.schedule.sent_checked < self.schedule.sent.len()
+    }
+
+    /// The end: tells what was not reached, and what the plant has to say.
+    pub fn finish(self, outcome: &mut Outcome) {
+        self.schedule.count_unreached(outcome);
+        outcome.plant = self.wiring.map(|wiring| wiring.report());
+    }
 }
 
 /// How many scans the run has.
@@ -135,12 +166,12 @@ impl<'a> Schedule<'a> {
 
     fn check(
         &mut self,
-        scan: u64,
+        now_ms: u64,
         machine: &mut (impl Machine + ?Sized),
         outcome: &mut Outcome,
     ) -> Result<(), MachineError> {
         while let Some(expectation) = self.expectations.get(self.checked) {
-            if boundary(expectation.at_ms, self.scan_ms) > scan {
+            if expectation.at_ms > now_ms {
                 break;
             }
             self.checked += 1;
@@ -148,7 +179,7 @@ impl<'a> Schedule<'a> {
             outcome.compare(expectation, machine.read(expectation.operand)?);
         }
         while let Some(expectation) = self.sent.get(self.sent_checked) {
-            if boundary(expectation.at_ms, self.scan_ms) > scan {
+            if expectation.at_ms > now_ms {
                 break;
             }
             self.sent_checked += 1;
@@ -158,9 +189,9 @@ impl<'a> Schedule<'a> {
         Ok(())
     }
 
-    fn set(&mut self, scan: u64, machine: &mut (impl Machine + ?Sized)) -> Result<(), MachineError> {
+    fn set(&mut self, now_ms: u64, machine: &mut (impl Machine + ?Sized)) -> Result<(), MachineError> {
         while let Some(setting) = self.settings.get(self.set) {
-            if boundary(setting.at_ms, self.scan_ms) > scan {
+            if setting.at_ms > now_ms {
                 break;
             }
             self.set += 1;
@@ -168,8 +199,8 @@ impl<'a> Schedule<'a> {
         }
         while let Some(action) = self.actions.get(self.begun) {
             // A scan before, where the machine waits for the time itself.
-            let ahead = u64::from(action.keeps_its_time());
-            if boundary(action.at_ms(), self.scan_ms) > scan + ahead {
+            let ahead_ms = if action.keeps_its_time() { self.scan_ms } else { 0 };
+            if action.at_ms() > now_ms + ahead_ms {
                 break;
             }
             self.begun += 1;

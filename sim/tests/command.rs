@@ -1,8 +1,10 @@
 //! The command `awl-sim` from outside: arguments, exit codes, what goes where.
 
 use std::fs;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output, Stdio};
 
 use awl_asm::assemble::assemble;
 use awl_asm::native::translate;
@@ -109,6 +111,15 @@ fn what_cannot_run_is_exit_2() {
         (&["p.awl", "--trace", "I0.0,Q0.9"], "--trace:1:6"),
         (&["p.awl", "--trace", "VW0"], "the program does not use"),
         (&["p.awl", "--format", "svg", "-o", "none/x.svg", "--scans", "1"], "cannot write none/x.svg"),
+        (&["bad.awl", "--serve", "127.0.0.1:0"], "bad.awl:2:5"),
+        (&["p.awl", "--serve", "1502"], "the port is missing"),
+        (&["p.awl", "--serve", "127.0.0.1:what"], "is no address such as 127.0.0.1:1502"),
+        (&["p.awl", "--serve", "0.0.0.0:0"], "--serve-anywhere"),
+        (&["p.awl", "--serve", "[::]:0"], "Modbus has no passwords"),
+        (&["p.awl", "--serve", "127.0.0.1:0", "--serve-writes"], "--serve-anywhere"),
+        (&["p.awl", "--serve-anywhere"], "--serve <"),
+        (&["p.awl", "--serve", "127.0.0.1:0", "--for", "5s"], "cannot be used with"),
+        (&["p.awl", "--serve", "127.0.0.1:0", "--on", "uno"], "--on host only"),
     ];
     for (arguments, part) in cases {
         let (code, output, errors) = told(&folder.sim(arguments));
@@ -231,4 +242,65 @@ fn a_plant_reports_on_stderr() {
     assert_eq!(code, Some(0));
     assert!(errors.contains("1.000 s  tank empty"), "{errors}");
     assert!(errors.contains("plant tank: level_min_permille 0, "), "{errors}");
+}
+
+/// A PLC on the network, and what it said when it began to listen.
+fn serve(folder: &Folder, arguments: &[&str]) -> (Child, String) {
+    let mut command = folder.command(arguments);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut line = String::new();
+    BufReader::new(child.stdout.as_mut().unwrap()).read_line(&mut line).unwrap();
+    (child, line)
+}
+
+/// Ctrl-C.
+fn interrupt(child: Child) -> Output {
+    let is_sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success();
+    assert!(is_sent);
+    child.wait_with_output().unwrap()
+}
+
+#[test]
+fn a_plc_on_the_network_runs_its_scenario_until_ctrl_c() {
+    let scenario = "at 0ms I0.0 = 1, Ain0 = 7\nat 20ms expect Lamp = 1\nrun 30ms\n";
+    let folder = Folder::with_files("serve", &[("p.awl", COPY), ("s.scn", scenario)]);
+    let (child, line) = serve(&folder, &["p.awl", "--scenario", "s.scn", "--serve", "127.0.0.1:0"]);
+    let address = line.split_whitespace().find_map(|word| word.strip_suffix(':')).unwrap();
+    assert!(line.contains("this computer reads and writes; look: uno200 --tcp "), "{line}");
+    let mut stream = TcpStream::connect(address).unwrap();
+    // Until the scenario is over, and longer.
+    for _ in 0..100 {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+        stream.write_all(&[0, 1, 0, 0, 0, 6, 1, 1, 0, 0, 0, 1]).unwrap();
+        let mut answer = [0; 10];
+        stream.read_exact(&mut answer).unwrap();
+        assert_eq!(answer, [0, 1, 0, 0, 0, 4, 1, 1, 1, 1]);
+    }
+    let (code, _, errors) = told(&interrupt(child));
+    assert_eq!(code, Some(0), "{errors}");
+    assert!(errors.contains("1 expectation met") && !errors.contains("failed"), "{errors}");
+}
+
+#[test]
+fn a_plc_on_the_network_says_its_faults_and_goes_on() {
+    let scenario = "at 5ms I0.0 = 1\n";
+    let folder = Folder::with_files("serve-fault", &[("p.awl", LOOP), ("s.scn", scenario)]);
+    let (mut child, line) =
+        serve(&folder, &["p.awl", "--scenario", "s.scn", "--serve", "0.0.0.0:0", "--serve-anywhere"]);
+    assert!(line.contains("every computer reads, this one writes; look: uno200 --tcp 127.0.0.1:"), "{line}");
+    let mut fault = String::new();
+    BufReader::new(child.stderr.as_mut().unwrap()).read_line(&mut fault).unwrap();
+    assert!(fault.starts_with("5ms: STOP: watchdog") && fault.contains("p.awl:3"), "{fault}");
+    assert_eq!(child.try_wait().unwrap(), None);
+    assert_eq!(interrupt(child).status.code(), Some(0));
+}
+
+#[test]
+fn a_taken_port_is_exit_2() {
+    let folder = Folder::with_files("serve-taken", &[("p.awl", COPY)]);
+    let taken = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = taken.local_addr().unwrap().to_string();
+    let (code, _, errors) = told(&folder.sim(&["p.awl", "--serve", &address]));
+    assert_eq!(code, Some(2));
+    assert!(errors.contains(&format!("cannot listen on {address}: ")), "{errors}");
 }

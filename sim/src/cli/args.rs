@@ -65,6 +65,21 @@ pub struct Args {
     /// A file with symbols of the program; can be given several times
     #[arg(long, value_name = "F")]
     pub symbols: Vec<PathBuf>,
+
+    /// Be a PLC on the network: run in real time until Ctrl-C, and answer Modbus TCP at this address, such as
+    /// 127.0.0.1:1502. Port 0 takes a free one
+    #[arg(long, value_name = "ADDRESS:PORT", conflicts_with_all = ["run_for", "scans", "trace", "format", "output"])]
+    pub serve: Option<String>,
+
+    /// Allow --serve an address that other computers reach; they may read. It must be asked for because Modbus has no
+    /// passwords and no encryption: whoever reaches the port is answered
+    #[arg(long, requires = "serve")]
+    pub serve_anywhere: bool,
+
+    /// Allow other computers to write too: set, force, RUN and STOP. It must be asked for because Modbus cannot tell who
+    /// is allowed to from who is not
+    #[arg(long, requires = "serve_anywhere")]
+    pub serve_writes: bool,
 }
 
 /// Machines.

@@ -3,6 +3,7 @@
 mod args;
 mod output;
 mod report;
+mod serve;
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -53,6 +54,10 @@ fn simulate(args: &Args) -> Result<u8> {
     let inputs = [Some(&args.program), args.scenario.as_ref()].into_iter().flatten().chain(&args.symbols);
     let inputs: Vec<&Path> = inputs.map(PathBuf::as_path).collect();
     ensure_distinct(&inputs, args.output.as_deref().as_slice())?;
+    if let Some(address) = &args.serve {
+        serve::serve(args, address)?;
+        return Ok(0);
+    }
     let Opened { mut machine, symbols, default_signals, scan_ms, warnings } =
         open_machine(&args.program, &args.symbols, args.on.into())?;
     anstream::eprint!("{warnings}");

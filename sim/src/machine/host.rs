@@ -1,8 +1,12 @@
 //! The host machine: the reference interpreter with virtual time. What the board does, without a board.
 
-use std::collections::VecDeque;
+mod link;
 
-use plc_isa::Plan;
+use std::collections::VecDeque;
+use std::time::Instant;
+
+use plc_isa::{LogicStack, Plan};
+use plc_link::ScanTimes;
 use plc_vm::{Environment, Fault, Inputs, Memory, Plc, SCAN_MS_MAX};
 
 use super::points::{self, Points, input_byte, output_byte, replaced};
@@ -10,13 +14,14 @@ use super::{Machine, MachineError, Mode, PlaceOf, fault};
 use crate::action::Action;
 use crate::operand::Operand;
 use crate::pulse::{Edge, NS_PER_MS, Pulses};
+use link::Line;
 
 /// Bytes of looped code that count as a millisecond of execution: 20 cycles of the board for an
 /// instruction of 2.5 bytes, at 16 MHz.
 const LOOPED_BYTES_PER_MS: u64 = 2_000;
 
 /// Virtual time, which stands still while a scan runs. Only loops cost watchdog time.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct VirtualTime {
     now_ms: u32,
     /// Since the scan started, or since WDR.
@@ -26,6 +31,8 @@ struct VirtualTime {
     scan_bytes: u64,
     /// On the serial line.
     sent: Vec<u8>,
+    /// What this scan notes for the status of instructions: data address of the first entry, and their number.
+    noted: (u16, u8),
 }
 
 impl VirtualTime {
@@ -52,6 +59,12 @@ impl Environment for VirtualTime {
     fn transmit(&mut self, character: u8) {
         self.sent.push(character);
     }
+
+    fn executed(&mut self, at: u16, stack: LogicStack, memory: &mut Memory) {
+        if self.noted.1 > 0 {
+            plc_link::status::executed(memory, self.noted, at, stack);
+        }
+    }
 }
 
 /// A PLC on the host.
@@ -65,6 +78,7 @@ pub struct Host {
     /// Characters that will come in, and when.
     incoming: VecDeque<(u64, u8)>,
     place_of: PlaceOf,
+    line: Line,
 }
 
 impl Host {
@@ -74,11 +88,12 @@ impl Host {
             plc: Plc::new(),
             memory: Memory::new(),
             inputs: Inputs::default(),
-            time: VirtualTime { now_ms: 0, looped_bytes: 0, looped_bytes_max: 0, scan_bytes: 0, sent: Vec::new() },
+            time: VirtualTime::default(),
             clock_start_ms: 0,
             pulses: Pulses::default(),
             incoming: VecDeque::new(),
             place_of,
+            line: Line::new(image.clone()),
         };
         if host.plc.load(&mut host.memory, image).is_ok() {
             // Nothing is kept here, so each start is that of a new board.
@@ -87,6 +102,7 @@ impl Host {
             }
             host.plc.run();
         }
+        host.place_frame();
         host.time.looped_bytes_max = host.watchdog_ms() * LOOPED_BYTES_PER_MS;
         host
     }
@@ -98,12 +114,18 @@ impl Host {
 
     /// STOP to RUN, as by a command from outside.
     pub fn run(&mut self) {
-        self.plc.run();
+        if self.plc.mode() == plc_vm::Mode::Stop && self.plc.run() {
+            self.line.times = ScanTimes::NONE;
+        }
     }
 
     /// RUN to STOP, as by a command from outside.
     pub fn stop(&mut self) {
+        let runs = self.plc.mode() == plc_vm::Mode::Run;
         self.plc.stop();
+        if runs {
+            self.end_run();
+        }
     }
 
     /// The data memory, for comparisons with other machines.
@@ -206,7 +228,17 @@ impl Machine for Host {
         self.pass_edges(now_ms);
         self.pass_characters(now_ms);
         (self.time.looped_bytes, self.time.scan_bytes) = (0, 0);
-        self.plc.scan(&mut self.memory, &self.inputs, &mut self.time);
+        self.inputs.write(&mut self.memory);
+        self.line.link.forces.apply(&mut self.memory);
+        let start = Instant::now();
+        let runs = self.plc.mode() == plc_vm::Mode::Run;
+        // In STOP no scan notes anything, and that is the answer.
+        self.time.noted = self.line.link.status_entries();
+        self.plc.execute(&mut self.memory, &mut self.time);
+        self.line.link.forces.apply(&mut self.memory);
+        if runs {
+            self.end_scan(start);
+        }
     }
 
     fn mode(&self) -> Mode {

@@ -1,0 +1,106 @@
+//! What a machine holds for the answers: where the frame is, how far the work on a request has come, forces and trace.
+
+use plc_isa::ARENA_START;
+use plc_vm::Memory;
+
+use crate::forces::Forces;
+use crate::status;
+use crate::trace::Trace;
+
+/// Longest request and answer: function code and data.
+pub const PDU_MAX: u16 = 252;
+
+/// How far the work on the request in the frame has come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Phase {
+    /// It has not begun.
+    New,
+    /// References are being resolved.
+    Resolving,
+    /// The next scan notes what its instructions do.
+    Armed,
+    /// A scan has noted it.
+    Noted,
+}
+
+/// The state of the line. One for a machine.
+#[derive(Debug, Clone)]
+pub struct Link {
+    /// What is forced.
+    pub forces: Forces,
+    /// Data address of the frame.
+    pub(crate) frame: u16,
+    /// Bytes for a request or an answer.
+    pub(crate) room: u16,
+    pub(crate) phase: Phase,
+    /// Entries of the request that are not resolved yet.
+    pub(crate) left: u8,
+    /// Offset of the first of them in the frame.
+    pub(crate) at: u8,
+    pub(crate) trace: Trace,
+}
+
+impl Link {
+    /// Without a program, and without room for a request until there is a place for it.
+    pub const fn new() -> Link {
+        Link {
+            forces: Forces::NONE,
+            frame: ARENA_START,
+            room: 0,
+            phase: Phase::New,
+            left: 0,
+            at: 0,
+            trace: Trace::none(),
+        }
+    }
+
+    /// Says where the frame is: from data address `frame` on for `room` bytes, of which [`PDU_MAX`] are used; and where
+    /// the ring of the trace is: from `ring` to before `ring_end`. Request, forces and trace are forgotten. After a
+    /// program was loaded, which has cleared the memory.
+    pub fn place(&mut self, frame: u16, room: u16, ring: u16, ring_end: u16) {
+        self.frame = frame;
+        self.room = room.min(PDU_MAX);
+        self.phase = Phase::New;
+        self.forces = Forces::NONE;
+        self.trace.place(ring, ring_end);
+    }
+
+    /// Data address of the frame.
+    pub fn frame(&self) -> u16 {
+        self.frame
+    }
+
+    /// Bytes for a request or an answer.
+    pub fn room(&self) -> u16 {
+        self.room
+    }
+
+    /// Forgets the request that is being worked on: nobody waits for its answer any more.
+    pub fn forget(&mut self) {
+        self.phase = Phase::New;
+    }
+
+    /// Before the program is executed: the [entries](crate::status) that this scan is to fill in, data address of the
+    /// first and their number; 0: none, which is nearly always so. Whoever gets some hands them to
+    /// [`executed`](crate::status::executed) after every instruction.
+    pub fn status_entries(&mut self) -> (u16, u8) {
+        if self.phase != Phase::Armed {
+            return (0, 0);
+        }
+        self.phase = Phase::Noted;
+        (self.frame + u16::from(status::FIRST), self.left)
+    }
+
+    /// After a scan: takes a sample, if there is a trace and it is time. `scan`: the low word of the scans since RUN.
+    pub fn trace_step(&mut self, memory: &mut Memory, scan: u16) {
+        if self.trace.is_going_on() {
+            self.trace.step(memory, scan);
+        }
+    }
+}
+
+impl Default for Link {
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -1,0 +1,97 @@
+//! What a machine is to the answers: its memory, controller and times. Implemented by the firmware and by the simulator.
+
+use plc_isa::ProgramMemory;
+use plc_vm::{Memory, Plc};
+
+use crate::link::Link;
+use crate::service::Command;
+
+/// Who answers: vendor, product code and revision. The same on every machine.
+pub const TEXTS: [&str; 3] = ["uno200", "Arduino Uno", env!("CARGO_PKG_VERSION")];
+
+/// Lengths of the scans since RUN, inputs to outputs, in counts of [`Station::COUNTS_PER_MS`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ScanTimes {
+    /// The shortest.
+    pub shortest: u32,
+    /// The last.
+    pub last: u32,
+    /// The longest; 0: there is none yet.
+    pub longest: u32,
+    /// Scans executed since RUN. Wraps.
+    pub scans: u32,
+}
+
+impl ScanTimes {
+    /// Before the first scan.
+    pub const NONE: ScanTimes = ScanTimes { shortest: 0, last: 0, longest: 0, scans: 0 };
+
+    /// Enters a scan of so many counts.
+    pub fn enter(&mut self, length: u32) {
+        if self.longest == 0 || length < self.shortest {
+            self.shortest = length;
+        }
+        if length > self.longest {
+            self.longest = length;
+        }
+        self.last = length;
+        self.scans = self.scans.wrapping_add(1);
+    }
+}
+
+/// A machine with a line.
+pub trait Station {
+    /// Where the program's bytes are.
+    type Program: ProgramMemory;
+
+    /// Counts of [`times`](Self::times) in a millisecond.
+    const COUNTS_PER_MS: u16;
+
+    /// The data memory, with the frame in it, and what the machine holds for the answers.
+    fn parts(&mut self) -> (&mut Memory, &mut Link);
+
+    /// The data memory.
+    fn memory(&mut self) -> &mut Memory {
+        self.parts().0
+    }
+
+    /// What the machine holds for the answers.
+    fn link(&mut self) -> &mut Link {
+        self.parts().1
+    }
+
+    /// The controller.
+    fn plc(&self) -> &Plc<Self::Program>;
+
+    /// The scans since RUN.
+    fn times(&self) -> &ScanTimes;
+
+    /// The byte of the program slot at an offset below [`plc_isa::SLOT_LEN`], whether there is a valid program or not;
+    /// 0xFF where nothing was written.
+    fn slot_byte(&self, offset: u16) -> u8;
+
+    /// The fault before the last reset, as [`plc_vm::Fault::to_bytes`] gives it.
+    fn fault_before_reset(&self) -> [u8; 4] {
+        [0; 4]
+    }
+
+    /// Bytes of stack that were never used; 0xFFFF: not known.
+    fn free_stack(&self) -> u16 {
+        0xFFFF
+    }
+
+    /// Whether single scans go on that [`Command::Scans`] asked for.
+    fn has_scans_left(&self) -> bool;
+
+    /// Carries a command out. It can be: RUN and single scans come only with a program, single scans in STOP only.
+    /// STOP is obeyed at once. RUN and single scans begin after the answer has been sent, because they may load
+    /// the program anew, which clears the frame; what became of them the client asks.
+    /// Whoever goes from RUN to STOP, for whatever reason, calls [`Forces::clear`](crate::Forces::clear).
+    fn control(&mut self, command: Command);
+
+    /// Asked between the parts of an answer that can be made in parts: whether there is time for another one in this
+    /// scan. After `false` the machine comes back at the end of the next scan.
+    fn has_time(&mut self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,122 @@
+//! Status of instructions (service function 69): logic stack and an operand right after some instructions of one scan.
+//!
+//! The request is converted in place to entries that an engine fills in as the program passes their instructions:
+//!
+//! | byte | |
+//! |---|---|
+//! | 0-1 | offset of the instruction in the image, low byte first; ascending from entry to entry |
+//! | 2-3 | [`Place`] of the operand, low byte first; 0: none |
+//! | 4-5 | bit 15: executed; bits 8 to 0: S8 to S0 right after it. High byte first; 0 before the scan |
+//! | 6-9 | the four bytes at the address of the place right after it, whatever its size |
+//!
+//! Behind the last entry stands the offset 0xFFFF, which no instruction has.
+
+use plc_isa::LogicStack;
+use plc_vm::{Memory, Mode};
+
+use crate::answer::{Answered, Exception, Request};
+use crate::link::Phase;
+use crate::place::{ANYTHING, Place};
+use crate::station::Station;
+
+/// Bytes of an entry.
+pub const ENTRY_LEN: u16 = 10;
+
+/// Offset of the first entry in the frame.
+pub(crate) const FIRST: u8 = 3;
+
+const COUNT_MAX: u8 = 24;
+/// Bytes of a request's and of an answer's part about an instruction.
+const REQUEST_LEN: u8 = 5;
+const ANSWER_LEN: u8 = 6;
+
+/// The bit of an entry's stack that says so.
+const EXECUTED: u16 = 0x8000;
+/// Stands behind the last entry.
+const END: u16 = 0xFFFF;
+
+/// Instead of a reference: no operand.
+const NO_OPERAND: u8 = 0xFF;
+
+/// The instruction of the entry at this data address has been executed and left this stack.
+pub fn note(memory: &mut Memory, entry: u16, stack: LogicStack) {
+    let place = Place(memory.word(entry + 2).swap_bytes());
+    memory.set_word(entry + 4, stack.bits() | EXECUTED);
+    for offset in 0..4 {
+        memory.set_byte(entry + 6 + offset, memory.byte(place.address() + offset));
+    }
+}
+
+/// The instruction at an offset of the image has been executed and left this stack: looks for its entry among `count`
+/// from data address `first` on. For an engine that tells of every instruction.
+pub fn executed(memory: &mut Memory, (first, count): (u16, u8), at: u16, stack: LogicStack) {
+    let mut entry = first;
+    for _ in 0..count {
+        if memory.word(entry).swap_bytes() == at {
+            note(memory, entry, stack);
+        }
+        entry += ENTRY_LEN;
+    }
+}
+
+impl<S: Station> Request<'_, S> {
+    /// Function 69. In the first scans the request becomes entries, from the last to the first; then a scan fills them
+    /// in.
+    pub fn status(&mut self) -> Answered {
+        let (count, phase) = (self.byte(1), self.station.link().phase);
+        match phase {
+            // The request is no more.
+            Phase::Armed if self.station.plc().mode() == Mode::Run => return Ok(0),
+            Phase::Armed | Phase::Noted => return Ok(self.collect()),
+            _ => {}
+        }
+        if self.station.plc().program().is_none_or(|program| program.plan().header.interface != 0) {
+            return Err(Exception::Busy);
+        }
+        self.expect_count(count, COUNT_MAX)?;
+        self.expect_len(2 + REQUEST_LEN * count)?;
+        let end = FIRST + ENTRY_LEN as u8 * count;
+        self.expect_room(end + 2)?;
+        let mut left = self.begin(count);
+        while left != 0 {
+            left -= 1;
+            let at = 2 + REQUEST_LEN * left;
+            let offset = self.word(at);
+            let place = if self.byte(at + 2) == NO_OPERAND { Place::NONE } else { self.reference(at + 2, ANYTHING)? };
+            let entry = FIRST + ENTRY_LEN as u8 * left;
+            if left + 1 != count && offset >= self.word(entry + ENTRY_LEN as u8).swap_bytes() {
+                return Err(Exception::Value);
+            }
+            self.set_low_first(entry, offset);
+            self.set_low_first(entry + 2, place.0);
+            for at in [4, 6, 8] {
+                self.set_word(entry + at, 0);
+            }
+            self.station.link().left = left;
+            if !self.station.has_time() {
+                return Ok(0);
+            }
+        }
+        self.set_word(end, END);
+        let link = self.station.link();
+        (link.phase, link.left) = (Phase::Armed, count);
+        Ok(0)
+    }
+
+    /// The answer: what became of the entries, close together.
+    fn collect(&mut self) -> u8 {
+        let (count, scans) = (self.station.link().left, self.station.times().scans as u16);
+        for index in 0..count {
+            let entry = FIRST + ENTRY_LEN as u8 * index;
+            let (place, noted) = (Place(self.word(entry + 2).swap_bytes()), self.word(entry + 4));
+            let bytes = u32::from(self.word(entry + 6)) << 16 | u32::from(self.word(entry + 8));
+            let value = if noted & EXECUTED == 0 || place == Place::NONE { 0 } else { place.value_in(bytes) };
+            let answer = FIRST + ANSWER_LEN * index;
+            self.set_word(answer, noted);
+            self.set_word(answer + 2, (value >> 16) as u16);
+            self.set_word(answer + 4, value as u16);
+        }
+        self.set_word(1, scans);
+        FIRST + ANSWER_LEN * count
+    }
+}

@@ -1,0 +1,139 @@
+//! The host machine's line: what `plc-link` needs of it, and requests that come one at a time.
+
+use std::time::Instant;
+
+use plc_isa::{ARENA_START, DATA_END, ProgramMemory};
+use plc_link::{Command, Link, ScanTimes, Station};
+use plc_vm::{Memory, Mode, Plc};
+
+use super::Host;
+
+/// Bytes of data memory for the frame, where there are so many; the ring of the trace is behind it.
+const FRAME_LEN: u16 = 256;
+/// The board also puts the checksum of a request there. The host has the same room, so that it answers the same.
+const CHECKSUM_LEN: u16 = 2;
+
+/// What a machine keeps for its line.
+pub(super) struct Line {
+    pub link: Link,
+    pub times: ScanTimes,
+    /// The image as it was given, valid or not.
+    slot: Vec<u8>,
+    /// Bytes of the request that is being worked on.
+    request_len: u16,
+    /// RUN or single scans, to begin when the answer has been sent.
+    command: Option<Command>,
+    /// Single scans to come, with the one that is under way; 0 without.
+    scans_left: u16,
+}
+
+impl Line {
+    pub fn new(slot: Vec<u8>) -> Line {
+        let link = Link::new();
+        Line { link, times: ScanTimes::NONE, slot, request_len: 0, command: None, scans_left: 0 }
+    }
+}
+
+impl Host {
+    /// Finds the place of the frame: behind the program's memory and the copy of what it retains.
+    pub(super) fn place_frame(&mut self) {
+        let (frame, end) = match self.plc.program() {
+            Some(program) => {
+                let (plan, image) = (program.plan(), program.memory());
+                (plan.end() + plan.retained_len(), image.modules_end().unwrap_or(DATA_END))
+            }
+            None => (ARENA_START, DATA_END),
+        };
+        let frame_len = (end - frame).min(FRAME_LEN);
+        self.line.link.place(frame, frame_len - CHECKSUM_LEN, frame + frame_len, end);
+    }
+
+    /// Takes a request (function code and data). The one before has been answered. `false`: there is no room for it.
+    pub fn take_request(&mut self, pdu: &[u8]) -> bool {
+        if pdu.is_empty() || pdu.len() > usize::from(self.line.link.room()) {
+            return false;
+        }
+        for (address, &byte) in (self.line.link.frame()..).zip(pdu) {
+            self.memory.set_byte(address, byte);
+        }
+        self.line.request_len = pdu.len() as u16;
+        true
+    }
+
+    /// The answer to the request that was taken, at the end of a scan; `None` where it takes another scan.
+    pub fn answer(&mut self) -> Option<Vec<u8>> {
+        let len = plc_link::answer(self, self.line.request_len);
+        // As before outputs are written: what a client has just written does not show where it is forced.
+        self.line.link.forces.apply(&mut self.memory);
+        let frame = self.line.link.frame();
+        (len > 0).then(|| (frame..frame + len).map(|address| self.memory.byte(address)).collect())
+    }
+
+    /// Begins what was asked for, now that the answer has been sent.
+    pub fn carry_out(&mut self) {
+        match self.line.command.take() {
+            Some(Command::Run) => self.run(),
+            Some(Command::Scans(scans)) if self.plc.mode() == Mode::Stop && self.plc.go_on() => {
+                self.line.scans_left = scans;
+            }
+            _ => {}
+        }
+    }
+
+    /// A scan that began at `start` has executed the program.
+    pub(super) fn end_scan(&mut self, start: Instant) {
+        // 0 would be no scan.
+        let length = u32::try_from(start.elapsed().as_micros()).unwrap_or(u32::MAX).max(1);
+        self.line.times.enter(length);
+        self.line.link.trace_step(&mut self.memory, self.line.times.scans as u16);
+        if self.line.scans_left > 0 {
+            self.line.scans_left -= 1;
+            if self.line.scans_left == 0 {
+                self.plc.stop();
+            }
+        }
+        if self.plc.mode() == Mode::Stop {
+            self.end_run();
+        }
+    }
+
+    /// RUN has ended, for whatever reason.
+    pub(super) fn end_run(&mut self) {
+        self.line.scans_left = 0;
+        self.line.link.forces.clear(&mut self.memory);
+    }
+}
+
+impl Station for Host {
+    type Program = Vec<u8>;
+
+    const COUNTS_PER_MS: u16 = 1000;
+
+    fn parts(&mut self) -> (&mut Memory, &mut Link) {
+        (&mut self.memory, &mut self.line.link)
+    }
+
+    fn plc(&self) -> &Plc<Vec<u8>> {
+        &self.plc
+    }
+
+    fn times(&self) -> &ScanTimes {
+        &self.line.times
+    }
+
+    fn slot_byte(&self, offset: u16) -> u8 {
+        self.line.slot.get(usize::from(offset)).copied().unwrap_or(0xFF)
+    }
+
+    fn has_scans_left(&self) -> bool {
+        self.line.scans_left > 0
+    }
+
+    fn control(&mut self, command: Command) {
+        match command {
+            Command::Stop => self.stop(),
+            Command::ClearFault => self.plc.clear_fault(),
+            Command::Run | Command::Scans(_) => self.line.command = Some(command),
+        }
+    }
+}
