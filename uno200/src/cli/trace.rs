@@ -1,0 +1,148 @@
+//! `trace`: has the PLC record, waits for it, and writes what it recorded.
+
+use std::io::{self, Write};
+use std::path::Path;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use anyhow::{Error, Result, bail};
+use awl_asm::files::write_whole;
+use uno200::service::{Space, TracePhase, TraceState, Trigger};
+use uno200::trace::Recording;
+use uno200::value::Form;
+use uno200::{Client, Operand, Reference};
+
+use super::Context;
+use super::args::Trace;
+
+/// Time between two looks.
+const LOOK: Duration = Duration::from_millis(50);
+/// Shortest time in which the length of scans is measured.
+const MEASURE: Duration = Duration::from_millis(300);
+
+pub(super) fn trace(context: &mut Context, arguments: &Trace) -> Result<bool> {
+    let operands = context.operands(&arguments.operands)?;
+    let trigger = arguments.trigger.as_deref().map(|text| condition(context, text)).transpose()?.unwrap_or_default();
+    let references: Vec<Reference> = operands.iter().map(|operand| operand.reference).collect();
+    let client = &mut context.client;
+    // Whether all of them exist is told by name.
+    client.watch_operands(&operands)?;
+    let measure = Measure::begin(client)?;
+    if !measure.is_running {
+        anstream::eprintln!("the PLC is in STOP: nothing is recorded before it runs");
+    }
+    let state = client.start_trace(arguments.every, arguments.before, trigger, &references).map_err(refusal)?;
+    let state = wait(client, state, arguments.duration)?;
+    let scan_us = measure.end(client)?;
+    let room = client.identify()?.room;
+    let ring = client.read(Space::Trace, 0, state.capacity * u16::from(state.sample_len), room)?;
+    let mut recording = Recording::of_ring(operands, &ring, &state, arguments.every, scan_us)?;
+    recording.trigger = recording.trigger.filter(|_| trigger != Trigger::None);
+    write(&recording, context, arguments.output.as_deref())?;
+    let is_triggered = trigger == Trigger::None || recording.trigger.is_some();
+    summary(&recording, is_triggered, state.samples == state.capacity, arguments.output.as_deref());
+    Ok(is_triggered)
+}
+
+fn refusal(error: uno200::Error) -> Error {
+    let why = match &error {
+        uno200::Error::Refused { exception: 1, .. } => "this PLC records no traces",
+        uno200::Error::Refused { exception: 4, .. } => {
+            "the program leaves too little memory for this trace: fewer operands or a smaller --before may help"
+        }
+        _ => return error.into(),
+    };
+    Error::new(error).context(why)
+}
+
+/// `I0.0 rising`.
+fn condition(context: &Context, text: &str) -> Result<Trigger> {
+    let (name, edge) = text.trim().rsplit_once(char::is_whitespace).unwrap_or((text, ""));
+    let make = match edge.to_ascii_lowercase().as_str() {
+        "rising" => Trigger::Rising,
+        "falling" => Trigger::Falling,
+        "on" | "1" => Trigger::High,
+        "off" | "0" => Trigger::Low,
+        _ => bail!("--trigger {text:?}: write a bit and rising, falling, on or off, such as \"I0.0 rising\""),
+    };
+    let operand = context.operands(&[name.to_string()])?;
+    match operand.first() {
+        Some(Operand { form: Form::Bit, reference, .. }) => Ok(make(*reference)),
+        _ => bail!("--trigger {text:?}: {name} is no bit"),
+    }
+}
+
+/// Waits for the last sample, or ends the trace when the time is over.
+fn wait(client: &mut Client, mut state: TraceState, duration: Option<Duration>) -> Result<TraceState> {
+    let begin = Instant::now();
+    let mut is_told = false;
+    while matches!(state.phase, TracePhase::Waiting | TracePhase::Filling) {
+        if duration.is_some_and(|duration| begin.elapsed() >= duration) {
+            return Ok(client.stop_trace()?);
+        }
+        if state.phase == TracePhase::Waiting && begin.elapsed() > Duration::from_secs(1) && !is_told {
+            anstream::eprintln!("waiting for the trigger");
+            is_told = true;
+        }
+        sleep(LOOK);
+        state = client.trace_state()?;
+    }
+    Ok(state)
+}
+
+fn write(recording: &Recording, context: &Context, output: Option<&Path>) -> Result<()> {
+    let Some(path) = output else {
+        let mut out = io::stdout().lock();
+        recording.write_csv(context.base, &mut out)?;
+        return Ok(out.flush()?);
+    };
+    let mut bytes = Vec::new();
+    let is_named = |ending| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(ending));
+    match () {
+        () if is_named("vcd") => recording.write_vcd(&mut bytes)?,
+        () if is_named("svg") => recording.write_svg(&mut bytes)?,
+        () => recording.write_csv(context.base, &mut bytes)?,
+    }
+    write_whole(path, &bytes)
+}
+
+fn summary(recording: &Recording, is_triggered: bool, is_full: bool, output: Option<&Path>) {
+    let place = output.map_or(String::new(), |path| format!("{}: ", path.display()));
+    let scan = |sample: usize| u64::from(recording.first_scan) + sample as u64 * u64::from(recording.every);
+    let trigger = recording.trigger.map_or(String::new(), |sample| format!(", trigger in scan {}", scan(sample)));
+    let end = match (is_triggered, is_full) {
+        (false, _) => "; the trigger did not come",
+        (true, false) => "; ended before the memory was full",
+        (true, true) => "",
+    };
+    let scan_ms = recording.scan_us / 1000.0;
+    eprintln!("{place}{} samples{trigger}; a scan takes {scan_ms:.3} ms on average{end}", recording.samples.len());
+}
+
+/// How long scans take: the board counts them, the clock is here.
+struct Measure {
+    begin: Instant,
+    scans: u32,
+    is_running: bool,
+}
+
+impl Measure {
+    fn begin(client: &mut Client) -> Result<Measure> {
+        let identity = client.identify()?;
+        Ok(Measure { begin: Instant::now(), scans: identity.scans, is_running: identity.is_running })
+    }
+
+    /// Microseconds.
+    fn end(self, client: &mut Client) -> Result<f64> {
+        if self.begin.elapsed() < MEASURE && self.is_running {
+            sleep(MEASURE - self.begin.elapsed());
+        }
+        let identity = client.identify()?;
+        let scans = identity.scans.wrapping_sub(self.scans);
+        let measured = self.begin.elapsed().as_secs_f64() * 1e6 / f64::from(scans.max(1));
+        // Where it went through STOP in between nothing is measured.
+        let is_usable = self.is_running && identity.is_running && scans > 0 && identity.scans >= self.scans;
+        let told = f64::from(identity.last) * 1000.0 / f64::from(identity.counts_per_ms.max(1));
+        Ok(if is_usable { measured } else { told })
+    }
+}

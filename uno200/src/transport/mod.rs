@@ -1,0 +1,83 @@
+//! Ways to the PLC: a serial port or TCP. They carry requests and answers and know nothing of what these mean.
+
+pub mod ports;
+pub mod rtu;
+mod serial;
+mod tcp;
+
+use std::fmt;
+use std::time::Duration;
+
+use crate::error::Error;
+
+pub use plc_isa::Parity;
+pub use serial::SerialSettings;
+
+/// A way to the PLC that is open.
+pub trait Transport: Send {
+    /// Sends a request, function code and data, and waits for the answer. An exception comes as
+    /// [`Error::Refused`].
+    fn exchange(&mut self, request: &[u8], patience: Duration) -> Result<Vec<u8>, Error>;
+}
+
+/// Where the PLC is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Target {
+    /// At a serial port.
+    Serial(SerialSettings),
+    /// On the network.
+    Tcp {
+        /// `HOST:PORT`.
+        address: String,
+        /// Its unit number.
+        unit: u8,
+    },
+}
+
+impl Target {
+    /// Opens the way. For a serial port that was not named this looks for the only one.
+    pub fn open(&self) -> Result<Box<dyn Transport>, Error> {
+        match self {
+            Target::Serial(settings) => Ok(Box::new(serial::open(settings)?)),
+            Target::Tcp { address, unit } => Ok(Box::new(tcp::open(address, *unit)?)),
+        }
+    }
+
+    /// How long an answer can take, beside the PLC's scan.
+    pub fn patience(&self) -> Duration {
+        match self {
+            Target::Serial(settings) => settings.patience(),
+            Target::Tcp { .. } => Duration::from_secs(2),
+        }
+    }
+
+    /// What to try when nothing answers.
+    pub fn advice(&self) -> String {
+        match self {
+            Target::Serial(settings) => settings.advice(),
+            Target::Tcp { address, .. } => {
+                format!("{address} takes the connection but answers nothing: is it an uno200 (`awl-sim --serve`)?")
+            }
+        }
+    }
+}
+
+impl fmt::Display for Target {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Target::Serial(settings) => settings.fmt(f),
+            Target::Tcp { address, .. } => f.write_str(address),
+        }
+    }
+}
+
+/// The refusal in an answer, or the answer.
+fn accepted(request: &[u8], answer: Vec<u8>) -> Result<Vec<u8>, Error> {
+    let function = request.first().copied().unwrap_or(0);
+    match answer[..] {
+        [first, exception] if first == function | 0x80 => Err(Error::Refused { function, exception }),
+        [first, ..] if first == function => Ok(answer),
+        [first, ..] => Err(Error::BadAnswer(format!("function {first} answers function {function}"))),
+        [] => Err(Error::BadAnswer("it is empty".into())),
+    }
+}

@@ -1,0 +1,99 @@
+//! Power flow of every line, compared with an independent observer of the same scan.
+
+use std::collections::HashMap;
+use std::fs;
+
+use plc_isa::{Op, decode};
+use uno200::program::Program;
+use uno200::show::model::{Flow, Model};
+use uno200::{Client, Reference};
+
+use crate::bench::{Bench, connect};
+use crate::example;
+
+/// Asks for so many windows, and compares each line in them with what the observer saw in that scan. Returns how often
+/// lines were seen with power flow, without, and not executed.
+fn compare(program: &Program, bench: Bench, windows: usize) -> [usize; 3] {
+    let model = Model::new(program);
+    let (bench, mut client): (_, Client) = connect(bench);
+    let room = client.identify().unwrap().room;
+    let all = model.windows(0..model.rows.len(), usize::from(room.saturating_sub(4)) / 10);
+    let mut seen = [0; 3];
+    for window in all.iter().cycle().take(windows) {
+        let offset = |row: usize| model.rows[row].instruction().unwrap().offset.unwrap();
+        let asked: Vec<_> = window.iter().map(|&row| (offset(row), Reference::NONE)).collect();
+        let status = client.status(&asked).unwrap();
+        let answers = asked.iter().map(|&(offset, _)| offset).zip(status.executed.iter().copied());
+        let answers: HashMap<u16, _> = answers.collect();
+        let flows = model.power_flow(&answers);
+        let observed = bench.with(|bench| bench.observed.clone());
+        for &row in window {
+            let expected = match observed.get(&offset(row)) {
+                None => Flow::NotExecuted,
+                Some(stack) if stack & 1 == 1 => Flow::On,
+                Some(_) => Flow::Off,
+            };
+            let line = (row + 1, &model.rows[row].text);
+            assert_eq!(flows[row], Some(expected), "{line:?} of {}", model.name);
+            let stack = answers[&offset(row)].stack;
+            assert_eq!(observed.get(&offset(row)).copied().unwrap_or(0), stack, "{line:?} of {}", model.name);
+            seen[expected as usize] += 1;
+        }
+        // Rows that were not asked for have no power flow to show.
+        assert_eq!(flows.iter().flatten().count(), window.len());
+    }
+    seen
+}
+
+#[test]
+fn station1_with_its_plant_for_a_thousand_scans() {
+    let program = example("station1.awl");
+    let bench = Bench::with_plant(&program.image, "station1");
+    let [not_executed, off, on] = compare(&program, bench, 1_000);
+    assert_eq!(not_executed, 0, "every line is executed in every scan");
+    assert!(on > 1_000 && off > 1_000, "{on} with power flow, {off} without");
+}
+
+/// The names of all examples.
+fn examples() -> Vec<String> {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
+    let names = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let names: Vec<String> = names.filter(|name| name.ends_with(".awl")).collect();
+    assert!(names.len() >= 14, "{names:?}");
+    names
+}
+
+#[test]
+fn every_example_with_random_inputs() {
+    let mut total = [0; 3];
+    for name in examples() {
+        let program = example(&name);
+        let seen = compare(&program, Bench::with_random(&program.image, 200), 200);
+        total.iter_mut().zip(seen).for_each(|(total, seen)| *total += seen);
+    }
+    assert!(total.iter().all(|&count| count > 1_000), "{total:?}");
+}
+
+/// The first word of a line without the comparison in it.
+fn mnemonic(text: &str) -> &str {
+    let word = text.split_whitespace().next().unwrap_or("");
+    let stem = word.trim_end_matches(['<', '>', '=']);
+    if stem.is_empty() { word } else { stem }
+}
+
+#[test]
+fn every_line_of_every_example_is_asked_for_at_its_own_instruction() {
+    let mut lines = 0;
+    for name in examples() {
+        let program = example(&name);
+        for row in Model::new(&program).rows {
+            let Some(offset) = row.instruction().and_then(|instruction| instruction.offset) else { continue };
+            let op = decode(&program.image, offset).unwrap().op;
+            let word = mnemonic(&row.text);
+            let is_hidden = matches!(op, Op::ScrAnd | Op::CallBegin);
+            assert!(is_hidden || op.instruction().mnemonics.contains(&word), "{name}: {} is {op:?}", row.text);
+            lines += 1;
+        }
+    }
+    assert!(lines > 500, "{lines}");
+}
