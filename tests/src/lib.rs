@@ -9,6 +9,8 @@ pub mod flash_responder;
 pub mod forms;
 pub mod image;
 #[cfg(feature = "uno")]
+pub mod link;
+#[cfg(feature = "uno")]
 pub mod lockstep;
 #[cfg(feature = "uno")]
 pub mod measure;
@@ -19,4 +21,6 @@ pub mod own_clock;
 #[cfg(feature = "uno")]
 pub mod power;
 pub mod random;
+#[cfg(feature = "uno")]
+pub mod requests;
 pub mod retained;

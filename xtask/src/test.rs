@@ -48,6 +48,8 @@ pub fn run(host_only: bool) -> Result<()> {
     } else {
         // Before the first stage: what is missing should show at once.
         packages::ensure_installed(packages::VIRTUAL_BOARD)?;
+        packages::ensure_installed(packages::MODBUS_CLIENTS)?;
+        packages::ensure_pymodbus()?;
         stages.extend(BOARD);
     }
     for (name, stage) in stages {
