@@ -10,7 +10,7 @@ use plc_isa::{
 };
 
 /// Where the jump table lies in flash: `ijmp` takes the token as the low byte of a word address.
-pub const TABLE_START: u16 = 0x0200;
+pub const TABLE_START: u16 = 0x0400;
 
 /// A form as the handlers name it: `Ldw Relation Word Word`, `wide Ldw Relation AnyInt AnyInt`.
 fn name(instruction: &Instruction, form: &Form) -> String {

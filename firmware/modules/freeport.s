@@ -1,13 +1,14 @@
-; Module 10: the serial line in freeport mode: XMT, RCV, and Freeport, which the assembler puts behind what writes SMB30.
-; It means what plc-vm means (plc/vm/src/modules/freeport.rs), and beside that it knows what only a real line has: errors
-; of characters, and the break that XMT of no characters sends.
+; Module 10: the serial line in freeport mode: XMT, RCV, and Freeport, which the assembler puts behind what writes
+; SMB30. It means what plc-vm means (plc/vm/src/modules/freeport.rs), and beside that it knows what only a real line
+; has: errors of characters, and the break that XMT of no characters sends.
 ;
-; The line belongs to the firmware, or to this module while FREEPORT_ON is set. Characters are moved by interrupts, between
-; the line and the program's memory. A timer of its own counts milliseconds from the last character, or from what else
-; a time is measured from. Routines share the state with the interrupts: they change it with interrupts disabled.
+; The line belongs to the firmware, or to this module while FREEPORT_ON is set. Characters are moved by interrupts,
+; between the line and the program's memory. A timer of its own counts milliseconds from the last character, or from
+; what else a time is measured from. Routines share the state with the interrupts: they change it with interrupts
+; disabled.
 ;
-; SM4.5, the transmitter is idle, stands in a byte that others read and write back. An interrupt within that is forgotten,
-; so that each tick of the timer says it again.
+; SM4.5, the transmitter is idle, stands in a byte that others read and write back. An interrupt within that is
+; forgotten, so that each tick of the timer says it again.
 
 .include "interface.inc"
 
@@ -49,8 +50,6 @@ STUB abandon, ABANDON
 .equ UBRR0L, 0xC4
 .equ UBRR0H, 0xC5
 .equ UDR0, 0xC6
-; The divider of the firmware's line, 115200 8N1.
-.equ FIRMWARE_DIVIDER, 16
 
 ; ---- special memory
 
@@ -221,7 +220,8 @@ Rcv:
 3:  out SREG, r25
     rjmp abandon
 
-; Makes the line what SMB30 says. Z: freeport mode. Changes r0, r20, r21, r24, r25, Z.
+; Makes the line what SMB30 says. Z: freeport mode. Changes r0, r20, r21, r24, r25, Z; without freeport mode X and r18
+; to r23, too.
 look:
     lds r20, SETTINGS
     in r21, FLAGS
@@ -275,30 +275,24 @@ take:
     cp r1, r1
     ret
 
-; To the firmware, at once. Z becomes 0.
+; To the firmware, at once. Z becomes 0. The firmware sets up line and timer as a C function: r17 keeps T.
 give_back:
     sbrs r21, FREEPORT_ON
     ret
+    cbi DDRD, TRANSMIT_PIN
+    push r17
+    bld r17, 0
     in r25, SREG
     cli
     andi r21, lo8(~(1 << FREEPORT_ON))
     out FLAGS, r21
     sts TIMSK2, r1
-    cbi DDRD, TRANSMIT_PIN
-    lds r24, UCSR0B
-    andi r24, 1 << TELLS_EMPTY
-    ori r24, RECEIVES | TRANSMITS
-    sts UCSR0B, r24
-    ldi r24, DOUBLE_SPEED
-    sts UCSR0A, r24
-    ldi r24, BITS_8
-    sts UCSR0C, r24
-    sts UBRR0H, r1
-    ldi r24, FIRMWARE_DIVIDER
-    sts UBRR0L, r24
     out SREG, r25
+    call MODULE_SET_LINE_UP
+    bst r17, 0
+    pop r17
     ; It is not 0.
-    tst r21
+    ori r24, 1
     ret
 
 ; What follows from SMB30, which is in r20. Changes r24, Z.

@@ -1,8 +1,8 @@
 ; Module 5: points of the board beside the process image, and interrupt events.
 ;
-; Events are looked for whenever the program polls: the engine comes to `events` when pins, T32 and T96, or the clock are
-; others than at the last poll. Routines are entered as a call enters them; where they return to is bytecode of this module,
-; which comes back here. Nothing of this is done by interrupts of the processor.
+; Events are looked for whenever the program polls: the engine comes to `events` when pins, T32 and T96, or the clock
+; are others than at the last poll. Routines are entered as a call enters them; where they return to is bytecode of this
+; module, which comes back here. Nothing of this is done by interrupts of the processor.
 
 .include "interface.inc"
 
@@ -30,7 +30,7 @@ STUB abandon, ABANDON
 
 ; ---- points
 
-; The inputs as they are now, like IB0, in r18. Changes r19, Z.
+; The inputs as they are now, like IB0, in r18: those that are forced with their values. Changes r19, Z.
 inputs:
     ldi r30, lo8(IMAGE_INVERTED_INPUTS)
     ldi r31, hi8(IMAGE_INVERTED_INPUTS)
@@ -40,6 +40,11 @@ inputs:
     lsr r19
     eor r18, r19
     andi r18, INPUTS
+    lds r19, FORCED_INPUTS
+    or r18, r19
+    eor r18, r19
+    lds r19, FORCED_INPUTS + 1
+    or r18, r19
     ret
 
 ; The number of a point in the word at Y. Changes Z.
@@ -99,7 +104,8 @@ ResetImmediate:
     rjmp done
 1:  rjmp abandon
 
-; T to output r20 in the process image and, where there is one, to its pin. Keeps r20, r22.
+; T to output r20 in the process image and, where there is one and the output is not forced, to its pin: the pin of a
+; forced one is left as the scan before left it. Keeps r20, r22.
 write_point:
     mov r26, r20
     lsr r26
@@ -121,6 +127,9 @@ write_point:
 3:  st X, r19
     cpi r20, OUTPUTS
     brsh 5f
+    lds r19, FORCED_OUTPUTS
+    and r19, r18
+    brne 5f
     rcall inverted_outputs
     and r19, r18
     in r21, PORTB
@@ -171,6 +180,11 @@ Biw:
     st X, r22
     tst r18
     brne 2f
+    lds r19, FORCED_OUTPUTS
+    or r22, r19
+    eor r22, r19
+    lds r19, FORCED_OUTPUTS + 1
+    or r22, r19
     rcall inverted_outputs
     eor r22, r19
     andi r22, (1 << OUTPUTS) - 1

@@ -8,17 +8,16 @@ mod board;
 mod communication;
 mod engine;
 mod environment;
-mod report;
 mod retention;
 mod scan;
 mod self_test;
 
-use board::{Board, place};
-use scan::Uno;
+use board::place;
 
 #[avr_device::entry]
 fn main() -> ! {
-    let uno = place::once(Uno::new(Board::take()));
+    board::set_up();
+    let uno = place::uno();
     uno.power_up();
     uno.scan_for_ever()
 }

@@ -104,8 +104,8 @@ impl Retention {
         if is_found {
             self.read_copy(self.copy, plan, memory, eeprom);
             self.exchange(plan, memory, true);
-            self.exchange(plan, memory, false);
         }
+        self.exchange(plan, memory, false);
         self.enter(if is_found { Phase::Comparing } else { Phase::Erasing });
         !is_found
     }

@@ -8,41 +8,12 @@ use crate::board::data::Data;
 use crate::board::eeprom::Eeprom;
 use crate::board::flash::ProgramSlot;
 use crate::board::ports::{self, Ports};
-use crate::board::serial::Serial;
 use crate::board::trace::{self, Mark};
-use crate::board::{Board, analog, clock, fault_memory, stack, takeover, texts, watchdog};
-use crate::communication::{Communication, Lines, Request};
-use crate::engine;
+use crate::board::{Board, analog, clock, fault_memory, serial, stack, takeover, watchdog};
+use crate::engine::{self, link};
 use crate::environment::ScanTime;
-use crate::report::Report;
 use crate::retention::Retention;
 use crate::self_test::SelfTest;
-
-/// Lengths of the scans since RUN, inputs to outputs, in timer counts.
-pub struct ScanTimes {
-    /// The shortest.
-    pub min: u32,
-    /// The last.
-    pub last: u32,
-    /// The longest; 0: there is none yet.
-    pub max: u32,
-}
-
-impl ScanTimes {
-    const NONE: ScanTimes = ScanTimes { min: 0, last: 0, max: 0 };
-
-    /// Enters a scan of so many counts.
-    #[inline(always)]
-    fn enter(&mut self, length: u32) {
-        if self.max == 0 || length < self.min {
-            self.min = length;
-        }
-        if length > self.max {
-            self.max = length;
-        }
-        self.last = length;
-    }
-}
 
 /// Where IB0 is in data memory.
 const FIRST_INPUT_BYTE: usize = (I_START - DATA_START) as usize;
@@ -56,68 +27,67 @@ enum Finding {
 /// The PLC.
 pub struct Uno {
     ports: Ports,
-    serial: Serial,
     eeprom: Eeprom,
     data: Data,
     plc: Plc<ProgramSlot>,
     settings: Settings,
     retention: Retention,
-    communication: Communication,
     self_test: SelfTest,
-    times: ScanTimes,
     /// When the last scan was due, with a fixed period.
     scan_start_ms: u16,
     /// A millisecond or more has passed since the last self-test of the program.
     has_ticked: bool,
-    /// RUN was asked for: the next scan is its first. Within a scan RUN can end, but not begin.
-    is_run_requested: bool,
-    /// As bytes, like everywhere on the board.
-    fault_before_reset: [u8; 4],
+    /// RUN was asked for, or single scans: they begin with a scan, when the answer has been sent. Within a scan RUN can
+    /// end, but not begin.
+    pub(crate) is_run_requested: bool,
 }
 
 impl Uno {
     /// The PLC in STOP, without a program.
-    #[inline(always)]
-    pub fn new(board: Board) -> Uno {
+    pub const fn new(board: Board) -> Uno {
         Uno {
             ports: board.ports,
-            serial: board.serial,
             eeprom: board.eeprom,
             data: board.data,
             plc: Plc::new(),
-            settings: Settings::DEFAULT,
+            settings: Settings { watchdog_ms: 0, modbus_address: 0, ..Settings::DEFAULT },
             retention: Retention::none(),
-            communication: Communication::starting(),
             self_test: SelfTest::STARTING,
-            times: ScanTimes::NONE,
             scan_start_ms: 0,
             has_ticked: false,
             is_run_requested: false,
-            fault_before_reset: Fault::NONE,
         }
     }
 
     /// Power has come: loads the program and goes to RUN, unless there is none or a fault of before forbids it.
     pub fn power_up(&mut self) {
+        self.settings.modbus_address = Settings::DEFAULT.modbus_address;
         // Before loading, which may have a fault of its own to remember.
-        let (fault, holds) = fault_memory::recall().unwrap_or((Fault::NONE, false));
-        self.fault_before_reset = fault;
+        let (fault, holds) = fault_memory::recall();
+        link::set_fault_before_reset(fault);
         analog::wait_for_all();
         self.load();
-        if self.plc.fault().is_some() {
+        if self.plc.fault_word() as u8 != 0 {
             return;
         }
         if holds {
             // Only these two hold.
-            self.fail(if fault == Fault::Panic.to_bytes() { Fault::Panic } else { Fault::Hang });
+            self.fail(if fault as u8 == Fault::Panic.to_bytes()[0] { Fault::Panic } else { Fault::Hang });
         } else {
             self.run();
         }
     }
 
-    /// Loads the program in the slot, if there is one.
+    /// Loads the program in the slot, if there is one. Requests are written behind its memory from now on.
     fn load(&mut self) {
-        let is_erased = (0..4).all(|offset| ProgramSlot.byte(offset) == 0xFF);
+        serial::hold();
+        self.load_program();
+        serial::place(link::place(self.plc.program()), &self.settings);
+    }
+
+    #[inline(always)]
+    fn load_program(&mut self) {
+        let is_erased = ProgramSlot.word(0) & ProgramSlot.word(2) == u16::MAX;
         if is_erased {
             return;
         }
@@ -125,8 +95,8 @@ impl Uno {
         watchdog::stop();
         let loaded = self.plc.load(self.data.memory(), ProgramSlot);
         watchdog::start();
-        if let Err(error) = loaded {
-            return self.fail(Fault::BadImage(error));
+        if loaded.is_err() {
+            return self.tell();
         }
         self.self_test = SelfTest::STARTING;
         let Some(program) = self.plc.program() else { return };
@@ -143,11 +113,20 @@ impl Uno {
         if self.is_program_in_doubt() {
             self.load();
         }
-        if self.plc.mode() == Mode::Stop && !self.is_program_in_doubt() && self.plc.run() {
-            self.times = ScanTimes::NONE;
+        if self.plc.mode() == Mode::Stop && !self.is_program_in_doubt() && self.go() {
             self.scan_start_ms = clock::now_ms_low().wrapping_sub(self.settings.scan_ms);
         }
         self.tell();
+    }
+
+    /// To RUN: with a first scan, or on from where the program stood.
+    #[inline(always)]
+    fn go(&mut self) -> bool {
+        if link::has_scans_left() {
+            return self.plc.go_on();
+        }
+        link::begin_run();
+        self.plc.run()
     }
 
     /// What is in flash is known to be bad when the program is in doubt, and the first fault says how.
@@ -164,8 +143,8 @@ impl Uno {
     /// Whether what is in flash may not be the program that was checked, which may still be in force.
     #[inline(never)]
     fn is_program_in_doubt(&self) -> bool {
-        let fault = self.plc.fault();
-        matches!(fault, Some(Fault::BadImage(_) | Fault::ProgramChanged | Fault::UndefinedInstruction { .. }))
+        // Bad image, undefined instruction, program changed.
+        matches!(self.plc.fault_word() as u8, 1 | 3 | 4)
     }
 
     /// Scan after scan.
@@ -179,28 +158,33 @@ impl Uno {
 
     #[inline(always)]
     fn scan(&mut self) {
-        if self.is_run_requested {
+        if self.is_run_requested && !serial::is_sending() {
             self.is_run_requested = false;
             self.run();
         }
-        if self.settings.scan_ms != 0 {
-            self.wait_for_period();
+        while self.settings.scan_ms != 0 && self.is_early() {
+            self.talk_and_test();
         }
         trace::mark(Mark::ScanStart);
         self.look_at_clock();
         let start = Moment::now();
         self.read_inputs();
+        self.force();
         let executes = self.plc.mode() == Mode::Run;
         self.execute();
         self.communicate();
         self.test();
+        self.force();
         let runs = self.plc.mode() == Mode::Run;
         self.write_outputs(runs);
         if self.retention.is_busy(runs) {
             self.keep(executes);
         }
         if executes {
-            self.times.enter(start.counts_until(Moment::now()));
+            link::enter_scan(start.counts_until(Moment::now()));
+            if link::is_stepping() && link::count_down() {
+                self.stop();
+            }
         }
         trace::mark(Mark::ScanEnd);
     }
@@ -251,24 +235,24 @@ impl Uno {
         }
     }
 
-    /// Waits for the next period, and talks and tests meanwhile. A scan that took longer than its period starts at once.
+    /// While the next period is waited for. A scan that took longer than its period starts at once.
     #[inline(never)]
-    fn wait_for_period(&mut self) {
-        loop {
-            self.look_at_clock();
-            if self.plc.mode() == Mode::Stop || self.is_due() {
-                return;
-            }
-            self.communicate();
-            self.test();
-        }
+    fn is_early(&mut self) -> bool {
+        self.look_at_clock();
+        self.plc.mode() == Mode::Run && !self.is_due()
+    }
+
+    #[inline(never)]
+    fn talk_and_test(&mut self) {
+        self.communicate();
+        self.test();
     }
 
     #[inline(always)]
     fn look_at_clock(&mut self) {
-        let now_ms = clock::now_ms();
-        if now_ms != self.plc.time() {
-            self.tick(now_ms);
+        // No look is as late as the lower half wraps.
+        if clock::now_ms_low() != self.plc.time() as u16 {
+            self.tick(clock::now_ms());
         }
     }
 
@@ -314,73 +298,57 @@ impl Uno {
         }
     }
 
+    /// Gives forced operands their values.
+    #[inline(always)]
+    fn force(&mut self) {
+        if link::is_forced() {
+            link::apply_forces();
+        }
+    }
+
     #[inline(always)]
     fn communicate(&mut self) {
-        if self.serial.has_received() || self.communication.has_answer() {
+        if serial::has_request() {
             self.talk();
         }
     }
 
+    /// RUN to STOP, as asked for.
     #[inline(never)]
-    fn talk(&mut self) {
-        match self.communication.receive(&mut self.serial) {
-            Some(Request::Run) => self.is_run_requested = true,
-            Some(Request::Stop) => {
-                self.plc.stop();
-                self.tell();
-            }
-            None => {}
-        }
-        // The answer to `run` is what has become of it.
-        if self.is_run_requested {
-            return;
-        }
-        if let Some(line) = self.communication.next_line(&self.serial) {
-            self.write_line(line);
-        }
+    pub(crate) fn stop(&mut self) {
+        self.plc.stop();
+        self.tell();
     }
 
-    fn write_line(&mut self, line: Lines) {
-        let fault = self.fault_bytes();
-        let mut report = Report::on(&mut self.serial);
-        match line {
-            Lines::VERSION => report.text(texts::version()),
-            Lines::MODE => {
-                report.text(texts::mode());
-                report.text(if self.plc.mode() == Mode::Run { texts::run() } else { texts::stop() });
-            }
-            Lines::PROGRAM => report.program(self.plc.program()),
-            Lines::FAULT => {
-                report.text(texts::fault());
-                report.fault(fault);
-                if fault == Fault::NONE && self.fault_before_reset != Fault::NONE {
-                    report.text(texts::last_fault());
-                    report.fault(self.fault_before_reset);
-                }
-            }
-            Lines::SCAN => report.scan(&self.times),
-            Lines::STACK => report.stack(stack::free()),
-            _ => report.text(texts::help()),
-        }
-        report.end();
+    /// Forgets the fault that led to STOP.
+    pub(crate) fn clear_fault(&mut self) {
+        self.plc.clear_fault();
+        self.tell_status();
     }
 
     /// RUN to STOP, or STOP for another reason.
+    #[inline(always)]
     fn fail(&mut self, fault: Fault) {
         self.plc.fail(fault);
         self.tell();
     }
 
-    /// Tells of a change of mode or fault those who look at memory: now, or after a reset.
+    /// Another mode or fault: what belongs to RUN ends with it.
     #[inline(never)]
-    fn tell(&self) {
-        let fault = self.fault_bytes();
-        let runs = self.plc.mode() == Mode::Run;
-        if !runs {
+    fn tell(&mut self) {
+        if self.plc.mode() == Mode::Stop {
             takeover::end();
+            link::end_run();
         }
-        trace::write_status(runs, fault);
-        if fault != Fault::NONE {
+        self.tell_status();
+    }
+
+    /// Tells of mode and fault those who look at memory, now or after a reset, and those who ask.
+    #[inline(never)]
+    fn tell_status(&mut self) {
+        let (fault, runs) = (self.plc.fault_word(), self.plc.mode() == Mode::Run);
+        link::tell(runs, fault);
+        if fault as u8 != 0 {
             fault_memory::remember(fault, false);
         }
     }
@@ -391,11 +359,5 @@ impl Uno {
         if let Some(program) = self.plc.program().filter(|_| !self.is_program_in_doubt()) {
             self.retention.step(program.plan(), self.data.memory(), &self.eeprom, was_executed);
         }
-    }
-
-    /// The fault in force; none in RUN, which clears it.
-    #[inline(never)]
-    fn fault_bytes(&self) -> [u8; 4] {
-        self.plc.fault().map_or(Fault::NONE, Fault::to_bytes)
     }
 }

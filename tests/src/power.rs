@@ -9,6 +9,7 @@ use simavr::{Avr, Stopped};
 
 use crate::bench_board::{BenchBoard, firmware};
 use crate::image::image;
+use crate::link::{Command, UNIT, frame};
 
 pub use crate::bench_board::MS;
 
@@ -131,10 +132,11 @@ impl Board {
         self.drive_inputs(levels);
     }
 
-    /// Writes a command on the serial line and waits until it must have been obeyed.
-    pub fn command(&mut self, line: &str) {
-        self.say(format!("{line}\r").as_bytes());
-        let end = self.avr.cycles() + 3 * MS;
+    /// Sends a command and waits until it must have been obeyed.
+    pub fn command(&mut self, command: Command) {
+        self.say(&frame(UNIT, &command.pdu()));
+        // A pause ends the request, and RUN begins when the answer has been sent.
+        let end = self.avr.cycles() + 5 * MS;
         while self.avr.uart_waiting() > 0 || self.avr.cycles() < end {
             self.scan();
         }

@@ -12,6 +12,7 @@ use plc_isa::{ARENA_START, HC0, HC3, SM_START};
 use tests::bench_board::{BenchBoard, MS, example_text};
 use tests::case::{Case, host};
 use tests::image::image;
+use tests::link;
 use tests::own_clock::assert_cases_hold;
 
 /// Cycles in a second.
@@ -192,7 +193,7 @@ fn stop_ends_it_and_run_begins_anew() {
     board.scans_for(5);
     edges(&mut board, &[0b1_0001, 0b1_0000], 20, 5_000);
     assert_eq!(count(&board, HC0), -10);
-    board.ask(b"stop\n");
+    link::stop(&mut board);
     let registers = |board: &BenchBoard| [0x3D, 0x68].map(|register| board.byte(register));
     assert!(!board.runs());
     assert_eq!(registers(&board), [0, 0], "EIMSK, PCICR");
@@ -200,7 +201,7 @@ fn stop_ends_it_and_run_begins_anew() {
     assert_eq!(count(&board, HC0), -10, "in STOP");
     // HDEF only when I0.5 is off.
     board.drive_inputs(0b11_0000);
-    board.ask(b"run\n");
+    link::run(&mut board);
     let (times, before) = (vw(&board, 6), count(&board, HC0));
     edges(&mut board, &[0b11_0001, 0b11_0000], 20, 5_000);
     board.scans(2);
@@ -208,9 +209,9 @@ fn stop_ends_it_and_run_begins_anew() {
     assert_eq!((vw(&board, 6), count(&board, HC0)), (times, before), "HSC without HDEF");
     assert_eq!(board.byte(SM_START + 4) & 8, 8, "SM4.3");
     assert_eq!(registers(&board), [0, 0]);
-    board.ask(b"stop\n");
+    link::stop(&mut board);
     board.drive_inputs(0b1_0000);
-    board.ask(b"run\n");
+    link::run(&mut board);
     edges(&mut board, &[0b1_0001, 0b1_0000], 20, 5_000);
     board.scans(2);
     assert_eq!(count(&board, HC0) - before, -10, "HDEF and HSC again");

@@ -7,6 +7,7 @@ use plc_vm::Fault;
 use tests::bench_board::{BenchBoard, MS};
 use tests::forms::places;
 use tests::image::{image, signed};
+use tests::link;
 
 /// What interrupts of the processor say, in the memory of module 5: events, and those of them that were lost.
 const HARDWARE_EVENTS: u16 = 0x05E0;
@@ -405,9 +406,9 @@ fn what_waits_is_forgotten_when_run_begins() {
     levels(&mut board, (0..20).flat_map(|_| [1, 0]));
     (0..5).for_each(|_| say_hardware(&mut board, 1, 0));
     assert_eq!(overflows(&board), 0b111);
-    board.ask(b"stop\n");
+    link::stop(&mut board);
     board.write(HARDWARE_EVENTS, &[1, 1]);
-    board.ask(b"run\n");
+    link::run(&mut board);
     assert_eq!(overflows(&board) & 0b011, 0);
     levels(&mut board, [1 | ENABLE]);
     let served = journal_of(&board);
@@ -421,10 +422,10 @@ fn run_begins_without_interrupts() {
     let mut board = BenchBoard::running(&program(main, &["LD SM0.0\nINCW VW0"]));
     pulses(&mut board, 3, 5 * MS);
     assert_eq!(vw(&board, 0), 3);
-    board.ask(b"stop\n");
+    link::stop(&mut board);
     assert!(!board.runs());
     board.drive_inputs(0b10_0000);
-    board.ask(b"run\n");
+    link::run(&mut board);
     assert!(board.runs());
     board.drive_inputs(0b10_0001);
     board.scans_for(5);

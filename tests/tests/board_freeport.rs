@@ -14,6 +14,7 @@ use plc_isa::{ARENA_START, SM_START};
 use tests::bench_board::{BenchBoard, MS, image};
 use tests::case::{Case, host};
 use tests::effort::effort;
+use tests::link;
 use tests::own_clock::{assert_cases_hold, free_running};
 
 /// Registers: control B and C of the UART, its divider, the direction of port D, flags of modules.
@@ -363,14 +364,13 @@ const SWITCHED: &str = "LD I0.4\nMOVB 16#09, SMB30\nLDN I0.4\nMOVB 0, SMB30\nLD 
 #[test]
 fn stop_gives_the_line_back_and_run_takes_it_again() {
     let mut board = BenchBoard::running(&program(0, SWITCHED, &[]));
-    let asked = board.ask(b"status\r");
-    assert!(asked.contains("mode RUN"), "{asked}");
+    assert!(link::identify(&mut board).runs());
     for _ in 0..3 {
         board.drive_inputs(0b1_0000);
         run(&mut board, 5 * MS);
         assert_eq!((board.byte(CONTROL_B), divider(&board)), (0xD8, 207));
         board.heard();
-        board.say(b"status\rstop\r");
+        board.say(&link::frame(link::UNIT, &link::Command::Stop.pdu()));
         run(&mut board, 50 * MS);
         assert_eq!((board.heard().as_str(), board.runs()), ("", true), "nobody listens");
         set_vb(&mut board, 0, b"\x05hello");
@@ -379,12 +379,13 @@ fn stop_gives_the_line_back_and_run_takes_it_again() {
         // In the middle of it.
         board.drive_inputs(0b11_0001);
         run(&mut board, 2 * MS);
-        let said = board.ask(b"\rstatus\r");
-        assert!(said.starts_with("hel") && said.contains("mode STOP") && !said.contains("hello"), "{said}");
+        let said = board.heard();
+        assert!(said.starts_with("hel") && said != "hello", "{said}");
+        assert!(!link::identify(&mut board).runs());
         assert_eq!((board.byte(CONTROL_B) & !(1 << 5), divider(&board), board.byte(CONTROL_C)), (0x98, 16, 0x06));
         assert_eq!(board.byte(FLAGS), 0);
         board.drive_inputs(0b1_0000);
-        board.ask(b"run\r");
+        link::run(&mut board);
         assert!(board.runs());
         run(&mut board, 5 * MS);
         board.heard();
@@ -396,35 +397,33 @@ fn stop_gives_the_line_back_and_run_takes_it_again() {
         board.scan();
         board.scan();
         assert_eq!((board.byte(CONTROL_B) & !(1 << 5), divider(&board), board.byte(FLAGS) & 4), (0x98, 16, 0));
-        let asked = board.ask(b"\rstatus\r");
-        assert!(asked.contains("mode RUN") && asked.contains("scan us"), "{asked}");
+        assert!(link::identify(&mut board).runs());
     }
 }
 
 #[test]
 fn what_the_firmware_was_saying_is_not_garbled() {
     let mut board = BenchBoard::running(&program(0, SWITCHED, &[]));
-    board.ask(b"");
-    board.say(b"status\r");
-    let mut heard = String::new();
-    while !heard.contains("program") {
+    board.say(&link::frame(link::UNIT, &[65]));
+    let mut heard: Vec<u8> = Vec::new();
+    while heard.len() < 20 {
         run(&mut board, MS / 8);
-        heard += &board.heard();
+        heard.extend(board.avr.uart_take());
     }
-    // In the middle of a line.
+    // In the middle of an answer.
     board.drive_inputs(0b1_0000);
     let bytes: Vec<[u8; 2]> = {
         run(&mut board, 100 * MS);
         board.avr.uart_take_with_control()
     };
-    heard.extend(bytes.iter().map(|&[byte, _]| byte as char));
-    assert!(heard.ends_with("\r\n") && heard.lines().last().is_some_and(|line| line.starts_with("program")), "{heard}");
+    heard.extend(bytes.iter().map(|&[byte, _]| byte));
+    let (body, crc) = heard.split_at(heard.len() - 2);
+    assert_eq!((body.len(), crc), (41, &link::checksum(body).to_le_bytes()[..]), "{heard:02X?}");
     assert!(bytes.iter().all(|[_, control]| control & 1 << 6 == 0), "by the firmware");
     assert_eq!(divider(&board), 207);
-    // The rest comes when the line is given back.
     board.drive_inputs(0);
-    let rest = board.ask(b"");
-    assert!(rest.starts_with("fault none\r\n"), "{rest}");
+    run(&mut board, MS);
+    assert!(link::identify(&mut board).runs());
 }
 
 #[test]

@@ -6,6 +6,7 @@ use plc_isa::{DIRECTORY_AT, EVENTS_MODULE, HEADER_LEN, ImageFault, MODULES, OPER
 use plc_vm::Fault;
 use tests::bench_board::{BenchBoard, MS};
 use tests::image::{image, signed};
+use tests::link;
 
 /// In the header: the length of the image, the length of the modules.
 const LENGTHS: [usize; 2] = [6, 32];
@@ -102,7 +103,7 @@ fn a_counter_does_not_go_on_in_stop() {
         board.scans(5);
         board.drive_inputs(1 << 2);
         board.scans(5);
-        board.say(b"stop\r");
+        board.say(&link::frame(link::UNIT, &link::Command::Stop.pdu()));
         board
     };
     let mut board = prepare();
@@ -124,14 +125,6 @@ fn a_counter_does_not_go_on_in_stop() {
         assert!(!board.runs());
         assert_eq!((board.avr.data()[EIMSK], board.avr.data()[COUNT]), (0, before), "{earlier} cycles before");
     }
-}
-
-#[test]
-fn what_stands_behind_stop_is_heard() {
-    let mut board = BenchBoard::running("LD SM0.0\n= Q0.0\n");
-    board.ask(b"");
-    let said = board.ask(b"stop\rstatus\r");
-    assert!(["mode STOP", "program", "fault none"].iter().all(|line| said.contains(line)), "{said}");
 }
 
 #[test]

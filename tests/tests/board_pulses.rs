@@ -6,6 +6,7 @@
 use plc_isa::{AQW_START, M_START, SM_START};
 use simavr::Pin;
 use tests::bench_board::{BenchBoard, MS};
+use tests::link;
 
 /// Cycles in a microsecond.
 const US: u64 = 16;
@@ -328,12 +329,12 @@ fn nothing_pulses_in_stop() {
         board.drive_inputs(1);
         run(&mut board, 300 * MS);
         assert!(edges(&mut board).len() > 2);
-        board.ask(b"stop\r");
+        link::stop(&mut board);
         assert!(!board.runs() && board.is_released());
         assert_eq!((board.avr.data()[TIMER_1_CONTROL], board.avr.data()[TIMER_1_INTERRUPTS]), (0, 0));
         edges(&mut board);
         board.drive_inputs(0);
-        board.ask(b"run\r");
+        link::run(&mut board);
         run(&mut board, 300 * MS);
         assert!(board.runs() && edges(&mut board).is_empty());
         assert_eq!(board.avr.data()[TIMER_1_CONTROL], 0);
@@ -432,11 +433,11 @@ fn analog_outputs_are_off_in_stop() {
     board.drive_inputs(1);
     run(&mut board, 5 * MS);
     assert!(edges(&mut board).len() > 70);
-    board.ask(b"stop\r");
+    link::stop(&mut board);
     edges(&mut board);
     assert!(board.is_released());
     board.drive_inputs(0);
-    board.ask(b"run\r");
+    link::run(&mut board);
     run(&mut board, 5 * MS);
     assert_eq!((edges(&mut board).len(), level(&board, PULSES)), (0, false));
     board.drive_inputs(1);

@@ -10,6 +10,7 @@ use plc_isa::{CRC_LEN, DATA_END, DATA_START, HEADER_LEN, M_START, MAGIC, SLOT_LE
 use plc_vm::Fault;
 use simavr::Reset;
 use tests::bench_board::{BenchBoard, MS, example, image};
+use tests::link::{self, Command};
 
 /// All outputs on, in every scan.
 const ALL_ON: &str = "//# name on\nLD SM0.0\n= Q0.0\n= Q0.1\n= Q0.2\n= Q0.3\n= Q0.4\n= Q0.5\n";
@@ -78,12 +79,13 @@ fn time_of_watchdog(program: &str, ms_max: u64) -> f64 {
 /// RUN brings the same fault again as long as the loop is endless, and goes on when it is not.
 fn assert_run_starts_again(board: &mut BenchBoard) {
     board.drive_inputs(0);
-    let said = board.ask(b"status\r");
-    assert!(said.contains("mode STOP") && said.contains("fault watchdog at 0x"), "{said}");
+    let said = link::identify(board);
+    assert!(!said.runs() && matches!(said.fault, Some(Fault::Watchdog { .. })), "{said:?}");
     assert!(board.is_released());
-    let said = board.ask(b"run\r");
-    assert!(said.contains("mode RUN") && board.runs() && board.outputs() == Some(0x3F), "{said}");
-    assert_eq!(board.fault(), None);
+    link::run(board);
+    let said = link::identify(board);
+    assert!(said.runs() && board.runs() && board.outputs() == Some(0x3F), "{said:?}");
+    assert_eq!((board.fault(), said.fault), (None, None));
 }
 
 fn assert_time(found_ms: f64, wanted_ms: u64) {
@@ -109,18 +111,16 @@ fn a_run_command_does_not_hide_the_fault_that_comes_before_it() {
     let mut board = BenchBoard::running(&endless("//# watchdog 50ms\n", ""));
     board.drive_inputs(1);
     board.to_scan_start();
-    board.say(b"run\r");
+    board.say(&link::frame(link::UNIT, &Command::Run.pdu()));
     board.scan_within(1_000 * MS);
     assert!(matches!(board.fault(), Some(Fault::Watchdog { .. })), "{:?}", board.fault());
     assert!(!board.runs() && board.is_released());
     board.drive_inputs(0);
-    board.scan();
-    assert!(board.runs(), "the next scan is the first of the RUN that was asked for");
+    board.scans_for(10);
+    assert!(board.runs(), "the RUN that was asked for begins when that has been answered");
     board.reset();
-    assert!(board.heard().is_empty());
-    board.scans_for(40);
-    let banner = board.heard();
-    assert!(banner.contains("fault none, before the reset watchdog at 0x"), "{banner}");
+    let said = link::identify(&mut board);
+    assert!(said.fault.is_none() && matches!(said.fault_before_reset, Some(Fault::Watchdog { .. })), "{said:?}");
 }
 
 #[test]
@@ -187,6 +187,18 @@ fn longest_program() -> String {
 /// Bytes between stack and variables that must stay unused.
 const STACK_SPARE_MIN: usize = 128;
 
+/// Requests of all kinds.
+const REQUESTS: [&[u8]; 8] = [
+    &[1, 0, 0, 0, 1],
+    &[3, 0x1F, 0x40, 0, 14],
+    &[15, 0, 0, 0, 1, 1, 0],
+    &[43, 14, 2, 0],
+    &[65],
+    &[67, 2, 0x20, 0, 0, 0x29, 0, 0],
+    &[68, 1, 0x20, 0, 10, 0, 0, 0, 1],
+    &[71, 0, 0, 0, 16],
+];
+
 #[test]
 fn the_stack_keeps_away_from_the_variables() {
     let (mut board, image) = (BenchBoard::new(), image(&longest_program()));
@@ -197,14 +209,16 @@ fn the_stack_keeps_away_from_the_variables() {
     let start_ms = (board.avr.cycles() - start) / MS;
     for inputs in [0x00, 0x3F, 0x15, 0x2A] {
         board.drive_inputs(inputs);
-        for command in [&b"status\r"[..], b"version\r", b"what?\r", b"stop\r", b"status\r", b"run\r", b"\xFF\xFE\r"] {
-            board.ask(command);
+        for request in REQUESTS {
+            assert!(link::exchange(&mut board, link::UNIT, request).is_some());
         }
+        link::stop(&mut board);
+        link::run(&mut board);
         assert!(board.runs(), "{:?}", board.fault());
     }
-    let (unused, said) = (board.unused_stack(), board.ask(b"status\r"));
-    println!("{} bytes of program: start {start_ms} ms, {unused} bytes of stack never used\n{said}", image.len());
-    assert!(said.contains(&format!("stack free {unused}\r\n")), "{said}");
+    let (unused, said) = (board.unused_stack(), link::identify(&mut board));
+    println!("{} bytes of program: start {start_ms} ms, {unused} bytes of stack never used", image.len());
+    assert_eq!(usize::from(said.free_stack), unused, "{said:?}");
     assert!(unused >= STACK_SPARE_MIN, "only {unused} bytes between stack and variables");
 }
 
@@ -261,15 +275,14 @@ fn assert_hang_is_caught(board: &mut BenchBoard, mend: impl FnOnce(&mut BenchBoa
         assert_eq!((board.runs(), board.fault()), (false, Some(Fault::Hang)));
         assert!(board.is_released());
     }
-    board.scans_for(30);
-    let said = board.heard();
-    assert!(said.contains("mode STOP\r\n") && said.contains("fault hang\r\n"), "{said}");
-    let said = board.ask(b"run\r");
-    assert!(said.contains("mode RUN") && board.runs() && board.outputs() == Some(0x3F), "{said}");
+    let said = link::identify(board);
+    assert!(!said.runs() && said.fault == Some(Fault::Hang), "{said:?}");
+    link::run(board);
+    assert!(link::identify(board).runs() && board.runs() && board.outputs() == Some(0x3F));
     board.avr.reset(Reset::External);
     board.scans_for(30);
-    let said = board.heard();
-    assert!(said.contains("mode RUN\r\n") && said.contains("fault none, before the reset hang\r\n"), "{said}");
+    let said = link::identify(board);
+    assert!(said.runs() && said.fault.is_none() && said.fault_before_reset == Some(Fault::Hang), "{said:?}");
     assert_eq!((board.runs(), board.fault(), board.outputs()), (true, None, Some(0x3F)));
 }
 
@@ -325,12 +338,14 @@ fn a_program_that_changes_in_flash_is_seen_in_time() {
         }
         longest = longest.max(board.avr.cycles() - start);
         assert_eq!((board.fault(), board.is_released()), (Some(Fault::ProgramChanged), true));
-        let said = board.ask(b"RUN\r");
-        assert!(said.contains("mode STOP") && board.is_released(), "byte {at}: {said}");
+        link::run(&mut board);
+        assert!(!link::identify(&mut board).runs() && board.is_released(), "byte {at}");
         assert_refused(&mut board, 100, "RUN with the changed program");
+        assert_eq!(link::command(&mut board, Command::Run), Err(4), "there is no program any more");
         board.slot()[at] ^= 1;
-        let said = board.ask(b"RUN\r");
-        assert!(said.contains("mode RUN") && board.outputs() == Some(0x3F), "{said}");
+        board.reset();
+        board.scan();
+        assert!(link::identify(&mut board).runs() && board.outputs() == Some(0x3F));
     }
     println!("{} bytes: seen after at most {} ms, {ms_max} are allowed", image.len(), longest / MS);
 }
@@ -341,8 +356,8 @@ fn a_program_erased_under_way_does_not_start_again() {
     board.slot().fill(0xFF);
     board.scans_for(ms_of_two_passes(image(ALL_ON).len()));
     assert!(!board.runs() && board.fault().is_some() && board.is_released());
-    let said = board.ask(b"run\r");
-    assert!(said.contains("mode STOP") && !board.runs() && board.is_released(), "{said}");
+    let _ = link::command(&mut board, Command::Run);
+    assert!(!link::identify(&mut board).runs() && !board.runs() && board.is_released());
 }
 
 /// Whatever a changed instruction does until the checksum sees it, the PLC comes to STOP and the firmware lives on.
@@ -361,7 +376,7 @@ fn any_change_while_running_ends_in_stop() {
         let fault = board.fault();
         let is_seen = matches!(fault, Some(Fault::ProgramChanged | Fault::UndefinedInstruction { .. }));
         assert!(is_seen, "byte {at}: {fault:?}");
-        assert!(board.ask(b"status\r").contains("mode STOP"), "byte {at}");
+        assert!(!link::identify(&mut board).runs(), "byte {at}");
     }
 }
 
@@ -375,7 +390,7 @@ fn a_stack_that_reaches_the_variables_stops_the_plc() {
         board.write(canary, &[0]);
         board.scan();
         assert_eq!((board.runs(), board.fault(), board.is_released()), (false, Some(Fault::StackOverflow), true));
-        board.say(b"run\r");
+        let _ = link::command(&mut board, Command::Run);
         for _ in 0..50 {
             board.scan();
             assert!(board.is_released() && !board.runs(), "RUN with a broken stack");
@@ -395,11 +410,11 @@ fn without_a_program_the_board_waits() {
         board.scan();
         assert_eq!((board.runs(), board.fault(), board.is_released()), (false, None, true));
     }
-    for command in [&b"status\r"[..], b"run\r\rstatus\r"] {
-        let said = board.ask(command);
-        let is_right = ["mode STOP\r\n", "program none\r\n", "fault none\r\n"].iter().all(|line| said.contains(line));
-        assert!(is_right && board.is_released(), "{said}");
-    }
+    assert_eq!(link::command(&mut board, Command::Run), Err(4));
+    assert_eq!(link::command(&mut board, Command::Scans(1)), Err(4));
+    let said = link::identify(&mut board);
+    assert_eq!((said.state, said.fault, said.image), (0, None, (0, 0)));
+    assert!(board.is_released());
 }
 
 #[test]
@@ -419,8 +434,7 @@ fn garbage_in_the_slot_never_runs() {
         board.insert(&slot);
         board.power_up();
         assert_refused(&mut board, 20, &format!("round {round}"));
-        let said = board.ask(b"run\r");
-        assert!(said.contains("mode STOP"), "round {round}: {said}");
+        assert_eq!(link::command(&mut board, Command::Run), Err(4), "round {round}");
         assert_refused(&mut board, 20, &format!("round {round}, RUN"));
     }
 }

@@ -5,6 +5,7 @@ use fastrand::Rng;
 use plc_isa::{AIN_START, AIW_START, ANALOG_INPUTS, AnalogInput, M_START, SM_START};
 use plc_vm::Fault;
 use tests::bench_board::{BenchBoard, MS, Scan, image};
+use tests::link;
 
 /// Each output follows the input of its number.
 const FOLLOW: &str =
@@ -23,7 +24,7 @@ fn pull_ups_are_on_exactly_where_the_program_asks() {
         board.power_up();
         board.scan();
         assert_eq!((board.runs(), board.pull_ups()), (true, bits), "{setting}");
-        board.ask(b"stop\r");
+        link::stop(&mut board);
         assert_eq!((board.runs(), board.pull_ups()), (false, bits), "in STOP too: {setting}");
     }
     board.insert(&[]);
@@ -48,7 +49,7 @@ fn inputs_and_outputs_are_inverted_exactly_where_the_program_asks() {
             board.scans(2);
             assert_eq!(board.outputs(), Some(pins ^ inverted_inputs ^ inverted_outputs), "{setting}{pins:06b}");
         }
-        board.ask(b"stop\r");
+        link::stop(&mut board);
         assert!(board.is_released(), "in STOP nothing is driven, inverted or not: {setting}");
     }
 }
@@ -78,7 +79,6 @@ fn jitter(scans: &[Scan]) -> u64 {
 #[test]
 fn a_fixed_period_is_kept() {
     let mut board = BenchBoard::running(PERIODIC);
-    board.ask(b"");
     let scans = board.scans(300);
     let quiet = jitter(&scans);
     assert_eq!([22, 24, 26].map(|byte| board.word(SM_START + byte)), [10, 10, 10], "SMW22, SMW24, SMW26");
@@ -86,7 +86,7 @@ fn a_fixed_period_is_kept() {
     let mut ask_and_scan = || {
         // Some time in the wait.
         board.run_on(rng.u64(..PERIOD_MS * MS * 3 / 4));
-        board.say(b"status\r");
+        board.say(&link::frame(link::UNIT, &[65]));
         board.scan()
     };
     let talked = jitter(&(0..300).map(|_| ask_and_scan()).collect::<Vec<Scan>>());
@@ -102,7 +102,6 @@ const AT_ONCE_CYCLES: u64 = 1_600;
 #[test]
 fn a_scan_longer_than_its_period_starts_the_next_at_once() {
     let mut board = BenchBoard::running(PERIODIC);
-    board.ask(b"");
     for (inputs, periods_min) in [(1, 1), (2, 3), (3, 4)] {
         board.drive_inputs(inputs);
         board.scans(2);
@@ -185,7 +184,8 @@ fn the_wrap_of_the_clock_is_not_seen_in_timers_and_clock_bits() {
 fn the_wrap_of_the_clock_is_not_seen_in_the_period() {
     for clock_ms in CLOCK_STARTS {
         let mut board = board_at(PERIODIC, clock_ms);
-        board.ask(b"");
+        // Periods go on from the time that was set.
+        board.scans(5);
         let found = jitter(&board.scans(300));
         assert!(found <= PERIOD_JITTER_CYCLES, "{found} cycles");
         // Not SMW24: the first scan came before the clock was set, and has a short period.
@@ -207,7 +207,8 @@ fn the_wrap_of_the_clock_is_not_seen_by_the_watchdogs() {
         assert!(cycles.abs_diff(500 * MS) <= MS + 2_000, "{} cycles", cycles);
         // The hardware watchdog has nothing to say.
         board.drive_inputs(0);
-        assert!(board.ask(b"run\r").contains("mode RUN"));
+        link::run(&mut board);
+        assert!(board.runs());
         board.scans_for(1_000);
         assert_eq!((board.runs(), board.fault(), board.outputs()), (true, None, Some(1)));
     }

@@ -4,6 +4,7 @@
 use fastrand::Rng;
 use plc_isa::{Area, RETENTION_LEN, RETENTION_OVERHEAD, counter_bit, timer_bit};
 use tests::effort::effort;
+use tests::link::Command;
 use tests::power::{Bench, EEPROM_LEN, ERASED, MS, v};
 use tests::retained::{copy, generation_programs, retained_addresses};
 
@@ -55,7 +56,7 @@ fn values_come_back_and_bits_do_not() {
     let timer = board.word(t5.address);
     assert!(timer > 10_000, "{timer}");
     assert_eq!(board.byte(t5_bit.address) >> t5_bit.bit & 1, 1);
-    board.command("stop");
+    board.command(Command::Stop);
     let timer = board.word(t5.address);
     let eeprom = board.settle_and_cut();
 
@@ -93,7 +94,7 @@ fn saved(text: &str, eeprom: &[u8]) -> (Vec<u8>, u16) {
     let mut board = bench.start(eeprom);
     board.scan();
     board.settle();
-    board.command("stop");
+    board.command(Command::Stop);
     board.settle();
     let value = board.word(v(&bench, 0));
     (board.settle_and_cut(), value)
@@ -200,7 +201,7 @@ fn a_loss_is_told_before_anything_is_saved() {
     board.settle();
     assert_eq!([board.word(v(&bench, 0)), board.byte(marks).into()], [0, 0], "no scan was executed");
     assert_eq!(board.avr().eeprom(), ERASED);
-    board.command("run");
+    board.command(Command::Run);
     assert_eq!(board.byte(marks), 1, "the first scan is told");
     let mut board = bench.start(&board.settle_and_cut());
     assert!(board.word(v(&bench, 0)) > 0);
@@ -244,7 +245,7 @@ fn a_stop_saves_at_once() {
             board.scan();
         }
         // With a period the command comes while the board waits for the next scan.
-        board.command("stop");
+        board.command(Command::Stop);
         let (value, start) = (board.word(vw0), board.avr().cycles());
         while board.avr().cycles() - start < 100 * MS {
             board.scan();
@@ -264,8 +265,8 @@ fn stops_do_not_lift_the_limit() {
     board.scan();
     board.settle();
     // RUN again while the copy of STOP is being written.
-    board.command("stop");
-    board.command("run");
+    board.command(Command::Stop);
+    board.command(Command::Run);
     board.settle();
     let before: u32 = board.avr().eeprom_writes().iter().sum();
     for _ in 0..50 {

@@ -22,8 +22,8 @@ pub const FIRMWARE_FLASH_MAX: u64 = plc_isa::SLOT_START as u64;
 pub const FIRMWARE_DATA_MAX: u64 = 32;
 
 /// Bytes of SRAM for the firmware's own variables: what data memory and the deepest stack leave. The plan of a program is
-/// in them; since it is placed there at once, the stack is a hundred bytes less deep.
-pub const FIRMWARE_VARIABLES_MAX: u64 = 360;
+/// in them; since it is placed there at once, the stack is a hundred bytes less deep. So are 16 forced operands.
+pub const FIRMWARE_VARIABLES_MAX: u64 = 450;
 
 /// Cycles of a bit instruction in the interpreter, on average over a realistic mix. The S7-200 takes 3.5 and has
 /// hardware for it; the best interpreters known for this chip take over 30.

@@ -13,9 +13,9 @@ use std::process::Command;
 use anyhow::{Context, Result, bail, ensure};
 use plc_isa::{
     AC_START, AIW_START, AQW_START, ARENA_START, COUNTER_SLOT_LEN, COUNTERS_MODULE, DATA_END, DATA_START, DIRECTORY_AT,
-    ENO, EVENTS_MODULE, EVENTS_SEEN, FREEPORT_MODULE, HC0, HC3, HEADER_LEN, Instruction, MODULE_NAMES, OPERANDS_MODULE,
-    PULSES_MODULE, PowerFlow, REAL_MODULE, SLOT_START, SM_IN_V, SM_START, TIMER_SLOT_LEN, kind_numbers,
-    module_instructions, packed_stack, state_at,
+    ENO, EVENTS_MODULE, EVENTS_SEEN, FORCED, FREEPORT_MODULE, HC0, HC3, HEADER_LEN, Instruction, MODULE_NAMES,
+    OPERANDS_MODULE, PULSES_MODULE, PowerFlow, REAL_MODULE, SLOT_START, SM_IN_V, SM_START, TIMER_SLOT_LEN,
+    kind_numbers, module_instructions, packed_stack, state_at,
 };
 
 use crate::packages;
@@ -122,7 +122,7 @@ fn text(number: u8, source: &Path) -> Result<String> {
 }
 
 /// Constants of interface.inc that plc-isa has, too.
-fn shared() -> [(&'static str, u16); 23] {
+fn shared() -> [(&'static str, u16); 25] {
     [
         ("DATA_START", DATA_START),
         ("DATA_END", DATA_END),
@@ -141,6 +141,8 @@ fn shared() -> [(&'static str, u16); 23] {
         ("HIGH_SPEED_COUNTER_0", HC0),
         ("HIGH_SPEED_COUNTER_3", HC3),
         ("SEEN", EVENTS_SEEN),
+        ("FORCED_INPUTS", FORCED),
+        ("FORCED_OUTPUTS", FORCED + 2),
         ("SPECIAL_IN_RANGES", SM_IN_V),
         ("EVENTS_STATE", state_at(EVENTS_MODULE)),
         ("COUNTERS_STATE", state_at(COUNTERS_MODULE)),

@@ -33,8 +33,7 @@ pub fn start() {
     // Digital input buffers of the analog pins off.
     // SAFETY: the six bits exist.
     adc.didr0().write(|w| unsafe { w.bits(0x3F) });
-    // 125 kHz: full precision, 104 us for a conversion.
-    adc.adcsra().write(|w| w.aden().set_bit().adsc().set_bit().adps().prescaler_128());
+    convert(&adc);
 }
 
 /// Takes the result of the conversion that the last tick started, and starts the next.
@@ -52,12 +51,21 @@ pub fn take_and_start_next(cs: CriticalSection<'_>) {
     }
     let fresh = UNO200_ANALOG_FRESH.borrow(cs);
     fresh.set(fresh.get() | bit);
-    let (next, next_bit) = if usize::from(channel) + 1 < CHANNELS { (channel + 1, bit << 1) } else { (0, 1) };
+    let (mut next, mut next_bit) = (channel + 1, bit << 1);
+    if next_bit > ALL_CHANNELS {
+        (next, next_bit) = (0, 1);
+    }
     CHANNEL.borrow(cs).set(next);
     CHANNEL_BIT.borrow(cs).set(next_bit);
     // SAFETY: as in `start`; the channel is 0 to 5.
     adc.admux().write(|w| unsafe { w.bits(REFERENCE_AVCC | next) });
-    adc.adcsra().modify(|_, w| w.adsc().set_bit());
+    convert(&adc);
+}
+
+/// Starts a conversion at 125 kHz: full precision, 104 us.
+#[inline(always)]
+fn convert(adc: &ADC) {
+    adc.adcsra().write(|w| w.aden().set_bit().adsc().set_bit().adps().prescaler_128());
 }
 
 /// Waits until every input has been converted once, 7 ms: for the start, so that the first scan sees no zeros.

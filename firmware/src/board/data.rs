@@ -7,13 +7,6 @@ use plc_vm::Memory;
 pub struct Data(());
 
 impl Data {
-    /// The right, and data memory cleared. Called once, by [`Board::take`](super::Board::take).
-    pub(super) fn take() -> Data {
-        let mut data = Data(());
-        data.memory().clear();
-        data
-    }
-
     /// The data memory.
     #[inline(always)]
     pub fn memory(&mut self) -> &mut Memory {
@@ -21,4 +14,9 @@ impl Data {
         // is valid, and there is one right to it, which is borrowed as long as the reference lives.
         unsafe { &mut *(DATA_START as *mut Memory) }
     }
+}
+
+/// Clears data memory. At the start.
+pub(super) fn clear() {
+    Data(()).memory().clear();
 }

@@ -9,11 +9,6 @@ pub struct Eeprom {
 }
 
 impl Eeprom {
-    /// Takes it.
-    pub fn new(registers: EEPROM) -> Eeprom {
-        Eeprom { registers }
-    }
-
     /// Whether no write is under way.
     pub fn is_ready(&self) -> bool {
         self.registers.eecr().read().eepe().bit_is_clear()

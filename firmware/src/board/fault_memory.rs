@@ -2,40 +2,44 @@
 
 use core::mem::MaybeUninit;
 
-/// Says, together with the check byte, that the record is no accident of power-up.
-const MAGIC: u16 = 0xFA17;
+/// A fault as [`Fault::to_word`](plc_vm::Fault::to_word), and whether it holds the board in STOP. Twice, the second time with
+/// other bits, so that it is no accident of power-up.
+#[derive(Clone, Copy)]
+#[repr(C)]
+struct Record {
+    fault: u32,
+    other_fault: u32,
+    holds: u8,
+    other_holds: u8,
+}
 
-/// Magic, fault, whether it holds the board in STOP, check.
-const RECORD_LEN: usize = 8;
+/// How the second time differs.
+const DIFFERENCE: u32 = 0x5AC3_3CA5;
 
 #[unsafe(link_section = ".noinit")]
-static mut RECORD: MaybeUninit<[u8; RECORD_LEN]> = MaybeUninit::uninit();
+static mut RECORD: MaybeUninit<Record> = MaybeUninit::uninit();
 
-fn check_of(fault: [u8; 4], holds: u8) -> u8 {
-    fault.iter().fold(0x5A ^ holds, |sum, &byte| sum.rotate_left(1) ^ byte)
-}
-
+/// Remembers a fault. `holds`: the board must not go to RUN by itself after the reset that follows.
 #[inline(never)]
-fn write(bytes: [u8; RECORD_LEN]) {
+pub fn remember(fault: u32, holds: bool) {
+    let record = (&raw mut RECORD).cast::<Record>();
+    let holds = u8::from(holds);
     // SAFETY: written by the main program with nothing else running, or by an interrupt that never returns.
-    unsafe { (&raw mut RECORD).cast::<[u8; RECORD_LEN]>().write_volatile(bytes) };
+    unsafe {
+        (&raw mut (*record).fault).write_volatile(fault);
+        (&raw mut (*record).other_fault).write_volatile(fault ^ DIFFERENCE);
+        (&raw mut (*record).holds).write_volatile(holds);
+        (&raw mut (*record).other_holds).write_volatile(holds ^ DIFFERENCE as u8);
+    }
 }
 
-/// Remembers a fault, in the bytes of [`Fault`](plc_vm::Fault). `holds`: the board must not go to RUN by itself after the reset that follows.
-pub fn remember(fault: [u8; 4], holds: bool) {
-    let ([low, high], [a, b, c, d], holds) = (MAGIC.to_le_bytes(), fault, u8::from(holds));
-    write([low, high, a, b, c, d, holds, check_of(fault, holds)]);
-}
-
-/// The last fault as bytes, and whether it holds the board in STOP. It holds only once.
-pub fn recall() -> Option<([u8; 4], bool)> {
-    // SAFETY: every value is valid for bytes, also those of power-up.
-    let bytes = unsafe { (&raw const RECORD).cast::<[u8; RECORD_LEN]>().read_volatile() };
-    let [low, high, a, b, c, d, holds, check] = bytes;
-    let fault = [a, b, c, d];
-    if u16::from_le_bytes([low, high]) != MAGIC || check != check_of(fault, holds) {
-        return None;
+/// The last fault, 0 if there is none. Whether it holds the board in STOP comes with it; it does so only once.
+pub fn recall() -> (u32, bool) {
+    // SAFETY: every value is valid for numbers, also those of power-up.
+    let Record { fault, other_fault, holds, other_holds } = unsafe { (&raw const RECORD).cast::<Record>().read() };
+    if fault ^ other_fault != DIFFERENCE || holds ^ other_holds != DIFFERENCE as u8 {
+        return (0, false);
     }
     remember(fault, false);
-    Some((fault, holds == 1))
+    (fault, holds != 0)
 }

@@ -29,7 +29,7 @@ pub fn byte(address: u16) -> u8 {
 
 /// The little-endian word at an address of flash.
 #[inline]
-fn word(address: u16) -> u16 {
+pub fn word(address: u16) -> u16 {
     let word: u16;
     // SAFETY: as above; Z is given up.
     unsafe {

@@ -1,14 +1,15 @@
 //! A place outside of the stack for what lives as long as the board: the stack is short.
 
-use core::mem::MaybeUninit;
-
+use super::Board;
 use crate::scan::Uno;
 
-static mut UNO: MaybeUninit<Uno> = MaybeUninit::uninit();
+/// All zero, so that the image in flash has nothing of it.
+// SAFETY: there is one `Uno`, here.
+static mut UNO: Uno = Uno::new(unsafe { Board::of_reset() });
 
-/// Puts the PLC there. There is only one: it owns the board, which can be taken once.
+/// The PLC. Only for `main`, which is entered once.
 #[inline(always)]
-pub fn once(uno: Uno) -> &'static mut Uno {
-    // SAFETY: there is one board to make one PLC of, so that this is the only reference.
-    unsafe { (*&raw mut UNO).write(uno) }
+pub fn uno() -> &'static mut Uno {
+    // SAFETY: there is one caller, which is entered once, so that this is the only reference.
+    unsafe { &mut *&raw mut UNO }
 }

@@ -14,12 +14,6 @@ pub struct Ports {
 }
 
 impl Ports {
-    /// The ports as they are after a reset: everything is an input.
-    pub fn new(outputs: PORTB, inputs: PORTD) -> Ports {
-        release_outputs();
-        Ports { outputs, inputs }
-    }
-
     /// Levels of the input pins, I0.0 in bit 0.
     #[inline]
     pub fn inputs(&self) -> u8 {

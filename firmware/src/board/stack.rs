@@ -2,10 +2,8 @@
 
 /// What unused stack is filled with.
 const PAINT: u8 = 0xC5;
-/// What is found in the four bytes above the variables, which the stack must never reach.
-const CANARY: u32 = u32::from_le_bytes([PAINT; 4]);
-/// One past the last byte of SRAM.
-const RAM_END: usize = 0x0900;
+/// What is found twice in the four bytes above the variables, which the stack must never reach.
+const CANARY: u16 = u16::from_le_bytes([PAINT; 2]);
 
 unsafe extern "C" {
     /// One past the last variable, by the linker.
@@ -42,19 +40,28 @@ fn stack_pointer() -> usize {
     usize::from(u16::from_le_bytes([low, high]))
 }
 
-fn is_painted(address: usize) -> bool {
-    // SAFETY: reading SRAM has no effect.
-    unsafe { (address as *const u8).read_volatile() == PAINT }
-}
-
 /// Bytes that the stack has never used.
 pub fn free() -> u16 {
-    (first_free()..RAM_END).take_while(|&address| is_painted(address)).count() as u16
+    let behind: u16;
+    // SAFETY: reading SRAM has no effect; it ends with what is on the stack now.
+    unsafe {
+        core::arch::asm!(
+            "1: ld {byte}, Z+",
+            "cpi {byte}, {paint}",
+            "breq 1b",
+            byte = out(reg_upper) _,
+            paint = const PAINT,
+            inout("Z") first_free() as u16 => behind,
+            options(nostack, readonly)
+        );
+    }
+    behind - 1 - first_free() as u16
 }
 
 /// Whether the stack has kept away from the variables.
 #[inline]
 pub fn is_sound() -> bool {
     // SAFETY: reading SRAM has no effect, and an AVR reads at any address.
-    unsafe { (&raw const _end).cast::<u32>().read_volatile() == CANARY }
+    let half = |index| unsafe { (&raw const _end).cast::<u16>().add(index).read_volatile() };
+    half(0) == CANARY && half(1) == CANARY
 }

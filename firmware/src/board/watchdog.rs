@@ -60,7 +60,7 @@ pub fn feed(now_ms: u32) {
 pub fn reset(fault: Fault) -> ! {
     interrupt::disable();
     ports::release_outputs();
-    fault_memory::remember(fault.to_bytes(), true);
+    fault_memory::remember(fault.to_word(), true);
     set(RESET_ONLY | SHORTEST);
     loop {
         avr_device::asm::nop();

@@ -23,6 +23,14 @@
 ; In the image's table of timers.
 .equ STARTED_BY_TOF, 1
 
+; Entries of a status window: 2 bytes for the offset of the instruction, 2 for the address of the operand with its size in
+; the upper 4 bits, 2 for the logic stack, 4 for what stands at that address. The last one is followed by 0xFFFF.
+.equ WINDOW_ENTRY_LEN, 10
+.equ WINDOW_END, 0xFF
+.equ WINDOW_ADDRESS, 0x0F
+; Becomes bit 15 of the logic stack.
+.equ WINDOW_EXECUTED, 0x40
+
 ; ---- dispatch
 
 ; Flash can change under a running program until the self-test has seen it: no operand may lead far. What is read stays
@@ -109,10 +117,9 @@
     BOX_OUT \bad
 .endm
 
-; What all handlers find: the upper byte of the bit page, and that of the table beside the token in r2.
+; What all handlers find: the upper byte of the bit page, and that of the table in use beside the token in r2.
 .macro FOR_HANDLERS
-    ldi r27, hi8(TABLE_START / 2)
-    mov r3, r27
+    lds r3, CONTEXT + PAGE
     ldi r27, 1
 .endm
 
@@ -164,6 +171,8 @@ uno200_vectors:
     rjmp now_vector
 ; And for where they keep the time of day.
     rjmp state_vector
+; What the module of the freeport calls when it gives the line back.
+    rjmp line_vector
 
 ; ---- entry and exit
 
@@ -215,9 +224,11 @@ epilogue:
 uno200_run_end:
     ret
 
-; u8 uno200_run_native(u16 word_address): executes machine code.
+; u8 uno200_run_native(u16 word_address): executes machine code. It may take two more arguments, as uno200_steps does.
 .global uno200_run_native
+.global uno200_run_steps
 uno200_run_native:
+uno200_run_steps:
     push r4
     push r5
     push r6
@@ -293,84 +304,84 @@ loop_vector:
     rjmp ask_watchdog
     ret
 
-; ---- comparisons that are small rather than fast
+; ---- status windows
 
-; By r18, 6 for each way to combine (push, AND, OR) and 1 for each relation: IN1 in r24 and r25, IN2 in r22 and r23.
-combine:
-    clr r19
-1:  cpi r18, 6
-    brlo 2f
-    subi r18, 6
-    inc r19
-    rjmp 1b
-2:  cpi r18, 2
-    brlo 4f
-    ; > and <= are < and >= with the operands exchanged.
-    cpi r18, 3
-    breq 3f
-    cpi r18, 4
-    brne 4f
-3:  movw r20, r24
-    movw r24, r22
-    movw r22, r20
-4:  cp r24, r22
-    cpc r25, r23
-    in r20, SREG
-    ; Bit 0 of r20: equal, or less.
-    cpi r18, 2
-    brsh 5f
-    lsr r20
-    rjmp 6f
-5:  swap r20
-6:  cpi r18, 1
-    breq 7f
-    cpi r18, 4
-    brlo 8f
-7:  com r20
-8:  tst r19
-    brne 9f
-    lsl r16
-    bld r16, 0
-    bst r20, 0
-    rjmp next_z_x
-9:  dec r19
-    brne 1f
-    sbrs r20, 0
-    clt
-    rjmp next_z_x
-1:  sbrc r20, 0
-    set
-    rjmp next_z_x
-
-; Behind the prefix: r26 is the token.
-compare_any:
-    cpi r26, WIDE_COMPARISONS
-    brlo 1f
-    rjmp rest
-1:  movw r30, r28
-    push r26
-    cpi r26, WIDE_COMPARISONS / 2
-    brsh 2f
-    rcall any_int
-    movw r22, r24
-    rcall any_int
+; Every instruction of a program that goes step by step comes here, Z in the table of steps. Y is two bytes behind its start.
+; r4, r5: below this Y nothing is looked at; 0: the instruction that was just executed is in the window. r6, r7: the Y of the
+; first one in the window. r10, r11: the data address of the next entry, or of the one that was just executed. r12, r13: of
+; the first. r14, r15: the last Y that was looked at.
+step:
+    cp r28, r4
+    cpc r29, r5
+    brsh 1f
+handle:
+    ldi r31, hi8(TABLE_START / 2)
+    ijmp
+1:  cpse r5, r1
+    rjmp 2f
+    ; The logic stack and the operand right behind the instruction of the window.
+    movw r30, r10
+    ldd r24, Z + 2
+    ldd r25, Z + 3
+    andi r25, WINDOW_ADDRESS
+    mov r18, r16
+    ldi r19, WINDOW_EXECUTED
+    lsl r18
+    rol r19
+    bld r18, 0
+    std Z + 4, r19
+    std Z + 5, r18
+    mov r17, r26
+    movw r26, r24
+    ld r18, X+
+    std Z + 6, r18
+    ld r18, X+
+    std Z + 7, r18
+    ld r18, X+
+    std Z + 8, r18
+    ld r18, X+
+    std Z + 9, r18
+    mov r26, r17
+    ldi r27, 1
+    movw r4, r6
+    adiw r30, WINDOW_ENTRY_LEN
     rjmp 3f
-2:  rcall any_byte
-    movw r22, r24
-    rcall any_byte
-3:  ; IN2 was read last.
-    movw r20, r24
-    movw r24, r22
-    movw r22, r20
-    pop r18
-    cpi r18, WIDE_COMPARISONS / 2
-    brlo 4f
-    subi r18, WIDE_COMPARISONS / 2
-4:  rjmp combine
+2:  movw r30, r10
+    ; Which entry this instruction has, if any.
+3:  movw r20, r28
+    subi r20, 2
+    sbci r21, hi8(SLOT_START)
+4:  ld r18, Z
+    ldd r19, Z + 1
+    cp r18, r20
+    cpc r19, r21
+    breq 6f
+    brsh 5f
+    adiw r30, WINDOW_ENTRY_LEN
+    rjmp 4b
+    ; It is between two entries, or the program has jumped back and may be at an earlier one.
+5:  cp r14, r28
+    cpc r15, r29
+    brlo 7f
+    clr r14
+    clr r15
+    movw r30, r12
+    rjmp 4b
+6:  clr r4
+    clr r5
+7:  movw r14, r28
+    movw r10, r30
+    mov r30, r2
+    cpi r19, WINDOW_END
+    brne handle
+    rjmp behind
 
-; ---- the table of handlers, at a multiple of 512 bytes
+; ---- the tables, at multiples of 512 bytes: of a program that goes step by step, and of handlers
 
-.org TABLE_START - NATIVE_VECTORS
+.org TABLE_START - 512 - NATIVE_VECTORS
+    .rept 256
+    rjmp step
+    .endr
 .global uno200_table
 uno200_table:
     ENTRIES
@@ -438,6 +449,15 @@ module_fault:
 
 ; ---- the rest of the dispatch
 
+; Behind the window, in the main program, only a jump back leads to it.
+behind:
+    lds r18, CONTEXT + DEPTH
+    cpse r18, r1
+    rjmp handle
+    ldi r31, hi8(TABLE_START / 2)
+    mov r3, r31
+    ijmp
+
 stop_vector:
     ldi r24, LEFT_BY_STOP
     rjmp leave_here
@@ -466,6 +486,8 @@ ask_watchdog:
     jmp uno200_is_overdue
 now_vector:
     jmp uno200_now
+line_vector:
+    jmp uno200_set_up_line
 state_vector:
     ldi r30, lo8(TIME_OF_DAY)
     ldi r31, hi8(TIME_OF_DAY)
@@ -871,7 +893,33 @@ compare_byte_constant:
     ld r24, X
 1:  clr r23
     clr r25
-    jmp combine
+    rjmp combine
+
+; Behind the prefix: r26 is the token.
+compare_any:
+    cpi r26, WIDE_COMPARISONS
+    brlo 1f
+    rjmp rest
+1:  movw r30, r28
+    push r26
+    cpi r26, WIDE_COMPARISONS / 2
+    brsh 2f
+    rcall any_int
+    movw r22, r24
+    rcall any_int
+    rjmp 3f
+2:  rcall any_byte
+    movw r22, r24
+    rcall any_byte
+3:  ; IN2 was read last.
+    movw r20, r24
+    movw r24, r22
+    movw r22, r20
+    pop r18
+    cpi r18, WIDE_COMPARISONS / 2
+    brlo 4f
+    subi r18, WIDE_COMPARISONS / 2
+4:  rjmp combine
 
 ; ---- words
 
@@ -899,6 +947,7 @@ write_status:
     andi r24, 0xF8
     or r24, r19
     sts RESULT_BITS, r24
+next_z_x_too:
     ldi r27, 1
     NEXT_Z
 
@@ -939,9 +988,9 @@ write_bits:
     mul r26, r21
     movw r26, r0
     clr r1
-    lds r18, CONTEXT + \start
+    lds r18, LINE + \start
     add r26, r18
-    lds r18, CONTEXT + \start + 1
+    lds r18, LINE + \start + 1
     adc r27, r18
 .endm
 
@@ -953,8 +1002,8 @@ timer_constant:
 
 ; Timer in slot r26: X slot, Z byte of its bit, r18 mask of its bit, r19 bit 0: counts in 100 ms.
 place_timer:
-    lds r30, CONTEXT + TIMERS_IN_FLASH
-    lds r31, CONTEXT + TIMERS_IN_FLASH + 1
+    lds r30, LINE + TIMERS_IN_FLASH
+    lds r31, LINE + TIMERS_IN_FLASH + 1
     add r30, r26
     adc r31, r1
     add r30, r26
@@ -1010,18 +1059,6 @@ slot_outside:
     ldi r21, lo8(T_BITS_START)
     rjmp place_bit
 
-; Timer in slot r26: its number in r20, how it is started in r19.
-look_timer_up:
-    lds r30, CONTEXT + TIMERS_IN_FLASH
-    lds r31, CONTEXT + TIMERS_IN_FLASH + 1
-    add r30, r26
-    adc r31, r1
-    add r30, r26
-    adc r31, r1
-    lpm r20, Z+
-    lpm r19, Z
-    ret
-
 ; void uno200_advance_timers(u8 is_10_ms, u16 ticks): the running timers of 1 ms or 10 ms count on.
 .global uno200_advance_timers
 uno200_advance_timers:
@@ -1072,6 +1109,18 @@ uno200_advance_timers:
     pop r16
     ret
 
+; Timer in slot r26: its number in r20, how it is started in r19.
+look_timer_up:
+    lds r30, LINE + TIMERS_IN_FLASH
+    lds r31, LINE + TIMERS_IN_FLASH + 1
+    add r30, r26
+    adc r31, r1
+    add r30, r26
+    adc r31, r1
+    lpm r20, Z+
+    lpm r19, Z
+    ret
+
 counter_word:
     PRESET_WORD
     rjmp place_counter
@@ -1080,8 +1129,8 @@ counter_constant:
 
 ; Counter in slot r26: X slot, Z byte of its bit, r18 mask of its bit, r19: S1 in bit 1, S2 in bit 2.
 place_counter:
-    lds r30, CONTEXT + COUNTERS_IN_FLASH
-    lds r31, CONTEXT + COUNTERS_IN_FLASH + 1
+    lds r30, LINE + COUNTERS_IN_FLASH
+    lds r31, LINE + COUNTERS_IN_FLASH + 1
     add r30, r26
     adc r31, r1
     lpm r20, Z
@@ -1093,6 +1142,55 @@ place_counter:
     ldi r21, lo8(C_BITS_START)
     rjmp place_bit
 2:  jmp outside
+
+; ---- comparisons that are small rather than fast
+
+; By r18, 6 for each way to combine (push, AND, OR) and 1 for each relation: IN1 in r24 and r25, IN2 in r22 and r23.
+combine:
+    clr r19
+1:  cpi r18, 6
+    brlo 2f
+    subi r18, 6
+    inc r19
+    rjmp 1b
+2:  cpi r18, 2
+    brlo 4f
+    ; > and <= are < and >= with the operands exchanged.
+    cpi r18, 3
+    breq 3f
+    cpi r18, 4
+    brne 4f
+3:  movw r20, r24
+    movw r24, r22
+    movw r22, r20
+4:  cp r24, r22
+    cpc r25, r23
+    in r20, SREG
+    ; Bit 0 of r20: equal, or less.
+    cpi r18, 2
+    brsh 5f
+    lsr r20
+    rjmp 6f
+5:  swap r20
+6:  cpi r18, 1
+    breq 7f
+    cpi r18, 4
+    brlo 8f
+7:  com r20
+8:  tst r19
+    brne 9f
+    lsl r16
+    bld r16, 0
+    bst r20, 0
+    rjmp next_z_x_too
+9:  dec r19
+    brne 1f
+    sbrs r20, 0
+    clt
+    rjmp next_z_x_too
+1:  sbrc r20, 0
+    set
+    rjmp next_z_x_too
 
 ; ---- ranges
 
@@ -1134,17 +1232,17 @@ reset_numbers:
     sbrc r20, 0
     rjmp 2f
     ldi r21, TIMER_SLOT_LEN
-    lds r30, CONTEXT + TIMERS_IN_FLASH
-    lds r31, CONTEXT + TIMERS_IN_FLASH + 1
-    lds r26, CONTEXT + TIMERS_START
-    lds r27, CONTEXT + TIMERS_START + 1
+    lds r30, LINE + TIMERS_IN_FLASH
+    lds r31, LINE + TIMERS_IN_FLASH + 1
+    lds r26, LINE + TIMERS_START
+    lds r27, LINE + TIMERS_START + 1
     lds r24, CONTEXT + TIMERS
     lds r25, CONTEXT + TIMERS + 1
     rjmp 3f
-2:  lds r30, CONTEXT + COUNTERS_IN_FLASH
-    lds r31, CONTEXT + COUNTERS_IN_FLASH + 1
-    lds r26, CONTEXT + COUNTERS_START
-    lds r27, CONTEXT + COUNTERS_START + 1
+2:  lds r30, LINE + COUNTERS_IN_FLASH
+    lds r31, LINE + COUNTERS_IN_FLASH + 1
+    lds r26, LINE + COUNTERS_START
+    lds r27, LINE + COUNTERS_START + 1
     lds r24, CONTEXT + COUNTERS
     lds r25, CONTEXT + COUNTERS + 1
     ; Each slot: of a timer its kind stands behind its number, and its state behind value and preset.
@@ -1255,6 +1353,29 @@ divide:
     movw r24, r22
     rjmp write_product
 
+; ---- status windows: their beginning
+
+; Goes through the bytecode at r20 and r21 step by step: machine code like that of a native program, so that r4 to r15 are
+; free. r22 and r23: the data address of the window's first entry.
+.global uno200_steps
+uno200_steps:
+    movw r30, r22
+    movw r12, r22
+    movw r10, r22
+    ld r18, Z
+    ldd r19, Z + 1
+    subi r18, lo8(-(SLOT_START + 2))
+    sbci r19, hi8(-(SLOT_START + 2))
+    movw r6, r18
+    movw r4, r18
+    movw r28, r20
+    FOR_HANDLERS
+    clr r16
+    call next
+    ; The end of the program is reached: what was executed last may have to be entered, and the end comes once more.
+    ldi r29, 0xFF
+    jmp step
+
 .global uno200_engine_end
 uno200_engine_end:
 
@@ -1279,13 +1400,19 @@ __vector_18:
     push r31
     in r31, MODULE_FLAGS
     sbrs r31, SERIAL_FLAG
-    rjmp 1f
+    jmp uno200_character
     ldi r31, FREEPORT_ENTRY
     rjmp freeport_interrupt
-1:  pop r31
-    jmp uno200_character
+; Timer2, which belongs to whoever has the line.
+.global __vector_7
+__vector_7:
+    push r31
+    in r31, MODULE_FLAGS
+    sbrs r31, SERIAL_FLAG
+    jmp uno200_pause
+    ldi r31, FREEPORT_ENTRY + 2
+    rjmp freeport_interrupt
     INTERRUPT __vector_20, FREEPORT_ENTRY + 1, freeport_interrupt
-    INTERRUPT __vector_7, FREEPORT_ENTRY + 2, freeport_interrupt
     INTERRUPT __vector_13, PULSES_ENTRY, pulses_interrupt
     INTERRUPT __vector_1, COUNTERS_ENTRY, counters_interrupt
     INTERRUPT __vector_2, COUNTERS_ENTRY + 1, counters_interrupt

@@ -15,6 +15,7 @@ use plc_vm::{CALLS_MAX, Environment, Exit, Interpreter};
 
 use crate::board::flash::ProgramSlot;
 use crate::board::{clock, takeover};
+use crate::engine::link;
 use crate::environment::ScanTime;
 
 /// The firmware's interface to native programs.
@@ -31,14 +32,9 @@ struct Context {
     /// Where execution begins in flash: the address of bytecode, the word address of machine code.
     start: u16,
     is_native: bool,
-    /// Addresses of the plan's tables in flash.
-    timers_in_flash: u16,
-    counters_in_flash: u16,
-    labels_in_flash: u16,
+    /// Address of the plan's table of routines in flash, and data address of its edge memory. More of the plan is known
+    /// to the line.
     routines_in_flash: u16,
-    /// Data addresses of the plan's memory.
-    timers_start: u16,
-    counters_start: u16,
     edges_start: u16,
     /// How many timers and counters the plan has.
     timers: u16,
@@ -53,17 +49,14 @@ struct Context {
     tick: u8,
     /// How many routines are being executed.
     depth: u8,
+    /// The upper byte of the word address of the jump table in use.
+    page: u8,
 }
 
 static mut CONTEXT: Context = Context {
     start: 0,
     is_native: false,
-    timers_in_flash: 0,
-    counters_in_flash: 0,
-    labels_in_flash: 0,
     routines_in_flash: 0,
-    timers_start: 0,
-    counters_start: 0,
     edges_start: 0,
     timers: 0,
     counters: 0,
@@ -72,6 +65,7 @@ static mut CONTEXT: Context = Context {
     stack: 0,
     tick: 0,
     depth: 0,
+    page: 0,
 };
 
 /// What the module for the clock keeps of the time of day; 0 until it is set.
@@ -79,6 +73,9 @@ static mut TIME_OF_DAY: [u8; 10] = [0; 10];
 
 /// The execution that the assembly is in.
 static mut EXECUTION: *mut Execution<'static> = ptr::null_mut();
+
+/// The upper byte of the word address of the jump table. In front of it lies that for steps.
+const PAGE: u8 = 2;
 
 const LEFT_AT_END: u8 = 0;
 const LEFT_BY_STOP: u8 = 1;
@@ -117,15 +114,16 @@ global_asm!(
     ".equ LEFT_AT, {left_at}",
     ".equ STACK, {stack}",
     ".equ TICK, {tick}",
+    ".equ PAGE, {page}",
     ".equ LEFT_AT_END, {at_end}",
     ".equ LEFT_BY_STOP, {by_stop}",
     ".equ LEFT_BY_WATCHDOG, {by_watchdog}",
     ".equ LEFT_BY_UNDEFINED, {by_undefined}",
     ".set CONTEXT, {context}",
     ".set TIME_OF_DAY, {time_of_day}",
-    timers_in_flash = const offset_of!(Context, timers_in_flash),
-    counters_in_flash = const offset_of!(Context, counters_in_flash),
-    labels_in_flash = const offset_of!(Context, labels_in_flash),
+    timers_in_flash = const link::TIMERS_IN_FLASH,
+    counters_in_flash = const link::COUNTERS_IN_FLASH,
+    labels_in_flash = const link::LABELS_IN_FLASH,
     routines_in_flash = const offset_of!(Context, routines_in_flash),
     depth = const offset_of!(Context, depth),
     // An interrupt routine, and what it calls, come on top.
@@ -143,8 +141,8 @@ global_asm!(
     events_seen = const EVENTS_SEEN,
     events_module = const EVENTS_MODULE,
     events_entry = const EVENTS_ENTRY,
-    timers_start = const offset_of!(Context, timers_start),
-    counters_start = const offset_of!(Context, counters_start),
+    timers_start = const link::TIMERS_START,
+    counters_start = const link::COUNTERS_START,
     edges_start = const offset_of!(Context, edges_start),
     timers = const offset_of!(Context, timers),
     counters = const offset_of!(Context, counters),
@@ -152,6 +150,7 @@ global_asm!(
     left_at = const offset_of!(Context, left_at),
     stack = const offset_of!(Context, stack),
     tick = const offset_of!(Context, tick),
+    page = const offset_of!(Context, page),
     at_end = const LEFT_AT_END,
     by_stop = const LEFT_BY_STOP,
     by_watchdog = const LEFT_BY_WATCHDOG,
@@ -164,6 +163,8 @@ global_asm!(include_str!(concat!(env!("OUT_DIR"), "/engine.s")), options(raw));
 unsafe extern "C" {
     fn uno200_run(address: u16) -> u8;
     fn uno200_run_native(word_address: u16) -> u8;
+    fn uno200_run_steps(steps: u16, window: u16, address: u16) -> u8;
+    fn uno200_steps();
     fn uno200_advance_timers(is_10_ms: u8, ticks: u16);
 }
 
@@ -174,7 +175,8 @@ pub fn advance_timers(resolution: TimerResolution, ticks: u16) {
     unsafe { uno200_advance_timers(u8::from(resolution == TimerResolution::Ms10), ticks) }
 }
 
-/// Executes the program. Returns why it was left, and the offset of the instruction that left it.
+/// Executes the program. Returns why it was left, and the offset of the instruction that left it. `window` is the data
+/// address of the first entry of a status window, which is filled in; 0: there is none. Native programs leave it alone.
 #[inline(always)]
 pub fn run(mut execution: Execution<'_>) -> (Exit, u16) {
     enter(&mut execution);
@@ -183,7 +185,13 @@ pub fn run(mut execution: Execution<'_>) -> (Exit, u16) {
     // program, and its checksum and interface version are right. Nothing else uses the context.
     let left = unsafe {
         let (start, is_native) = ((*&raw const CONTEXT).start, (*&raw const CONTEXT).is_native);
-        if is_native { uno200_run_native(start) } else { uno200_run(start) }
+        if is_native {
+            uno200_run_native(start)
+        } else if link::has_window() {
+            run_steps(link::take_window(), start)
+        } else {
+            uno200_run(start)
+        }
     };
     // SAFETY: the assembly has returned; nothing else uses the context.
     let at = unsafe { (*&raw const CONTEXT).left_at };
@@ -198,6 +206,22 @@ pub fn run(mut execution: Execution<'_>) -> (Exit, u16) {
     (exit, at.wrapping_sub(SLOT_START + 2))
 }
 
+/// Executes bytecode step by step.
+///
+/// # Safety
+/// As for running it at once: the context is that of a verified program. The entries lie in data memory.
+#[inline(never)]
+unsafe fn run_steps(window: u16, address: u16) -> u8 {
+    // SAFETY: nothing else uses the context; the steps are machine code that keeps to the interface of native programs.
+    unsafe {
+        let context = &raw mut CONTEXT;
+        (*context).page = PAGE - 1;
+        let left = uno200_run_steps(uno200_steps as *const () as u16, window, address);
+        (*context).page = PAGE;
+        left
+    }
+}
+
 /// Makes an execution the one that the assembly works for. What the plan says stays the same until the next RUN.
 #[inline(always)]
 fn enter(execution: &mut Execution<'_>) {
@@ -207,15 +231,11 @@ fn enter(execution: &mut Execution<'_>) {
         let context = &raw mut CONTEXT;
         if execution.is_first_scan() {
             let entry = execution.program().entry();
+            (*context).page = PAGE;
             (*context).is_native = entry.is_some();
             (*context).start =
                 entry.map_or(SLOT_START + execution.program().code_at(), |entry| (SLOT_START + entry) / 2);
-            (*context).timers_in_flash = SLOT_START + plan.timers_at;
-            (*context).counters_in_flash = SLOT_START + plan.counters_at;
-            (*context).labels_in_flash = SLOT_START + plan.labels_at;
             (*context).routines_in_flash = SLOT_START + plan.routines_at;
-            (*context).timers_start = plan.timers_start;
-            (*context).counters_start = plan.counters_start;
             (*context).edges_start = plan.edges_start;
             (*context).timers = plan.header.timers;
             (*context).counters = plan.header.counters;

@@ -2,8 +2,8 @@
 ;
 ; A block begins with % and the form as the instruction table writes it: instruction, kinds of its operands. The build
 ; script enters it for the tokens of that form; {n} becomes the token's distance from the form's first one (bit or
-; relation), {token} that first one; {order}, {branch} and {inverse} follow from the relation. What has no block is
-; executed by plc-vm. Subroutines and macros stand in engine.s. Numbered labels reach into the next block here and
+; relation), {token} that first one; {order}, {branch} and {inverse} follow from the relation. Every form of the core has
+; one. Subroutines and macros stand in engine.s. Numbered labels reach into the next block here and
 ; there: blocks of one kind stay together.
 ;
 ; At the start of a block: r2 token, X the address of the operand byte in the bit page, Y the address in flash behind
@@ -173,6 +173,15 @@ assign_far:
 
 % Scre
     NEXT_ONE_BYTE
+
+; ---- timers of 1 ms
+
+% Refresh
+    sbiw r28, 1
+    bld r17, 0
+    call uno200_refresh_timers
+    bst r17, 0
+    rjmp next_x
 
 ; ---- subroutines
 
@@ -711,8 +720,8 @@ go_to_end:
 % Jmp LabelIndex Here
     brts 1f
     rjmp next
-1:  lds r30, CONTEXT + LABELS_IN_FLASH
-    lds r31, CONTEXT + LABELS_IN_FLASH + 1
+1:  lds r30, LINE + LABELS_IN_FLASH
+    lds r31, LINE + LABELS_IN_FLASH + 1
     add r30, r26
     adc r31, r1
     add r30, r26
@@ -729,9 +738,11 @@ go_to_end:
 go_back:
     lds r18, UNO200_TICK
     lds r19, CONTEXT + TICK
-    cp r18, r19
-    brne 1f
-    rjmp next_z
+    ; A status window may lie there.
+    lds r3, CONTEXT + PAGE
+    cpse r18, r19
+    rjmp 1f
+    NEXT_Z
 1:  push r30
     push r31
     call uno200_is_overdue
@@ -762,13 +773,6 @@ go_back:
     set
     rjmp next_x
 1:  rjmp next
-
-% Refresh
-    sbiw r28, 1
-    bld r17, 0
-    call uno200_refresh_timers
-    bst r17, 0
-    rjmp next_x
 
 ; The end of a routine is another, unless flash has changed.
 % MainEnd

@@ -3,6 +3,7 @@
 
 #[cfg(feature = "engine")]
 mod fast;
+pub mod link;
 #[cfg(feature = "engine")]
 pub use fast::{HAS_MODULES, NATIVE_INTERFACE, advance_timers, run};
 

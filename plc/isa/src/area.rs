@@ -143,9 +143,8 @@ impl AnalogInput {
     /// The AIW value of a raw count, rounded to the nearest.
     pub const fn scale(raw: u16) -> u16 {
         let raw = if raw > Self::RAW_MAX { Self::RAW_MAX } else { raw };
-        // A division takes the board longer than a scan has. 18,386 / 65,536 is the rest of 32,000 / 1,023 beside 31,
-        // near enough for every count.
-        31 * raw + ((raw as u32 * 18_386 + 0x8000) >> 16) as u16
+        // A division takes the board longer than a scan has. 2,050,002 / 65,536 is 32,000 / 1,023, near enough for every count.
+        ((raw as u32 * 2_050_002 + 0x8000) >> 16) as u16
     }
 
     /// The raw count nearest to an AIW value.

@@ -250,6 +250,9 @@ impl<S: Station> Request<'_, S> {
                 self.expect_len(at)?;
                 break;
             }
+            if at.saturating_add(REFERENCE_LEN) > self.len {
+                return Err(Exception::Value);
+            }
             let place = self.reference(at, WRITABLE)?;
             self.set_low_first(at + 1, place.0);
             let next = at.saturating_add(REFERENCE_LEN + place.width());

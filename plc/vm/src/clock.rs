@@ -90,7 +90,7 @@ impl Clock {
 }
 
 /// Milliseconds since a time, which becomes now.
-#[cfg_attr(target_arch = "avr", inline(never))]
+#[inline(always)]
 fn since(time_ms: &mut u32, now_ms: u32) -> u16 {
     let passed = now_ms.wrapping_sub(*time_ms);
     *time_ms = now_ms;

@@ -339,8 +339,8 @@ impl<P: ProgramMemory> Plc<P> {
         special::write_system_bits(memory, bits | self.clock.bits);
         let Some(program) = &self.program else { return };
         let plan = program.plan();
+        let fast_ms = self.clock.take_fast_ms(self.clock.now_ms);
         if self.timers.has(TimerResolution::Ms1) {
-            let fast_ms = self.clock.take_fast_ms(self.clock.now_ms);
             E::advance_timers(memory, plan, TimerResolution::Ms1, fast_ms);
         }
         if self.timers.has(TimerResolution::Ms10) {

@@ -68,7 +68,7 @@ fn native_constants(found: &BTreeMap<(Op, String), Ways>) -> String {
         "pub const NATIVE_START: u32 = {};\npub const NATIVE_END: u32 = {};\nconst BYTECODE: u32 = {};\n",
         cycles(steps.first()) - u64::from(translated.start.max),
         cycles(steps.last()) - u64::from(end),
-        cycles(steps.get(1)) - refresh.map_or(0, |(_, most)| most) - call,
+        cycles(steps.get(1)).saturating_sub(refresh.map_or(0, |(least, _)| least) + call),
     )
 }
 

@@ -273,7 +273,7 @@ impl Board {
 
     /// Whether the firmware says that it is in RUN.
     pub fn runs(&self) -> bool {
-        self.byte(self.places.status) == 1
+        self.byte(self.places.status) & 1 != 0
     }
 
     /// The fault that the firmware tells.

@@ -1,0 +1,387 @@
+//! Answers to requests on the serial line, seen from Rust: what the assembly needs to know.
+//!
+//! The assembly means what the crate plc-link means, which a compiler makes too large for the board; tests compare
+//! their answers.
+#![allow(unsafe_code)]
+
+use core::arch::global_asm;
+use core::mem::offset_of;
+
+use plc_isa::{
+    AC_START, AIN_START, AIW_START, AQW_START, ARENA_START, DATA_END, FORCED, HC0, I_START, LINE_ROOM, Program,
+    ProgramMemory, Q_START, SLOT_LEN, SLOT_START,
+};
+
+use crate::board::flash::ProgramSlot;
+use crate::board::stack;
+
+/// Longest request and answer: function code and data.
+const PDU_MAX: u16 = 252;
+/// Bytes of a force: place, reference, value.
+const FORCE_LEN: usize = 9;
+const FORCES_MAX: usize = 16;
+/// Bytes behind a request in the frame, its checksum.
+const BEHIND_REQUEST: u16 = 2;
+/// Service functions that more is done for here.
+const IDENTIFY: u8 = 65;
+const FORCE: u8 = 68;
+/// Bit of the state: single scans.
+const STEPPING: u8 = 1 << 4;
+/// Commands: RUN to STOP, STOP to RUN, forget the fault, single scans from STOP.
+pub const STOP: u8 = 0;
+/// As above.
+pub const RUN: u8 = 1;
+/// As above.
+pub const CLEAR_FAULT: u8 = 2;
+/// As above.
+pub const SCANS: u8 = 3;
+const NONE: u8 = 0xFF;
+/// Phases of a request for the status of instructions: the next scan fills its entries in, and it has.
+#[cfg(feature = "engine")]
+const ARMED: u8 = 2;
+#[cfg(feature = "engine")]
+const NOTED: u8 = 3;
+/// Bytes of the frame before the entries.
+#[cfg(feature = "engine")]
+const FIRST_ENTRY: u16 = 3;
+
+/// What the assembly works with. It reads and writes it at these offsets.
+#[repr(C)]
+struct Line {
+    /// Data address of requests and answers, and their most bytes.
+    frame: u16,
+    room: u8,
+    /// How far the work on a request has come.
+    phase: u8,
+    left: u8,
+    at: u8,
+    /// What the request asks for beside an answer, and how many scans.
+    command: u8,
+    scans_wanted: u16,
+    /// Addresses of the plan's tables in flash; all the same without a program.
+    v_table: u16,
+    timers_table: u16,
+    counters_table: u16,
+    labels_table: u16,
+    /// Data addresses of the first slots.
+    timers_start: u16,
+    counters_start: u16,
+    /// The program's name in flash.
+    name_at: u16,
+    name_len: u8,
+    /// Single scans that are left; 0: RUN has no end.
+    scans_left: u16,
+    /// Bit 0 RUN, 1 there is a program, 3 it is machine code, 4 single scans.
+    state: u8,
+    fault: u32,
+    fault_before_reset: u32,
+    /// Lengths of the scans since RUN, inputs to outputs, in timer counts: the shortest, the last, the longest. 0:
+    /// there is none yet.
+    shortest: u32,
+    last: u32,
+    longest: u32,
+    /// Scans since RUN.
+    scans: u32,
+    /// Bytes of stack that were never used.
+    free_stack: u16,
+    image_len: u16,
+    forces_count: u8,
+    forces: [u8; FORCE_LEN * FORCES_MAX],
+    /// The bits of the state that the program alone makes.
+    program_bits: u8,
+}
+
+const _: () = assert!(offset_of!(Line, v_table) == 9 && offset_of!(Line, state) == 26 && offset_of!(Line, scans) == 47);
+const _: () = assert!(offset_of!(Line, forces_count) == 55);
+
+/// Where the engine finds the same of the plan.
+#[cfg(feature = "engine")]
+mod places {
+    use super::{Line, offset_of};
+
+    /// Addresses of tables in flash.
+    pub const TIMERS_IN_FLASH: usize = offset_of!(Line, timers_table);
+    /// As above.
+    pub const COUNTERS_IN_FLASH: usize = offset_of!(Line, counters_table);
+    /// As above.
+    pub const LABELS_IN_FLASH: usize = offset_of!(Line, labels_table);
+    /// Data addresses of the first slots.
+    pub const TIMERS_START: usize = offset_of!(Line, timers_start);
+    /// As above.
+    pub const COUNTERS_START: usize = offset_of!(Line, counters_start);
+}
+#[cfg(feature = "engine")]
+pub use places::*;
+
+static mut LINE: Line = Line {
+    frame: 0,
+    room: 0,
+    phase: 0,
+    left: 0,
+    at: 0,
+    command: 0,
+    scans_wanted: 0,
+    v_table: 0,
+    timers_table: 0,
+    counters_table: 0,
+    labels_table: 0,
+    timers_start: 0,
+    counters_start: 0,
+    name_at: 0,
+    name_len: 0,
+    scans_left: 0,
+    state: 0,
+    fault: 0,
+    fault_before_reset: 0,
+    shortest: 0,
+    last: 0,
+    longest: 0,
+    scans: 0,
+    free_stack: 0,
+    image_len: 0,
+    forces_count: 0,
+    forces: [0; FORCE_LEN * FORCES_MAX],
+    program_bits: 0,
+};
+
+global_asm!(
+    ".equ CAPABILITIES, 1",
+    ".equ I_START, {i_start}",
+    ".equ Q_START, {q_start}",
+    ".equ AIW_START, {aiw_start}",
+    ".equ AIN_START, {ain_start}",
+    ".equ AC_START, {ac_start}",
+    ".equ HC0, {hc0}",
+    ".equ AQW_START, {aqw_start}",
+    ".equ ARENA_START, {arena_start}",
+    ".equ SLOT_START, {slot_start}",
+    ".equ SLOT_LEN, {slot_len}",
+    ".equ FORCED_POINTS, {forced}",
+    ".set LINE, {line}",
+    // Mode in bit 0, then the fault. Harnesses read it by this name.
+    ".global UNO200_STATUS",
+    ".set UNO200_STATUS, LINE + {state}",
+    i_start = const I_START,
+    q_start = const Q_START,
+    aiw_start = const AIW_START,
+    ain_start = const AIN_START,
+    ac_start = const AC_START,
+    hc0 = const HC0,
+    aqw_start = const AQW_START,
+    arena_start = const ARENA_START,
+    slot_start = const SLOT_START,
+    slot_len = const SLOT_LEN,
+    forced = const FORCED,
+    state = const offset_of!(Line, state),
+    line = sym LINE,
+);
+global_asm!(
+    concat!(".macro VERSION_TEXT\n.asciz \"", env!("CARGO_PKG_VERSION"), "\"\n.endm\n"),
+    include_str!("link.s"),
+    include_str!("status.s"),
+    "trace:\n    rjmp refuse_function\n",
+    include_str!("forced.s"),
+    options(raw)
+);
+
+unsafe extern "C" {
+    fn line_answer(len: u8) -> u8;
+    fn line_apply_forces();
+    fn line_clear_forces();
+    fn uno200_tell_forces();
+}
+
+/// The state. Only the main program uses it, never while the assembly runs.
+#[inline(always)]
+fn line() -> &'static mut Line {
+    // SAFETY: no reference outlives the function below that it is made for; none of them calls another meanwhile.
+    unsafe { &mut *&raw mut LINE }
+}
+
+/// Answers the request of so many bytes, at least 1, in the frame. Returns the length of the answer, which has replaced
+/// it; 0: the answer takes another scan, at whose end this is called again.
+pub fn answer(len: u8) -> u8 {
+    // SAFETY: the frame is in data memory.
+    let function = unsafe { *(line().frame as *const u8) };
+    line().command = NONE;
+    if function == IDENTIFY {
+        line().free_stack = stack::free();
+    }
+    // SAFETY: the assembly reads flash and the image that has been checked, writes data memory of the program in force
+    // and behind it, and keeps what the calling convention asks for. Nobody holds a reference to data memory.
+    let len = unsafe { line_answer(len) };
+    if function == FORCE {
+        // SAFETY: as above.
+        unsafe { uno200_tell_forces() }
+    }
+    len
+}
+
+/// What the last request asks for beside an answer: one of the commands.
+#[inline(always)]
+pub fn command() -> u8 {
+    line().command
+}
+
+/// RUN was asked for, or single scans: as many are left now.
+#[inline(always)]
+pub fn begin_scans() {
+    let line = line();
+    line.scans_left = if line.command == SCANS { line.scans_wanted } else { 0 };
+    line.state &= !STEPPING;
+}
+
+/// Whether this scan is to fill in a status window.
+#[cfg(feature = "engine")]
+#[inline(always)]
+pub fn has_window() -> bool {
+    line().phase == ARMED
+}
+
+/// Data address of its first entry. It is filled in when the next request is answered.
+#[cfg(feature = "engine")]
+#[inline(always)]
+pub fn take_window() -> u16 {
+    let line = line();
+    line.phase = NOTED;
+    line.frame + FIRST_ENTRY
+}
+
+/// Data address of the frame.
+pub fn frame() -> u16 {
+    line().frame
+}
+
+/// Whether something is forced.
+#[inline(always)]
+pub fn is_forced() -> bool {
+    line().forces_count != 0
+}
+
+/// Gives forced operands their values.
+#[inline(always)]
+pub fn apply_forces() {
+    // SAFETY: the assembly writes data memory at places of the program in force.
+    unsafe { line_apply_forces() }
+}
+
+/// RUN has ended: nothing is forced, and no single scans go on.
+pub fn end_run() {
+    line().scans_left = 0;
+    // SAFETY: as above.
+    unsafe {
+        line_clear_forces();
+        uno200_tell_forces();
+    }
+}
+
+/// Places the frame behind the program's memory, and notes where its tables are. Nothing is forced, and no request is
+/// being answered. Returns the most bytes of a request.
+pub fn place(program: Option<&Program<ProgramSlot>>) -> u8 {
+    let line = line();
+    let (mut frame, mut end) = (ARENA_START, DATA_END);
+    (line.timers_table, line.counters_table, line.labels_table, line.name_len, line.image_len) = (0, 0, 0, 0, 0);
+    if let Some(program) = program {
+        let plan = program.plan();
+        let header = &plan.header;
+        frame = plan.end() + plan.retained_len();
+        end = program.memory().modules_end().unwrap_or(frame + LINE_ROOM);
+        line.timers_table = SLOT_START + plan.timers_at;
+        line.counters_table = SLOT_START + plan.counters_at;
+        line.labels_table = SLOT_START + plan.labels_at;
+        line.timers_start = plan.timers_start;
+        line.counters_start = plan.counters_start;
+        line.name_len = header.name_len;
+        line.image_len = header.total_len;
+    }
+    line.v_table = line.timers_table;
+    line.program_bits = 0;
+    if let Some(program) = program {
+        let header = &program.plan().header;
+        line.program_bits = if header.interface == 0 { 1 << 1 } else { 1 << 1 | 1 << 3 };
+        line.v_table -= 4 * header.v_ranges;
+        line.name_at = line.v_table - u16::from(line.name_len);
+    }
+    line.phase = 0;
+    line.forces_count = 0;
+    line.frame = frame;
+    line.room = (end - frame - BEHIND_REQUEST).min(PDU_MAX) as u8;
+    line.room
+}
+
+/// Mode and fault are these now.
+pub fn tell(runs: bool, fault: u32) {
+    let line = line();
+    let mut state = u8::from(runs) | line.program_bits;
+    if line.scans_left != 0 {
+        state |= STEPPING;
+    }
+    line.state = state;
+    line.fault = fault;
+}
+
+/// The fault before the last reset.
+pub fn set_fault_before_reset(fault: u32) {
+    line().fault_before_reset = fault;
+}
+
+/// RUN begins with a first scan.
+pub fn begin_run() {
+    let line = line();
+    (line.shortest, line.last, line.longest, line.scans) = (0, 0, 0, 0);
+}
+
+/// Whether single scans are to begin or go on.
+pub fn has_scans_left() -> bool {
+    line().scans_left != 0
+}
+
+/// Whether RUN consists of single scans.
+#[inline(always)]
+pub fn is_stepping() -> bool {
+    line().state & STEPPING != 0
+}
+
+/// One of them is over. Returns whether it was the last.
+pub fn count_down() -> bool {
+    let line = line();
+    line.scans_left -= 1;
+    line.scans_left == 0
+}
+
+/// Enters a scan of so many counts.
+#[inline(always)]
+pub fn enter_scan(length: u32) {
+    let lowest = (&raw mut line().scans).cast::<u8>();
+    // SAFETY: the lowest byte of a number. Most scans change no other, and more would be slow.
+    let scans = unsafe { lowest.read_volatile() };
+    if scans == 0 {
+        begin_256();
+    }
+    // SAFETY: as above.
+    unsafe { lowest.write_volatile(scans.wrapping_add(1)) };
+    if scans == u8::MAX {
+        carry();
+    }
+    let line = line();
+    if length < line.shortest {
+        line.shortest = length;
+    }
+    if length > line.longest {
+        line.longest = length;
+    }
+    line.last = length;
+}
+
+/// The first scan is shorter than any.
+#[inline(never)]
+fn begin_256() {
+    if line().longest == 0 {
+        line().shortest = u32::MAX;
+    }
+}
+
+#[inline(never)]
+fn carry() {
+    line().scans = line().scans.wrapping_add(0x100);
+}

@@ -1,0 +1,90 @@
+//! The board answers as the host does: the same requests, sensible and damaged ones, get the same answers and leave the
+//! same memory. What the answers are, the tests of plc-link and the list of exchanges say.
+#![cfg(feature = "uno")]
+
+use awl_sim::machine::Machine;
+use awl_sim::machine::host::Host;
+use fastrand::Rng;
+use plc_isa::{AC_START, ARENA_START, EVENTS_SEEN, I_START, S_START, SM_START};
+use tests::bench_board::BenchBoard;
+use tests::case::{folder, host, read};
+use tests::effort::effort;
+use tests::image::image;
+use tests::link::{self, UNIT};
+use tests::requests::random_request;
+
+/// Longest request and answer on the line.
+const PDU_MAX: usize = 253;
+
+/// The answer, without what is another each time: numbers of scans, and special memory, whose clocks go on.
+fn comparable(request: &[u8], mut answer: Vec<u8>) -> Vec<u8> {
+    let sees_system_bits = match *request {
+        [1 | 2, high, low, ..] => (2000..2256).contains(&u16::from_be_bytes([high, low])),
+        [67, _, ref references @ ..] => references.chunks(3).any(|reference| reference[0] >> 4 == 3),
+        _ => false,
+    };
+    let known = match answer.first() {
+        Some(67) => 1..3,
+        _ if sees_system_bits => 2..answer.len(),
+        _ => 0..0,
+    };
+    let masked = if sees_system_bits { known.start..answer.len() } else { known };
+    if let Some(bytes) = answer.get_mut(masked) {
+        bytes.fill(0);
+    }
+    answer
+}
+
+/// What a program and requests can change, without special memory.
+fn memory(byte: impl Fn(u16) -> u8, end: u16) -> Vec<u8> {
+    let places = (I_START..SM_START).chain(S_START..0x0200).chain(AC_START..EVENTS_SEEN - 1).chain(ARENA_START..end);
+    places.map(byte).collect()
+}
+
+/// A whole exchange on the host: requests are answered after a scan, and a scan follows.
+fn exchange(host: &mut Host, now_ms: &mut u64, request: &[u8]) -> Option<Vec<u8>> {
+    let mut scan = |host: &mut Host| {
+        *now_ms += 1;
+        host.scan(*now_ms);
+    };
+    if !host.take_request(request) {
+        return Some(vec![request[0] | 0x80, 3]);
+    }
+    for _ in 0..4 {
+        if let Some(answer) = host.answer() {
+            host.carry_out();
+            scan(host);
+            return Some(answer);
+        }
+        scan(host);
+    }
+    None
+}
+
+#[test]
+fn random_requests_have_the_same_answers_on_host_and_board() {
+    let text = read(&folder("link").join("areas.awl"));
+    let image = image(&text);
+    let (mut board, mut host) = (BenchBoard::running(&text), host(&image));
+    let end = plc_isa::verify(image).unwrap().plan().end();
+    let mut now_ms = 0;
+    host.scan(now_ms);
+    let mut rng = Rng::with_seed(effort("RANDOM_SEED", 1));
+    let (mut refused, count) = (0, effort("RANDOM_REQUESTS", 4_000));
+    for number in 0..count {
+        let request = random_request(&mut rng);
+        assert!(request.len() <= PDU_MAX);
+        let wanted = exchange(&mut host, &mut now_ms, &request);
+        let got = link::exchange(&mut board, UNIT, &request);
+        let [wanted, got] = [wanted, got].map(|answer| answer.map(|answer| comparable(&request, answer)));
+        assert_eq!(got, wanted, "request {number}: {request:02X?}");
+        refused += u64::from(wanted.is_some_and(|answer| answer[0] >= 0x80));
+        board.scans(2);
+        let (on_board, on_host) = (memory(|at| board.byte(at), end), memory(|at| host.memory().byte(at), end));
+        let differs = on_board.iter().zip(&on_host).position(|(board, host)| board != host);
+        assert_eq!(differs, None, "memory after request {number}: {request:02X?}");
+    }
+    println!("{refused} of {count} requests were refused");
+    assert!(refused > count / 5 && refused < count * 4 / 5, "{refused} of {count}");
+    assert!(board.runs(), "{:?}", board.fault());
+}
