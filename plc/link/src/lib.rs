@@ -14,7 +14,6 @@
 #![no_std]
 
 mod answer;
-mod copy;
 mod forces;
 mod identity;
 mod link;

@@ -4,7 +4,6 @@ use plc_isa::{AC_START, AIN_START, AIW_START, AQW_START, COUNTER_SLOT_LEN, HC0, 
 use plc_vm::Memory;
 
 use crate::answer::{Answered, Exception, Request};
-use crate::copy::copy;
 use crate::place::{page_len, page_start, v_address, value_address};
 use crate::station::Station;
 
@@ -177,11 +176,11 @@ fn find_bits(function: u8, first: u16, count: u16, writes: bool) -> Result<Run, 
 /// Copies registers, whose high byte comes first in data memory and on the line.
 fn copy_words(memory: &mut Memory, from: Run, to: Run, count: u16) {
     if from.step == to.step {
-        return copy(memory, from.address, to.address, 2 * count);
+        return memory.copy(from.address, to.address, 2 * count);
     }
     let (mut from_at, mut to_at) = (from.address, to.address);
     for _ in 0..count {
-        copy(memory, from_at, to_at, 2);
+        memory.copy(from_at, to_at, 2);
         from_at += u16::from(from.step);
         to_at += u16::from(to.step);
     }

@@ -4,6 +4,7 @@ use plc_isa::{
     AC_START, AIN_START, AIW_START, ANALOG_OUTPUTS, AQW_START, ARENA_START, C_BITS_START, HC0, L_START, M_START,
     PAGE_START, Program, ProgramMemory, S_START, SM_IN_V, SM_START, T_BITS_START,
 };
+use plc_vm::Memory;
 
 /// Sizes of values in a reference. Below them: a bit.
 pub(crate) const BYTE: u8 = 8;
@@ -73,6 +74,15 @@ impl Place {
             BYTE => bytes >> 24,
             bit => bytes >> 24 >> bit & 1,
         }
+    }
+
+    /// The four bytes from its first on, a bit as 0 or 1 in the first. What comes behind the value is in the rest.
+    pub(crate) fn bytes_in(self, memory: &Memory) -> [u8; 4] {
+        let mut bytes = [0, 1, 2, 3].map(|offset| memory.byte(self.address() + offset));
+        if self.size() < BYTE {
+            bytes[0] = bytes[0] >> self.size() & 1;
+        }
+        bytes
     }
 
     /// Bytes of the value.

@@ -4,7 +4,6 @@ use plc_isa::{Bit, CRC_LEN, SLOT_LEN};
 use plc_vm::{Fault, Mode};
 
 use crate::answer::{Answered, Exception, Request};
-use crate::copy::{copy, index, value_at};
 use crate::forces::ENTRY_LEN;
 use crate::link::Phase;
 use crate::place::{ANYTHING, BYTE, FORCED, Place, WRITABLE, resolve};
@@ -145,24 +144,21 @@ impl<S: Station> Request<'_, S> {
 
     /// The values of the places at the end of the room.
     fn gather(&mut self, count: u8) -> Answered {
-        let (first, room) = (index(self.frame), usize::from(self.room));
-        let (mut from, mut to) = (first + room - usize::from(PLACE_LEN * count), first + 3);
-        let memory = self.memory();
+        let mut from = self.room - PLACE_LEN * count;
+        self.out = 3;
         for _ in 0..count {
-            let place = memory.bytes().get(from..).and_then(|rest| rest.first_chunk()).copied().unwrap_or([0; 2]);
-            let place = Place(u16::from_le_bytes(place));
-            from += usize::from(PLACE_LEN);
+            let place = self.place(from);
+            from += PLACE_LEN;
             // Four bytes are written whatever the width.
-            if to + 4 > from {
+            if self.out + 4 > from {
                 return Err(Exception::Value);
             }
-            let value = value_at(memory, place);
-            if let Some(target) = memory.bytes_mut().get_mut(to..).and_then(|rest| rest.first_chunk_mut()) {
-                *target = value;
-            }
-            to += usize::from(place.width());
+            let end = self.out + place.width();
+            let value = place.bytes_in(self.memory());
+            self.put_bytes(value);
+            self.out = end;
         }
-        Ok((to - first) as u8)
+        Ok(self.out)
     }
 
     /// Function 68: forces.
@@ -174,10 +170,7 @@ impl<S: Station> Request<'_, S> {
             1 | 2 => {
                 self.expect_len(2 + ENTRY_LEN)?;
                 place = self.reference(2, FORCED)?;
-                let first = index(self.at(2));
-                if let Some(source) = self.memory().bytes().get(first..).and_then(|rest| rest.first_chunk()) {
-                    entry = *source;
-                }
+                entry = [0, 1, 2, 3, 4, 5, 6].map(|offset| self.byte(2 + offset));
             }
             _ => return Err(Exception::Value),
         }
@@ -266,7 +259,7 @@ impl<S: Station> Request<'_, S> {
         }
         let mut at = 2;
         for _ in 0..count {
-            let place = Place(self.word(at + 1).swap_bytes());
+            let place = self.place(at + 1);
             at += REFERENCE_LEN;
             self.set_value(place, at);
             at += place.width();
@@ -281,7 +274,7 @@ impl<S: Station> Request<'_, S> {
             self.memory().set_bit(Bit { address: place.address(), bit: place.size() }, value);
         } else {
             let from = self.at(at);
-            copy(self.memory(), from, place.address(), u16::from(place.width()));
+            self.memory().copy(from, place.address(), u16::from(place.width()));
         }
     }
 
@@ -304,6 +297,11 @@ impl<S: Station> Request<'_, S> {
 
     pub fn expect_count(&self, count: u8, max: u8) -> Result<(), Exception> {
         if count == 0 || count > max { Err(Exception::Value) } else { Ok(()) }
+    }
+
+    /// The place that waits at an offset of the frame.
+    pub fn place(&mut self, at: u8) -> Place {
+        Place(self.word(at).swap_bytes())
     }
 
     pub fn set_low_first(&mut self, at: u8, word: u16) {

@@ -108,7 +108,7 @@ impl<S: Station> Request<'_, S> {
         let (count, scans) = (self.station.link().left, self.station.times().scans as u16);
         for index in 0..count {
             let entry = FIRST + ENTRY_LEN as u8 * index;
-            let (place, noted) = (Place(self.word(entry + 2).swap_bytes()), self.word(entry + 4));
+            let (place, noted) = (self.place(entry + 2), self.word(entry + 4));
             let bytes = u32::from(self.word(entry + 6)) << 16 | u32::from(self.word(entry + 8));
             let value = if noted & EXECUTED == 0 || place == Place::NONE { 0 } else { place.value_in(bytes) };
             let answer = FIRST + ANSWER_LEN * index;

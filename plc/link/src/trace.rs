@@ -5,7 +5,6 @@
 use plc_vm::Memory;
 
 use crate::answer::{Answered, Exception, Request};
-use crate::copy::{copy, value_at};
 use crate::place::{ANYTHING, BYTE, Place};
 use crate::station::Station;
 
@@ -127,7 +126,7 @@ impl Trace {
     }
 
     fn look_at_trigger(&mut self, memory: &Memory) {
-        let is_on = value_at(memory, self.trigger)[0] != 0;
+        let is_on = self.trigger.bytes_in(memory)[0] != 0;
         let is_triggered = match self.kind {
             RISING => is_on && !self.was_on,
             FALLING => !is_on && self.was_on,
@@ -149,10 +148,10 @@ impl Trace {
         for _ in 0..self.values {
             let place = Place(memory.word(place_at));
             if place.size() < BYTE {
-                let value = value_at(memory, place)[0];
+                let value = place.bytes_in(memory)[0];
                 memory.set_byte(to, value);
             } else {
-                copy(memory, place.address(), to, u16::from(place.width()));
+                memory.copy(place.address(), to, u16::from(place.width()));
             }
             place_at += PLACE_LEN;
             to += u16::from(place.width());
