@@ -3,6 +3,8 @@
 #[cfg(feature = "uno")]
 pub mod bench_board;
 pub mod case;
+#[cfg(feature = "uno")]
+pub mod commands;
 pub mod effort;
 #[cfg(feature = "uno")]
 pub mod flash_responder;
@@ -21,6 +23,5 @@ pub mod own_clock;
 #[cfg(feature = "uno")]
 pub mod power;
 pub mod random;
-#[cfg(feature = "uno")]
-pub mod requests;
 pub mod retained;
+pub mod still_time;

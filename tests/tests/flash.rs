@@ -5,7 +5,7 @@
 use std::fs::{self, OpenOptions};
 use std::io::{Read, Write};
 use std::os::unix::fs::OpenOptionsExt;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::sync::LazyLock;
 use std::thread;
@@ -17,6 +17,7 @@ use awl_asm::source::Source;
 use plc_isa::{SLOT_LEN, SLOT_START};
 use simavr::{Avr, Pin};
 use tempfile::TempDir;
+use tests::commands;
 use tests::flash_responder::{Flaw, Responder};
 use tests::link::{UNIT, checksum, frame};
 use virtual_uno::VirtualUno;
@@ -43,14 +44,7 @@ const BOOTLOADER_MS: u32 = 1_800;
 /// A short request, its answer and the pauses behind them.
 const ANSWER_MS: u32 = 20;
 
-/// The real command, as users have it. The tests' crate has no command of its own, so cargo is asked for it.
-static AWL_ASM: LazyLock<PathBuf> = LazyLock::new(|| {
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().expect("tmp is in the target folder");
-    let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["build", "--quiet", "--package", "awl-asm", "--target-dir"]).arg(target);
-    assert!(cargo.status().expect("cargo starts").success());
-    target.join("debug/awl-asm")
-});
+static AWL_ASM: LazyLock<PathBuf> = LazyLock::new(|| commands::built("awl-asm"));
 
 /// A folder with the two programs.
 fn folder() -> TempDir {

@@ -2,6 +2,9 @@
 //! same memory. What the answers are, the tests of plc-link and the list of exchanges say.
 #![cfg(feature = "uno")]
 
+#[path = "../../plc/link/tests/machine/requests.rs"]
+mod requests;
+
 use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
 use fastrand::Rng;
@@ -11,7 +14,6 @@ use tests::case::{folder, host, read};
 use tests::effort::effort;
 use tests::image::image;
 use tests::link::{self, UNIT};
-use tests::requests::random_request;
 
 /// Longest request and answer on the line.
 const PDU_MAX: usize = 253;
@@ -23,14 +25,11 @@ fn comparable(request: &[u8], mut answer: Vec<u8>) -> Vec<u8> {
         [67, _, ref references @ ..] => references.chunks(3).any(|reference| reference[0] >> 4 == 3),
         _ => false,
     };
-    let known = match answer.first() {
-        Some(67) => 1..3,
-        _ if sees_system_bits => 2..answer.len(),
-        _ => 0..0,
-    };
-    let masked = if sees_system_bits { known.start..answer.len() } else { known };
-    if let Some(bytes) = answer.get_mut(masked) {
-        bytes.fill(0);
+    let is_watch = answer.first() == Some(&67);
+    let from = if is_watch { 1 } else { 2 };
+    let len = if sees_system_bits { answer.len() } else { 2 };
+    if is_watch || sees_system_bits {
+        answer.iter_mut().skip(from).take(len).for_each(|byte| *byte = 0);
     }
     answer
 }
@@ -72,7 +71,11 @@ fn random_requests_have_the_same_answers_on_host_and_board() {
     let mut rng = Rng::with_seed(effort("RANDOM_SEED", 1));
     let (mut refused, count) = (0, effort("RANDOM_REQUESTS", 4_000));
     for number in 0..count {
-        let request = random_request(&mut rng);
+        let request = requests::request(&mut rng);
+        // What ends the mode or asks for something that is another each time has tests of its own.
+        if matches!(request[0], 65 | 66 | 69 | 70) {
+            continue;
+        }
         assert!(request.len() <= PDU_MAX);
         let wanted = exchange(&mut host, &mut now_ms, &request);
         let got = link::exchange(&mut board, UNIT, &request);

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::fs::OpenOptions;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Child, Command, Output, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, LazyLock};
@@ -18,6 +18,7 @@ use awl_asm::hex::intel_hex;
 use simavr::Pin;
 use tests::bench_board::BenchBoard;
 use tests::case::{folder, read};
+use tests::commands;
 use tests::image::image;
 use tests::link;
 use virtual_uno::VirtualUno;
@@ -25,14 +26,7 @@ use virtual_uno::VirtualUno;
 /// The bootloader waits a second for avrdude, and flashes its lamp before that; then the firmware checks the program.
 const START_MS: u32 = 2_200;
 
-/// The real command, as users have it. The tests' crate has no command of its own, so cargo is asked for it.
-static AWL_SIM: LazyLock<PathBuf> = LazyLock::new(|| {
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().expect("tmp is in the target folder");
-    let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["build", "--quiet", "--package", "awl-sim", "--target-dir"]).arg(target);
-    assert!(cargo.status().expect("cargo starts").success());
-    target.join("debug/awl-sim")
-});
+static AWL_SIM: LazyLock<PathBuf> = LazyLock::new(|| commands::built("awl-sim"));
 
 fn program() -> String {
     read(&folder("link").join("areas.awl"))

@@ -1,21 +1,9 @@
 //! Changes between STOP and RUN, which no scenario can make: what is kept, what starts anew, when outputs are on.
 
-use awl_asm::assemble::assemble;
-use awl_asm::source::Source;
 use plc_isa::{M_START, SM_START};
-use plc_vm::{Environment, Inputs, Memory, Mode, Plc};
-
-struct Time(u32);
-
-impl Environment for Time {
-    fn now_ms(&mut self) -> u32 {
-        self.0
-    }
-    fn is_overdue(&mut self, _bytes: u16) -> bool {
-        true
-    }
-    fn retrigger_watchdog(&mut self) {}
-}
+use plc_vm::{Inputs, Memory, Mode, Plc};
+use tests::image::image;
+use tests::still_time::StillTime;
 
 struct Bench {
     plc: Plc<Vec<u8>>,
@@ -26,10 +14,8 @@ struct Bench {
 
 impl Bench {
     fn stopped(text: &str) -> Bench {
-        let assembly = assemble(&Source::new("modes", text).unwrap(), Vec::new());
-        let image = assembly.image.unwrap_or_else(|| panic!("{:?}", assembly.diagnostics));
         let mut bench = Bench { plc: Plc::new(), memory: Memory::new(), inputs: Inputs::default(), now_ms: 1_000 };
-        bench.plc.load(&mut bench.memory, image).unwrap();
+        bench.plc.load(&mut bench.memory, image(text)).unwrap();
         bench
     }
 
@@ -43,7 +29,7 @@ impl Bench {
     fn scan(&mut self, after_ms: u32, ib0: u8) {
         self.now_ms = self.now_ms.wrapping_add(after_ms);
         self.inputs.digital[0] = ib0;
-        self.plc.scan(&mut self.memory, &self.inputs, &mut Time(self.now_ms));
+        self.plc.scan(&mut self.memory, &self.inputs, &mut StillTime(self.now_ms));
     }
 
     fn outputs(&self) -> u8 {
@@ -85,7 +71,7 @@ fn outputs_are_off_until_the_first_scan_is_done() {
 fn nothing_runs_without_a_program() {
     let (mut plc, mut memory) = (Plc::<Vec<u8>>::new(), Memory::new());
     assert!(!plc.run());
-    plc.scan(&mut memory, &Inputs::default(), &mut Time(5));
+    plc.scan(&mut memory, &Inputs::default(), &mut StillTime(5));
     assert_eq!((plc.mode(), plc.outputs(&memory, 0)), (Mode::Stop, 0));
     assert!(plc.load(&mut memory, b"U200 but no more".to_vec()).is_err());
     assert!(plc.fault().is_some() && !plc.run());
@@ -187,7 +173,6 @@ fn scan_times() {
 fn a_new_program_starts_with_clear_memory_in_stop() {
     let mut bench = Bench::running("LD SM0.0\nMOVW 5, MW0\n= Q0.0\n");
     bench.scan(1, 0);
-    let image = assemble(&Source::new("other", "LD I0.0\n= Q0.1\n").unwrap(), Vec::new()).image.unwrap();
-    bench.plc.load(&mut bench.memory, image).unwrap();
+    bench.plc.load(&mut bench.memory, image("LD I0.0\n= Q0.1\n")).unwrap();
     assert_eq!((bench.plc.mode(), bench.outputs(), bench.memory.int(M_START)), (Mode::Stop, 0, 0));
 }

@@ -1,25 +1,13 @@
 //! Single scans: STOP and on from where the program stood.
 
-use awl_asm::assemble::assemble;
-use awl_asm::source::Source;
 use plc_isa::{M_START, SM_START};
-use plc_vm::{Environment, Fault, Inputs, Memory, Mode, Plc};
+use plc_vm::{Fault, Inputs, Memory, Mode, Plc};
+use tests::image::image;
+use tests::still_time::StillTime;
 
 /// Counts first scans in MW0, scans in MW2 and rising edges of I0.0 in MW4; timers of each resolution run.
 const TEXT: &str = "NETWORK 1\nLD SM0.1\nINCW MW0\nLD SM0.0\nINCW MW2\nLD I0.0\nEU\nINCW MW4\n\
                     NETWORK 2\nLD SM0.0\nTON T32, 30000\nTON T33, 3000\nTON T37, 300\n";
-
-struct Time(u32);
-
-impl Environment for Time {
-    fn now_ms(&mut self) -> u32 {
-        self.0
-    }
-    fn is_overdue(&mut self, _bytes: u16) -> bool {
-        true
-    }
-    fn retrigger_watchdog(&mut self) {}
-}
 
 struct Bench {
     plc: Plc<Vec<u8>>,
@@ -35,15 +23,12 @@ impl Bench {
     }
 
     fn load(&mut self) {
-        let assembly = assemble(&Source::new("single", TEXT).unwrap(), Vec::new());
-        self.plc
-            .load(&mut self.memory, assembly.image.unwrap_or_else(|| panic!("{:?}", assembly.diagnostics)))
-            .unwrap();
+        self.plc.load(&mut self.memory, image(TEXT)).unwrap();
     }
 
     /// A scan at this time.
     fn scan(&mut self, now_ms: u32) {
-        self.plc.scan(&mut self.memory, &self.inputs, &mut Time(now_ms));
+        self.plc.scan(&mut self.memory, &self.inputs, &mut StillTime(now_ms));
     }
 
     /// A single scan, as on command.
@@ -119,7 +104,7 @@ fn going_on_needs_a_program_and_clears_the_fault() {
     let mut memory = Memory::new();
     let mut empty = Plc::<Vec<u8>>::new();
     assert!(!empty.go_on());
-    empty.scan(&mut memory, &Inputs::default(), &mut Time(0));
+    empty.scan(&mut memory, &Inputs::default(), &mut StillTime(0));
     assert_eq!(empty.mode(), Mode::Stop);
 
     let mut bench = Bench::new();

@@ -1,25 +1,9 @@
 //! Timers over long times, at the wrap of the millisecond clock, and when scans take longer than they should.
 
-use awl_asm::assemble::assemble;
-use awl_asm::source::Source;
-use plc_isa::{C_BITS_START, LogicStack, T_BITS_START};
-use plc_vm::{Environment, Inputs, Memory, Plc};
-
-/// The millisecond clock, as the test sets it.
-struct Time {
-    now_ms: u32,
-}
-
-impl Environment for Time {
-    fn now_ms(&mut self) -> u32 {
-        self.now_ms
-    }
-    fn is_overdue(&mut self, _bytes: u16) -> bool {
-        true
-    }
-    fn retrigger_watchdog(&mut self) {}
-    fn executed(&mut self, _at: u16, _stack: LogicStack, _memory: &mut Memory) {}
-}
+use plc_isa::{C_BITS_START, T_BITS_START};
+use plc_vm::{Inputs, Memory, Plc};
+use tests::image::image;
+use tests::still_time::StillTime;
 
 /// A program in RUN.
 struct Bench {
@@ -29,9 +13,7 @@ struct Bench {
 
 impl Bench {
     fn new(text: &str) -> Bench {
-        let assembly = assemble(&Source::new("time", text).unwrap(), Vec::new());
-        let image = assembly.image.unwrap_or_else(|| panic!("{:?}", assembly.diagnostics));
-        Bench { image, memory: Memory::new() }
+        Bench { image: image(text), memory: Memory::new() }
     }
 
     /// Runs scans at these times and calls back after each.
@@ -42,7 +24,7 @@ impl Bench {
         let mut inputs = Inputs::default();
         inputs.digital[0] = 1;
         for now_ms in times {
-            plc.scan(&mut self.memory, &inputs, &mut Time { now_ms });
+            plc.scan(&mut self.memory, &inputs, &mut StillTime(now_ms));
             let plan = plc.program().unwrap().plan();
             let current = |number| plan.timer_slot(number).map(|slot| self.memory.int(slot.address));
             let counted = |number| plan.counter_slot(number).map(|slot| self.memory.int(slot.address));
