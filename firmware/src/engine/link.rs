@@ -280,7 +280,8 @@ pub fn end_run() {
 pub fn place(program: Option<&Program<ProgramSlot>>) -> u8 {
     let line = line();
     let (mut frame, mut end) = (ARENA_START, DATA_END);
-    (line.timers_table, line.counters_table, line.labels_table, line.name_len, line.image_len) = (0, 0, 0, 0, 0);
+    (line.timers_table, line.counters_table, line.labels_table, line.v_table) = (0, 0, 0, 0);
+    (line.name_len, line.image_len, line.program_bits) = (0, 0, 0);
     if let Some(program) = program {
         let plan = program.plan();
         let header = &plan.header;
@@ -291,16 +292,11 @@ pub fn place(program: Option<&Program<ProgramSlot>>) -> u8 {
         line.labels_table = SLOT_START + plan.labels_at;
         line.timers_start = plan.timers_start;
         line.counters_start = plan.counters_start;
+        line.v_table = line.timers_table - 4 * header.v_ranges;
         line.name_len = header.name_len;
+        line.name_at = line.v_table - u16::from(header.name_len);
         line.image_len = header.total_len;
-    }
-    line.v_table = line.timers_table;
-    line.program_bits = 0;
-    if let Some(program) = program {
-        let header = &program.plan().header;
         line.program_bits = if header.interface == 0 { 1 << 1 } else { 1 << 1 | 1 << 3 };
-        line.v_table -= 4 * header.v_ranges;
-        line.name_at = line.v_table - u16::from(line.name_len);
     }
     line.phase = 0;
     line.forces_count = 0;
