@@ -43,7 +43,7 @@ impl Client {
         let begin = Instant::now();
         let mut has_waited = false;
         loop {
-            match transport.exchange(&[crate::service::IDENTIFY], BOOT_PATIENCE) {
+            match transport.exchange(&[plc_link::protocol::IDENTIFY], BOOT_PATIENCE) {
                 Err(error @ (Error::NoAnswer | Error::BadAnswer(_))) if begin.elapsed() < BOOT => {
                     if !has_waited {
                         notice("waiting for an answer: opening the port may have reset the board");

@@ -1,39 +1,27 @@
 //! What can be asked of the PLC, as functions: the service functions of docs/protocol.md, and the identification of
 //! Modbus. How requests travel is the transport's business.
 
+use plc_link::protocol::{
+    self, BLOCK_MAX, CONTROL, FORCE, FORCE_LEN, IDENTIFICATION, IDENTIFY, READ_BLOCK, SET, STATUS, TRACE, VERSION,
+    WATCH,
+};
+
 use crate::client::Client;
 use crate::error::Error;
 use crate::operand::Operand;
 use crate::reference::Reference;
 use crate::value::raw;
 
-/// Function code of [`Client::identify`].
-pub const IDENTIFY: u8 = 65;
-const CONTROL: u8 = 66;
-const WATCH: u8 = 67;
-const FORCE: u8 = 68;
-const STATUS: u8 = 69;
-const TRACE: u8 = 70;
-const READ_BLOCK: u8 = 71;
-const SET: u8 = 72;
-const IDENTIFICATION: u8 = 43;
-
-/// The version of the service functions that this tool speaks.
-pub const VERSION: u8 = 1;
 /// Most values in one request to set.
-pub const SET_MAX: usize = 16;
-/// Bytes in a block.
-const BLOCK_MAX: u16 = 64;
+pub const SET_MAX: usize = protocol::SET_MAX as usize;
 /// Most operands in one request to watch.
-pub const WATCH_MAX: usize = 32;
+pub const WATCH_MAX: usize = protocol::WATCH_MAX as usize;
 /// Most instructions in a status window.
-pub const STATUS_MAX: usize = 24;
+pub const STATUS_MAX: usize = protocol::STATUS_MAX as usize;
 /// Most operands in a trace.
-pub const TRACE_MAX: usize = 8;
+pub const TRACE_MAX: usize = protocol::TRACE_MAX as usize;
 /// Most forced operands.
-pub const FORCE_MAX: usize = 16;
-/// Bytes of a forced operand in an answer: reference and value.
-const FORCED_LEN: usize = 7;
+pub const FORCE_MAX: usize = protocol::FORCES_MAX as usize;
 
 /// What the PLC says about itself.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -324,7 +312,7 @@ impl Client {
 
     fn force_request(&mut self, request: &[u8]) -> Result<Vec<Forced>, Error> {
         let answer = self.exchange(request)?;
-        let entries = answer.get(2..).unwrap_or(&[]).chunks_exact(FORCED_LEN);
+        let entries = answer.get(2..).unwrap_or(&[]).chunks_exact(FORCE_LEN.into());
         Ok(entries.map(|e| Forced { reference: Reference([e[0], e[1], e[2]]), value: raw(&e[3..]) }).collect())
     }
 
@@ -403,7 +391,7 @@ impl Client {
 
     /// Reads `len` bytes from an offset on, in blocks that fit the PLC's room for answers.
     pub fn read(&mut self, space: Space, offset: u16, len: u16, room: u16) -> Result<Vec<u8>, Error> {
-        let block_max = room.saturating_sub(2).clamp(1, BLOCK_MAX);
+        let block_max = room.saturating_sub(2).clamp(1, BLOCK_MAX.into());
         let mut bytes = Vec::with_capacity(len.into());
         while bytes.len() < usize::from(len) {
             let at = offset + bytes.len() as u16;

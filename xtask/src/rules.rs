@@ -21,7 +21,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("simavr", &[]),
     ("awl-sim", &["plc-isa", "plc-vm", "plc-link", "awl-asm", "simavr"]),
     ("virtual-uno", &["simavr"]),
-    ("uno200", &["plc-isa", "plc-vm", "awl-asm"]),
+    ("uno200", &["plc-isa", "plc-vm", "plc-link", "awl-asm"]),
     ("tests", &["plc-isa", "plc-vm", "awl-asm", "awl-sim", "simavr", "virtual-uno"]),
     ("xtask", &["plc-isa", "plc-vm", "awl-asm", "awl-sim"]),
 ];

@@ -5,6 +5,7 @@ use plc_vm::Memory;
 use crate::identity;
 use crate::link::Phase;
 use crate::modbus;
+use crate::protocol::IDENTIFICATION;
 use crate::service;
 use crate::station::Station;
 
@@ -36,7 +37,7 @@ pub fn answer<S: Station>(station: &mut S, len: u16) -> u16 {
     } else {
         match function {
             1..=6 | 15 | 16 | 23 => modbus::answer(&mut request, function),
-            43 => identity::answer(&mut request),
+            IDENTIFICATION => identity::answer(&mut request),
             _ => service::answer(&mut request, function),
         }
     };

@@ -4,12 +4,7 @@ use plc_isa::{Bit, I_START, Q_START, SM_START};
 use plc_vm::Memory;
 
 use crate::place::{BYTE, Place};
-
-/// Most operands forced at the same time.
-pub const FORCES_MAX: u8 = 16;
-
-/// Bytes of an entry on the line: reference and value.
-pub(crate) const ENTRY_LEN: u8 = 7;
+use crate::protocol::{FORCE_LEN, FORCES_MAX};
 
 /// SM4.7: something is forced.
 const SOMETHING_FORCED: Bit = Bit { address: SM_START + 4, bit: 7 };
@@ -18,7 +13,7 @@ const SOMETHING_FORCED: Bit = Bit { address: SM_START + 4, bit: 7 };
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Force {
     /// Reference (3) and value (4), as on the line.
-    pub entry: [u8; ENTRY_LEN as usize],
+    pub entry: [u8; FORCE_LEN as usize],
     pub place: Place,
 }
 
@@ -48,7 +43,7 @@ impl Forces {
     /// Nothing is forced.
     pub const NONE: Forces = Forces {
         count: 0,
-        entries: [Force { entry: [0; ENTRY_LEN as usize], place: Place::NONE }; FORCES_MAX as usize],
+        entries: [Force { entry: [0; FORCE_LEN as usize], place: Place::NONE }; FORCES_MAX as usize],
     };
 
     /// Whether nothing is forced.
@@ -84,7 +79,7 @@ impl Forces {
     }
 
     /// Forces an operand. Returns whether there is room for it.
-    pub(crate) fn set(&mut self, entry: [u8; ENTRY_LEN as usize], place: Place, memory: &mut Memory) -> bool {
+    pub(crate) fn set(&mut self, entry: [u8; FORCE_LEN as usize], place: Place, memory: &mut Memory) -> bool {
         let at = self.position(place);
         let Some(force) = self.entries.get_mut(at) else { return false };
         *force = Force { entry, place };

@@ -19,14 +19,15 @@ mod identity;
 mod link;
 mod modbus;
 mod place;
+pub mod protocol;
 mod service;
 mod station;
 pub mod status;
 mod trace;
 
 pub use answer::answer;
-pub use forces::{FORCES_MAX, Forces};
+pub use forces::Forces;
 pub use link::{Link, PDU_MAX};
 pub use place::Place;
-pub use service::{Command, PROTOCOL_VERSION};
+pub use service::Command;
 pub use station::{ScanTimes, Station, TEXTS};

@@ -4,20 +4,16 @@ use plc_isa::{Bit, CRC_LEN, SLOT_LEN};
 use plc_vm::{Fault, Mode};
 
 use crate::answer::{Answered, Exception, Request};
-use crate::forces::ENTRY_LEN;
 use crate::link::Phase;
 use crate::place::{ANYTHING, BYTE, FORCED, Place, WRITABLE, resolve};
+use crate::protocol::{
+    BLOCK_MAX, CONTROL, FORCE, FORCE_LEN, IDENTIFY, READ_BLOCK, SET, SET_MAX, STATUS, TRACE, VERSION, WATCH, WATCH_MAX,
+};
 use crate::station::Station;
-
-/// The version of the service functions.
-pub const PROTOCOL_VERSION: u8 = 1;
 
 /// What there is: bit 0 status of instructions, bit 1 trace. A board may have less.
 const CAPABILITIES: u8 = 0b11;
 
-const WATCHED_MAX: u8 = 32;
-const SET_MAX: u8 = 16;
-const READ_MAX: u8 = 64;
 /// Bytes of a reference.
 const REFERENCE_LEN: u8 = 3;
 /// Bytes of a [`Place`] that waits in the frame.
@@ -39,14 +35,14 @@ pub enum Command {
 /// Functions from 65 on.
 pub(crate) fn answer<S: Station>(request: &mut Request<S>, function: u8) -> Answered {
     match function {
-        65 => request.identify(),
-        66 => request.control(),
-        67 => request.watch(),
-        68 => request.force(),
-        69 => request.status(),
-        70 => request.trace(),
-        71 => request.read_block(),
-        72 => request.set(),
+        IDENTIFY => request.identify(),
+        CONTROL => request.control(),
+        WATCH => request.watch(),
+        FORCE => request.force(),
+        STATUS => request.status(),
+        TRACE => request.trace(),
+        READ_BLOCK => request.read_block(),
+        SET => request.set(),
         _ => Err(Exception::Function),
     }
 }
@@ -65,7 +61,7 @@ impl<S: Station> Request<'_, S> {
             state |= if header.interface != 0 { 1 << 1 | 1 << 3 } else { 1 << 1 };
         }
         state |= u8::from(!self.station.link().forces.is_empty()) << 2 | u8::from(self.station.has_scans_left()) << 4;
-        self.put(PROTOCOL_VERSION);
+        self.put(VERSION);
         self.put(CAPABILITIES);
         self.put(state);
         self.put_bytes(fault);
@@ -125,7 +121,7 @@ impl<S: Station> Request<'_, S> {
     /// the end of the frame's room; then these become values, whose place is not always behind the reference.
     fn watch(&mut self) -> Answered {
         let count = self.byte(1);
-        self.expect_count(count, WATCHED_MAX)?;
+        self.expect_count(count, WATCH_MAX)?;
         self.expect_len(2 + REFERENCE_LEN * count)?;
         let mut left = self.begin(count);
         while left != 0 {
@@ -164,11 +160,11 @@ impl<S: Station> Request<'_, S> {
     /// Function 68: forces.
     fn force(&mut self) -> Answered {
         let action = self.byte(1);
-        let (mut place, mut entry) = (Place::NONE, [0; ENTRY_LEN as usize]);
+        let (mut place, mut entry) = (Place::NONE, [0; FORCE_LEN as usize]);
         match action {
             0 | 3 => self.expect_len(2)?,
             1 | 2 => {
-                self.expect_len(2 + ENTRY_LEN)?;
+                self.expect_len(2 + FORCE_LEN)?;
                 place = self.reference(2, FORCED)?;
                 entry = [0, 1, 2, 3, 4, 5, 6].map(|offset| self.byte(2 + offset));
             }
@@ -192,7 +188,7 @@ impl<S: Station> Request<'_, S> {
         let count = self.station.link().forces.entries().len() as u8;
         self.put(count);
         while let Some(force) = self.station.link().forces.entries().get(index).copied()
-            && self.out + ENTRY_LEN <= self.room
+            && self.out + FORCE_LEN <= self.room
         {
             for byte in force.entry {
                 self.put(byte);
@@ -205,7 +201,7 @@ impl<S: Station> Request<'_, S> {
     fn read_block(&mut self) -> Answered {
         self.expect_len(5)?;
         let (space, mut at, len) = (self.byte(1), self.word(2), self.byte(4));
-        self.expect_count(len, READ_MAX)?;
+        self.expect_count(len, BLOCK_MAX)?;
         self.expect_room(len + 2)?;
         let end = match space {
             0 => SLOT_LEN,

@@ -17,6 +17,7 @@ use plc_vm::{Memory, Mode};
 use crate::answer::{Answered, Exception, Request};
 use crate::link::Phase;
 use crate::place::{ANYTHING, Place};
+use crate::protocol::STATUS_MAX;
 use crate::station::Station;
 
 /// Bytes of an entry.
@@ -25,7 +26,6 @@ pub const ENTRY_LEN: u16 = 10;
 /// Offset of the first entry in the frame.
 pub(crate) const FIRST: u8 = 3;
 
-const COUNT_MAX: u8 = 24;
 /// Bytes of a request's and of an answer's part about an instruction.
 const REQUEST_LEN: u8 = 5;
 const ANSWER_LEN: u8 = 6;
@@ -73,7 +73,7 @@ impl<S: Station> Request<'_, S> {
         if self.station.plc().program().is_none_or(|program| program.plan().header.interface != 0) {
             return Err(Exception::Busy);
         }
-        self.expect_count(count, COUNT_MAX)?;
+        self.expect_count(count, STATUS_MAX)?;
         self.expect_len(2 + REQUEST_LEN * count)?;
         let end = FIRST + ENTRY_LEN as u8 * count;
         self.expect_room(end + 2)?;

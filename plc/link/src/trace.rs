@@ -6,9 +6,9 @@ use plc_vm::Memory;
 
 use crate::answer::{Answered, Exception, Request};
 use crate::place::{ANYTHING, BYTE, Place};
+use crate::protocol::TRACE_MAX;
 use crate::station::Station;
 
-const VALUES_MAX: u8 = 8;
 /// Bytes at the start of the ring that the board needs for itself.
 const HEAD_LEN: u16 = 23;
 /// Bytes of a place in the ring.
@@ -190,7 +190,7 @@ impl<S: Station> Request<'_, S> {
 
     fn start_trace(&mut self) -> Result<(), Exception> {
         let (every, before, kind, count) = (self.word(2), self.word(4), self.byte(6), self.byte(10));
-        self.expect_count(count, VALUES_MAX)?;
+        self.expect_count(count, TRACE_MAX)?;
         self.expect_len(REFERENCES + 3 * count)?;
         if every == 0 || kind > OFF {
             return Err(Exception::Value);

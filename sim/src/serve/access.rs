@@ -3,6 +3,8 @@
 
 use std::net::{IpAddr, SocketAddr};
 
+use plc_link::protocol::{FORCE, IDENTIFICATION, IDENTIFY, READ_BLOCK, STATUS, TRACE, WATCH};
+
 /// What clients may do, beside those on the same computer, who may do everything.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Access {
@@ -12,10 +14,9 @@ pub struct Access {
     pub writes: bool,
 }
 
-/// Function codes that change nothing in the process: reading, identification, identify, watch, status, trace, read block.
-const READING: [u8; 10] = [1, 2, 3, 4, 43, 65, 67, 69, 70, 71];
-/// Force, whose first action only lists.
-const FORCE: u8 = 68;
+/// Function codes that change nothing in the process: Modbus reading, and those that ask.
+const READING: [u8; 10] = [1, 2, 3, 4, IDENTIFICATION, IDENTIFY, WATCH, STATUS, TRACE, READ_BLOCK];
+/// The action of [`FORCE`] that only lists.
 const LIST: u8 = 0;
 
 impl Access {

@@ -2,6 +2,8 @@
 //!
 //! tokio-modbus frames RTU as well, but reads no answers to user-defined functions: their lengths are known here alone.
 
+use plc_link::protocol::{CONTROL, FORCE, FORCE_LEN, IDENTIFICATION, IDENTIFY, READ_BLOCK, SET, STATUS, TRACE, WATCH};
+
 /// Bytes around a request or an answer: unit and checksum.
 const AROUND: usize = 3;
 
@@ -43,15 +45,15 @@ pub fn frame_len(request: &[u8], begun: &[u8]) -> Option<usize> {
     let len = match function {
         1..=4 | 23 => counted(2, 1)?,
         5 | 6 | 15 | 16 => 5,
-        43 => device_identification(begun)?,
-        65 => 40,
-        66 => 4,
-        67 => 3 + watched_len(request),
-        68 => counted(2, 7)?,
-        69 => 3 + usize::from(*request.get(1)?) * 6,
-        70 => 13,
-        71 => counted(2, 1)?,
-        72 => 2,
+        IDENTIFICATION => device_identification(begun)?,
+        IDENTIFY => 40,
+        CONTROL => 4,
+        WATCH => 3 + watched_len(request),
+        FORCE => counted(2, FORCE_LEN.into())?,
+        STATUS => 3 + usize::from(*request.get(1)?) * 6,
+        TRACE => 13,
+        READ_BLOCK => counted(2, 1)?,
+        SET => 2,
         _ => return None,
     };
     Some(len + AROUND)
