@@ -1,6 +1,6 @@
 //! The scan: inputs, program, communication, self-test, outputs; and the way between RUN and STOP.
 
-use plc_isa::{AnalogInput, CRC_LEN, DATA_START, I_START, ProgramMemory, Settings};
+use plc_isa::{CRC_LEN, DATA_START, I_START, ProgramMemory, Settings};
 use plc_vm::{Exit, Fault, Mode, Plc};
 
 use crate::board::clock::Moment;
@@ -172,6 +172,9 @@ impl Uno {
         self.force();
         let executes = self.plc.mode() == Mode::Run;
         self.execute();
+        if executes {
+            link::count_scan();
+        }
         self.communicate();
         self.test();
         self.force();
@@ -181,7 +184,7 @@ impl Uno {
             self.keep(executes);
         }
         if executes {
-            link::enter_scan(start.counts_until(Moment::now()));
+            link::enter_scan(start);
             if link::is_stepping() && link::count_down() {
                 self.stop();
             }
@@ -282,10 +285,7 @@ impl Uno {
     fn read_inputs(&mut self) {
         self.data.memory().bytes_mut()[FIRST_INPUT_BYTE] = self.ports.inputs() ^ self.settings.invert_inputs;
         if analog::has_fresh() {
-            analog::take_fresh(|channel, raw| {
-                self.data.memory().set_word(AnalogInput::Raw(channel).address(), raw);
-                self.data.memory().set_word(AnalogInput::Scaled(channel).address(), AnalogInput::scale(raw));
-            });
+            analog::take_fresh();
         }
     }
 

@@ -1,9 +1,11 @@
 //! What can be asked of the PLC, as functions: the service functions of docs/protocol.md, and the identification of
 //! Modbus. How requests travel is the transport's business.
 
+use plc_isa::LINE_ROOM;
 use plc_link::protocol::{
-    self, BLOCK_MAX, CONTROL, FORCE, FORCE_LEN, IDENTIFICATION, IDENTIFY, READ_BLOCK, SET, STATUS, TRACE, VERSION,
-    WATCH,
+    self, BLOCK_MAX, CONTROL, FORCE, FORCE_LEN, IDENTIFICATION, IDENTIFY, READ_BLOCK, SET, STATUS, TRACE,
+    TRACE_CAPACITY, TRACE_FIRST, TRACE_HEAD_LEN, TRACE_NEXT, TRACE_SAMPLE_LEN, TRACE_SAMPLES, TRACE_SCAN,
+    TRACE_TRIGGERED_AT, TRACE_VALUES, VERSION, WATCH,
 };
 
 use crate::client::Client;
@@ -146,23 +148,23 @@ pub enum TracePhase {
     Done,
 }
 
-/// The state of a trace.
+/// What a trace has recorded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TraceState {
-    /// How far it is.
-    pub phase: TracePhase,
     /// Bytes of a sample.
     pub sample_len: u8,
     /// Samples that the ring holds.
     pub capacity: u16,
     /// Samples taken.
     pub samples: u16,
-    /// Where the first one stands in the ring.
-    pub first: u16,
+    /// Where the latest one ends in the ring, in bytes.
+    pub end: u16,
     /// The sample of the trigger, counted from the first.
     pub trigger: u16,
-    /// Scan of the first sample.
-    pub first_scan: u16,
+    /// Scan of the latest sample.
+    pub last_scan: u16,
+    /// Offset of the ring in the memory of the trace.
+    pub ring_at: u16,
 }
 
 /// Memory that is read in blocks.
@@ -170,7 +172,7 @@ pub struct TraceState {
 pub enum Space {
     /// The program slot: the image.
     Program,
-    /// The samples of the trace.
+    /// The memory of the trace.
     Trace,
 }
 
@@ -335,8 +337,24 @@ impl Client {
     }
 
     /// How far the trace is.
-    pub fn trace_state(&mut self) -> Result<TraceState, Error> {
+    pub fn trace_phase(&mut self) -> Result<TracePhase, Error> {
         self.trace_request(&[TRACE, 0])
+    }
+
+    /// What the trace has recorded, of which there must be one.
+    pub fn trace_state(&mut self) -> Result<TraceState, Error> {
+        let head = self.read(Space::Trace, 0, TRACE_HEAD_LEN, LINE_ROOM)?;
+        let byte = |at: u16| head.get(usize::from(at)).copied().unwrap_or(0);
+        let word = |at: u16| u16::from_be_bytes([byte(at), byte(at + 1)]);
+        Ok(TraceState {
+            sample_len: byte(TRACE_SAMPLE_LEN),
+            capacity: word(TRACE_CAPACITY),
+            samples: word(TRACE_SAMPLES),
+            end: word(TRACE_NEXT).wrapping_sub(word(TRACE_FIRST)),
+            trigger: word(TRACE_TRIGGERED_AT),
+            last_scan: word(TRACE_SCAN),
+            ring_at: TRACE_HEAD_LEN + 2 * u16::from(byte(TRACE_VALUES)),
+        })
     }
 
     /// Begins a trace of up to [`TRACE_MAX`] operands, a sample every `every` scans, `before` of them before the trigger.
@@ -346,7 +364,7 @@ impl Client {
         before: u16,
         trigger: Trigger,
         operands: &[Reference],
-    ) -> Result<TraceState, Error> {
+    ) -> Result<TracePhase, Error> {
         let (kind, bit) = match trigger {
             Trigger::None => (0, Reference::NONE),
             Trigger::Rising(bit) => (1, bit),
@@ -365,28 +383,18 @@ impl Client {
     }
 
     /// Ends the trace; the samples stay.
-    pub fn stop_trace(&mut self) -> Result<TraceState, Error> {
+    pub fn stop_trace(&mut self) -> Result<TracePhase, Error> {
         self.trace_request(&[TRACE, 2])
     }
 
-    fn trace_request(&mut self, request: &[u8]) -> Result<TraceState, Error> {
-        let answer = self.exchange(request)?;
-        let mut fields = Fields::of(&answer);
-        Ok(TraceState {
-            phase: match fields.byte()? {
-                0 => TracePhase::None,
-                1 => TracePhase::Waiting,
-                2 => TracePhase::Filling,
-                3 => TracePhase::Done,
-                other => return Err(Error::BadAnswer(format!("{other} is no state of a trace"))),
-            },
-            sample_len: fields.byte()?,
-            capacity: fields.word()?,
-            samples: fields.word()?,
-            first: fields.word()?,
-            trigger: fields.word()?,
-            first_scan: fields.word()?,
-        })
+    fn trace_request(&mut self, request: &[u8]) -> Result<TracePhase, Error> {
+        match Fields::of(&self.exchange(request)?).byte()? {
+            0 => Ok(TracePhase::None),
+            1 => Ok(TracePhase::Done),
+            2 => Ok(TracePhase::Waiting),
+            3 => Ok(TracePhase::Filling),
+            other => Err(Error::BadAnswer(format!("{other} is no state of a trace"))),
+        }
     }
 
     /// Reads `len` bytes from an offset on, in blocks that fit the PLC's room for answers.

@@ -41,11 +41,14 @@ impl Recording {
         let sample_len: usize = operands.iter().map(|operand| operand.form.bytes()).sum();
         let count = usize::from(state.samples);
         let capacity = usize::from(state.capacity).max(1);
-        if sample_len != usize::from(state.sample_len) || count > capacity || ring.len() < capacity * sample_len {
+        let last_place = usize::from(state.end) / sample_len.max(1);
+        let is_other = sample_len != usize::from(state.sample_len) || ring.len() < capacity * sample_len;
+        if is_other || count > capacity || last_place >= capacity {
             return Err(Error::BadAnswer("the trace has other operands than were asked for".into()));
         }
+        // Behind the last place of the ring comes the first.
         let sample = |index: usize| {
-            let at = (usize::from(state.first) + index) % capacity * sample_len;
+            let at = (last_place + capacity - count + index) % capacity * sample_len;
             let mut rest = ring.get(at..).unwrap_or(&[]);
             let values = operands.iter().map(|operand| {
                 let (value, behind) = rest.split_at_checked(operand.form.bytes()).unwrap_or((&[], &[]));
@@ -55,8 +58,9 @@ impl Recording {
             values.collect()
         };
         let samples: Vec<Vec<u32>> = (0..count).map(sample).collect();
+        let first_scan = state.last_scan.wrapping_sub(state.samples.saturating_sub(1).wrapping_mul(every));
         let trigger = Some(usize::from(state.trigger)).filter(|&trigger| trigger < count);
-        Ok(Recording { samples, operands, first_scan: state.first_scan, every, trigger, scan_us })
+        Ok(Recording { samples, operands, first_scan, every, trigger, scan_us })
     }
 
     /// Microseconds from the first sample to this one.
@@ -171,21 +175,13 @@ pub fn write_csv_row(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::service::TracePhase;
 
     fn recording() -> Recording {
         let operands = ["I0.0", "MW3"].map(|name| Operand::parse(name, &[]).unwrap()).to_vec();
         // A ring of four samples that has gone round: the first one is the third.
         let ring = [1, 0, 7, 1, 0xFF, 0xFF, 0, 0, 5, 0, 0, 6];
-        let state = TraceState {
-            phase: TracePhase::Done,
-            sample_len: 3,
-            capacity: 4,
-            samples: 4,
-            first: 2,
-            trigger: 2,
-            first_scan: 100,
-        };
+        let state =
+            TraceState { sample_len: 3, capacity: 4, samples: 4, end: 6, trigger: 2, last_scan: 106, ring_at: 29 };
         Recording::of_ring(operands, &ring, &state, 2, 250.0).unwrap()
     }
 
@@ -214,15 +210,8 @@ mod tests {
     #[test]
     fn a_ring_of_other_operands_is_refused() {
         let operands = vec![Operand::parse("MW3", &[]).unwrap()];
-        let state = TraceState {
-            phase: TracePhase::Done,
-            sample_len: 3,
-            capacity: 1,
-            samples: 1,
-            first: 0,
-            trigger: 0,
-            first_scan: 0,
-        };
+        let state =
+            TraceState { sample_len: 3, capacity: 1, samples: 1, end: 0, trigger: 0, last_scan: 0, ring_at: 27 };
         assert!(Recording::of_ring(operands, &[0; 3], &state, 1, 1.0).is_err());
     }
 }

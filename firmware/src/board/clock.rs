@@ -1,12 +1,10 @@
-//! The millisecond tick and its finer measure, by Timer0. Time is only handed out here; what it means is not known. The other
-//! timers are left to the modules of a program.
+//! The millisecond tick, which tick.s counts, and its finer measure, by Timer0. Time is only handed out here; what it means
+//! is not known. The other timers are left to the modules of a program.
 
 use core::cell::Cell;
 
 use avr_device::atmega328p::TC0;
-use avr_device::interrupt::{self, CriticalSection, Mutex};
-
-use super::analog;
+use avr_device::interrupt::{self, Mutex};
 
 /// Timer counts of 4 us in a millisecond.
 const COUNTS_PER_MS: u8 = 250;
@@ -15,7 +13,7 @@ const COUNTS_PER_MS: u8 = 250;
 /// reads it at [`plc_isa::CLOCK`], which is where this section begins.
 #[unsafe(no_mangle)]
 #[unsafe(link_section = ".data")]
-static UNO200_TICK: Mutex<Cell<u32>> = Mutex::new(Cell::new(0));
+pub static UNO200_TICK: Mutex<Cell<u32>> = Mutex::new(Cell::new(0));
 
 /// Starts it.
 pub fn start(timer: &TC0) {
@@ -40,8 +38,10 @@ pub fn now_ms_low() -> u16 {
 /// A moment in time, to the timer's count. Moments repeat after 65 seconds.
 #[derive(Clone, Copy)]
 pub struct Moment {
-    ms: u16,
-    counts: u8,
+    /// The lower half of the clock.
+    pub ms: u16,
+    /// Counts of 4 us in this millisecond.
+    pub counts: u8,
 }
 
 impl Moment {
@@ -60,27 +60,4 @@ impl Moment {
             }
         }
     }
-
-    /// Counts of 4 us until a later moment.
-    #[inline(always)]
-    pub fn counts_until(self, later: Moment) -> u32 {
-        if later.ms == self.ms {
-            return u32::from(later.counts.wrapping_sub(self.counts));
-        }
-        counts_over_ms(later.ms.wrapping_sub(self.ms), later.counts, self.counts)
-    }
-}
-
-/// The same when milliseconds have passed, which few scans take.
-fn counts_over_ms(ms: u16, later: u8, earlier: u8) -> u32 {
-    u32::from(ms) * u32::from(COUNTS_PER_MS) + u32::from(later) - u32::from(earlier)
-}
-
-#[avr_device::interrupt(atmega328p)]
-fn TIMER0_COMPA() {
-    // SAFETY: interrupts are off in an interrupt.
-    let cs = unsafe { CriticalSection::new() };
-    let tick = UNO200_TICK.borrow(cs);
-    tick.set(tick.get().wrapping_add(1));
-    analog::take_and_start_next(cs);
 }

@@ -12,6 +12,7 @@ use plc_isa::{
     ProgramMemory, Q_START, SLOT_LEN, SLOT_START,
 };
 
+use crate::board::clock::Moment;
 use crate::board::flash::ProgramSlot;
 use crate::board::stack;
 
@@ -76,7 +77,7 @@ struct Line {
     fault: u32,
     fault_before_reset: u32,
     /// Lengths of the scans since RUN, inputs to outputs, in timer counts: the shortest, the last, the longest. 0:
-    /// there is none yet.
+    /// there is none yet. Three bytes of each are used.
     shortest: u32,
     last: u32,
     longest: u32,
@@ -89,10 +90,14 @@ struct Line {
     forces: [u8; FORCE_LEN * FORCES_MAX],
     /// The bits of the state that the program alone makes.
     program_bits: u8,
+    trace_state: u8,
+    /// Data memory for a trace, and its end.
+    ring: u16,
+    ring_end: u16,
 }
 
 const _: () = assert!(offset_of!(Line, v_table) == 9 && offset_of!(Line, state) == 26 && offset_of!(Line, scans) == 47);
-const _: () = assert!(offset_of!(Line, forces_count) == 55);
+const _: () = assert!(offset_of!(Line, forces_count) == 55 && offset_of!(Line, trace_state) == 201);
 
 /// Where the engine finds the same of the plan.
 #[cfg(feature = "engine")]
@@ -142,10 +147,13 @@ static mut LINE: Line = Line {
     forces_count: 0,
     forces: [0; FORCE_LEN * FORCES_MAX],
     program_bits: 0,
+    trace_state: 0,
+    ring: 0,
+    ring_end: 0,
 };
 
 global_asm!(
-    ".equ CAPABILITIES, 1",
+    ".equ CAPABILITIES, 3",
     ".equ I_START, {i_start}",
     ".equ Q_START, {q_start}",
     ".equ AIW_START, {aiw_start}",
@@ -179,7 +187,8 @@ global_asm!(
     concat!(".macro VERSION_TEXT\n.asciz \"", env!("CARGO_PKG_VERSION"), "\"\n.endm\n"),
     include_str!("link.s"),
     include_str!("status.s"),
-    "trace:\n    rjmp refuse_function\n",
+    include_str!("trace.s"),
+    include_str!("scan_times.s"),
     include_str!("forced.s"),
     options(raw)
 );
@@ -189,6 +198,8 @@ unsafe extern "C" {
     fn line_apply_forces();
     fn line_clear_forces();
     fn uno200_tell_forces();
+    fn line_count_scan();
+    fn line_enter_scan(ms: u16, counts: u8);
 }
 
 /// The state. Only the main program uses it, never while the assembly runs.
@@ -302,6 +313,9 @@ pub fn place(program: Option<&Program<ProgramSlot>>) -> u8 {
     line.forces_count = 0;
     line.frame = frame;
     line.room = (end - frame - BEHIND_REQUEST).min(PDU_MAX) as u8;
+    line.trace_state = 0;
+    line.ring = frame + u16::from(line.room) + BEHIND_REQUEST;
+    line.ring_end = end;
     line.room
 }
 
@@ -345,39 +359,16 @@ pub fn count_down() -> bool {
     line.scans_left == 0
 }
 
-/// Enters a scan of so many counts.
+/// The program has been executed: what is told from now on is of this scan.
 #[inline(always)]
-pub fn enter_scan(length: u32) {
-    let lowest = (&raw mut line().scans).cast::<u8>();
-    // SAFETY: the lowest byte of a number. Most scans change no other, and more would be slow.
-    let scans = unsafe { lowest.read_volatile() };
-    if scans == 0 {
-        begin_256();
-    }
-    // SAFETY: as above.
-    unsafe { lowest.write_volatile(scans.wrapping_add(1)) };
-    if scans == u8::MAX {
-        carry();
-    }
-    let line = line();
-    if length < line.shortest {
-        line.shortest = length;
-    }
-    if length > line.longest {
-        line.longest = length;
-    }
-    line.last = length;
+pub fn count_scan() {
+    // SAFETY: the assembly writes the number of scans.
+    unsafe { line_count_scan() }
 }
 
-/// The first scan is shorter than any.
-#[inline(never)]
-fn begin_256() {
-    if line().longest == 0 {
-        line().shortest = u32::MAX;
-    }
-}
-
-#[inline(never)]
-fn carry() {
-    line().scans = line().scans.wrapping_add(0x100);
+/// A scan is over that began at this moment.
+#[inline(always)]
+pub fn enter_scan(start: Moment) {
+    // SAFETY: the assembly writes the times of scans and, for a trace, data memory behind the frame.
+    unsafe { line_enter_scan(start.ms, start.counts) }
 }

@@ -19,9 +19,13 @@
 ; From here on in the order of the answer to 65: state, fault, fault before the last reset, shortest, last and longest
 ; scan, scans, free stack, length of the image.
 .equ STATE, LINE + 26
+.equ SCAN_TIMES, LINE + 35
 .equ SCANS, LINE + 47
 .equ FORCES, LINE + 55
 .equ FORCED, LINE + 56
+.equ TRACE_STATE, LINE + 201
+.equ RING, LINE + 202
+.equ RING_END, LINE + 204
 
 ; Phases of a request.
 .equ NEW, 0
@@ -1284,15 +1288,17 @@ read_block:
     ldi r22, lo8(SLOT_LEN)
     ldi r23, hi8(SLOT_LEN)
     ldd r21, Y+1
-.if CAPABILITIES & 2
     cpi r21, 2
     brsh block_address
-    sbrc r21, 0
-    rcall trace_len
-.else
-    tst r21
-    brne block_address
-.endif
+    sbrs r21, 0
+    rjmp 1f
+    lds r22, RING_END
+    lds r23, RING_END + 1
+    lds r30, RING
+    lds r31, RING + 1
+    sub r22, r30
+    sbc r23, r31
+1:
     ; r22 and r23: bytes from there to the end.
     sub r22, r24
     sbc r23, r25
@@ -1303,17 +1309,22 @@ read_block:
     movw r26, r28
     adiw r26, 1
     st X+, r20
-.if CAPABILITIES & 2
+    add r30, r24
+    adc r31, r25
     sbrc r21, 0
-    rjmp block_of_trace
-.endif
+    rjmp 3f
     movw r30, r24
     subi r30, lo8(-(SLOT_START))
     sbci r31, hi8(-(SLOT_START))
-1:  lpm r0, Z+
+2:  lpm r0, Z+
     st X+, r0
     dec r20
-    brne 1b
+    brne 2b
+    rjmp block_end
+3:  ld r0, Z+
+    st X+, r0
+    dec r20
+    brne 3b
 block_end:
     movw r30, r26
     rjmp done_at_z

@@ -17,7 +17,7 @@ pub const FORCE: u8 = 68;
 pub const STATUS: u8 = 69;
 /// Service function: values of many scans.
 pub const TRACE: u8 = 70;
-/// Service function: bytes of the program slot or of a trace.
+/// Service function: bytes of the program slot or of a trace's memory.
 pub const READ_BLOCK: u8 = 71;
 /// Service function: operands get values, all or none.
 pub const SET: u8 = 72;
@@ -36,3 +36,22 @@ pub const FORCES_MAX: u8 = 16;
 pub const BLOCK_MAX: u8 = 64;
 /// Bytes of a force in an answer: reference and value.
 pub const FORCE_LEN: u8 = 7;
+
+/// In the memory of a trace: how many values a sample has. These are offsets; words have the high byte first.
+pub const TRACE_VALUES: u16 = 8;
+/// Bytes of a sample.
+pub const TRACE_SAMPLE_LEN: u16 = 10;
+/// Samples that the ring holds.
+pub const TRACE_CAPACITY: u16 = 13;
+/// Samples that are in it.
+pub const TRACE_SAMPLES: u16 = 15;
+/// The sample of the trigger, counted from the oldest; 0xFFFF: not yet.
+pub const TRACE_TRIGGERED_AT: u16 = 17;
+/// Scan of the latest sample.
+pub const TRACE_SCAN: u16 = 19;
+/// Data address of the ring.
+pub const TRACE_FIRST: u16 = 21;
+/// Data address of the next sample.
+pub const TRACE_NEXT: u16 = 23;
+/// Bytes before the places of the values, two for each. The ring follows.
+pub const TRACE_HEAD_LEN: u16 = 25;

@@ -197,7 +197,7 @@ impl<S: Station> Request<'_, S> {
         }
     }
 
-    /// Function 71: bytes of the program slot or of the trace.
+    /// Function 71: bytes of the program slot or of the trace's memory.
     fn read_block(&mut self) -> Answered {
         self.expect_len(5)?;
         let (space, mut at, len) = (self.byte(1), self.word(2), self.byte(4));
@@ -205,7 +205,7 @@ impl<S: Station> Request<'_, S> {
         self.expect_room(len + 2)?;
         let end = match space {
             0 => SLOT_LEN,
-            1 => self.station.link().trace.ring_len(),
+            1 => self.station.link().trace.len(),
             _ => return Err(Exception::Address),
         };
         if at > end || end - at < u16::from(len) {
@@ -216,7 +216,7 @@ impl<S: Station> Request<'_, S> {
             let byte = match space {
                 1 => {
                     let (memory, link) = self.station.parts();
-                    memory.byte(link.trace.samples_start() + at)
+                    memory.byte(link.trace.start() + at)
                 }
                 _ => self.station.slot_byte(at),
             };

@@ -1,25 +1,41 @@
 //! Trace (service function 70): values of many scans in a ring in memory, around a trigger.
 //!
-//! The ring is what the program leaves free behind the frame: first the places of the values, then the samples.
+//! All of it lies in the memory that the program leaves free behind the frame: first how far it has come, then the
+//! places of the values, then the samples.
 
 use plc_vm::Memory;
 
 use crate::answer::{Answered, Exception, Request};
 use crate::place::{ANYTHING, BYTE, Place};
-use crate::protocol::TRACE_MAX;
+use crate::protocol::{
+    TRACE_CAPACITY, TRACE_FIRST, TRACE_HEAD_LEN, TRACE_MAX, TRACE_NEXT, TRACE_SAMPLE_LEN, TRACE_SAMPLES, TRACE_SCAN,
+    TRACE_TRIGGERED_AT, TRACE_VALUES,
+};
 use crate::station::Station;
 
-/// Bytes at the start of the ring that the board needs for itself.
-const HEAD_LEN: u16 = 23;
-/// Bytes of a place in the ring.
+// What else stands in the memory of a trace. It begins with the request, from the scans between two samples to the number
+// of values; the reference of the bit that triggers has become its place, low byte first.
+const EVERY: u16 = 0;
+const BEFORE: u16 = 2;
+const KIND: u16 = 4;
+const TRIGGER: u16 = 5;
+/// Whether what triggers was so at the last sample.
+const WAS_ACTIVE: u16 = 9;
+/// Scans until the next sample.
+const WAIT: u16 = 11;
+
+/// Bytes of a place.
 const PLACE_LEN: u16 = 2;
-/// Offset of the first reference in a request.
+/// So much memory there must be.
+const LEAST_LEN: u16 = TRACE_HEAD_LEN + PLACE_LEN * TRACE_MAX as u16;
+/// Offsets in a request: of what is copied, and of the first reference.
+const ASKED: u8 = 2;
 const REFERENCES: u8 = 11;
 
 const NONE: u8 = 0;
-const WAITING: u8 = 1;
-const FILLING: u8 = 2;
-const DONE: u8 = 3;
+const DONE: u8 = 1;
+const WAITING: u8 = 2;
+const FILLING: u8 = 3;
 
 const AT_ONCE: u8 = 0;
 const RISING: u8 = 1;
@@ -27,135 +43,112 @@ const FALLING: u8 = 2;
 const ON: u8 = 3;
 const OFF: u8 = 4;
 
-/// A trace, its ring and how far it has come.
+/// How far the trace is, and where its memory is.
 #[derive(Debug, Clone)]
 pub(crate) struct Trace {
     state: u8,
-    kind: u8,
-    /// The bit that triggers.
-    trigger: Place,
-    /// What it was at the last sample.
-    was_on: bool,
-    /// Scans from one sample to the next, and how many the next one waits.
-    every: u16,
-    wait: u16,
-    /// Samples to keep of those before the trigger.
-    before: u16,
-    /// Values of a sample, and their bytes.
-    values: u8,
-    sample_len: u8,
-    /// Samples that the ring holds, those that are in it, and the place for the next.
-    capacity: u16,
-    samples: u16,
-    next: u16,
-    /// Samples in front of the trigger.
-    triggered_at: u16,
-    /// Scan of the last sample.
-    scan: u16,
-    /// Data addresses of the memory for it: of the places, and the end.
-    ring: u16,
-    ring_end: u16,
+    /// Data addresses: of the first byte, and of the one behind the last.
+    start: u16,
+    end: u16,
 }
 
 impl Trace {
     pub const fn none() -> Trace {
-        Trace {
-            state: NONE,
-            kind: AT_ONCE,
-            trigger: Place::NONE,
-            was_on: false,
-            every: 0,
-            wait: 0,
-            before: 0,
-            values: 0,
-            sample_len: 0,
-            capacity: 0,
-            samples: 0,
-            next: 0,
-            triggered_at: 0,
-            scan: 0,
-            ring: 0,
-            ring_end: 0,
-        }
+        Trace { state: NONE, start: 0, end: 0 }
     }
 
     /// There is no trace, and this memory is for the next one.
-    pub fn place(&mut self, ring: u16, ring_end: u16) {
-        *self = Trace { ring, ring_end, ..Trace::none() };
+    pub fn place(&mut self, start: u16, end: u16) {
+        *self = Trace { state: NONE, start, end };
     }
 
     pub fn is_going_on(&self) -> bool {
-        matches!(self.state, WAITING | FILLING)
+        self.state >= WAITING
     }
 
-    /// Bytes of samples that can be read.
-    pub fn ring_len(&self) -> u16 {
-        self.capacity * u16::from(self.sample_len)
+    /// Data address of its memory.
+    pub fn start(&self) -> u16 {
+        self.start
     }
 
-    /// Data address of the places of the values.
-    fn places_start(&self) -> u16 {
-        self.ring + HEAD_LEN
+    /// Bytes of its memory.
+    pub fn len(&self) -> u16 {
+        self.end - self.start
     }
 
-    /// Data address of the first sample in the ring.
-    pub fn samples_start(&self) -> u16 {
-        self.places_start() + PLACE_LEN * u16::from(self.values)
+    fn byte(&self, memory: &Memory, offset: u16) -> u8 {
+        memory.byte(self.start + offset)
+    }
+
+    fn word(&self, memory: &Memory, offset: u16) -> u16 {
+        memory.word(self.start + offset)
+    }
+
+    fn set_word(&self, memory: &mut Memory, offset: u16, value: u16) {
+        memory.set_word(self.start + offset, value);
+    }
+
+    fn place_at(&self, memory: &Memory, offset: u16) -> Place {
+        Place(self.word(memory, offset).swap_bytes())
     }
 
     /// A scan has been executed.
     pub fn step(&mut self, memory: &mut Memory, scan: u16) {
-        self.wait -= 1;
-        if self.wait != 0 {
+        let wait = self.word(memory, WAIT).wrapping_sub(1);
+        self.set_word(memory, WAIT, wait);
+        if wait != 0 {
             return;
         }
-        self.wait = self.every;
+        self.set_word(memory, WAIT, self.word(memory, EVERY));
         self.look_at_trigger(memory);
         self.take_sample(memory);
-        self.scan = scan;
-        self.next += 1;
-        if self.next == self.capacity {
-            self.next = 0;
-        }
-        if self.samples < self.capacity {
-            self.samples += 1;
-        }
-        if self.state == FILLING && self.samples == self.capacity {
-            self.state = DONE;
+        self.set_word(memory, TRACE_SCAN, scan);
+        let (capacity, mut samples) = (self.word(memory, TRACE_CAPACITY), self.word(memory, TRACE_SAMPLES));
+        if samples < capacity {
+            samples += 1;
+            self.set_word(memory, TRACE_SAMPLES, samples);
+            if samples == capacity && self.state == FILLING {
+                self.state = DONE;
+            }
         }
     }
 
-    fn look_at_trigger(&mut self, memory: &Memory) {
-        let is_on = self.trigger.bytes_in(memory)[0] != 0;
-        let is_triggered = match self.kind {
-            RISING => is_on && !self.was_on,
-            FALLING => !is_on && self.was_on,
-            ON => is_on,
-            OFF => !is_on,
-            _ => true,
-        };
-        self.was_on = is_on;
+    fn look_at_trigger(&mut self, memory: &mut Memory) {
+        let kind = self.byte(memory, KIND);
+        let mut is_triggered = true;
+        if kind != AT_ONCE {
+            let is_on = self.place_at(memory, TRIGGER).bytes_in(memory)[0] != 0;
+            // A falling edge and being off are those of the opposite.
+            let is_active = is_on == matches!(kind, RISING | ON);
+            let was_active = self.byte(memory, WAS_ACTIVE) != 0;
+            memory.set_byte(self.start + WAS_ACTIVE, u8::from(is_active));
+            is_triggered = is_active && !(was_active && matches!(kind, RISING | FALLING));
+        }
         if self.state == WAITING && is_triggered {
             self.state = FILLING;
-            self.samples = self.samples.min(self.before);
-            self.triggered_at = self.samples;
+            let samples = self.word(memory, TRACE_SAMPLES).min(self.word(memory, BEFORE));
+            self.set_word(memory, TRACE_SAMPLES, samples);
+            self.set_word(memory, TRACE_TRIGGERED_AT, samples);
         }
     }
 
     fn take_sample(&self, memory: &mut Memory) {
-        let (mut place_at, mut to) =
-            (self.places_start(), self.samples_start() + self.next * u16::from(self.sample_len));
-        for _ in 0..self.values {
-            let place = Place(memory.word(place_at));
+        let mut to = self.word(memory, TRACE_NEXT);
+        for index in 0..u16::from(self.byte(memory, TRACE_VALUES)) {
+            let place = self.place_at(memory, TRACE_HEAD_LEN + PLACE_LEN * index);
             if place.size() < BYTE {
                 let value = place.bytes_in(memory)[0];
                 memory.set_byte(to, value);
             } else {
                 memory.copy(place.address(), to, u16::from(place.width()));
             }
-            place_at += PLACE_LEN;
             to += u16::from(place.width());
         }
+        // Where the next one does not fit, the ring begins again.
+        if to + u16::from(self.byte(memory, TRACE_SAMPLE_LEN)) > self.end {
+            to = self.word(memory, TRACE_FIRST);
+        }
+        self.set_word(memory, TRACE_NEXT, to);
     }
 }
 
@@ -168,23 +161,14 @@ impl<S: Station> Request<'_, S> {
             2 => {
                 self.expect_len(2)?;
                 let trace = &mut self.station.link().trace;
-                if trace.is_going_on() {
+                if trace.state != NONE {
                     trace.state = DONE;
                 }
             }
             _ => return Err(Exception::Value),
         }
-        let trace = &self.station.link().trace;
-        let (state, sample_len) = (trace.state, trace.sample_len);
-        // Where the oldest sample is, and when it was taken.
-        let first = if trace.samples > trace.next { trace.next + trace.capacity } else { trace.next } - trace.samples;
-        let scan = trace.scan.wrapping_sub(trace.samples.saturating_sub(1).wrapping_mul(trace.every));
-        let words = [trace.capacity, trace.samples, first, trace.triggered_at, scan];
+        let state = self.station.link().trace.state;
         self.put(state);
-        self.put(sample_len);
-        for word in words {
-            self.put_word(word);
-        }
         Ok(self.out)
     }
 
@@ -195,47 +179,44 @@ impl<S: Station> Request<'_, S> {
         if every == 0 || kind > OFF {
             return Err(Exception::Value);
         }
-        let mut trigger = Place::NONE;
         if kind != AT_ONCE {
-            trigger = self.reference(7, ANYTHING)?;
+            let trigger = self.reference(7, ANYTHING)?;
             if trigger.size() >= BYTE {
                 return Err(Exception::Address);
             }
+            self.set_low_first(7, trigger.0);
         }
         // What there was is over, even if this one is refused: its places go.
-        let (ring, ring_end) = (self.station.link().trace.ring, self.station.link().trace.ring_end);
-        self.station.link().trace.place(ring, ring_end);
-        let (mut place_at, mut sample_len) = (ring + HEAD_LEN, 0);
-        let samples_start = place_at + PLACE_LEN * u16::from(count);
-        if samples_start >= ring_end {
+        self.station.link().trace.state = NONE;
+        let trace = self.station.link().trace.clone();
+        if trace.len() < LEAST_LEN {
             return Err(Exception::Busy);
         }
+        let (mut place_at, mut sample_len) = (trace.start + TRACE_HEAD_LEN, 0);
         for index in 0..count {
             let place = self.reference(REFERENCES + 3 * index, ANYTHING)?;
             sample_len += place.width();
-            self.memory().set_word(place_at, place.0);
+            self.memory().set_word(place_at, place.0.swap_bytes());
             place_at += PLACE_LEN;
         }
-        let capacity = (ring_end - samples_start) / u16::from(sample_len);
+        let capacity = (trace.end - place_at) / u16::from(sample_len);
         if before >= capacity {
             return Err(Exception::Busy);
         }
-        self.station.link().trace = Trace {
-            state: WAITING,
-            kind,
-            trigger,
-            was_on: kind == RISING,
-            every,
-            wait: 1,
-            before,
-            values: count,
-            sample_len,
-            capacity,
-            ring,
-            ring_end,
-            triggered_at: u16::MAX,
-            ..Trace::none()
-        };
+        let asked = self.at(ASKED);
+        let memory = self.memory();
+        memory.copy(asked, trace.start, u16::from(REFERENCES - ASKED));
+        // No edge is seen before the second sample.
+        memory.set_byte(trace.start + WAS_ACTIVE, 1);
+        memory.set_byte(trace.start + TRACE_SAMPLE_LEN, sample_len);
+        trace.set_word(memory, WAIT, 1);
+        trace.set_word(memory, TRACE_CAPACITY, capacity);
+        trace.set_word(memory, TRACE_SAMPLES, 0);
+        trace.set_word(memory, TRACE_TRIGGERED_AT, u16::MAX);
+        trace.set_word(memory, TRACE_SCAN, 0);
+        trace.set_word(memory, TRACE_FIRST, place_at);
+        trace.set_word(memory, TRACE_NEXT, place_at);
+        self.station.link().trace.state = WAITING;
         Ok(())
     }
 }

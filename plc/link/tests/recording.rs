@@ -104,14 +104,51 @@ fn word(answer: &[u8], at: usize) -> u16 {
     u16::from_be_bytes([answer[at], answer[at + 1]])
 }
 
+/// How far the trace has come.
+const DONE: u8 = 1;
+const WAITING: u8 = 2;
+const FILLING: u8 = 3;
+
+fn phase(machine: &mut Machine) -> u8 {
+    machine.ask(&[70, 0])[1]
+}
+
+/// What the memory of the trace begins with, as docs/protocol.md has it.
+struct Head {
+    values: u16,
+    sample_len: u8,
+    capacity: u16,
+    samples: u16,
+    triggered_at: u16,
+    last_scan: u16,
+    first: u16,
+    next: u16,
+}
+
+fn head(machine: &mut Machine) -> Head {
+    let answer = machine.ask(&[71, 1, 0, 0, 25]);
+    assert_eq!(answer[..2], [71, 25]);
+    let memory = &answer[2..];
+    Head {
+        values: memory[8].into(),
+        sample_len: memory[10],
+        capacity: word(memory, 13),
+        samples: word(memory, 15),
+        triggered_at: word(memory, 17),
+        last_scan: word(memory, 19),
+        first: word(memory, 21),
+        next: word(memory, 23),
+    }
+}
+
 /// The samples in their order, each a word.
 fn samples(machine: &mut Machine) -> Vec<u16> {
-    let state = machine.ask(&[70, 0]);
-    let (capacity, count, first) = (word(&state, 3), word(&state, 5), word(&state, 7));
-    (0..count)
+    let head = head(machine);
+    let end = (head.next - head.first) / 2;
+    (0..head.samples)
         .map(|index| {
-            let offset = 2 * ((first + index) % capacity);
-            let [high, low] = offset.to_be_bytes();
+            let place = (end + head.capacity - head.samples + index) % head.capacity;
+            let [high, low] = (25 + 2 * head.values + 2 * place).to_be_bytes();
             let answer = machine.ask(&[71, 1, high, low, 2]);
             word(&answer, 2)
         })
@@ -121,18 +158,17 @@ fn samples(machine: &mut Machine) -> Vec<u16> {
 #[test]
 fn a_trace_keeps_what_was_before_the_trigger() {
     let mut machine = Machine::with_room(RUNGS, 252);
-    let state = machine.ask(&start(Trace { every: 1, before: 10, kind: 1, trigger: [0x02, 0, 0] }, &[[0x89, 0, 0]]));
-    assert_eq!((state[1], state[2]), (1, 2));
-    assert_eq!(word(&state, 9), 0xFFFF);
-    let capacity = word(&state, 3);
+    let answer = machine.ask(&start(Trace { every: 1, before: 10, kind: 1, trigger: [0x02, 0, 0] }, &[[0x89, 0, 0]]));
+    assert_eq!(answer, [70, WAITING]);
+    let Head { sample_len, capacity, triggered_at, .. } = head(&mut machine);
+    assert_eq!((sample_len, triggered_at), (2, 0xFFFF));
     let room = DATA_END - machine.link.frame() - 252;
-    assert_eq!(capacity, (room - 23 - 2) / 2);
+    assert_eq!(capacity, (room - 25 - 2) / 2);
     // The ring goes round once before the trigger.
     for _ in 0..capacity + 5 {
         machine.scan();
     }
-    let state = machine.ask(&[70, 0]);
-    assert_eq!((state[1], word(&state, 5)), (1, capacity));
+    assert_eq!((phase(&mut machine), head(&mut machine).samples), (WAITING, capacity));
     machine.inputs = 0b100;
     machine.scan();
     let triggered_in = machine.times.scans as u16;
@@ -140,9 +176,10 @@ fn a_trace_keeps_what_was_before_the_trigger() {
     for _ in 0..2 * capacity {
         machine.scan();
     }
-    let state = machine.ask(&[70, 0]);
-    assert_eq!((state[1], word(&state, 5), word(&state, 9)), (3, capacity, 10));
-    assert_eq!(word(&state, 11), triggered_in - 10);
+    assert_eq!(phase(&mut machine), DONE);
+    let Head { samples: count, triggered_at, last_scan, .. } = head(&mut machine);
+    assert_eq!((count, triggered_at), (capacity, 10));
+    assert_eq!(last_scan - (capacity - 1), triggered_in - 10);
     let expected: Vec<u16> = (trigger_value - 10..).take(capacity.into()).collect();
     assert_eq!(samples(&mut machine), expected);
 }
@@ -150,15 +187,17 @@ fn a_trace_keeps_what_was_before_the_trigger() {
 #[test]
 fn a_trace_takes_every_nth_scan_and_stops() {
     let mut machine = Machine::with_room(RUNGS, 252);
+    assert_eq!(machine.ask(&[70, 2]), [70, 0], "there is none to stop");
     machine.ask(&start(Trace { every: 3, before: 0, kind: 0, trigger: [0; 3] }, &[[0x89, 0, 0]]));
     for _ in 0..10 {
         machine.scan();
     }
-    let state = machine.ask(&[70, 2]);
-    assert_eq!((state[1], word(&state, 5), word(&state, 7), word(&state, 9)), (3, 4, 0, 0));
+    assert_eq!(machine.ask(&[70, 2]), [70, DONE]);
+    let Head { samples: count, triggered_at, last_scan, .. } = head(&mut machine);
+    assert_eq!((count, triggered_at), (4, 0));
     let taken = samples(&mut machine);
     assert_eq!(taken, [taken[0], taken[0] + 3, taken[0] + 6, taken[0] + 9]);
-    assert_eq!(word(&state, 11), machine.times.scans as u16 - 9);
+    assert_eq!(last_scan, machine.times.scans as u16);
     machine.scan();
     assert_eq!(samples(&mut machine), taken);
 }
@@ -180,10 +219,11 @@ fn every_kind_of_trigger_fires_when_it_should() {
         for (index, level) in levels.into_iter().enumerate() {
             machine.inputs = u8::from(level) << 2;
             machine.scan();
-            let state = machine.ask(&[70, 0]);
             let is_triggered = triggers.is_some_and(|at| index >= at);
-            assert_eq!(state[1], if is_triggered { 2 } else { 1 }, "kind {kind}, scan {index}");
-            assert_eq!(word(&state, 9), if is_triggered { triggers.unwrap() as u16 } else { 0xFFFF });
+            let expected = if is_triggered { FILLING } else { WAITING };
+            assert_eq!(phase(&mut machine), expected, "kind {kind}, scan {index}");
+            let expected = if is_triggered { triggers.unwrap() as u16 } else { 0xFFFF };
+            assert_eq!(head(&mut machine).triggered_at, expected);
         }
     }
 }
@@ -193,20 +233,22 @@ fn a_trace_that_cannot_be_is_refused_and_the_one_before_is_gone() {
     let mut machine = Machine::with_room(RUNGS, 252);
     let m = [0x28, 0, 0];
     let good = || start(Trace { every: 1, before: 0, kind: 0, trigger: [0; 3] }, &[m]);
-    assert_eq!(machine.ask(&good())[1], 1);
-    let capacity = word(&machine.ask(&[70, 0]), 3);
+    assert_eq!(machine.ask(&[71, 1, 0, 0, 1]), [71, 1, 0], "memory, whatever there is");
+    assert_eq!(machine.ask(&good())[1], WAITING);
+    let capacity = head(&mut machine).capacity;
     assert_eq!(machine.ask(&start(Trace { every: 0, before: 0, kind: 0, trigger: [0; 3] }, &[m])), [0xC6, 3]);
     assert_eq!(machine.ask(&start(Trace { every: 1, before: 0, kind: 5, trigger: [0; 3] }, &[m])), [0xC6, 3]);
     assert_eq!(machine.ask(&start(Trace { every: 1, before: 0, kind: 1, trigger: m }, &[m])), [0xC6, 2]);
     assert_eq!(machine.ask(&start(Trace { every: 1, before: 0, kind: 0, trigger: [0; 3] }, &[])), [0xC6, 3]);
     assert_eq!(machine.ask(&start(Trace { every: 1, before: 0, kind: 0, trigger: [0; 3] }, &[m; 9])), [0xC6, 3]);
     assert_eq!(machine.ask(&[70, 3]), [0xC6, 3]);
-    assert_eq!(machine.ask(&[70, 0])[1], 1);
+    assert_eq!(phase(&mut machine), WAITING);
     let too_early = Trace { every: 1, before: capacity, kind: 0, trigger: [0; 3] };
     assert_eq!(machine.ask(&start(too_early, &[m])), [0xC6, 4]);
-    assert_eq!(machine.ask(&[70, 0]), [&[70][..], &[0; 12]].concat());
+    assert_eq!(machine.ask(&[70, 0]), [70, 0]);
     let mut full = Machine::with_room(PROGRAM, 252);
     full.link.place(full.link.frame(), 252, DATA_END, DATA_END);
     assert_eq!(full.ask(&good()), [0xC6, 4]);
+    assert_eq!(full.ask(&[71, 1, 0, 0, 1]), [0xC7, 2]);
     assert_eq!(full.memory.byte(M_START), 0);
 }

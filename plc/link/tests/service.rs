@@ -300,7 +300,7 @@ fn blocks_of_the_slot_can_be_read_to_its_end() {
     assert_eq!(machine.ask(&[71, 0, 0x1D, 0xFF, 1]), [71, 1, 0xFF]);
     assert_eq!(machine.ask(&[71, 0, 0x1D, 0xFF, 2]), [0xC7, 2]);
     assert_eq!(machine.ask(&[71, 0, 0xFF, 0xFF, 1]), [0xC7, 2]);
-    assert_eq!(machine.ask(&[71, 1, 0, 0, 1]), [0xC7, 2]);
+    assert_eq!(machine.ask(&[71, 1, 0xFF, 0xFF, 1]), [0xC7, 2]);
     assert_eq!(machine.ask(&[71, 2, 0, 0, 1]), [0xC7, 2]);
     assert_eq!(machine.ask(&[71, 0, 0, 0, 0]), [0xC7, 3]);
     assert_eq!(machine.ask(&[71, 0, 0, 0, 65]), [0xC7, 3]);

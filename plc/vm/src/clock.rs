@@ -52,6 +52,7 @@ impl Clock {
     }
 
     /// The time since the last scan is not counted.
+    #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn resume(&mut self) {
         (self.scan_start_ms, self.fast_ms) = (self.now_ms, self.now_ms);
     }

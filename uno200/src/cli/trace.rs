@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Error, Result, bail};
 use awl_asm::files::write_whole;
-use uno200::service::{Space, TracePhase, TraceState, Trigger};
+use uno200::service::{Space, TracePhase, Trigger};
 use uno200::trace::Recording;
 use uno200::value::Form;
 use uno200::{Client, Operand, Reference};
@@ -31,11 +31,13 @@ pub(super) fn trace(context: &mut Context, arguments: &Trace) -> Result<bool> {
     if !measure.is_running {
         anstream::eprintln!("the PLC is in STOP: nothing is recorded before it runs");
     }
-    let state = client.start_trace(arguments.every, arguments.before, trigger, &references).map_err(refusal)?;
-    let state = wait(client, state, arguments.duration)?;
+    let phase = client.start_trace(arguments.every, arguments.before, trigger, &references).map_err(refusal)?;
+    wait(client, phase, arguments.duration)?;
     let scan_us = measure.end(client)?;
     let room = client.identify()?.room;
-    let ring = client.read(Space::Trace, 0, state.capacity * u16::from(state.sample_len), room)?;
+    let state = client.trace_state()?;
+    let ring_len = state.capacity.wrapping_mul(u16::from(state.sample_len));
+    let ring = client.read(Space::Trace, state.ring_at, ring_len, room)?;
     let mut recording = Recording::of_ring(operands, &ring, &state, arguments.every, scan_us)?;
     recording.trigger = recording.trigger.filter(|_| trigger != Trigger::None);
     write(&recording, context, arguments.output.as_deref())?;
@@ -73,21 +75,22 @@ fn condition(context: &Context, text: &str) -> Result<Trigger> {
 }
 
 /// Waits for the last sample, or ends the trace when the time is over.
-fn wait(client: &mut Client, mut state: TraceState, duration: Option<Duration>) -> Result<TraceState> {
+fn wait(client: &mut Client, mut phase: TracePhase, duration: Option<Duration>) -> Result<()> {
     let begin = Instant::now();
     let mut is_told = false;
-    while matches!(state.phase, TracePhase::Waiting | TracePhase::Filling) {
+    while matches!(phase, TracePhase::Waiting | TracePhase::Filling) {
         if duration.is_some_and(|duration| begin.elapsed() >= duration) {
-            return Ok(client.stop_trace()?);
+            client.stop_trace()?;
+            return Ok(());
         }
-        if state.phase == TracePhase::Waiting && begin.elapsed() > Duration::from_secs(1) && !is_told {
+        if phase == TracePhase::Waiting && begin.elapsed() > Duration::from_secs(1) && !is_told {
             anstream::eprintln!("waiting for the trigger");
             is_told = true;
         }
         sleep(LOOK);
-        state = client.trace_state()?;
+        phase = client.trace_phase()?;
     }
-    Ok(state)
+    Ok(())
 }
 
 fn write(recording: &Recording, context: &Context, output: Option<&Path>) -> Result<()> {

@@ -3,15 +3,15 @@
 use std::time::Instant;
 
 use plc_isa::{ARENA_START, DATA_END, ProgramMemory};
-use plc_link::{Command, Link, ScanTimes, Station};
+use plc_link::{Command, Link, PDU_MAX, ScanTimes, Station};
 use plc_vm::{Memory, Mode, Plc};
 
 use super::Host;
 
-/// Bytes of data memory for the frame, where there are so many; the ring of the trace is behind it.
-const FRAME_LEN: u16 = 256;
-/// The board also puts the checksum of a request there. The host has the same room, so that it answers the same.
+/// The board also puts the checksum of a request in the frame. The host has the same room, so that it answers the same.
 const CHECKSUM_LEN: u16 = 2;
+/// Bytes of data memory for the frame, where there are so many; the memory of traces is behind it.
+const FRAME_LEN: u16 = PDU_MAX + CHECKSUM_LEN;
 
 /// What a machine keeps for its line.
 pub(super) struct Line {

@@ -1,0 +1,81 @@
+; What the line tells of the scans since RUN: how many there were, and how long the shortest, the last and the longest took,
+; in timer counts.
+
+.equ SHORTEST, 0
+.equ LAST, 4
+.equ LONGEST, 8
+
+.equ COUNTS_PER_MS, 250
+
+; The program has been executed.
+    .global line_count_scan
+line_count_scan:
+    ldi r30, lo8(SCANS)
+    ldi r31, hi8(SCANS)
+1:  ld r24, Z
+    inc r24
+    st Z+, r24
+    brne 2f
+    cpi r30, lo8(SCANS + 4)
+    brne 1b
+2:  ret
+
+; A scan is over that began in millisecond r24, r25 at timer count r22. No scan takes longer than three bytes hold.
+    .global line_enter_scan
+line_enter_scan:
+    lds r18, UNO200_TICK
+    lds r19, UNO200_TICK + 1
+    in r20, TCNT0
+    ; Neither the clock nor the timer may have gone on between.
+    lds r21, UNO200_TICK
+    cp r18, r21
+    brne line_enter_scan
+    sub r18, r24
+    sbc r19, r25
+    sub r20, r22
+    sbc r21, r21
+    ldi r23, COUNTS_PER_MS
+    mul r18, r23
+    movw r24, r0
+    mul r19, r23
+    ldi r26, 0
+    add r25, r0
+    adc r26, r1
+    add r24, r20
+    adc r25, r21
+    adc r26, r21
+    clr r1
+    ; Less 1, so that 0, for none, is more than any.
+    ldi r30, lo8(SCAN_TIMES)
+    ldi r31, hi8(SCAN_TIMES)
+    ldd r18, Z+SHORTEST
+    ldd r19, Z+SHORTEST + 1
+    ldd r20, Z+SHORTEST + 2
+    subi r18, 1
+    sbci r19, 0
+    sbci r20, 0
+    cp r18, r24
+    cpc r19, r25
+    cpc r20, r26
+    brlo 1f
+    std Z+SHORTEST, r24
+    std Z+SHORTEST + 1, r25
+    std Z+SHORTEST + 2, r26
+1:  std Z+LAST, r24
+    std Z+LAST + 1, r25
+    std Z+LAST + 2, r26
+    ldd r18, Z+LONGEST
+    ldd r19, Z+LONGEST + 1
+    ldd r20, Z+LONGEST + 2
+    cp r18, r24
+    cpc r19, r25
+    cpc r20, r26
+    brsh 2f
+    std Z+LONGEST, r24
+    std Z+LONGEST + 1, r25
+    std Z+LONGEST + 2, r26
+2:  lds r24, TRACE_STATE
+    cpi r24, TRACE_WAITING
+    brlo 3f
+    rjmp trace_step
+3:  ret
