@@ -11,6 +11,10 @@ pub const UNIT: u8 = 1;
 const PATIENCE: u64 = 1_000 * MS;
 /// Silence that ends an answer.
 const PAUSE: u64 = 4 * MS;
+/// Cycles of a character in simavr: 11 bits of 8 times 17.
+pub const CHARACTER: u64 = 11 * 8 * 17;
+/// So many bytes simavr has taken at most and not given to the board yet.
+const TAKEN_MAX: usize = 64;
 
 /// The checksum of Modbus RTU, CRC-16 with the reflected polynomial 8005. It is sent low byte first.
 pub fn checksum(bytes: &[u8]) -> u16 {
@@ -24,6 +28,11 @@ pub fn frame(unit: u8, pdu: &[u8]) -> Vec<u8> {
     let mut frame = [&[unit], pdu].concat();
     frame.extend(checksum(&frame).to_le_bytes());
     frame
+}
+
+/// Cycles until the board has the last of so many bytes, when none of them waits outside simavr any more.
+pub fn last_bytes(count: usize) -> u64 {
+    count.min(TAKEN_MAX) as u64 * CHARACTER
 }
 
 /// Sends a frame and returns what comes back until the line is silent: nothing, if the board does not answer in time.
@@ -54,6 +63,14 @@ pub fn exchange(board: &mut BenchBoard, unit: u8, pdu: &[u8]) -> Option<Vec<u8>>
     let (&from, pdu) = body.split_first()?;
     assert_eq!(from, unit, "{answer:02X?}");
     Some(pdu.to_vec())
+}
+
+/// The answer of a board with the usual unit.
+///
+/// # Panics
+/// Without an answer, or with one that is no frame.
+pub fn ask(board: &mut BenchBoard, pdu: &[u8]) -> Vec<u8> {
+    exchange(board, UNIT, pdu).expect("an answer")
 }
 
 /// What a board says of itself, by service function 65.
@@ -93,7 +110,7 @@ fn number(bytes: &[u8]) -> u32 {
 /// # Panics
 /// Without an answer.
 pub fn identify(board: &mut BenchBoard) -> Identity {
-    let answer = exchange(board, UNIT, &[65]).expect("an answer");
+    let answer = ask(board, &[65]);
     assert_eq!((answer.len(), answer[0], answer[1], &answer[12..14]), (40, 65, 1, &[0, 250][..]), "{answer:02X?}");
     let fault = |at: usize| Fault::from_bytes([answer[at], answer[at + 1], answer[at + 2], answer[at + 3]]);
     Identity {
@@ -139,7 +156,7 @@ impl Command {
 /// # Panics
 /// Without an answer, or with another one.
 pub fn command(board: &mut BenchBoard, command: Command) -> Result<(), u8> {
-    let answer = exchange(board, UNIT, &command.pdu()).expect("an answer");
+    let answer = ask(board, &command.pdu());
     match *answer {
         [0xC2, exception] => Err(exception),
         _ => {

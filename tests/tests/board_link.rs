@@ -1,15 +1,11 @@
-//! The serial line of the shipped firmware on a simulated Uno: frames of Modbus RTU, what stands between them, forcing,
-//! RUN and STOP, single scans, and what all that costs a scan. What requests mean is compared with the host elsewhere.
-//!
-//! `NOISE_MINUTES=30 cargo test --release --package tests --features uno --test board_link` listens longer.
+//! The serial line of the shipped firmware on a simulated Uno: frames of Modbus RTU, what stands between them, RUN and
+//! STOP, single scans. What requests mean is compared with the host elsewhere; noise, forcing and costs have tests of
+//! their own.
 #![cfg(feature = "uno")]
 
-use std::env;
-
-use fastrand::Rng;
 use plc_isa::{CRC_LEN, M_START, SM_START};
 use tests::bench_board::{BenchBoard, MS, example, image};
-use tests::link::{Command, UNIT, checksum, command, exchange, frame, identify, run, say, stop};
+use tests::link::{Command, UNIT, ask, command, exchange, frame, identify, last_bytes, run, say, stop};
 
 /// Counts scans and first scans, and has two outputs on.
 const COUNT: &str = "//# name count\nLD SM0.1\nINCW MW0\nLD SM0.0\nINCW MW2\n= Q0.0\n= Q0.5\n";
@@ -20,18 +16,11 @@ const NOTHING: [u8; 0] = [];
 /// Reads Q0.0 to Q0.7.
 const READ_COILS: &[u8] = &[1, 0, 0, 0, 8];
 
-fn ask(board: &mut BenchBoard, pdu: &[u8]) -> Vec<u8> {
-    exchange(board, UNIT, pdu).expect("an answer")
-}
-
 /// The board still answers.
 #[track_caller]
 fn assert_answers(board: &mut BenchBoard) {
     assert_eq!(ask(board, READ_COILS), [1, 1, 0x21]);
 }
-
-/// Cycles of a character in simavr: 11 bits of 8 times 17.
-const CHARACTER: u64 = 11 * 8 * 17;
 
 /// Sends bytes, a pause of so many milliseconds, and so on. Returns what is heard until long after.
 fn say_in_parts(board: &mut BenchBoard, parts: &[&[u8]], pause: f64) -> Vec<u8> {
@@ -41,8 +30,7 @@ fn say_in_parts(board: &mut BenchBoard, parts: &[&[u8]], pause: f64) -> Vec<u8> 
         while board.avr.uart_waiting() > 0 {
             board.run_on(MS / 50);
         }
-        // The last ones still come out of simavr's own queue.
-        let end = board.avr.cycles() + part.len().min(64) as u64 * CHARACTER + (pause * MS as f64) as u64;
+        let end = board.avr.cycles() + last_bytes(part.len()) + (pause * MS as f64) as u64;
         while board.avr.cycles() < end {
             board.run_on((end - board.avr.cycles()).min(MS / 10));
         }
@@ -222,99 +210,6 @@ fn single_scans_go_on_where_the_program_stood() {
     assert_eq!(board.word(M_START), 1, "a first scan after a reset");
 }
 
-/// References: size bit 0 of QB0, word MW0, bit 0 of IB0, QB0.
-const Q0_0: [u8; 3] = [0x10, 0, 0];
-const MW0: [u8; 3] = [0x29, 0, 0];
-const I0_0: [u8; 3] = [0x00, 0, 0];
-
-fn force(board: &mut BenchBoard, reference: [u8; 3], value: u32) {
-    let answer = ask(board, &[&[68, 1][..], &reference, &value.to_be_bytes()].concat());
-    assert_eq!(answer[0], 68, "{answer:02X?}");
-}
-
-#[test]
-fn a_forced_operand_holds_against_the_program() {
-    let program =
-        "LDN I0.0\n= Q0.0\nLD SM0.0\nMOVW 7, MW0\nLD I0.0\n= Q0.1\n=I Q0.2\nLDI I0.0\n= Q0.3\nLDN I0.0\n=I Q0.0\n";
-    let mut board = BenchBoard::running(program);
-    assert_eq!(board.outputs(), Some(0b00_0001));
-    force(&mut board, Q0_0, 0);
-    force(&mut board, MW0, 0x1234);
-    for _ in 0..10_000 {
-        board.scan();
-        assert_eq!((board.outputs(), board.word(M_START)), (Some(0), 0x1234));
-    }
-    assert_eq!((identify(&mut board).state, board.byte(SM_START + 4) >> 7), (0b111, 1));
-    // Immediate access obeys, too: at the pin, at any time.
-    force(&mut board, I0_0, 1);
-    board.scans(3);
-    assert_eq!(board.outputs(), Some(0b00_1110));
-    force(&mut board, Q0_0, 1);
-    for _ in 0..2_000 {
-        board.run_on(7);
-        assert_eq!(board.avr.data()[0x25] & 1, 1);
-    }
-    // The line is cut: nothing changes.
-    board.say(&frame(UNIT, READ_COILS)[..3]);
-    for _ in 0..1_000 {
-        board.scan();
-        assert_eq!((board.outputs(), board.word(M_START)), (Some(0b00_1111), 0x1234));
-    }
-    assert_eq!(ask(&mut board, &[[68, 2].as_slice(), &I0_0, &[0; 4]].concat())[1], 2);
-    board.scans(3);
-    assert_eq!(board.outputs(), Some(0b00_0001));
-    stop(&mut board);
-    assert_eq!((identify(&mut board).state, board.byte(SM_START + 4) >> 7), (0b10, 0), "STOP ends them");
-    run(&mut board);
-    board.scans(2);
-    assert_eq!((board.outputs(), board.word(M_START)), (Some(1), 7));
-}
-
-/// Cycles of the program's scan with a line that is idle, that is used all the time, and the longest scans of both; and
-/// the scans in a second.
-#[test]
-fn answers_cost_little() {
-    let mut board = BenchBoard::new();
-    board.insert(&example("station1"));
-    board.power_up();
-    board.scans_for(200);
-    let quiet = board.scans_for(1_000);
-    let longest_quiet = quiet.iter().map(|scan| scan.cycles()).max().unwrap_or(0);
-    let watch: Vec<u8> = [67, 20].into_iter().chain((0..20).flat_map(|bit| [0x30 | (bit % 8), 0, bit / 8])).collect();
-    let requests: [(&[u8], usize); 5] =
-        [(&watch, 26), (READ_COILS, 6), (&[3, 0, 0, 0, 1], 5), (&[65], 43), (&[68, 0], 5)];
-    let (mut longest, mut longest_of, mut scans, start) = (0, [0; 5], 0, board.avr.cycles());
-    for round in 0..60 {
-        let (request, answer_len) = requests[round % requests.len()];
-        let asked = board.avr.cycles();
-        board.say(&frame(UNIT, request));
-        let mut heard: Vec<u8> = Vec::new();
-        while heard.len() < answer_len {
-            let cycles = board.scan().cycles();
-            longest = longest.max(cycles);
-            longest_of[round % 5] = cycles.max(longest_of[round % 5]);
-            scans += 1;
-            heard.extend(board.avr.uart_take());
-            assert!(board.avr.cycles() - asked < 100 * MS, "round {round}: {heard:02X?}, state {}", board.runs());
-        }
-        assert_eq!((heard.len(), checksum(&heard)), (answer_len, 0), "{heard:02X?}");
-        if round == 0 {
-            println!("20 operands watched in {:.1} ms", (board.avr.cycles() - asked) as f64 / MS as f64);
-            assert!(board.avr.cycles() - asked < 50 * MS);
-        }
-    }
-    let rate = f64::from(scans) / (board.avr.cycles() - start) as f64 * (1_000 * MS) as f64;
-    let share = 1.0 - rate / quiet.len() as f64;
-    println!(
-        "scans a second: {} quiet, {rate:.0} with a master that always asks: {:.1} % less",
-        quiet.len(),
-        share * 100.0
-    );
-    println!("longest scan: {longest_quiet} cycles quiet, {longest} with a master, {longest_of:?} by request");
-    assert!(share <= 0.15);
-    assert!(longest <= longest_quiet + 150 * MS / 1_000, "{} cycles longer", longest - longest_quiet);
-}
-
 #[test]
 fn rate_parity_and_address_are_those_of_the_program() {
     const CONTROL_C: usize = 0xC2;
@@ -335,97 +230,4 @@ fn rate_parity_and_address_are_those_of_the_program() {
         assert_eq!(exchange(&mut board, unit, READ_COILS), Some(vec![1, 1, 0x21]), "{settings}");
         assert_eq!(exchange(&mut board, unit ^ 3, READ_COILS), None, "{settings}");
     }
-}
-
-/// Outputs by the system's clock and by timers whose ticks are longer than a scan, so that a scan more or less until
-/// they start makes no difference to their end.
-const TIMED: &str = "//# name timed\nLD SM0.5\n= Q0.0\nTON T33, 5\nTOF T34, 3\nLD T33\n= Q0.1\nLD T34\n= Q0.2\n";
-
-/// What the outputs of that program are, so many milliseconds after the start of its first scan.
-fn timed_outputs(ms: u32) -> u8 {
-    let phase = ms % 1_000;
-    let is_after_first = ms >= 1_000;
-    u8::from(phase >= 500) | u8::from(phase >= 550) << 1 | u8::from(phase >= 500 || is_after_first && phase < 30) << 2
-}
-
-/// Runs that program for so long with the line as `talk` makes it, and asserts that each scan has the outputs of its
-/// time. Returns the longest scan in cycles, and how many scans there were.
-fn longest_timed_scan(milliseconds: u64, mut talk: impl FnMut(&mut BenchBoard)) -> (u64, u64) {
-    let mut board = BenchBoard::new();
-    board.insert(&image(TIMED));
-    board.power_up();
-    // When the program started is known to the millisecond or two of its first scan; all that follows must agree.
-    let first = board.tick();
-    board.scan();
-    let mut starts: Vec<u32> = (first..=board.tick()).collect();
-    let (end, mut longest, mut scans) = (board.avr.cycles() + milliseconds * MS, 0, 0);
-    while board.avr.cycles() < end {
-        board.to_scan_start();
-        let before = board.tick();
-        longest = longest.max(board.scan().cycles());
-        let (after, outputs) = (board.tick(), board.outputs());
-        // Where the millisecond changes under way either is right, for each output.
-        starts.retain(|start| {
-            let [before, after] = [before, after].map(|tick| timed_outputs(tick - start));
-            outputs.is_some_and(|outputs| (outputs ^ before) & (outputs ^ after) == 0)
-        });
-        assert!(!starts.is_empty(), "outputs {outputs:?}, {} ms after the start", after - first);
-        assert_eq!((board.runs(), board.fault()), (true, None));
-        scans += 1;
-        talk(&mut board);
-    }
-    (longest, scans)
-}
-
-/// How much longer a scan may be under a flood, by interrupts alone.
-const FLOOD_CYCLES_MAX: u64 = 150 * MS / 1_000;
-
-/// Bytes a second when the line is hardly ever idle: simavr takes 11 bits of 8 times 17 cycles for a byte.
-const FULL_RATE: u64 = 16_000_000 / (11 * 8 * 17) * 99 / 100;
-
-#[test]
-fn noise_on_the_line_disturbs_nothing() {
-    let minutes = env::var("NOISE_MINUTES").map_or(0.2, |text| text.parse::<f64>().expect("NOISE_MINUTES is a number"));
-    let (quiet, _) = longest_timed_scan(3_000, |_| {});
-    let (mut rng, mut sent, mut answers) = (Rng::with_seed(1), 0, 0);
-    let milliseconds = (minutes * 60_000.0) as u64;
-    let (flooded, scans) = longest_timed_scan(milliseconds, |board| {
-        if board.avr.uart_waiting() < 1_000 {
-            let mut bytes = [0; 1_000];
-            rng.fill(&mut bytes);
-            // Beginnings that could be meant for the board.
-            bytes.iter_mut().step_by(7).for_each(|byte| *byte &= 1);
-            sent += bytes.len() as u64;
-            board.say(&bytes);
-            answers += board.avr.uart_take().len();
-        }
-    });
-    let rate = sent * 1_000 / milliseconds;
-    println!("{minutes} minutes of noise, {rate} bytes a second, {answers} bytes of answers, {scans} scans all right");
-    println!("longest scan: {quiet} cycles quiet, {flooded} cycles flooded");
-    assert!(rate > FULL_RATE, "the line was not full: {rate} bytes a second");
-    assert_eq!(answers, 0);
-    assert!(flooded <= quiet + FLOOD_CYCLES_MAX, "the line takes {} cycles of a scan", flooded - quiet);
-}
-
-/// Damaged requests with pauses between them: none is answered as something else, none disturbs the program.
-#[test]
-fn damaged_requests_change_nothing() {
-    let mut board = BenchBoard::running(COUNT);
-    let mut rng = Rng::with_seed(2);
-    for _ in 0..300 {
-        let pdu = [Command::Stop.pdu(), [68, 1, 0x10, 0], [5, 0, 0, 0], [72, 1, 0x29, 0]][rng.usize(..4)];
-        let mut bytes = frame(UNIT, &pdu);
-        for _ in 0..rng.usize(1..4) {
-            let at = rng.usize(..bytes.len());
-            bytes[at] ^= 1 << rng.u8(..8);
-        }
-        let _ = board.avr.uart_take();
-        if checksum(&bytes) == 0 {
-            continue;
-        }
-        assert_eq!(say_in_parts(&mut board, &[&bytes], 2.0), NOTHING);
-        assert_eq!((board.runs(), board.outputs()), (true, Some(0x21)));
-    }
-    assert_eq!(identify(&mut board).state, 0b11);
 }
