@@ -67,7 +67,11 @@ pub fn encode(checked: Checked<'_>, name: &str, diagnostics: &mut Vec<Diagnostic
     let mut image = header.to_bytes().to_vec();
     modules.enter(&mut image);
     image.extend_from_slice(name.as_bytes());
-    image.extend(demand.v_ranges.iter().flat_map(|&(first, len)| [first.to_le_bytes(), len.to_le_bytes()]).flatten());
+    let mut end = 0;
+    for &(first, len) in &demand.v_ranges {
+        end += len;
+        image.extend([first.to_le_bytes(), end.to_le_bytes()].concat());
+    }
     image.extend(demand.timers.iter().flat_map(|(&number, kind)| [number, kind.code()]));
     image.extend_from_slice(&demand.counters);
     image.resize(image.len() + usize::from(LABEL_LEN * header.labels), 0);

@@ -196,7 +196,7 @@ fn the_command_writes_native_images() {
     assert!(is_said, "{summary}");
     let output = awl_asm(directory.path(), &["p.awl", "--native", "-o", "p.hex"]);
     assert!(output.status.success(), "{}", stderr(&output));
-    assert!(std::fs::read_to_string(at("p.hex")).unwrap().starts_with(":10600000553230300401"));
+    assert!(std::fs::read_to_string(at("p.hex")).unwrap().starts_with(":10600000553230300501"));
     let output = awl_asm(directory.path(), &["--disassemble", "p.bin"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(stderr(&output).contains("translated to machine code"), "{}", stderr(&output));

@@ -309,19 +309,21 @@ walk:
     movw r24, r22
     sub r24, r18
     sbc r25, r19
-    lpm r18, Z+
-    lpm r19, Z+
-    cp r24, r18
-    cpc r25, r19
-    brlo 4f
-    add r26, r18
-    adc r27, r19
-    rjmp 1b
-4:  add r26, r24
-    adc r27, r25
-    movw r30, r18
-    sub r30, r24
-    sbc r31, r25
+    brcs not_there
+    ; Its address if it is in this range; and where the memory of the range ends, that of the next one begins.
+    add r24, r26
+    adc r25, r27
+    lpm r26, Z+
+    lpm r27, Z+
+    subi r26, lo8(-(ARENA_START))
+    sbci r27, hi8(-(ARENA_START))
+    cp r24, r26
+    cpc r25, r27
+    brsh 1b
+    movw r30, r26
+    movw r26, r24
+    sub r30, r26
+    sbc r31, r27
     ret
 3:  sbrc r0, 7
     rjmp by_address

@@ -80,7 +80,8 @@ fn faults_of_the_header() {
     assert_eq!(fault_with(0, b"X"), Some(ImageFault::Magic));
     assert_eq!(fault_with(4, &[2]), Some(ImageFault::Version), "before modules with a state");
     assert_eq!(fault_with(4, &[3]), Some(ImageFault::Version), "before settings of the serial line");
-    assert_eq!(fault_with(4, &[5]), Some(ImageFault::Version));
+    assert_eq!(fault_with(4, &[4]), Some(ImageFault::Version), "with lengths of V ranges");
+    assert_eq!(fault_with(4, &[6]), Some(ImageFault::Version));
     assert_eq!(fault_with(5, &[1]), Some(ImageFault::Interface), "machine code, on the host");
     assert_eq!(fault_with(29, &[7]), Some(ImageFault::Settings));
     assert_eq!(fault_with(8, &[0xFF, 0xFF]), Some(ImageFault::Length), "code longer than the image");
@@ -117,7 +118,10 @@ fn faults_of_the_header() {
 fn faults_of_the_tables() {
     let (_, header) = image();
     assert_eq!(fault_with(header.v_ranges_at() + 4, &[1, 0]), Some(ImageFault::VRanges), "overlaps the first");
-    assert_eq!(fault_with(header.v_ranges_at() + 8, &[0xFF, 0x27, 2, 0]), Some(ImageFault::VRanges), "VB10240");
+    assert_eq!(fault_with(header.v_ranges_at() + 8, &[0xFF, 0x27, 5, 0]), Some(ImageFault::VRanges), "VB10240");
+    assert_eq!(fault_with(header.v_ranges_at() + 6, &[2]), Some(ImageFault::VRanges), "ends where the first does");
+    assert_eq!(fault_with(header.v_ranges_at() + 6, &[1]), Some(ImageFault::VRanges), "ends before the first");
+    assert_eq!(fault_with(header.v_ranges_at() + 6, &[4]), Some(ImageFault::Operand), "VB20, VB21 and then only VB30");
     assert_eq!(fault_with(header.timers_at() + 2, &[37]), Some(ImageFault::Timers), "T37 twice");
     assert_eq!(fault_with(header.timers_at() + 1, &[2]), Some(ImageFault::Timers), "T37 by TONR");
     assert_eq!(fault_with(header.timers_at() + 1, &[9]), Some(ImageFault::Timers), "an unknown kind");

@@ -7,9 +7,10 @@
 use core::arch::global_asm;
 use core::mem::offset_of;
 
+use avr_device::atmega328p::CPU;
 use plc_isa::{
     AC_START, AIN_START, AIW_START, AQW_START, ARENA_START, DATA_END, FORCED, HC0, I_START, LINE_ROOM, Program,
-    ProgramMemory, Q_START, SLOT_LEN, SLOT_START,
+    ProgramMemory, Q_START, SLOT_LEN, SLOT_START, V_RANGE_LEN,
 };
 
 use crate::board::clock::Moment;
@@ -23,9 +24,8 @@ const FORCE_LEN: usize = 9;
 const FORCES_MAX: usize = 16;
 /// Bytes behind a request in the frame, its checksum.
 const BEHIND_REQUEST: u16 = 2;
-/// Service functions that more is done for here.
+/// The service function that more is done for here.
 const IDENTIFY: u8 = 65;
-const FORCE: u8 = 68;
 /// Bit of the state: single scans.
 const STEPPING: u8 = 1 << 4;
 /// Commands: RUN to STOP, STOP to RUN, forget the fault, single scans from STOP.
@@ -37,6 +37,8 @@ pub const CLEAR_FAULT: u8 = 2;
 /// As above.
 pub const SCANS: u8 = 3;
 const NONE: u8 = 0xFF;
+/// A request that nothing has been done about.
+const NEW: u8 = 0;
 /// Phases of a request for the status of instructions: the next scan fills its entries in, and it has.
 #[cfg(feature = "engine")]
 const ARMED: u8 = 2;
@@ -46,14 +48,10 @@ const NOTED: u8 = 3;
 #[cfg(feature = "engine")]
 const FIRST_ENTRY: u16 = 3;
 
-/// What the assembly works with. It reads and writes it at these offsets.
+/// What begins anew when a program is loaded.
 #[repr(C)]
-struct Line {
-    /// Data address of requests and answers, and their most bytes.
-    frame: u16,
-    room: u8,
-    /// How far the work on a request has come.
-    phase: u8,
+struct Loaded {
+    trace_state: u8,
     left: u8,
     at: u8,
     /// What the request asks for beside an answer, and how many scans.
@@ -70,6 +68,33 @@ struct Line {
     /// The program's name in flash.
     name_at: u16,
     name_len: u8,
+}
+
+impl Loaded {
+    const NOTHING: Loaded = Loaded {
+        trace_state: 0,
+        left: 0,
+        at: 0,
+        command: 0,
+        scans_wanted: 0,
+        v_table: 0,
+        timers_table: 0,
+        counters_table: 0,
+        labels_table: 0,
+        timers_start: 0,
+        counters_start: 0,
+        name_at: 0,
+        name_len: 0,
+    };
+}
+
+/// What the assembly works with. It reads and writes it at these offsets.
+#[repr(C)]
+struct Line {
+    /// Data address of requests and answers, and their most bytes.
+    frame: u16,
+    room: u8,
+    loaded: Loaded,
     /// Single scans that are left; 0: RUN has no end.
     scans_left: u16,
     /// Bit 0 RUN, 1 there is a program, 3 it is machine code, 4 single scans.
@@ -90,14 +115,14 @@ struct Line {
     forces: [u8; FORCE_LEN * FORCES_MAX],
     /// The bits of the state that the program alone makes.
     program_bits: u8,
-    trace_state: u8,
     /// Data memory for a trace, and its end.
     ring: u16,
     ring_end: u16,
 }
 
-const _: () = assert!(offset_of!(Line, v_table) == 9 && offset_of!(Line, state) == 26 && offset_of!(Line, scans) == 47);
-const _: () = assert!(offset_of!(Line, forces_count) == 55 && offset_of!(Line, trace_state) == 201);
+const _: () =
+    assert!(offset_of!(Line, loaded.v_table) == 9 && offset_of!(Line, state) == 26 && offset_of!(Line, scans) == 47);
+const _: () = assert!(offset_of!(Line, forces_count) == 55 && offset_of!(Line, ring) == 201);
 
 /// Where the engine finds the same of the plan.
 #[cfg(feature = "engine")]
@@ -105,15 +130,15 @@ mod places {
     use super::{Line, offset_of};
 
     /// Addresses of tables in flash.
-    pub const TIMERS_IN_FLASH: usize = offset_of!(Line, timers_table);
+    pub const TIMERS_IN_FLASH: usize = offset_of!(Line, loaded.timers_table);
     /// As above.
-    pub const COUNTERS_IN_FLASH: usize = offset_of!(Line, counters_table);
+    pub const COUNTERS_IN_FLASH: usize = offset_of!(Line, loaded.counters_table);
     /// As above.
-    pub const LABELS_IN_FLASH: usize = offset_of!(Line, labels_table);
+    pub const LABELS_IN_FLASH: usize = offset_of!(Line, loaded.labels_table);
     /// Data addresses of the first slots.
-    pub const TIMERS_START: usize = offset_of!(Line, timers_start);
+    pub const TIMERS_START: usize = offset_of!(Line, loaded.timers_start);
     /// As above.
-    pub const COUNTERS_START: usize = offset_of!(Line, counters_start);
+    pub const COUNTERS_START: usize = offset_of!(Line, loaded.counters_start);
 }
 #[cfg(feature = "engine")]
 pub use places::*;
@@ -121,19 +146,7 @@ pub use places::*;
 static mut LINE: Line = Line {
     frame: 0,
     room: 0,
-    phase: 0,
-    left: 0,
-    at: 0,
-    command: 0,
-    scans_wanted: 0,
-    v_table: 0,
-    timers_table: 0,
-    counters_table: 0,
-    labels_table: 0,
-    timers_start: 0,
-    counters_start: 0,
-    name_at: 0,
-    name_len: 0,
+    loaded: Loaded::NOTHING,
     scans_left: 0,
     state: 0,
     fault: 0,
@@ -147,7 +160,6 @@ static mut LINE: Line = Line {
     forces_count: 0,
     forces: [0; FORCE_LEN * FORCES_MAX],
     program_bits: 0,
-    trace_state: 0,
     ring: 0,
     ring_end: 0,
 };
@@ -164,6 +176,7 @@ global_asm!(
     ".equ ARENA_START, {arena_start}",
     ".equ SLOT_START, {slot_start}",
     ".equ SLOT_LEN, {slot_len}",
+    ".equ V_RANGE_LEN, {v_range_len}",
     ".equ FORCED_POINTS, {forced}",
     ".set LINE, {line}",
     // Mode in bit 0, then the fault. Harnesses read it by this name.
@@ -179,6 +192,7 @@ global_asm!(
     arena_start = const ARENA_START,
     slot_start = const SLOT_START,
     slot_len = const SLOT_LEN,
+    v_range_len = const V_RANGE_LEN,
     forced = const FORCED,
     state = const offset_of!(Line, state),
     line = sym LINE,
@@ -209,36 +223,44 @@ fn line() -> &'static mut Line {
     unsafe { &mut *&raw mut LINE }
 }
 
+/// How far the work on a request has come: a register that nothing else uses.
+#[inline(always)]
+fn phase() -> u8 {
+    // SAFETY: a register without function is read.
+    unsafe { CPU::steal() }.gpior2().read().bits()
+}
+
+#[inline(always)]
+fn set_phase(phase: u8) {
+    // SAFETY: as above.
+    unsafe { CPU::steal() }.gpior2().write(|w| w.set(phase));
+}
+
 /// Answers the request of so many bytes, at least 1, in the frame. Returns the length of the answer, which has replaced
 /// it; 0: the answer takes another scan, at whose end this is called again.
 pub fn answer(len: u8) -> u8 {
     // SAFETY: the frame is in data memory.
     let function = unsafe { *(line().frame as *const u8) };
-    line().command = NONE;
+    line().loaded.command = NONE;
     if function == IDENTIFY {
         line().free_stack = stack::free();
     }
     // SAFETY: the assembly reads flash and the image that has been checked, writes data memory of the program in force
     // and behind it, and keeps what the calling convention asks for. Nobody holds a reference to data memory.
-    let len = unsafe { line_answer(len) };
-    if function == FORCE {
-        // SAFETY: as above.
-        unsafe { uno200_tell_forces() }
-    }
-    len
+    unsafe { line_answer(len) }
 }
 
 /// What the last request asks for beside an answer: one of the commands.
 #[inline(always)]
 pub fn command() -> u8 {
-    line().command
+    line().loaded.command
 }
 
 /// RUN was asked for, or single scans: as many are left now.
 #[inline(always)]
 pub fn begin_scans() {
     let line = line();
-    line.scans_left = if line.command == SCANS { line.scans_wanted } else { 0 };
+    line.scans_left = if line.loaded.command == SCANS { line.loaded.scans_wanted } else { 0 };
     line.state &= !STEPPING;
 }
 
@@ -246,16 +268,15 @@ pub fn begin_scans() {
 #[cfg(feature = "engine")]
 #[inline(always)]
 pub fn has_window() -> bool {
-    line().phase == ARMED
+    phase() == ARMED
 }
 
 /// Data address of its first entry. It is filled in when the next request is answered.
 #[cfg(feature = "engine")]
 #[inline(always)]
 pub fn take_window() -> u16 {
-    let line = line();
-    line.phase = NOTED;
-    line.frame + FIRST_ENTRY
+    set_phase(NOTED);
+    line().frame + FIRST_ENTRY
 }
 
 /// Data address of the frame.
@@ -291,29 +312,29 @@ pub fn end_run() {
 pub fn place(program: Option<&Program<ProgramSlot>>) -> u8 {
     let line = line();
     let (mut frame, mut end) = (ARENA_START, DATA_END);
-    (line.timers_table, line.counters_table, line.labels_table, line.v_table) = (0, 0, 0, 0);
-    (line.name_len, line.image_len, line.program_bits) = (0, 0, 0);
+    line.loaded = Loaded::NOTHING;
+    let loaded = &mut line.loaded;
+    (line.image_len, line.program_bits) = (0, 0);
     if let Some(program) = program {
         let plan = program.plan();
         let header = &plan.header;
         frame = plan.end() + plan.retained_len();
         end = program.memory().modules_end().unwrap_or(frame + LINE_ROOM);
-        line.timers_table = SLOT_START + plan.timers_at;
-        line.counters_table = SLOT_START + plan.counters_at;
-        line.labels_table = SLOT_START + plan.labels_at;
-        line.timers_start = plan.timers_start;
-        line.counters_start = plan.counters_start;
-        line.v_table = line.timers_table - 4 * header.v_ranges;
-        line.name_len = header.name_len;
-        line.name_at = line.v_table - u16::from(header.name_len);
+        loaded.timers_table = SLOT_START + plan.timers_at;
+        loaded.counters_table = SLOT_START + plan.counters_at;
+        loaded.labels_table = SLOT_START + plan.labels_at;
+        loaded.timers_start = plan.timers_start;
+        loaded.counters_start = plan.counters_start;
+        loaded.v_table = loaded.timers_table - V_RANGE_LEN * header.v_ranges;
+        loaded.name_len = header.name_len;
+        loaded.name_at = loaded.v_table - u16::from(header.name_len);
         line.image_len = header.total_len;
         line.program_bits = if header.interface == 0 { 1 << 1 } else { 1 << 1 | 1 << 3 };
     }
-    line.phase = 0;
+    set_phase(NEW);
     line.forces_count = 0;
     line.frame = frame;
     line.room = (end - frame - BEHIND_REQUEST).min(PDU_MAX) as u8;
-    line.trace_state = 0;
     line.ring = frame + u16::from(line.room) + BEHIND_REQUEST;
     line.ring_end = end;
     line.room

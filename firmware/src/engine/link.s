@@ -7,7 +7,7 @@
 ; What LINE holds.
 .equ FRAME, LINE + 0
 .equ ROOM, LINE + 2
-.equ PHASE, LINE + 3
+.equ TRACE_STATE, LINE + 3
 .equ LEFT, LINE + 4
 .equ AT, LINE + 5
 .equ COMMAND, LINE + 6
@@ -23,19 +23,23 @@
 .equ SCANS, LINE + 47
 .equ FORCES, LINE + 55
 .equ FORCED, LINE + 56
-.equ TRACE_STATE, LINE + 201
-.equ RING, LINE + 202
-.equ RING_END, LINE + 204
+.equ RING, LINE + 201
+.equ RING_END, LINE + 203
 
-; Phases of a request.
+; How far the work on a request has come stands in GPIOR2, which is 0 after a reset.
+.equ PHASE, 0x2B
 .equ NEW, 0
-.equ RESOLVING, 1
+.equ GOES_ON, 1
 .equ ARMED, 2
+.equ READY, 4
 
 .equ STACK_POINTER_LOW, 0x3D
 .equ STACK_POINTER_HIGH, 0x3E
 .equ SREG, 0x3F
 .equ TCNT0, 0x26
+; Timer counts of 4 us since an answer was begun after which another scan goes on with it.
+.equ PARTS_COUNTS, 22
+.equ PART_COUNTS, 5
 
 ; An entry of the forces: place (low byte first), reference, value.
 .equ FORCE_LEN, 9
@@ -144,7 +148,7 @@ done_at_z:
     lds r25, FRAME
     sub r24, r25
 done:
-    sts PHASE, r1
+    out PHASE, r1
     rjmp line_leave
 not_yet:
     ldi r24, 0
@@ -184,21 +188,24 @@ expect_list:
     subi r24, -2
     rcall expect_len
 begin:
-    lds r24, PHASE
+    in r24, PHASE
     cpi r24, NEW
     brne 1f
-    ldi r24, RESOLVING
-    sts PHASE, r24
+    ldi r24, GOES_ON
+    out PHASE, r24
     sts LEFT, r20
     ldi r24, 2
     sts AT, r24
 1:  ret
 
-; The next part of an answer, if there is time for one.
+; The next part of an answer, if there is time for one; of r18 parts, the last one takes longer.
 next_part:
+    ldi r25, PART_COUNTS
+    cpse r18, r1
+    ldi r25, PARTS_COUNTS
     in r24, TCNT0
     sub r24, r10
-    cpi r24, 22
+    cp r24, r25
     brlo 1f
     pop r24
     pop r24
@@ -348,36 +355,64 @@ page_start:
 
 ; Data address of r21 bytes of V memory from r22 and r23 on in X, if they lie in one range.
 v_address:
-    lds r30, V_TABLE
-    lds r31, V_TABLE + 1
-    ldi r26, lo8(ARENA_START)
-    ldi r27, hi8(ARENA_START)
-1:  lds r24, TIMERS_TABLE
-    lds r25, TIMERS_TABLE + 1
-    cp r30, r24
-    cpc r31, r25
+    lds r24, V_TABLE
+    lds r25, V_TABLE + 1
+    lds r18, TIMERS_TABLE
+    lds r19, TIMERS_TABLE + 1
+    ; Ranges before r24 and r25 begin at the number or before, those from r18 and r19 on behind it.
+1:  movw r30, r18
+    sub r30, r24
+    sbc r31, r25
+    breq 3f
+    lsr r31
+    ror r30
+    andi r30, 256 - V_RANGE_LEN
+    add r30, r24
+    adc r31, r25
+    lpm r26, Z+
+    lpm r27, Z+
+    cp r22, r26
+    cpc r23, r27
+    brlo 2f
+    adiw r30, V_RANGE_LEN - 2
+    movw r24, r30
+    rjmp 1b
+2:  sbiw r30, 2
+    movw r18, r30
+    rjmp 1b
+3:  lds r18, V_TABLE
+    lds r19, V_TABLE + 1
+    cp r24, r18
+    cpc r25, r19
     breq bad_value_reference
-    lpm r24, Z+
+    ; The range begins where the one before it ends.
+    movw r30, r24
+    sbiw r30, V_RANGE_LEN + 2
+    lpm r26, Z+
+    lpm r27, Z+
+    cp r30, r18
+    cpc r31, r19
+    brne 4f
+    ldi r26, 0
+    ldi r27, 0
+4:  lpm r24, Z+
     lpm r25, Z+
     movw r18, r22
     sub r18, r24
     sbc r19, r25
     lpm r24, Z+
-    lpm r25, Z+
-    brcs bad_value_reference
-    cp r18, r24
-    cpc r19, r25
-    brlo 2f
-    add r26, r24
-    adc r27, r25
-    rjmp 1b
-2:  add r26, r18
-    adc r27, r19
+    lpm r25, Z
+    add r18, r26
+    adc r19, r27
+    movw r26, r18
     sub r24, r18
     sbc r25, r19
+    brcs bad_value_reference
     cp r24, r21
     cpc r25, r1
     brlo bad_value_reference
+    subi r26, lo8(-(ARENA_START))
+    sbci r27, hi8(-(ARENA_START))
     ret
 bad_value_reference:
     rjmp refuse_address
@@ -388,25 +423,50 @@ value_address:
     ldi r31, hi8(TIMERS_TABLE)
     sbrs r20, 2
     adiw r30, 2
+    ld r24, Z
+    ldd r25, Z+1
     ldd r18, Z+2
     ldd r19, Z+3
     ldd r26, Z+6
     ldd r27, Z+7
-    ld r0, Z+
-    ld r31, Z
-    mov r30, r0
-1:  cp r30, r18
-    cpc r31, r19
+    push r24
+    push r25
+    ; Entries before r24 and r25 are of lower numbers, those from r18 and r19 on of higher ones.
+1:  movw r30, r18
+    sub r30, r24
+    sbc r31, r25
     breq bad_value_reference
-    lpm r0, Z+
-    cp r0, r22
-    breq 2f
+    lsr r31
+    ror r30
+    sbrc r20, 2
+    andi r30, 0xFE
+    add r30, r24
+    adc r31, r25
+    lpm r23, Z
+    cp r22, r23
+    breq 3f
+    brlo 2f
+    adiw r30, 1
     sbrc r20, 2
     adiw r30, 1
-    add r26, r20
-    adc r27, r1
+    movw r24, r30
     rjmp 1b
-2:  ret
+2:  movw r18, r30
+    rjmp 1b
+3:  ; As many entries are before it.
+    pop r19
+    pop r18
+    sub r30, r18
+    sbc r31, r19
+    sbrs r20, 2
+    rjmp 4f
+    lsr r31
+    ror r30
+4:  mul r30, r20
+    add r26, r0
+    adc r27, r1
+    clr r1
+    ret
 
 ; ---- Modbus: functions 1 to 6, 15, 16 and 23
 
@@ -420,7 +480,10 @@ modbus:
     cpi r16, 15
     breq 1f
     clt
-1:  rcall said_of_written
+1:  in r24, PHASE
+    cpi r24, NEW
+    brne 4f
+    rcall said_of_written
     ldi r25, 3
     ldi r24, 5
     cpi r16, 7
@@ -447,10 +510,10 @@ wrong_value:
 3:  mov r11, r25
     rcall expect_len
     cpi r16, 23
-    breq 1f
+    breq 4f
     cpi r16, 5
-    brsh 2f
-1:  ldd r22, Y+4
+    brsh 5f
+4:  ldd r22, Y+4
     ldd r23, Y+3
     rcall byte_count
     mov r15, r24
@@ -460,9 +523,12 @@ wrong_value:
     brlo wrong_value
     cpi r16, 23
     brne read
+    in r24, PHASE
+    cpi r24, NEW
+    brne read
     ; Both are looked for before anything is written.
     rcall find_read
-2:  rcall find_written
+5:  rcall find_written
     movw r30, r26
     movw r26, r28
     add r26, r11
@@ -476,6 +542,9 @@ wrong_value:
 2:  ldi r24, 5
     cpi r16, 23
     brne 3f
+    ; It is read at the end of the next scan.
+    out PHASE, r24
+    rjmp not_yet
 read:
     rcall find_read
     movw r30, r28
@@ -705,23 +774,34 @@ no_register:
 
 ; Copies r22 words from X, r20 bytes apart, to Z, r21 bytes apart. T: from analog inputs, of which there are six.
 copy_words:
-    dec r20
-    dec r21
+    brts 2f
+    cpse r20, r21
+    rjmp 2f
+    ; Many can lie side by side.
 1:  ld r24, X+
+    ld r25, X+
+    st Z+, r24
+    st Z+, r25
+    dec r22
+    brne 1b
+    ret
+2:  dec r20
+    dec r21
+3:  ld r24, X+
     ld r25, X
-    brtc 2f
+    brtc 4f
     cpi r26, lo8(AIN_START)
-    brlo 2f
+    brlo 4f
     ldi r24, 0
     ldi r25, 0
-2:  st Z+, r24
+4:  st Z+, r24
     st Z, r25
     add r26, r20
     adc r27, r1
     add r30, r21
     adc r31, r1
     dec r22
-    brne 1b
+    brne 3b
     ret
 
 ; Copies r22 and r23 bits from X, the first of them at r20 in its byte, to bytes at Z. The rest of the last one is 0.
@@ -749,36 +829,35 @@ read_bits:
 
 ; The other way.
 line_write_bits:
-    ld r24, X+
-    rcall last_bits
-    mov r18, r21
-    and r24, r21
-    ldi r25, 0
-    ldi r19, 0
     mov r0, r20
-    rjmp 3f
-2:  lsl r24
-    rol r25
-    lsl r18
-    rol r19
-3:  dec r0
-    brpl 2b
+    ldi r20, 1
+    rjmp 2f
+1:  lsl r20
+2:  dec r0
+    brpl 1b
+3:  ld r24, X+
+    rcall last_bits
+    and r24, r21
+    mul r21, r20
+    movw r18, r0
     com r18
     com r19
-    ld r0, Z
-    and r0, r18
-    or r0, r24
-    st Z+, r0
-    ld r0, Z
-    and r0, r19
-    or r0, r25
-    st Z, r0
+    mul r24, r20
+    ld r24, Z
+    and r24, r18
+    or r24, r0
+    st Z+, r24
+    ld r24, Z
+    and r24, r19
+    or r24, r1
+    st Z, r24
+    clr r1
     subi r22, 8
     sbci r23, 0
     brcs 4f
     mov r0, r22
     or r0, r23
-    brne line_write_bits
+    brne 3b
 4:  ret
 
 ; The bits of a byte in r21 that are among r22 and r23.
@@ -1086,6 +1165,9 @@ put_scans:
 ; ---- function 68: forces
 
 force:
+    in r18, PHASE
+    cpse r18, r1
+    rjmp list_forces
     ldd r18, Y+1
     cpi r18, 4
     brsh force_value
@@ -1101,7 +1183,7 @@ force:
     cpi r18, 3
     brne 1f
     rcall line_clear_forces
-    rjmp list_forces
+    rjmp tell_forces
 force_value:
     rjmp refuse_value
 1:  ALLOW FORCEABLE
@@ -1141,6 +1223,12 @@ force_value:
     adiw r26, 2
     ldi r25, 7
     rcall copy_bytes
+; They have changed. The list follows at the end of the next scan.
+tell_forces:
+    rcall uno200_tell_forces
+    ldi r24, GOES_ON
+    out PHASE, r24
+    rjmp not_yet
 list_forces:
     movw r30, r28
     adiw r30, 1
@@ -1178,9 +1266,9 @@ unforce:
     tst r21
     brne 7f
     rcall line_clear_forces
-    rjmp list_forces
+    rjmp tell_forces
 7:  rcall release_inputs
-    rjmp list_forces
+    rjmp tell_forces
 force_full:
     rjmp refuse_busy
 

@@ -11,14 +11,22 @@
 .equ BYTECODE_LOADED, 0x02
 
 status:
-    lds r24, PHASE
+    in r24, PHASE
     lds r25, STATE
     cpi r24, ARMED
     brlo 1f
     brne 0f
     sbrc r25, 0
     rjmp not_yet
-0:  rjmp collect
+0:  sbrc r24, 2
+    rjmp collect
+    ; A scan has filled them in. The answer is made at the end of the next one.
+    ldi r24, READY
+    out PHASE, r24
+    ldd r24, Y+1
+    sts LEFT, r24
+    rcall put_scans
+    rjmp not_yet
 1:  andi r25, PROGRAM_BITS
     cpi r25, BYTECODE_LOADED
     breq 2f
@@ -73,6 +81,7 @@ status:
     brne 6b
     dec r20
     sts LEFT, r20
+    mov r18, r20
     rcall next_part
     rjmp 3b
 arm:
@@ -81,7 +90,7 @@ arm:
     std Z+FIRST_ENTRY, r24
     std Z+FIRST_ENTRY+1, r24
     ldi r24, ARMED
-    sts PHASE, r24
+    out PHASE, r24
     rjmp not_yet
 wrong_status:
     rjmp refuse_value
@@ -102,8 +111,8 @@ times:
 
 ; The answer, with the operands right-aligned.
 collect:
-    ldd r22, Y+1
-    rcall put_scans
+    lds r22, LEFT
+    adiw r28, 3
     movw r26, r28
 1:  ldd r0, Y+2
     ldd r25, Y+3

@@ -71,20 +71,24 @@ wrong_trace:
     rjmp refuse_value
 
 start_trace:
-    ldd r10, Y+ASKED_COUNT
-    mov r24, r10
+    in r24, PHASE
+    cpse r24, r1
+    rjmp next_place
+    ldd r20, Y+ASKED_COUNT
+    mov r24, r20
     dec r24
     cpi r24, TRACE_VALUES_MAX
     brsh wrong_trace
-    add r24, r10
-    add r24, r10
+    add r24, r20
+    add r24, r20
     subi r24, lo8(-(ASKED_VALUES + 1))
     rcall expect_len
-    ALLOW ANYTHING
     ldd r24, Y+ASKED_EVERY
     ldd r25, Y+ASKED_EVERY + 1
     or r24, r25
     breq wrong_trace
+    rcall begin
+    ALLOW ANYTHING
     ldd r24, Y+ASKED_KIND
     cpi r24, TRIGGERS
     brsh wrong_trace
@@ -100,34 +104,59 @@ start_trace:
     std Y+ASKED_TRIGGER + 1, r25
 1:  ; What there was is over, even if this one is refused.
     sts TRACE_STATE, r1
-    lds r26, RING
-    lds r27, RING + 1
+    lds r30, RING
+    lds r31, RING + 1
     lds r24, RING_END
     lds r25, RING_END + 1
-    sub r24, r26
-    sbc r25, r27
+    sub r24, r30
+    sbc r25, r31
     sbiw r24, TRACE_HEAD_LEN + 2 * TRACE_VALUES_MAX
     brcs no_room_for_trace
-    adiw r26, TRACE_HEAD_LEN
+    std Z+TRACE_SAMPLE_LEN, r1
+; The places, from the last to the first.
+next_place:
+    ALLOW ANYTHING
+    lds r18, LEFT
+    subi r18, 1
+    brcs start_samples
+    push r18
+    mov r19, r18
+    lsl r19
+    add r19, r18
     movw r30, r28
+    add r30, r19
+    adc r31, r1
     adiw r30, ASKED_VALUES
-    ; The places; r17: bytes of a sample.
-    clr r17
-2:  push r26
-    push r27
-    push r30
-    push r31
     rcall reference
-    pop r31
-    pop r30
-    pop r27
-    pop r26
-    st X+, r24
-    st X+, r25
-    adiw r30, 3
-    add r17, r21
-    dec r10
-    brne 2b
+    pop r18
+    sts LEFT, r18
+    lds r30, RING
+    lds r31, RING + 1
+    ldd r19, Z+TRACE_SAMPLE_LEN
+    add r19, r21
+    std Z+TRACE_SAMPLE_LEN, r19
+    add r30, r18
+    adc r31, r1
+    add r30, r18
+    adc r31, r1
+    std Z+TRACE_HEAD_LEN, r24
+    std Z+TRACE_HEAD_LEN + 1, r25
+    rcall next_part
+    rjmp next_place
+no_room_for_trace:
+    rjmp refuse_busy
+start_samples:
+    lds r26, RING
+    lds r27, RING + 1
+    adiw r26, TRACE_SAMPLE_LEN
+    ld r22, X
+    ldi r23, 0
+    mov r17, r22
+    ldd r24, Y+ASKED_COUNT
+    lsl r24
+    subi r24, lo8(-(TRACE_HEAD_LEN - TRACE_SAMPLE_LEN))
+    add r26, r24
+    adc r27, r1
     ; X: the first sample.
     push r26
     push r27
@@ -135,18 +164,14 @@ start_trace:
     lds r25, RING_END + 1
     sub r24, r26
     sbc r25, r27
-    mov r22, r17
-    ldi r23, 0
     call __udivmodhi4
     pop r19
     pop r18
     LOAD_WORD r24, r25, Y+ASKED_BEFORE
     cp r24, r22
     cpc r25, r23
-    brlo 3f
-no_room_for_trace:
-    rjmp refuse_busy
-3:  lds r30, RING
+    brsh no_room_for_trace
+    lds r30, RING
     lds r31, RING + 1
     movw r26, r28
     adiw r26, ASKED_EVERY

@@ -142,7 +142,7 @@ mod tests {
     fn plan() -> Plan<Vec<u8>> {
         let header = Header { v_ranges: 2, timers: 2, counters: 2, edges: 9, ..Header::default() };
         let mut image = header.to_bytes().to_vec();
-        for word in [10u16, 4, 20, 3] {
+        for word in [10u16, 4, 20, 4 + 3] {
             image.extend(word.to_le_bytes());
         }
         image.extend([33, 0, 37, 0, 1, 2]);

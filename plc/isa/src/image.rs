@@ -13,7 +13,7 @@ use crate::tokens::{TOKEN_TABLE, TOKEN_TABLE_LEN};
 /// First bytes of every image.
 pub const MAGIC: [u8; 4] = *b"U200";
 /// Version of the image format and of the instruction set it is written in.
-pub const FORMAT_VERSION: u8 = 4;
+pub const FORMAT_VERSION: u8 = 5;
 /// Bytes of the header.
 pub const HEADER_LEN: u16 = DIRECTORY_AT + 2 * MODULES as u16;
 /// Offset of the directory of modules in the header: for each the word address of its jump table in flash, 0 where the
@@ -268,7 +268,7 @@ pub struct Header {
     pub name_len: u8,
 }
 
-/// Bytes of a V range in the image: first byte, length.
+/// Bytes of a V range in the image: first byte, then how much of the arena the ranges up to and with this one take.
 pub const V_RANGE_LEN: u16 = 4;
 /// Bytes of a timer in the image: number, kind.
 pub const TIMER_LEN: u16 = 2;

@@ -32,6 +32,7 @@ pub use decode::{DecodeError, Decoded, decode};
 pub use image::{
     CRC_LEN, DIRECTORY_AT, ENTRY_LEN, EVENT_LEN, FIELDS_AT, FORMAT_VERSION, HEADER_LEN, Header, INITIAL_HEAD_LEN,
     ImageError, ImageFault, LABEL_LEN, MAGIC, NAME_LEN_MAX, NATIVE_INTERFACE, ProgramMemory, ROUTINE_LEN, TIMER_LEN,
+    V_RANGE_LEN,
 };
 pub use layout::*;
 pub use modules::{

@@ -254,12 +254,8 @@ impl<P: ProgramMemory> Plan<P> {
     #[inline(always)]
     fn place_memory(&mut self) {
         let header = &self.header;
-        // Lengths that are not checked yet may wrap: then they are not valid, and nothing is placed by them.
-        let (mut start, mut at) = (ARENA_START, self.v_ranges_at + 2);
-        while at < self.timers_at {
-            start = start.wrapping_add(self.memory.word(at));
-            at += V_RANGE_LEN;
-        }
+        // An end that is not checked yet may wrap: then it is not valid, and nothing is placed by it.
+        let mut start = ARENA_START.wrapping_add(self.v_len_before(self.timers_at));
         self.timers_start = start;
         start = entry_at(start, header.timers, TIMER_SLOT_LEN);
         self.counters_start = start;
@@ -275,10 +271,16 @@ impl<P: ProgramMemory> Plan<P> {
         self.code_at
     }
 
+    /// Bytes of the arena that the V ranges before the one at this offset of the image take.
+    #[inline(always)]
+    fn v_len_before(&self, at: u16) -> u16 {
+        if at == self.v_ranges_at { 0 } else { self.memory.word(at - 2) }
+    }
+
     /// Range `index` of V memory: first byte and length.
     fn v_range(&self, index: u16) -> (u16, u16) {
         let at = self.v_ranges_at + V_RANGE_LEN * index;
-        (self.memory.word(at), self.memory.word(at + 2))
+        (self.memory.word(at), self.memory.word(at + 2) - self.v_len_before(at))
     }
 
     /// The ranges of V memory in the plan, ascending: first byte and length.
@@ -393,14 +395,14 @@ impl<P: ProgramMemory> Plan<P> {
     /// The same; 0: there is none.
     #[cfg_attr(target_arch = "avr", inline(never))]
     fn v_place(&self, byte: u16) -> u16 {
-        let (mut start, mut at) = (ARENA_START, self.v_ranges_at);
+        let (mut start, mut at) = (0, self.v_ranges_at);
         while at < self.timers_at {
-            let (first, len) = (self.memory.word(at), self.memory.word(at + 2));
+            let (first, end) = (self.memory.word(at), self.memory.word(at + 2));
             let offset = byte.wrapping_sub(first);
-            if offset < len {
-                return start + offset;
+            if offset < end - start {
+                return ARENA_START + start + offset;
             }
-            start += len;
+            start = end;
             at += V_RANGE_LEN;
         }
         0
@@ -466,12 +468,14 @@ impl<P: ProgramMemory> Plan<P> {
     /// Bytes from an address in V memory to the end of its range.
     #[cfg_attr(target_arch = "avr", inline(never))]
     pub(crate) fn room_in_v(&self, address: u16) -> u16 {
-        let (mut end, mut at) = (ARENA_START, self.v_ranges_at + 2);
-        while end <= address {
-            end += self.memory.word(at);
+        let (offset, mut at) = (address - ARENA_START, self.v_ranges_at + 2);
+        loop {
+            let end = self.memory.word(at);
+            if end > offset {
+                return end - offset;
+            }
             at += V_RANGE_LEN;
         }
-        end - address
     }
 
     fn v_region(&self, mut offset: u16) -> Option<Region> {

@@ -189,14 +189,17 @@ fn is_ascending<P: ProgramMemory>(memory: &P, mut at: u16, end: u16, step: u16) 
 
 #[inline(always)]
 fn v_ranges_are_valid<P: ProgramMemory>(plan: &Plan<P>) -> bool {
-    let (mut at, mut least) = (plan.v_ranges_at, 0);
+    let (mut at, mut least, mut start) = (plan.v_ranges_at, 0, 0u16);
     while at != plan.timers_at {
-        let (first, len) = (plan.memory.word(at), plan.memory.word(at + 2));
+        let (first, end) = (plan.memory.word(at), plan.memory.word(at + 2));
+        // Where all ranges are valid no end wraps: they share no byte, and V and SM together have fewer than 64 K.
+        let len = end.wrapping_sub(start);
         if !v_range_is_valid(first, len, least) {
             return false;
         }
         // Adjacent ranges would be one range.
         least = first + len + 1;
+        start = end;
         at += V_RANGE_LEN;
     }
     true

@@ -192,14 +192,19 @@ impl<S: Station> Request<'_, S> {
         if trace.len() < LEAST_LEN {
             return Err(Exception::Busy);
         }
-        let (mut place_at, mut sample_len) = (trace.start + TRACE_HEAD_LEN, 0);
-        for index in 0..count {
+        // The places, from the last to the first.
+        let (mut index, mut sample_len) = (count, 0);
+        self.memory().set_byte(trace.start + TRACE_SAMPLE_LEN, 0);
+        while index != 0 {
+            index -= 1;
             let place = self.reference(REFERENCES + 3 * index, ANYTHING)?;
             sample_len += place.width();
-            self.memory().set_word(place_at, place.0.swap_bytes());
-            place_at += PLACE_LEN;
+            let memory = self.memory();
+            memory.set_byte(trace.start + TRACE_SAMPLE_LEN, sample_len);
+            trace.set_word(memory, TRACE_HEAD_LEN + PLACE_LEN * u16::from(index), place.0.swap_bytes());
         }
-        let capacity = (trace.end - place_at) / u16::from(sample_len);
+        let first = trace.start + TRACE_HEAD_LEN + PLACE_LEN * u16::from(count);
+        let capacity = (trace.end - first) / u16::from(sample_len);
         if before >= capacity {
             return Err(Exception::Busy);
         }
@@ -208,14 +213,13 @@ impl<S: Station> Request<'_, S> {
         memory.copy(asked, trace.start, u16::from(REFERENCES - ASKED));
         // No edge is seen before the second sample.
         memory.set_byte(trace.start + WAS_ACTIVE, 1);
-        memory.set_byte(trace.start + TRACE_SAMPLE_LEN, sample_len);
         trace.set_word(memory, WAIT, 1);
         trace.set_word(memory, TRACE_CAPACITY, capacity);
         trace.set_word(memory, TRACE_SAMPLES, 0);
         trace.set_word(memory, TRACE_TRIGGERED_AT, u16::MAX);
         trace.set_word(memory, TRACE_SCAN, 0);
-        trace.set_word(memory, TRACE_FIRST, place_at);
-        trace.set_word(memory, TRACE_NEXT, place_at);
+        trace.set_word(memory, TRACE_FIRST, first);
+        trace.set_word(memory, TRACE_NEXT, first);
         self.station.link().trace.state = WAITING;
         Ok(())
     }

@@ -7,13 +7,21 @@ use crate::special::{HALF_MINUTE, HALF_SECOND};
 /// From so many milliseconds on all timers come to their ends. No scan takes as long: see [`SCAN_MS_MAX`](crate::SCAN_MS_MAX).
 const PASSED_MS_MAX: u16 = 65_500;
 
+/// A time of before, as far as it is needed to tell what has passed since. On the board half of it: no scan there takes so
+/// long that it wraps.
+#[cfg(target_arch = "avr")]
+type Before = u16;
+/// On a host, which can stand still between two scans, the whole.
+#[cfg(not(target_arch = "avr"))]
+type Before = u32;
+
 /// The intervals since the last scan, and what is left over for the next.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Clock {
     /// The time.
     pub now_ms: u32,
-    scan_start_ms: u32,
-    fast_ms: u32,
+    scan_start_ms: Before,
+    fast_ms: Before,
     // Parts of an interval that have passed: milliseconds, tens of them, hundreds of them, half seconds.
     rest_10: u8,
     rest_100: u8,
@@ -54,7 +62,7 @@ impl Clock {
     /// The time since the last scan is not counted.
     #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn resume(&mut self) {
-        (self.scan_start_ms, self.fast_ms) = (self.now_ms, self.now_ms);
+        (self.scan_start_ms, self.fast_ms) = (self.now_ms as Before, self.now_ms as Before);
     }
 
     /// A scan starts. Returns the milliseconds since the last one started, at most [`PASSED_MS_MAX`].
@@ -92,11 +100,10 @@ impl Clock {
 
 /// Milliseconds since a time, which becomes now.
 #[inline(always)]
-fn since(time_ms: &mut u32, now_ms: u32) -> u16 {
-    let passed = now_ms.wrapping_sub(*time_ms);
-    *time_ms = now_ms;
-    let [low, high] = [passed as u16, (passed >> 16) as u16];
-    if high != 0 || low > PASSED_MS_MAX { PASSED_MS_MAX } else { low }
+fn since(time_ms: &mut Before, now_ms: u32) -> u16 {
+    let passed = (now_ms as Before).wrapping_sub(*time_ms);
+    *time_ms = now_ms as Before;
+    passed.min(PASSED_MS_MAX.into()) as u16
 }
 
 /// Whole intervals of so many parts when some pass, and what is left for the next time.

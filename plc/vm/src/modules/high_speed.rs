@@ -299,7 +299,7 @@ mod tests {
         let header = Header { v_ranges: 2, ..Header::default() };
         let mut image = [0; LEN];
         image[..usize::from(HEADER_LEN)].copy_from_slice(&header.to_bytes());
-        let words = [SM_IN_V + 36, 10, SM_IN_V + 136, 10];
+        let words = [SM_IN_V + 36, 10, SM_IN_V + 136, 10 + 10];
         for (place, word) in image[usize::from(HEADER_LEN)..].chunks_exact_mut(2).zip(words) {
             place.copy_from_slice(&word.to_le_bytes());
         }

@@ -127,7 +127,7 @@ impl Machine {
             let encoded = op.instruction().encode(operands).unwrap_or_else(|| panic!("{op:?} {operands:?}"));
             code.extend(encoded.bytes());
         }
-        let ranges = [(0, V_LEN), (0x8000 + 34, 2)];
+        let ranges = [(0, V_LEN), (0x8000 + 34, V_LEN + 2)];
         let mut header = Header {
             code_len: code.len() as u16,
             arena_len: C5 + 3 + 1 - ARENA_START,
@@ -140,9 +140,9 @@ impl Machine {
         };
         header.total_len = header.code_end() + CRC_LEN;
         let mut image = header.to_bytes().to_vec();
-        for (first, len) in ranges {
+        for (first, end) in ranges {
             image.extend(u16::to_le_bytes(first));
-            image.extend(u16::to_le_bytes(len));
+            image.extend(u16::to_le_bytes(end));
         }
         // T5 is not started; C5.
         image.extend([5, 3, 5]);
