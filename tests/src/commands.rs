@@ -1,7 +1,7 @@
 //! The repository's own commands, as users have them. The tests' crate has none, so cargo is asked for them.
 
 use std::path::PathBuf;
-use std::process::Command;
+use std::process::{Command, Output, Stdio};
 
 /// The program of a package of the workspace, built beside the test that runs.
 ///
@@ -15,4 +15,17 @@ pub fn built(package: &str) -> PathBuf {
     cargo.args(["build", "--quiet", "--package", package, "--target-dir"]).arg(target);
     assert!(cargo.status().expect("cargo starts").success());
     target.join("debug").join(package)
+}
+
+/// Runs a command, and `step` over and over until it has ended. Returns how that was, and what it wrote.
+///
+/// # Panics
+/// If it does not start.
+pub fn run_beside(command: &mut Command, mut step: impl FnMut()) -> Output {
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("the command starts");
+    while child.try_wait().expect("it can be waited for").is_none() {
+        step();
+    }
+    child.wait_with_output().expect("it has ended")
 }

@@ -359,3 +359,15 @@ fn no_function_makes_a_scan_much_longer() {
     let too_long: Vec<_> = longest.filter(|&(_, &cycles)| cycles > LONGER_MAX).collect();
     assert!(too_long.is_empty(), "cycles by which scans are longer: {too_long:?}");
 }
+
+#[test]
+fn a_trace_takes_little_of_a_scan() {
+    let mut bench = Bench::new(&example("station1"));
+    let quiet = (0..20).map(|_| bench.scan()).max().unwrap_or(0);
+    bench.ask(&trace(DOUBLE_OF_M, 16));
+    let traced = (0..20).map(|_| bench.scan()).max().unwrap_or(0);
+    let us = (traced - quiet) as f64 / US as f64;
+    println!("a sample of eight double words takes {us:.1} us of a scan");
+    assert!(traced - quiet <= LONGER_MAX);
+    assert_eq!(bench.ask(&[70, 0]).0, [70, 2], "it still waits for its trigger");
+}

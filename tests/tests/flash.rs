@@ -6,7 +6,7 @@ use std::fs::{self, OpenOptions};
 use std::io::{Read, Write};
 use std::os::unix::fs::OpenOptionsExt;
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::sync::LazyLock;
 use std::thread;
 use std::time::Duration;
@@ -65,12 +65,8 @@ fn firmware_file() -> PathBuf {
 }
 
 /// Runs a command while the board does `step` over and over. Returns exit code and standard error.
-fn run(mut command: Command, mut step: impl FnMut()) -> (Option<i32>, String) {
-    let mut child = command.stdin(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the command starts");
-    while child.try_wait().unwrap().is_none() {
-        step();
-    }
-    let output = child.wait_with_output().unwrap();
+fn run(mut command: Command, step: impl FnMut()) -> (Option<i32>, String) {
+    let output = commands::run_beside(&mut command, step);
     (output.status.code(), String::from_utf8(output.stderr).unwrap())
 }
 

@@ -1,0 +1,150 @@
+//! The commands that people use, beside a virtual Uno in real time: a program is assembled, run, read from the port,
+//! disassembled and assembled again; a trace is recorded. What else the disassembler must do, random programs say.
+#![cfg(feature = "uno")]
+
+use std::fs::File;
+use std::fs::{self, OpenOptions};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use awl_asm::firmware;
+use tests::case::folder;
+use tests::commands;
+use virtual_uno::VirtualUno;
+
+/// The bootloader waits a second after a reset, and flashes its lamp before that.
+const BOOTLOADER_MS: u32 = 1_800;
+/// From power to the first answer: the program is checked, and the analog inputs are waited for.
+const START_MS: u32 = 200;
+
+/// What a command writes, which must be good.
+#[track_caller]
+fn good(output: &Output) -> String {
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+#[track_caller]
+fn refused(output: &Output, because: &str) {
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && errors.contains(because), "{errors}");
+}
+
+/// A board that has its firmware and no program, and the commands.
+struct Bench {
+    uno: VirtualUno,
+    port: PathBuf,
+    awl_asm: PathBuf,
+    uno200: PathBuf,
+    /// Who opens the port resets the board, so someone has it open all the time.
+    _holder: File,
+}
+
+impl Bench {
+    fn new() -> Bench {
+        let mut uno = VirtualUno::new().unwrap();
+        uno.load(&firmware::find("hex").expect("`cargo xtask test` builds the firmware first")).unwrap();
+        let port = uno.port().to_path_buf();
+        let holder = OpenOptions::new().read(true).write(true).open(&port).unwrap();
+        let [awl_asm, uno200] = ["awl-asm", "uno200"].map(commands::built);
+        let mut bench = Bench { uno, port, awl_asm, uno200, _holder: holder };
+        bench.pass(BOOTLOADER_MS);
+        bench
+    }
+
+    fn pass(&mut self, milliseconds: u32) {
+        (0..milliseconds).for_each(|_| self.uno.step().unwrap());
+    }
+
+    fn assemble(&self, arguments: &[&str], program: &Path, to: &Path) {
+        good(&Command::new(&self.awl_asm).arg(program).args(arguments).arg("-o").arg(to).output().unwrap());
+    }
+
+    fn disassemble(&self, image: &Path) -> Output {
+        Command::new(&self.awl_asm).arg("--disassemble").arg(image).output().unwrap()
+    }
+
+    /// Has the board run what is in a HEX file.
+    fn start(&mut self, hex: &Path) {
+        self.uno.load(hex).unwrap();
+        self.pass(START_MS);
+    }
+
+    /// `uno200` with these arguments, while the board runs.
+    fn uno200(&mut self, arguments: &[&str]) -> Output {
+        let Bench { uno, port, uno200, .. } = self;
+        commands::run_beside(Command::new(uno200).arg("--port").arg(port).args(arguments), || uno.step().unwrap())
+    }
+}
+
+#[test]
+fn what_is_read_from_the_board_is_what_was_assembled() {
+    let mut bench = Bench::new();
+    let place = tempfile::tempdir().unwrap();
+    let [image, hex, read, text, again] =
+        ["p.bin", "p.hex", "read.bin", "read.awl", "again.bin"].map(|name| place.path().join(name));
+    refused(&bench.uno200(&["read-program"]), "the PLC holds no program");
+
+    // Symbols, timers, counters, modules, interrupt routines, pulses. Those that take over the line cannot be read while
+    // they run.
+    for (name, options) in [
+        ("station1", &[][..]),
+        ("traffic_light", &[]),
+        ("pid", &[]),
+        ("cut_to_length", &[]),
+        ("station1", &["--native"]),
+        ("traffic_light", &["--native"]),
+    ] {
+        let program = folder("../examples").join(name).with_extension("awl");
+        bench.assemble(options, &program, &image);
+        bench.assemble(options, &program, &hex);
+        bench.start(&hex);
+        good(&bench.uno200(&["read-program", "-o", read.to_str().unwrap()]));
+        let image = fs::read(&image).unwrap();
+        assert!(fs::read(&read).unwrap() == image, "{name} {options:?}: another image");
+        let disassembled = bench.disassemble(&read);
+        let shown = bench.uno200(&["read-program"]);
+        if !options.is_empty() {
+            refused(&disassembled, "translated to machine code");
+            refused(&shown, "machine code, which has no text");
+            continue;
+        }
+        fs::write(&text, good(&disassembled)).unwrap();
+        assert_eq!(good(&shown), good(&disassembled), "{name}");
+        bench.assemble(&[], &text, &again);
+        assert!(fs::read(&again).unwrap() == image, "{name}: another image\n{}", good(&disassembled));
+        println!("{name}: {} bytes, {} lines", image.len(), good(&disassembled).lines().count());
+    }
+}
+
+/// MW2 counts scans; M3.7 is its bit of 128.
+const COUNTING: &str = "//# name counting\nLD SM0.0\nINCW MW2\n";
+
+#[test]
+fn a_trace_is_recorded_on_the_board() {
+    let mut bench = Bench::new();
+    let place = tempfile::tempdir().unwrap();
+    let [program, hex, csv] = ["p.awl", "p.hex", "trace.csv"].map(|name| place.path().join(name));
+    fs::write(&program, COUNTING).unwrap();
+    bench.assemble(&[], &program, &hex);
+    bench.start(&hex);
+    let arguments = ["trace", "MW2", "M3.7", "--every", "3", "--before", "5", "--trigger", "M3.7 rising", "-o"];
+    let told = bench.uno200(&[&arguments[..], &[csv.to_str().unwrap()]].concat());
+    println!("{}", String::from_utf8_lossy(&told.stderr));
+    good(&told);
+    let text = fs::read_to_string(&csv).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("time_ms,scan,MW2,M3.7"));
+    let rows: Vec<[i64; 3]> = lines
+        .map(|line| line.split(',').skip(1).map(|field| field.parse().unwrap()).collect::<Vec<_>>().try_into().unwrap())
+        .collect();
+    // What the frame and the program leave of the arena.
+    assert!(rows.len() > 150, "{} samples", rows.len());
+    let bit = |value: i64| value >> 7 & 1;
+    for (index, &[scan, count, on]) in rows.iter().enumerate() {
+        assert_eq!((scan as u16).wrapping_sub(rows[0][0] as u16), 3 * index as u16);
+        assert_eq!((count as u16).wrapping_sub(rows[0][1] as u16), 3 * index as u16, "in every third scan");
+        assert_eq!(on, bit(count));
+    }
+    assert_eq!((rows[4][2], rows[5][2]), (0, 1), "five samples are from before the trigger");
+}
