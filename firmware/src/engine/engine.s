@@ -345,8 +345,6 @@ handle:
     ldi r27, 1
     movw r4, r6
     adiw r30, WINDOW_ENTRY_LEN
-    rjmp 3f
-2:  movw r30, r10
     ; Which entry this instruction has, if any.
 3:  movw r20, r28
     subi r20, 2
@@ -375,6 +373,8 @@ handle:
     cpi r19, WINDOW_END
     brne handle
     rjmp behind
+2:  movw r30, r10
+    rjmp 3b
 
 ; ---- the tables, at multiples of 512 bytes: of a program that goes step by step, and of handlers
 
