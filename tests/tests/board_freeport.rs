@@ -426,6 +426,36 @@ fn what_the_firmware_was_saying_is_not_garbled() {
     assert!(link::identify(&mut board).runs());
 }
 
+/// How far the work on a request has come: GPIOR2.
+const PHASE: u16 = 0x4B;
+
+#[test]
+fn a_request_that_freeport_mode_cut_short_leaves_nothing_behind() {
+    // Scans of some 3 ms.
+    let main = format!("{SWITCHED}\nLD SM0.0\nFOR VW290, 1, 400\nNEXT");
+    let mut board = BenchBoard::running(&program(0, &main, &[]));
+    // What takes several scans, and what waits for a scan.
+    let watch: Vec<u8> = [67, 32].into_iter().chain((0..32).flat_map(|_| [0x88, 0, 200])).collect();
+    let status = vec![69, 2, 0, 100, 0xFF, 0, 0, 0, 101, 0xFF, 0, 0];
+    let mut cut_short = 0;
+    for (round, request) in [&watch, &status, &watch, &status].into_iter().enumerate() {
+        board.say(&link::frame(link::UNIT, request));
+        board.run_until(10, 100 * MS, |board| board.byte(PHASE) != 0);
+        board.drive_inputs(0b1_0000);
+        board.scans(3);
+        board.drive_inputs(0);
+        board.scan();
+        cut_short += usize::from(board.byte(PHASE) != 0);
+        run(&mut board, 20 * MS);
+        board.heard();
+        let value = round as u8 + 1;
+        set_vb(&mut board, 250, &[value]);
+        let answer = link::exchange(&mut board, link::UNIT, &[67, 2, 0x88, 0, 250, 0x88, 0, 250]).expect("an answer");
+        assert_eq!((answer[0], &answer[3..]), (67, &[value; 2][..]), "{answer:02X?}");
+    }
+    assert!(cut_short > 1, "{cut_short}");
+}
+
 #[test]
 fn host_and_board_do_what_cases_and_examples_want() {
     let uses = |case: &Case| ["XMT", "RCV", "receive "].iter().any(|word| case.awl.contains(word));

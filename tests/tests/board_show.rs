@@ -140,9 +140,12 @@ impl Station {
             scan = scan.or(sends.then(|| self.count - 1));
         }
         let answer = rtu::answer(UNIT, &heard).expect("an undamaged frame").to_vec();
-        if let (&[STATUS | WATCH, high, low, ..], Some(scan)) = (&answer[..], scan) {
-            // The first scan is told as 1.
-            assert_eq!(u16::from_be_bytes([high, low]), scan as u16 + 1, "the scan of {answer:02X?}");
+        if let (&[function @ (STATUS | WATCH), high, low, ..], Some(sent_in)) = (&answer[..], scan) {
+            // The first scan is told as 1. What instructions did is told at the end of the next one, or sooner if the next
+            // one is waited for.
+            let lag = (sent_in as u16 + 1).wrapping_sub(u16::from_be_bytes([high, low]));
+            assert!(lag == 0 || lag == 1 && function == STATUS, "{lag} scans before the answer: {answer:02X?}");
+            let scan = sent_in - usize::from(lag);
             self.asked.push(Asked { request: request.to_vec(), scan });
         }
         answer
