@@ -49,6 +49,18 @@ impl Assembly {
     pub fn span_of(&self, selected: &Selected) -> Span {
         span_of(&self.program, selected)
     }
+
+    /// Tells `file:line` of the instruction at an offset of the image, the hidden ones around it included.
+    pub fn places(&self, source: &Source) -> impl Fn(u16) -> Option<String> + use<> {
+        let row = |selected| source.position(self.span_of(selected).start as usize).0;
+        let lines: Vec<(Line, usize)> = self.lines.iter().copied().zip(self.code.iter().map(row)).collect();
+        let name = source.name.clone();
+        move |offset| {
+            let is_there = |line: &Line| (line.at..line.at + u32::from(line.len)).contains(&u32::from(offset));
+            let (_, row) = lines.iter().find(|(line, _)| is_there(line))?;
+            Some(format!("{name}:{row}"))
+        }
+    }
 }
 
 /// Assembles a program. `symbols` come from symbol files; the source may declare more.

@@ -33,6 +33,7 @@ mod mnemonic_set;
 mod mnemonics;
 pub mod modules;
 pub mod native;
+pub mod operand;
 pub mod parser;
 pub mod plan;
 mod pointers;

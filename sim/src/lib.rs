@@ -14,6 +14,5 @@ pub mod pulse;
 pub mod run;
 pub mod scenario;
 pub mod serve;
-pub mod symbols;
 pub mod time;
 pub mod trace;

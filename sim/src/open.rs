@@ -6,10 +6,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use awl_asm::Address;
 use awl_asm::assemble::{Assembly, assemble};
-use awl_asm::ast::{self, Value};
+use awl_asm::ast::Symbol;
 use awl_asm::diagnostic::{Diagnostic, Severity};
 use awl_asm::disassemble::{disassemble, instructions};
-use awl_asm::encode::Line;
 use awl_asm::files::{read, read_source};
 use awl_asm::render::human;
 use awl_asm::source::Source;
@@ -18,7 +17,6 @@ use plc_isa::{Area, ImageFault, MAGIC, verify};
 use crate::machine::host::Host;
 use crate::machine::{Machine, PlaceOf};
 use crate::operand::{Operand, Width};
-use crate::symbols::Symbols;
 
 /// What runs the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -37,7 +35,7 @@ pub struct Opened<M: ?Sized = dyn Machine> {
     /// The machine before its first scan.
     pub machine: Box<M>,
     /// The names the program gives to addresses.
-    pub symbols: Symbols,
+    pub symbols: Vec<Symbol>,
     /// What the program uses: bits of I, of Q and of memory, timers, counters, words. Without special memory.
     pub default_signals: Vec<Operand>,
     /// The program's fixed scan period (`//# scan`) in milliseconds.
@@ -90,10 +88,10 @@ fn open_on<M: Machine + ?Sized>(
     } else {
         open_text(&Source::from_bytes(name, &bytes)?, symbols, &mut shown)?
     };
-    Ok(opened(make(image, place_of)?, &assembly, shown.text))
+    Ok(opened(make(image, place_of)?, assembly, shown.text))
 }
 
-fn load_symbols(files: &[PathBuf], shown: &mut Shown) -> Result<Vec<ast::Symbol>> {
+fn load_symbols(files: &[PathBuf], shown: &mut Shown) -> Result<Vec<Symbol>> {
     let mut symbols = Vec::new();
     for path in files {
         let table = read_source(path)?;
@@ -107,18 +105,18 @@ fn load_symbols(files: &[PathBuf], shown: &mut Shown) -> Result<Vec<ast::Symbol>
 /// An image, what is known about its program, and where its offsets are.
 type Read = (Vec<u8>, Assembly, PlaceOf);
 
-fn open_text(source: &Source, symbols: Vec<ast::Symbol>, shown: &mut Shown) -> Result<Read> {
+fn open_text(source: &Source, symbols: Vec<Symbol>, shown: &mut Shown) -> Result<Read> {
     let mut assembly = assemble(source, symbols);
     shown.add(source, &assembly.diagnostics);
     let Some(image) = assembly.image.take().filter(|_| !shown.has_errors) else {
         return Err(ProgramErrors(std::mem::take(&mut shown.text)).into());
     };
-    let places = places(source, &assembly);
-    Ok((image, assembly, places))
+    let place_of = assembly.places(source);
+    Ok((image, assembly, Box::new(move |at| place_of(at).unwrap_or_default())))
 }
 
 /// The disassembly of an image tells what the program uses; of a bad image nothing is known.
-fn open_image(name: String, image: Vec<u8>, symbols: Vec<ast::Symbol>, shown: &Shown) -> Result<Read> {
+fn open_image(name: String, image: Vec<u8>, symbols: Vec<Symbol>, shown: &Shown) -> Result<Read> {
     if shown.has_errors {
         return Err(ProgramErrors(shown.text.clone()).into());
     }
@@ -138,14 +136,14 @@ fn open_image(name: String, image: Vec<u8>, symbols: Vec<ast::Symbol>, shown: &S
     Ok((image, assembly, Box::new(place_of)))
 }
 
-fn opened<M: Machine + ?Sized>(mut machine: Box<M>, assembly: &Assembly, warnings: String) -> Opened<M> {
+fn opened<M: Machine + ?Sized>(mut machine: Box<M>, assembly: Assembly, warnings: String) -> Opened<M> {
     let scan_ms = u64::from(assembly.program.settings.scan_ms);
-    let mut default_signals = default_signals(assembly);
+    let mut default_signals = default_signals(&assembly);
     // A timer that is only reset has a bit, but no current value.
     default_signals.retain(|&signal| machine.read(signal).is_ok());
     Opened {
         machine,
-        symbols: symbols_of(&assembly.program.symbols),
+        symbols: assembly.program.symbols,
         default_signals,
         scan_ms: (scan_ms > 0).then_some(scan_ms),
         warnings,
@@ -190,28 +188,6 @@ impl Shown {
             self.has_errors |= diagnostic.severity() == Severity::Error;
         }
     }
-}
-
-/// Offsets of the image as `file:line`.
-fn places(source: &Source, assembly: &Assembly) -> PlaceOf {
-    let row = |selected| source.position(assembly.span_of(selected).start as usize).0;
-    let lines: Vec<_> = assembly.lines.iter().copied().zip(assembly.code.iter().map(row)).collect();
-    let name = source.name.clone();
-    Box::new(move |at| {
-        let is_there = |line: &Line| (line.at..line.at + u32::from(line.len)).contains(&u32::from(at));
-        let found = lines.iter().find(|(line, _)| is_there(line));
-        found.map_or_else(String::new, |(_, row)| format!("{name}:{row}"))
-    })
-}
-
-fn symbols_of(list: &[ast::Symbol]) -> Symbols {
-    let mut symbols = Symbols::new();
-    for symbol in list {
-        if let Value::Address(address) = symbol.value {
-            symbols.add(&*symbol.name, address, &*symbol.comment);
-        }
-    }
-    symbols
 }
 
 /// What a diagram shows if nothing is asked for.

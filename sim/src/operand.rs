@@ -4,10 +4,11 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 use awl_asm::Address;
-use awl_asm::address::AddressError;
+use awl_asm::ast::Symbol;
+use awl_asm::operand::{self, Part, strip_ending};
 use plc_isa::{AnalogInput, Area};
 
-use crate::symbols::Symbols;
+pub use awl_asm::operand::OperandError;
 
 /// An operand of a scenario or a trace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -40,45 +41,25 @@ pub enum Width {
     Real,
 }
 
-/// Why a text is no operand.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct OperandError {
-    /// What is wrong.
-    pub message: String,
-    /// What may have been meant.
-    pub suggestion: Option<String>,
-}
-
 impl Operand {
-    /// Reads an operand: an address, a symbol (quoted or not), or either with `.cv` behind it. Any letter case.
-    pub fn parse(text: &str, symbols: &Symbols) -> Result<Operand, OperandError> {
-        if let Some(stem) = strip_ending(text, ".cv") {
-            return match address(stem, symbols)? {
-                Address::Timer(number) => Ok(Operand::TimerCurrent(number)),
-                Address::Counter(number) => Ok(Operand::CounterCurrent(number)),
-                _ => Err(OperandError {
-                    message: format!("{text}: only timers and counters have a current value (.cv)"),
-                    suggestion: Some(stem.to_string()),
-                }),
-            };
-        }
-        if let Some(stem) = strip_ending(text, ":real") {
-            let operand = Operand::At(address(stem, symbols)?);
-            return operand.as_real().ok_or_else(|| OperandError {
-                message: format!("{text}: only double words and accumulators hold a real"),
-                suggestion: Some(stem.to_string()),
-            });
-        }
+    /// Reads an operand as [`operand::parse`] does, or an output with `.duty` behind it.
+    pub fn parse(text: &str, symbols: &[Symbol]) -> Result<Operand, OperandError> {
         if let Some(stem) = strip_ending(text, ".duty") {
-            return match address(stem, symbols)? {
+            return match operand::address(stem, symbols)? {
                 Address::Bit { area: Area::Q, byte: 0, bit } => Ok(Operand::Duty(bit)),
-                _ => Err(OperandError {
-                    message: format!("{text}: only the outputs Q0.0 to Q0.7 have a duty cycle"),
-                    suggestion: Some("Q0.1.duty".to_string()),
-                }),
+                _ => Err(OperandError::meant(
+                    format!("{text}: only the outputs Q0.0 to Q0.7 have a duty cycle"),
+                    "Q0.1.duty",
+                )),
             };
         }
-        address(text, symbols).map(Operand::At)
+        let (address, part) = operand::parse(text, symbols)?;
+        Ok(match (part, address) {
+            (Part::Current, Address::Timer(number)) => Operand::TimerCurrent(number),
+            (Part::Current, Address::Counter(number)) => Operand::CounterCurrent(number),
+            (Part::Real, _) => Operand::Real(address),
+            _ => Operand::At(address),
+        })
     }
 
     /// The same bits as a real, where there are 32 of them.
@@ -150,31 +131,6 @@ pub fn value_of(real: f32) -> i32 {
     real.to_bits() as i32
 }
 
-fn strip_ending<'a>(text: &'a str, ending: &str) -> Option<&'a str> {
-    let stem_len = text.len().checked_sub(ending.len())?;
-    let tail = text.get(stem_len..)?;
-    tail.eq_ignore_ascii_case(ending).then(|| &text[..stem_len])
-}
-
-fn address(text: &str, symbols: &Symbols) -> Result<Address, OperandError> {
-    let name = text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text);
-    if let Some(symbol) = symbols.find(name) {
-        return Ok(symbol.address);
-    }
-    Address::parse(text).map_err(|error| match error {
-        AddressError::NotAnAddress => OperandError {
-            message: match symbols.is_empty() {
-                true => {
-                    format!("{text} is no address, and the program has no symbols (an image carries none: --symbols)")
-                }
-                false => format!("{text} is neither an address nor a symbol of the program"),
-            },
-            suggestion: symbols.nearest(name).map(str::to_string),
-        },
-        AddressError::OutOfRange(message, suggestion) => OperandError { message, suggestion },
-    })
-}
-
 impl fmt::Display for Operand {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -187,54 +143,32 @@ impl fmt::Display for Operand {
     }
 }
 
-impl fmt::Display for OperandError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)?;
-        match &self.suggestion {
-            Some(suggestion) => write!(f, " (did you mean {suggestion}?)"),
-            None => Ok(()),
-        }
-    }
-}
-
-impl std::error::Error for OperandError {}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use awl_asm::ast::Value;
 
-    fn symbols() -> Symbols {
-        let mut symbols = Symbols::new();
-        symbols.add("Delay", Address::Timer(101), "");
-        symbols.add("lift up", Address::parse("Q0.1").unwrap(), "raises the platform");
-        symbols
+    fn symbols() -> Vec<Symbol> {
+        let symbol = |name: &str, address: &str| Symbol {
+            name: name.to_string(),
+            value: Value::Address(Address::parse(address).unwrap()),
+            comment: String::new(),
+        };
+        vec![symbol("Delay", "T101"), symbol("lift up", "Q0.1")]
     }
 
     #[test]
     fn bit_and_current_value_of_timers_and_counters() {
         let symbols = symbols();
         assert_eq!(Operand::parse("t37", &symbols), Ok(Operand::At(Address::Timer(37))));
-        assert_eq!(Operand::parse("T37.cv", &symbols), Ok(Operand::TimerCurrent(37)));
         assert_eq!(Operand::parse("z5.CV", &symbols), Ok(Operand::CounterCurrent(5)));
         assert_eq!(Operand::parse("Delay.cv", &symbols), Ok(Operand::TimerCurrent(101)));
         assert_eq!(Operand::CounterCurrent(5).to_string(), "C5.cv");
-        let error = Operand::parse("MW3.cv", &symbols).unwrap_err();
-        assert_eq!(error.suggestion.as_deref(), Some("MW3"));
-    }
-
-    #[test]
-    fn symbols_in_any_case_and_quoted() {
-        let symbols = symbols();
-        let raise = Operand::At(Address::parse("Q0.1").unwrap());
-        assert_eq!(Operand::parse("Lift Up", &symbols), Ok(raise));
-        assert_eq!(Operand::parse("\"lift up\"", &symbols), Ok(raise));
-        assert_eq!(Operand::parse("lift uo", &symbols).unwrap_err().suggestion.as_deref(), Some("lift up"));
-        assert_eq!(Operand::parse("I0.9", &symbols).unwrap_err().suggestion.as_deref(), Some("I1.1"));
     }
 
     #[test]
     fn ranges_follow_the_width() {
-        let range = |text| Operand::parse(text, &Symbols::new()).unwrap().range();
+        let range = |text| Operand::parse(text, &[]).unwrap().range();
         assert_eq!(range("Ain5"), 0..=1023);
         assert_eq!(range("AIW0"), 0..=32000);
         assert_eq!(range("QB0"), 0..=255);
@@ -261,8 +195,6 @@ mod tests {
         assert_eq!((real.to_string(), real.width()), ("VD8:real".to_string(), Width::Real));
         assert_eq!(Operand::parse("AC1:real", &symbols).map(Operand::width), Ok(Width::Real));
         assert_eq!(Operand::parse("VD8", &symbols).unwrap().as_real(), Some(real));
-        let error = Operand::parse("VW8:real", &symbols).unwrap_err();
-        assert_eq!(error.suggestion.as_deref(), Some("VW8"));
         let texts = [1.5, -0.1, 3.0, 1e20, f32::NAN].map(|number| real.text(value_of(number)));
         assert_eq!(texts, ["1.5", "-0.1", "3.0", "1e20", "NaN"]);
     }

@@ -15,12 +15,13 @@ mod value;
 
 use std::ops::RangeInclusive;
 
+use awl_asm::ast::Symbol;
+
 use crate::action::Action;
 use crate::machine::MachineError;
 use crate::operand::{Operand, Width, real_of};
 use crate::plant::PlantSpec;
 use crate::problem::Problems;
-use crate::symbols::Symbols;
 
 /// Shortest to longest scan in milliseconds.
 pub const SCAN_MS: RangeInclusive<u64> = 1..=60_000;
@@ -96,7 +97,7 @@ pub struct SentExpectation {
 /// What a scenario is read against.
 pub struct Context<'a> {
     /// The names that the program gives to addresses.
-    pub symbols: &'a Symbols,
+    pub symbols: &'a [Symbol],
     /// A plant that takes the place of the scenario's.
     pub plant: Option<&'a PlantSpec>,
     /// Whether the machine has the operand: usually [`Machine::read`](crate::machine::Machine::read).

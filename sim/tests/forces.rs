@@ -5,7 +5,6 @@ use awl_asm::source::Source;
 use awl_sim::machine::host::Host;
 use awl_sim::machine::{Machine, Mode};
 use awl_sim::operand::Operand;
-use awl_sim::symbols::Symbols;
 
 /// Reads what it has written before anybody else can: Q0.1 and VW2 show it.
 const PROGRAM: &str = "
@@ -49,11 +48,11 @@ impl Plc {
     }
 
     fn get(&mut self, operand: &str) -> i32 {
-        self.host.read(Operand::parse(operand, &Symbols::new()).unwrap()).unwrap()
+        self.host.read(Operand::parse(operand, &[]).unwrap()).unwrap()
     }
 
     fn set(&mut self, operand: &str, value: i32) {
-        self.host.write(Operand::parse(operand, &Symbols::new()).unwrap(), value).unwrap();
+        self.host.write(Operand::parse(operand, &[]).unwrap(), value).unwrap();
     }
 
     fn ask(&mut self, request: &[u8]) -> Vec<u8> {

@@ -9,7 +9,6 @@ use awl_sim::machine::host::Host;
 use awl_sim::operand::Operand;
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
-use awl_sim::symbols::Symbols;
 use plc_vm::TimeOfDay;
 
 /// A program of a main block and interrupt routines, `INT_0` first, each of one network.
@@ -32,9 +31,8 @@ fn host(program: &str) -> Host {
 
 fn outcome(program: &str, scenario: &str) -> Outcome {
     let mut host = host(program);
-    let symbols = Symbols::new();
     let mut has_operand = |operand| host.read(operand).map(|_| ());
-    let context = Context { symbols: &symbols, plant: None, has_operand: &mut has_operand };
+    let context = Context { symbols: &[], plant: None, has_operand: &mut has_operand };
     let scenario = Scenario::parse("t.scn", scenario, context).unwrap_or_else(|problems| panic!("{problems}"));
     let scan_ms = scenario.scan_ms.unwrap_or(1);
     let job = Job { scan_ms, length: Length::Scenario, signals: Vec::new(), plant: None, progress: None };
@@ -202,7 +200,7 @@ fn the_change_to_run_forgets_everything_but_the_clock() {
     let main = "NETWORK 1\nLD SM0.1\nMOVB 16#F8, SMB37\nHDEF 0, 0\nAENO\nS M0.0, 1\nLD I0.4\nEU\nENI\nHSC 0\nATCH INT_0, 0\n\
         MOVB 16#CB, SMB77\nMOVW 100, SMW78\nMOVW 50, SMW80\nPLS 1\nNETWORK 2\nLD SM0.0\nTODR VB10\nAENO\n= M0.1";
     let mut host = host(&program(main, &["LD SM0.0\nINCW VW0"]));
-    let operand = |name: &str| Operand::parse(name, &Symbols::new()).unwrap();
+    let operand = |name: &str| Operand::parse(name, &[]).unwrap();
     let set = |host: &mut Host, name: &str, value| host.write(operand(name), value).unwrap();
     let read = |host: &mut Host, name: &str| host.read(operand(name)).unwrap();
     let values = |host: &mut Host| ["M0.0", "M0.1", "SM4.4", "HC0", "VW0", "Q0.1.duty"].map(|name| read(host, name));

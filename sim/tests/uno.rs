@@ -14,7 +14,6 @@ use awl_sim::open::{Opened, Target, open_machine};
 use awl_sim::operand::Operand;
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
-use awl_sim::symbols::Symbols;
 use plc_isa::{NATIVE_INTERFACE, Op, SLOT_START, verify};
 use plc_vm::Fault;
 use simavr::Pin;
@@ -44,7 +43,7 @@ fn uno(text: &str, clock: Clock) -> Uno {
 }
 
 fn operand(name: &str) -> Operand {
-    Operand::parse(name, &Symbols::new()).unwrap()
+    Operand::parse(name, &[]).unwrap()
 }
 
 fn read(uno: &mut Uno, name: &str) -> i32 {
@@ -53,8 +52,7 @@ fn read(uno: &mut Uno, name: &str) -> i32 {
 
 /// Runs a scenario on a board with its own clock, looking at it every millisecond.
 fn outcome(uno: &mut Uno, text: &str) -> Outcome {
-    let symbols = Symbols::new();
-    let context = Context { symbols: &symbols, plant: None, has_operand: &mut |_| Ok(()) };
+    let context = Context { symbols: &[], plant: None, has_operand: &mut |_| Ok(()) };
     let scenario = Scenario::parse("t.scn", text, context).unwrap_or_else(|problems| panic!("{problems}"));
     let job = Job { scan_ms: 1, length: Length::Scenario, signals: Vec::new(), plant: None, progress: None };
     run(uno, &scenario, job).unwrap()
@@ -348,8 +346,7 @@ fn pulses_come_at_the_pins_in_their_time() {
     assert_holds(&format!("//# invert I0.0\n{program}"), scenario);
     let act = |clock| {
         let mut uno = uno(program, clock);
-        let symbols = Symbols::new();
-        let context = Context { symbols: &symbols, plant: None, has_operand: &mut |_| Ok(()) };
+        let context = Context { symbols: &[], plant: None, has_operand: &mut |_| Ok(()) };
         let scenario = Scenario::parse("t.scn", "at 0s pulse I0.6 1Hz for 1s", context).unwrap();
         uno.act(&scenario.actions[0]).unwrap_err().to_string()
     };

@@ -7,7 +7,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use awl_asm::assemble::{Assembly, assemble};
-use awl_asm::ast::Value;
 use awl_asm::diagnostic::Severity;
 use awl_asm::render::human;
 use awl_asm::source::Source;
@@ -16,7 +15,6 @@ use awl_sim::machine::host::Host;
 use awl_sim::plant::PlantSpec;
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
-use awl_sim::symbols::Symbols;
 
 /// What a line of the scenario begins with.
 const MARK: &str = "//$ ";
@@ -80,9 +78,7 @@ impl Case {
         let errors = assembly.diagnostics.iter().filter(|diagnostic| diagnostic.severity() == Severity::Error);
         let text: String = errors.map(|diagnostic| human(&source, diagnostic, false)).collect();
         match assembly.image {
-            Some(ref image) if text.is_empty() => {
-                Ok(Prepared { image: image.clone(), symbols: symbols_of(&assembly), case: self, assembly })
-            }
+            Some(ref image) if text.is_empty() => Ok(Prepared { image: image.clone(), case: self, assembly }),
             _ => Err(text),
         }
     }
@@ -96,7 +92,6 @@ pub struct Prepared {
     pub image: Vec<u8>,
     /// What the assembler knows about it.
     pub assembly: Assembly,
-    symbols: Symbols,
 }
 
 impl Prepared {
@@ -143,7 +138,8 @@ impl Prepared {
 
     fn scenario(&self, machine: &mut dyn Machine) -> Result<Scenario, String> {
         let mut has_operand = |operand| machine.read(operand).map(|_| ());
-        let context = Context { symbols: &self.symbols, plant: None, has_operand: &mut has_operand };
+        let symbols = &self.assembly.program.symbols;
+        let context = Context { symbols, plant: None, has_operand: &mut has_operand };
         Scenario::parse(&self.case.scenario_file, &self.case.scenario, context).map_err(|problems| problems.to_string())
     }
 
@@ -167,16 +163,6 @@ impl Prepared {
 /// The host machine with this image, in RUN.
 pub fn host(image: &[u8]) -> Host {
     Host::new(image.to_vec(), Box::new(|_| String::new()))
-}
-
-fn symbols_of(assembly: &Assembly) -> Symbols {
-    let mut symbols = Symbols::new();
-    for symbol in &assembly.program.symbols {
-        if let Value::Address(address) = symbol.value {
-            symbols.add(&*symbol.name, address, "");
-        }
-    }
-    symbols
 }
 
 /// A folder of this crate.

@@ -6,7 +6,6 @@ use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
 use awl_sim::machine::uno::Mark;
 use awl_sim::operand::Operand;
-use awl_sim::symbols::Symbols;
 use fastrand::Rng;
 use plc_isa::{ARENA_START, HC0, HC3, SM_START};
 use tests::bench_board::{BenchBoard, MS, example_text};
@@ -86,7 +85,7 @@ impl Model {
 }
 
 fn operand(name: &str) -> Operand {
-    Operand::parse(name, &Symbols::new()).unwrap()
+    Operand::parse(name, &[]).unwrap()
 }
 
 /// Random edges of I0.0 to I0.2, so many cycles apart: board and host have the same value and status afterwards, and when

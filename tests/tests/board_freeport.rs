@@ -8,7 +8,6 @@ use awl_sim::action::Action;
 use awl_sim::machine::Machine;
 use awl_sim::machine::uno::Code;
 use awl_sim::operand::Operand;
-use awl_sim::symbols::Symbols;
 use fastrand::Rng;
 use plc_isa::{ARENA_START, SM_START};
 use tests::bench_board::{BenchBoard, MS, image};
@@ -526,9 +525,9 @@ fn random_message(rng: &mut Rng) -> (String, Vec<(u64, Happens)>) {
 /// What is seen just before each of these times, and at the end.
 fn seen(machine: &mut dyn Machine, script: &[(u64, Happens)]) -> Vec<Vec<i32>> {
     let names = ["SMB2", "SMB86", "VB100", "VB101", "SM4.3", "SM4.5", "VD120", "VD124", "VB128"];
-    let operands = names.map(|name| Operand::parse(name, &Symbols::new()).expect("an operand"));
+    let operands = names.map(|name| Operand::parse(name, &[]).expect("an operand"));
     let (mut looks, mut script) = (Vec::new(), script.iter().peekable());
-    let inputs = Operand::parse("IB0", &Symbols::new()).expect("an operand");
+    let inputs = Operand::parse("IB0", &[]).expect("an operand");
     for now_ms in 0..400 {
         machine.catch_up(now_ms);
         if let Some((at_ms, happens)) = script.next_if(|(at_ms, _)| *at_ms == now_ms) {

@@ -6,7 +6,6 @@ use awl_asm::source::Source;
 use awl_sim::machine::host::Host;
 use awl_sim::run::{Job, Length, run};
 use awl_sim::scenario::{Context, Scenario};
-use awl_sim::symbols::Symbols;
 
 const README: &str = include_str!("../../README.md");
 
@@ -37,8 +36,8 @@ fn the_mended_program_meets_its_scenario() {
     let summary = format!("{} instructions, {} of 7680 bytes; data 5 of 896 bytes", assembly.code.len(), image.len());
     assert!(block("$ awl-asm lamp.awl\nlamp.bin").contains(&summary), "{summary}");
 
-    let (symbols, mut has_operand) = (Symbols::new(), |_| Ok(()));
-    let context = Context { symbols: &symbols, plant: None, has_operand: &mut has_operand };
+    let mut has_operand = |_| Ok(());
+    let context = Context { symbols: &[], plant: None, has_operand: &mut has_operand };
     let scenario = Scenario::parse("lamp.scn", block("at 1s     I0.0 = 1"), context).unwrap();
     let mut machine = Host::new(image, Box::new(|_| String::new()));
     let job = Job { scan_ms: 1, length: Length::Scenario, signals: Vec::new(), plant: None, progress: None };

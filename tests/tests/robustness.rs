@@ -222,8 +222,8 @@ fn random_texts_never_panic() {
             let _ = (render::human(&source, diagnostic, false), render::json(&source, diagnostic));
         }
         let _ = symbols::load(&source);
-        let (symbols, mut has_operand) = (awl_sim::symbols::Symbols::new(), |_| Ok(()));
-        let context = awl_sim::scenario::Context { symbols: &symbols, plant: None, has_operand: &mut has_operand };
+        let mut has_operand = |_| Ok(());
+        let context = awl_sim::scenario::Context { symbols: &[], plant: None, has_operand: &mut has_operand };
         let _ = awl_sim::scenario::Scenario::parse("random", &source.text, context);
     }
     println!("{count} texts, {good} good ones, {diagnostics} diagnostics");

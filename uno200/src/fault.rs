@@ -1,33 +1,42 @@
-//! Faults of the PLC in words, with the place in the source where the program is known.
+//! Faults of the PLC with the place in the source where the program is known. The words are [`Fault::message`]'s.
 
-use plc_isa::ImageError;
 use plc_vm::Fault;
 
 use crate::program::Program;
 
 /// A fault as the PLC tells it; `None` for none.
-pub fn text(fault: [u8; 4], program: Option<&Program>) -> Option<String> {
-    if fault == Fault::NONE {
+pub fn text(bytes: [u8; 4], program: Option<&Program>) -> Option<String> {
+    if bytes == Fault::NONE {
         return None;
     }
+    let Some(fault) = Fault::from_bytes(bytes) else {
+        return Some(format!("a fault that this tool does not know: {bytes:02X?}"));
+    };
     let place = |at: u16| {
         let line = program.and_then(|program| program.place_of(at));
         line.map_or_else(|| format!("at offset {at:#06x} of the image"), |line| format!("at {line}"))
     };
-    Some(match Fault::from_bytes(fault) {
-        Some(Fault::BadImage(ImageError { fault, at })) => format!("bad image: {} (offset {at:#06x})", fault.message()),
-        Some(Fault::Watchdog { at }) => format!("watchdog: the scan took too long; the program was {}", place(at)),
-        Some(Fault::UndefinedInstruction { at }) => format!("there is no instruction {}", place(at)),
-        Some(Fault::ComparedPointer { at }) => {
-            format!("a comparison read through a pointer that leads to no value (0011) {}", place(at))
+    Some(match (fault, fault.at()) {
+        (Fault::BadImage(error), _) => {
+            format!("{}: {} (offset {:#06x})", fault.message(), error.fault.message(), error.at)
         }
-        Some(Fault::ComparedReal { at }) => {
-            format!("a comparison read a real that is no number (0012) {}", place(at))
-        }
-        Some(Fault::ProgramChanged) => "self-test: the program in flash has changed".to_string(),
-        Some(Fault::StackOverflow) => "self-test: the stack has grown into the firmware's variables".to_string(),
-        Some(Fault::Hang) => "the hardware watchdog: the firmware or its clock stood still".to_string(),
-        Some(Fault::Panic) => "the firmware met a state that it holds for impossible".to_string(),
-        None => format!("a fault that this tool does not know: {fault:02X?}"),
+        (_, Some(at)) => format!("{} {}", fault.message(), place(at)),
+        (_, None) => fault.message().to_string(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faults_with_and_without_a_place() {
+        let shown = |bytes| text(bytes, None).unwrap_or_default();
+        let watchdog = "watchdog: the scan took too long; the program was at offset 0x1234 of the image";
+        assert_eq!(shown(Fault::Watchdog { at: 0x1234 }.to_bytes()), watchdog);
+        assert_eq!(shown(Fault::ProgramChanged.to_bytes()), "self-test: the program in flash has changed");
+        assert_eq!(shown([1, 4, 8, 0]), "bad image: the checksum does not match (offset 0x0008)");
+        assert_eq!(shown([99, 0, 0, 0]), "a fault that this tool does not know: [63, 00, 00, 00]");
+        assert_eq!(text(Fault::NONE, None), None);
+    }
 }

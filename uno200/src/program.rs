@@ -93,11 +93,7 @@ impl Program {
 
     /// `file:line` of the instruction at an offset of the image.
     pub fn place_of(&self, offset: u16) -> Option<String> {
-        let place = self.places().find(|place| {
-            let start = self.assembly.lines.get(place.index).map_or(place.offset, |line| line.at as u16);
-            (start..place.end).contains(&offset)
-        })?;
-        Some(format!("{}:{}", self.source.name, place.line))
+        self.assembly.places(&self.source)(offset)
     }
 
     /// The network that a line belongs to; `None` before the first one.

@@ -72,6 +72,32 @@ impl Fault {
         [code, 0, low, high]
     }
 
+    /// What happened, in words. Where there is a [place](Self::at), it belongs behind them: "... at p.awl:3".
+    pub const fn message(self) -> &'static str {
+        match self {
+            Fault::BadImage(_) => "bad image",
+            Fault::Watchdog { .. } => "watchdog: the scan took too long; the program was",
+            Fault::UndefinedInstruction { .. } => "there is no instruction",
+            Fault::ComparedPointer { .. } => "a comparison read through a pointer that leads to no value (0011)",
+            Fault::ComparedReal { .. } => "a comparison read a real that is no number (0012)",
+            Fault::ProgramChanged => "self-test: the program in flash has changed",
+            Fault::StackOverflow => "self-test: the stack has grown into the firmware's variables",
+            Fault::Hang => "the hardware watchdog: the firmware or its clock stood still",
+            Fault::Panic => "the firmware met a state that it holds for impossible",
+        }
+    }
+
+    /// Offset in the image of the instruction that the program was at; `None` where it was at none.
+    pub const fn at(self) -> Option<u16> {
+        match self {
+            Fault::Watchdog { at }
+            | Fault::UndefinedInstruction { at }
+            | Fault::ComparedPointer { at }
+            | Fault::ComparedReal { at } => Some(at),
+            _ => None,
+        }
+    }
+
     /// The fault in such bytes; `None` for [`NONE`](Self::NONE) and what is no fault.
     pub fn from_bytes([code, detail, low, high]: [u8; 4]) -> Option<Fault> {
         let at = u16::from_le_bytes([low, high]);

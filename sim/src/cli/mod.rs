@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use anyhow::{Error, Result};
+use awl_asm::ast::Symbol;
 use awl_asm::files::{ensure_distinct, read_source};
 use awl_sim::machine::{Machine, MachineError};
 use awl_sim::open::{Opened, ProgramErrors, open_machine};
@@ -18,7 +19,6 @@ use awl_sim::plant::{PlantSpec, parse_spec};
 use awl_sim::problem::{Problem, Problems};
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
-use awl_sim::symbols::Symbols;
 use awl_sim::trace::Signal;
 use clap::Parser;
 
@@ -94,7 +94,7 @@ fn parse_plant(text: &str) -> Result<PlantSpec, Problems> {
 
 fn read_scenario(
     args: &Args,
-    symbols: &Symbols,
+    symbols: &[Symbol],
     plant: Option<&PlantSpec>,
     machine: &mut dyn Machine,
 ) -> Result<Scenario> {
@@ -111,7 +111,7 @@ fn access(machine: &mut dyn Machine, operand: Operand) -> Result<(), MachineErro
 }
 
 /// The signals of `--trace`; where only a format is asked for, what the program uses.
-fn signals(args: &Args, symbols: &Symbols, defaults: &[Operand], machine: &mut dyn Machine) -> Result<Vec<Signal>> {
+fn signals(args: &Args, symbols: &[Symbol], defaults: &[Operand], machine: &mut dyn Machine) -> Result<Vec<Signal>> {
     let Some(text) = &args.trace else {
         let is_wanted = args.format.is_some() || args.output.is_some();
         let defaults = if is_wanted { defaults } else { &[] };

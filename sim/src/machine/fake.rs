@@ -8,7 +8,6 @@ use plc_isa::{AnalogInput, Area};
 use super::{Machine, MachineError, Mode};
 use crate::action::Action;
 use crate::operand::Operand;
-use crate::symbols::Symbols;
 
 /// Memory of the fake: operands by name, absent ones are 0.
 #[derive(Default)]
@@ -39,7 +38,7 @@ pub(crate) struct Fake {
 }
 
 pub(crate) fn operand(name: &str) -> Operand {
-    Operand::parse(name, &Symbols::new()).unwrap()
+    Operand::parse(name, &[]).unwrap()
 }
 
 impl Fake {

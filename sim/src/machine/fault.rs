@@ -1,28 +1,20 @@
-//! Faults in words, the same for every machine.
+//! Faults with their place in the program, the same for every machine. The words are [`Fault::message`]'s.
 
-use plc_isa::ImageError;
 use plc_vm::Fault;
 
 use super::PlaceOf;
 
 /// What happened and where. `limit_ms` is what the scan that took too long was allowed.
 pub(super) fn text(fault: Fault, limit_ms: u64, place_of: &PlaceOf) -> String {
-    match fault {
-        Fault::BadImage(ImageError { fault, at }) => format!("bad image: {} (offset {at:#06x})", fault.message()),
-        Fault::Watchdog { at } => {
+    match (fault, fault.at()) {
+        (Fault::BadImage(error), _) => {
+            format!("{}: {} (offset {:#06x})", fault.message(), error.fault.message(), error.at)
+        }
+        (Fault::Watchdog { at }, _) => {
             format!("watchdog: the scan took longer than {limit_ms} ms; the program was {}", place(at, place_of))
         }
-        Fault::UndefinedInstruction { at } => format!("there is no instruction {}", place(at, place_of)),
-        Fault::ComparedPointer { at } => {
-            format!("a comparison read through a pointer that leads to no value (0011) {}", place(at, place_of))
-        }
-        Fault::ComparedReal { at } => {
-            format!("a comparison read a real that is no number (0012) {}", place(at, place_of))
-        }
-        Fault::ProgramChanged => "self-test: the program in flash has changed".to_string(),
-        Fault::StackOverflow => "self-test: the stack has grown into the firmware's variables".to_string(),
-        Fault::Hang => "the hardware watchdog: the firmware or its clock stood still".to_string(),
-        Fault::Panic => "the firmware met a state that it holds for impossible".to_string(),
+        (_, Some(at)) => format!("{} {}", fault.message(), place(at, place_of)),
+        (_, None) => fault.message().to_string(),
     }
 }
 

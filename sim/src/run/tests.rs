@@ -4,11 +4,9 @@ use super::*;
 use crate::machine::fake::{Fake, operand};
 use crate::plant::Signals;
 use crate::scenario::Context;
-use crate::symbols::Symbols;
 
 fn scenario(text: &str) -> Scenario {
-    let symbols = Symbols::new();
-    let context = Context { symbols: &symbols, plant: None, has_operand: &mut |_| Ok(()) };
+    let context = Context { symbols: &[], plant: None, has_operand: &mut |_| Ok(()) };
     Scenario::parse("t.scn", text, context).unwrap()
 }
 
@@ -126,7 +124,7 @@ fn exit_codes() {
 
 #[test]
 fn the_trace_holds_the_state_after_each_scan() {
-    let signals = vec![Signal::new(operand("Q0.0"), &Symbols::new()), Signal::new(operand("MW0"), &Symbols::new())];
+    let signals = vec![Signal::new(operand("Q0.0"), &[]), Signal::new(operand("MW0"), &[])];
     let job = Job { signals, ..job(10, Length::Scans(3)) };
     let outcome = run(&mut copier(), &scenario("at 10ms I0.0 = 1"), job).unwrap();
     let values: Vec<_> = outcome.trace.changes(0).iter().map(|change| (change.scan, change.value)).collect();

@@ -1,15 +1,18 @@
 //! Reading scenarios: what is understood, and the exact place of every error.
 
+use awl_asm::Address;
+use awl_asm::ast::Value;
 use plc_vm::TimeOfDay;
 
 use super::*;
 use crate::pulse::Pulse;
 
-fn symbols() -> Symbols {
-    let mut symbols = Symbols::new();
-    symbols.add("Start", awl_asm::Address::parse("I0.0").unwrap(), "");
-    symbols.add("a, b = c # d", awl_asm::Address::parse("I0.1").unwrap(), "");
-    symbols
+fn symbols() -> [Symbol; 2] {
+    [("Start", "I0.0"), ("a, b = c # d", "I0.1")].map(|(name, address)| Symbol {
+        name: name.to_string(),
+        value: Value::Address(Address::parse(address).unwrap()),
+        comment: String::new(),
+    })
 }
 
 fn parse(text: &str) -> Result<Scenario, Problems> {

@@ -5,9 +5,10 @@ pub mod svg;
 pub mod table;
 pub mod vcd;
 
+use awl_asm::ast::{Symbol, Value};
+
 use crate::machine::{Machine, MachineError};
 use crate::operand::{Operand, OperandError};
-use crate::symbols::Symbols;
 
 /// An operand to trace.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -22,17 +23,19 @@ pub struct Signal {
 
 impl Signal {
     /// A signal under its own name, described by what the program's symbols say.
-    pub fn new(operand: Operand, symbols: &Symbols) -> Signal {
+    pub fn new(operand: Operand, symbols: &[Symbol]) -> Signal {
         Signal::named(operand, operand.to_string(), symbols)
     }
 
     /// Reads a signal as a user writes it, by address or symbol.
-    pub fn parse(text: &str, symbols: &Symbols) -> Result<Signal, OperandError> {
+    pub fn parse(text: &str, symbols: &[Symbol]) -> Result<Signal, OperandError> {
         Operand::parse(text, symbols).map(|operand| Signal::named(operand, text.to_string(), symbols))
     }
 
-    fn named(operand: Operand, name: String, symbols: &Symbols) -> Signal {
-        let description = symbols.of(operand.address()).map_or_else(String::new, |symbol| {
+    fn named(operand: Operand, name: String, symbols: &[Symbol]) -> Signal {
+        let is_meant =
+            |symbol: &&Symbol| matches!(symbol.value, Value::Address(address) if address == operand.address());
+        let description = symbols.iter().find(is_meant).map_or_else(String::new, |symbol| {
             // Whoever asked for the symbol gets the address, and the other way round.
             let other = if symbol.name.eq_ignore_ascii_case(&name) { operand.to_string() } else { symbol.name.clone() };
             let separator = if symbol.comment.is_empty() { "" } else { ": " };
@@ -153,8 +156,7 @@ pub(crate) mod test_traces {
 
     /// A trace with these values, one per scan.
     pub(crate) fn trace(scan_ms: u64, signals: &[(&str, &[i32])]) -> Trace {
-        let symbols = Symbols::new();
-        let list = signals.iter().map(|(name, _)| Signal::parse(name, &symbols).unwrap()).collect();
+        let list = signals.iter().map(|(name, _)| Signal::parse(name, &[]).unwrap()).collect();
         let mut trace = Trace::new(list, scan_ms);
         trace.scans = signals.iter().map(|(_, values)| values.len() as u64).max().unwrap_or(0);
         for (changes, (_, values)) in trace.changes.iter_mut().zip(signals) {
@@ -176,7 +178,7 @@ mod tests {
     #[test]
     fn records_changes_only() {
         let mut machine = Fake::new(|now, memory| memory.set("MW0", (now / 3) as i32));
-        let mut trace = Trace::new(vec![Signal::parse("mw0", &Symbols::new()).unwrap()], 1);
+        let mut trace = Trace::new(vec![Signal::parse("mw0", &[]).unwrap()], 1);
         for now in 0..7 {
             machine.scan(now);
             trace.record(&mut machine).unwrap();
@@ -199,8 +201,8 @@ mod tests {
 
     #[test]
     fn description_gives_what_the_name_does_not() {
-        let mut symbols = Symbols::new();
-        symbols.add("Lift", awl_asm::Address::parse("Q0.1").unwrap(), "up");
+        let value = Value::Address(awl_asm::Address::parse("Q0.1").unwrap());
+        let symbols = [Symbol { name: "Lift".to_string(), value, comment: "up".to_string() }];
         assert_eq!(Signal::parse("Q0.1", &symbols).unwrap().description, "Lift: up");
         assert_eq!(Signal::parse("lift", &symbols).unwrap().description, "Q0.1: up");
         assert_eq!(Signal::parse("Q0.2", &symbols).unwrap().description, "");
