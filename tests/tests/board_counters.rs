@@ -216,6 +216,35 @@ fn stop_ends_it_and_run_begins_anew() {
     assert_eq!(count(&board, HC0) - before, -10, "HDEF and HSC again");
 }
 
+/// What is asked on the line, and answered in one scan or in several, and counters have nothing to do with each other.
+#[test]
+fn the_line_and_counters_leave_each_other_alone() {
+    for (mode, control, levels) in [(0, 0xF8, [1, 0, 1, 0]), (0, 0xF0, [1, 0, 1, 0]), (9, 0xF8, [0b01, 0b11, 0b10, 0])]
+    {
+        let text = counting(mode, control, 30_000);
+        let (mut board, mut model) = (BenchBoard::running(&text), Model::new(&text));
+        board.scans_for(5);
+        let watch: Vec<u8> = [67, 32].into_iter().chain((0..32).flat_map(|_| [0x88, 0, 20])).collect();
+        let requests: [&[u8]; 6] = [
+            &[16, 0, 10, 0, 1, 2, 0x12, 0x34],
+            &[23, 0, 10, 0, 1, 0, 11, 0, 1, 2, 0x56, 0x78],
+            &watch,
+            &[69, 1, 2, 0, 0xFF, 0, 0],
+            &[68, 1, 0x89, 0, 24, 0, 0, 0, 1],
+            &[68, 3],
+        ];
+        for request in requests {
+            let answer = link::exchange(&mut board, link::UNIT, request).expect("an answer");
+            assert_eq!(answer[0], request[0], "mode {mode}: {answer:02X?}");
+            edges(&mut board, &levels, 8, 5_000);
+            levels.iter().cycle().take(8).for_each(|&level| model.see(level));
+            assert_eq!(count(&board, HC0), model.get("HC0"), "mode {mode}, {control:02X}, after {request:02X?}");
+        }
+        assert_eq!((vw(&board, 20), vw(&board, 22)), (0x1234, 0x5678), "all has been written");
+        assert!(board.runs());
+    }
+}
+
 /// Both tracks have changed before the board could look: they went on, over the preset too, and over a carry.
 #[test]
 fn tracks_go_on_in_their_direction() {

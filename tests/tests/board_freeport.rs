@@ -10,7 +10,7 @@ use awl_sim::machine::uno::Code;
 use awl_sim::operand::Operand;
 use fastrand::Rng;
 use plc_isa::{ARENA_START, SM_START};
-use tests::bench_board::{BenchBoard, MS, image};
+use tests::bench_board::{BenchBoard, MS, firmware, image};
 use tests::case::{Case, host};
 use tests::effort::effort;
 use tests::link;
@@ -425,9 +425,6 @@ fn what_the_firmware_was_saying_is_not_garbled() {
     assert!(link::identify(&mut board).runs());
 }
 
-/// How far the work on a request has come: GPIOR2.
-const PHASE: u16 = 0x4B;
-
 #[test]
 fn a_request_that_freeport_mode_cut_short_leaves_nothing_behind() {
     // Scans of some 3 ms.
@@ -436,15 +433,17 @@ fn a_request_that_freeport_mode_cut_short_leaves_nothing_behind() {
     // What takes several scans, and what waits for a scan.
     let watch: Vec<u8> = [67, 32].into_iter().chain((0..32).flat_map(|_| [0x88, 0, 200])).collect();
     let status = vec![69, 2, 0, 100, 0xFF, 0, 0, 0, 101, 0xFF, 0, 0];
+    // How far the work on a request has come.
+    let phase = firmware().elf.data_symbol("PHASE").expect("the firmware has a phase");
     let mut cut_short = 0;
     for (round, request) in [&watch, &status, &watch, &status].into_iter().enumerate() {
         board.say(&link::frame(link::UNIT, request));
-        board.run_until(10, 100 * MS, |board| board.byte(PHASE) != 0);
+        board.run_until(10, 100 * MS, |board| board.byte(phase) != 0);
         board.drive_inputs(0b1_0000);
         board.scans(3);
         board.drive_inputs(0);
         board.scan();
-        cut_short += usize::from(board.byte(PHASE) != 0);
+        cut_short += usize::from(board.byte(phase) != 0);
         run(&mut board, 20 * MS);
         board.heard();
         let value = round as u8 + 1;

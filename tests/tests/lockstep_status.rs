@@ -33,7 +33,7 @@ const BYTE: u16 = 8 << 12;
 
 /// In the firmware's LINE: the frame, the bytes it may have, and how far a request is.
 const ROOM: usize = 2;
-const PHASE: usize = 0x4B;
+const PHASE: usize = 205;
 const ARMED: u8 = 2;
 const NOTED: u8 = 3;
 
@@ -106,17 +106,17 @@ impl Stepped {
             entry
         });
         let bytes: Vec<u8> = entries.chain(END).collect();
-        let at = usize::from(self.frame() + FIRST);
+        let (at, phase) = (usize::from(self.frame() + FIRST), self.line + PHASE);
         let data = self.uno.avr_mut().data_mut();
         data[at..at + bytes.len()].copy_from_slice(&bytes);
-        data[PHASE] = ARMED;
+        data[phase] = ARMED;
     }
 
     fn filled_in(&mut self, window: &Window) -> Window {
         let at = usize::from(self.frame() + FIRST);
         let data = self.uno.avr_mut().data_mut();
-        assert_eq!(data[PHASE], NOTED);
-        data[PHASE] = 0;
+        assert_eq!(data[self.line + PHASE], NOTED);
+        data[self.line + PHASE] = 0;
         let entries = data[at..].chunks(ENTRY_LEN.into());
         let filled = window.iter().zip(entries).map(|((&at, &(place, ..)), entry)| {
             let value = [entry[6], entry[7], entry[8], entry[9]];

@@ -63,7 +63,7 @@ const RESET_SLOT: u32 = 27;
 /// For each level that LDS reaches down.
 const LEVEL: u32 = 6;
 /// A timer of 1 ms is brought up to date when it is executed.
-const FAST_TIMER: u32 = 98;
+const FAST_TIMER: u32 = 74;
 /// FOR and NEXT read INIT and FINAL: a word takes longer than a constant.
 const LOOP_WORD: u32 = 6;
 
@@ -194,7 +194,7 @@ const TABLE: &[Entry] = &[
     (Op::End, &[], [14, 14], [0, 0], [30, 30]),
     (Op::Stop, &[], [14, 14], [0, 0], [40, 40]),
     (Op::Wdr, &[], [19, 19], [49, 49], [0, 0]),
-    (Op::Refresh, &[], [100, 100], [100, 100], [0, 0]),
+    (Op::Refresh, &[], [76, 76], [76, 76], [0, 0]),
     (Op::MainEnd, &[], [0, 0], [0, 0], [28, 28]),
 ];
 

@@ -171,11 +171,14 @@ pub fn take() -> u8 {
     });
     // SAFETY: interrupts do not use it in the state of now, if it is that.
     let line = unsafe { &*&raw const RTU };
-    match line.left {
-        _ if !is_there => 0,
-        TOO_LONG => u8::MAX,
-        left => (line.room - left).saturating_sub(CRC_LEN),
+    if !is_there {
+        return 0;
     }
+    if line.left == TOO_LONG {
+        return u8::MAX;
+    }
+    let received = line.room - line.left;
+    if received > CRC_LEN { received - CRC_LEN } else { 0 }
 }
 
 /// Nothing is received until [`place`].

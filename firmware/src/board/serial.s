@@ -37,7 +37,7 @@ first:
     rjmp ignore
 1:  ; Of the request before there may be work left: a module took the line over.
     ldi r25, NEW
-    out PHASE, r25
+    sts PHASE, r25
     ldi r25, RECEIVING
     sts RTU + RTU_STATE, r25
     lds r25, FRAME

@@ -7,7 +7,6 @@
 use core::arch::global_asm;
 use core::mem::offset_of;
 
-use avr_device::atmega328p::CPU;
 use plc_isa::{
     AC_START, AIN_START, AIW_START, AQW_START, ARENA_START, DATA_END, FORCED, HC0, I_START, LINE_ROOM, Program,
     ProgramMemory, Q_START, SLOT_LEN, SLOT_START, V_RANGE_LEN,
@@ -118,11 +117,14 @@ struct Line {
     /// Data memory for a trace, and its end.
     ring: u16,
     ring_end: u16,
+    /// How far the work on a request has come.
+    phase: u8,
 }
 
 const _: () =
     assert!(offset_of!(Line, loaded.v_table) == 9 && offset_of!(Line, state) == 26 && offset_of!(Line, scans) == 47);
-const _: () = assert!(offset_of!(Line, forces_count) == 55 && offset_of!(Line, ring) == 201);
+const _: () =
+    assert!(offset_of!(Line, forces_count) == 55 && offset_of!(Line, ring) == 201 && offset_of!(Line, phase) == 205);
 
 /// Where the engine finds the same of the plan.
 #[cfg(feature = "engine")]
@@ -162,6 +164,7 @@ static mut LINE: Line = Line {
     program_bits: 0,
     ring: 0,
     ring_end: 0,
+    phase: NEW,
 };
 
 global_asm!(
@@ -223,19 +226,6 @@ fn line() -> &'static mut Line {
     unsafe { &mut *&raw mut LINE }
 }
 
-/// How far the work on a request has come: a register that nothing else uses.
-#[inline(always)]
-fn phase() -> u8 {
-    // SAFETY: a register without function is read.
-    unsafe { CPU::steal() }.gpior2().read().bits()
-}
-
-#[inline(always)]
-fn set_phase(phase: u8) {
-    // SAFETY: as above.
-    unsafe { CPU::steal() }.gpior2().write(|w| w.set(phase));
-}
-
 /// Answers the request of so many bytes, at least 1, in the frame. Returns the length of the answer, which has replaced
 /// it; 0: the answer takes another scan, at whose end this is called again.
 pub fn answer(len: u8) -> u8 {
@@ -268,15 +258,16 @@ pub fn begin_scans() {
 #[cfg(feature = "engine")]
 #[inline(always)]
 pub fn has_window() -> bool {
-    phase() == ARMED
+    line().phase == ARMED
 }
 
 /// Data address of its first entry. It is filled in when the next request is answered.
 #[cfg(feature = "engine")]
 #[inline(always)]
 pub fn take_window() -> u16 {
-    set_phase(NOTED);
-    line().frame + FIRST_ENTRY
+    let line = line();
+    line.phase = NOTED;
+    line.frame + FIRST_ENTRY
 }
 
 /// Data address of the frame.
@@ -331,7 +322,7 @@ pub fn place(program: Option<&Program<ProgramSlot>>) -> u8 {
         line.image_len = header.total_len;
         line.program_bits = if header.interface == 0 { 1 << 1 } else { 1 << 1 | 1 << 3 };
     }
-    set_phase(NEW);
+    line.phase = NEW;
     line.forces_count = 0;
     line.frame = frame;
     line.room = (end - frame - BEHIND_REQUEST).min(PDU_MAX) as u8;

@@ -26,8 +26,8 @@
 .equ RING, LINE + 201
 .equ RING_END, LINE + 203
 
-; How far the work on a request has come stands in GPIOR2, which is 0 after a reset.
-.equ PHASE, 0x2B
+; How far the work on a request has come.
+.equ PHASE, LINE + 205
 .equ NEW, 0
 .equ GOES_ON, 1
 .equ ARMED, 2
@@ -148,7 +148,7 @@ done_at_z:
     lds r25, FRAME
     sub r24, r25
 done:
-    out PHASE, r1
+    sts PHASE, r1
     rjmp line_leave
 not_yet:
     ldi r24, 0
@@ -188,11 +188,11 @@ expect_list:
     subi r24, -2
     rcall expect_len
 begin:
-    in r24, PHASE
+    lds r24, PHASE
     cpi r24, NEW
     brne 1f
     ldi r24, GOES_ON
-    out PHASE, r24
+    sts PHASE, r24
     sts LEFT, r20
     ldi r24, 2
     sts AT, r24
@@ -480,7 +480,7 @@ modbus:
     cpi r16, 15
     breq 1f
     clt
-1:  in r24, PHASE
+1:  lds r24, PHASE
     cpi r24, NEW
     brne 4f
     rcall said_of_written
@@ -523,7 +523,7 @@ wrong_value:
     brlo wrong_value
     cpi r16, 23
     brne read
-    in r24, PHASE
+    lds r24, PHASE
     cpi r24, NEW
     brne read
     ; Both are looked for before anything is written.
@@ -542,8 +542,8 @@ wrong_value:
 2:  ldi r24, 5
     cpi r16, 23
     brne 3f
-    ; It is read at the end of the next scan.
-    out PHASE, r24
+    ; It is read when there is time again.
+    sts PHASE, r24
     rjmp not_yet
 read:
     rcall find_read
@@ -1165,7 +1165,7 @@ put_scans:
 ; ---- function 68: forces
 
 force:
-    in r18, PHASE
+    lds r18, PHASE
     cpse r18, r1
     rjmp list_forces
     ldd r18, Y+1
@@ -1227,7 +1227,7 @@ force_value:
 tell_forces:
     rcall uno200_tell_forces
     ldi r24, GOES_ON
-    out PHASE, r24
+    sts PHASE, r24
     rjmp not_yet
 list_forces:
     movw r30, r28

@@ -11,7 +11,7 @@
 .equ BYTECODE_LOADED, 0x02
 
 status:
-    in r24, PHASE
+    lds r24, PHASE
     lds r25, STATE
     cpi r24, ARMED
     brlo 1f
@@ -22,7 +22,7 @@ status:
     rjmp collect
     ; A scan has filled them in. The answer is made at the end of the next one.
     ldi r24, READY
-    out PHASE, r24
+    sts PHASE, r24
     ldd r24, Y+1
     sts LEFT, r24
     rcall put_scans
@@ -90,7 +90,7 @@ arm:
     std Z+FIRST_ENTRY, r24
     std Z+FIRST_ENTRY+1, r24
     ldi r24, ARMED
-    out PHASE, r24
+    sts PHASE, r24
     rjmp not_yet
 wrong_status:
     rjmp refuse_value

@@ -71,7 +71,7 @@ wrong_trace:
     rjmp refuse_value
 
 start_trace:
-    in r24, PHASE
+    lds r24, PHASE
     cpse r24, r1
     rjmp next_place
     ldd r20, Y+ASKED_COUNT

@@ -90,6 +90,9 @@ fn wait(client: &mut Client, mut phase: TracePhase, duration: Option<Duration>) 
         sleep(LOOK);
         phase = client.trace_phase()?;
     }
+    if phase == TracePhase::None {
+        bail!("the trace is gone: another client has begun one, or a program was loaded");
+    }
     Ok(())
 }
 
