@@ -55,8 +55,7 @@ impl Moment {
                 let (low, high) = (tick.read_volatile(), tick.add(1).read_volatile());
                 (low, high, TC0::steal().tcnt0().read().bits(), tick.read_volatile())
             };
-            // When the timer has just begun again its interrupt may still be to come.
-            if low == again && counts != 0 {
+            if low == again {
                 return Moment { ms: u16::from_le_bytes([low, high]), counts };
             }
         }

@@ -26,12 +26,10 @@ line_enter_scan:
     lds r18, UNO200_TICK
     lds r19, UNO200_TICK + 1
     in r20, TCNT0
-    ; Neither the clock nor the timer may have gone on between; when the timer has just begun again the clock may be late.
+    ; Neither the clock nor the timer may have gone on between.
     lds r21, UNO200_TICK
     cp r18, r21
     brne line_enter_scan
-    tst r20
-    breq line_enter_scan
     sub r18, r24
     sbc r19, r25
     sub r20, r22
