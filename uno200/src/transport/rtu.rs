@@ -51,9 +51,8 @@ pub fn frame_len(request: &[u8], begun: &[u8]) -> Option<usize> {
         WATCH => 3 + watched_len(request),
         FORCE => counted(2, FORCE_LEN.into())?,
         STATUS => 3 + usize::from(*request.get(1)?) * 6,
-        TRACE => 13,
+        TRACE | SET => 2,
         READ_BLOCK => counted(2, 1)?,
-        SET => 2,
         _ => return None,
     };
     Some(len + AROUND)
@@ -93,7 +92,7 @@ mod tests {
     #[test]
     fn the_length_of_an_answer_is_known_early() {
         let watch = [67, 3, 0x00, 0, 0, 0x29, 0, 3, 0x8A, 0, 8];
-        let cases: [(&[u8], &[u8], Option<usize>); 12] = [
+        let cases: [(&[u8], &[u8], Option<usize>); 13] = [
             (&[65], &[], None),
             (&[65], &[1, 0xC1], Some(5)),
             (&[65], &[1, 65], Some(43)),
@@ -102,6 +101,7 @@ mod tests {
             (&[68, 0], &[1, 68], None),
             (&[68, 0], &[1, 68, 2], Some(2 + 14 + 3)),
             (&[69, 2], &[1, 69], Some(3 + 12 + 3)),
+            (&[70, 0], &[1, 70], Some(5)),
             (&[71, 0, 0, 0, 9], &[1, 71, 9], Some(11 + 3)),
             (&[72], &[1, 72], Some(5)),
             (&[43, 14, 4, 6], &[1, 43, 14, 4, 0x82, 0, 0, 1, 6], None),
