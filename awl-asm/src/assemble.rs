@@ -50,15 +50,24 @@ impl Assembly {
         span_of(&self.program, selected)
     }
 
-    /// Tells `file:line` of the instruction at an offset of the image, the hidden ones around it included.
+    /// The line in the source of the instruction at an offset of the image, the hidden ones around it included.
+    pub fn line_at(&self, source: &Source, offset: u16) -> Option<usize> {
+        let index = self.lines.iter().position(|line| line.holds(offset))?;
+        self.code.get(index).map(|selected| self.line_of(source, selected))
+    }
+
+    fn line_of(&self, source: &Source, selected: &Selected) -> usize {
+        source.position(self.span_of(selected).start as usize).0
+    }
+
+    /// Tells `file:line` of the instruction at an offset of the image, for longer than there is the assembly.
     pub fn places(&self, source: &Source) -> impl Fn(u16) -> Option<String> + use<> {
-        let row = |selected| source.position(self.span_of(selected).start as usize).0;
-        let lines: Vec<(Line, usize)> = self.lines.iter().copied().zip(self.code.iter().map(row)).collect();
+        let numbers = self.code.iter().map(|selected| self.line_of(source, selected));
+        let lines: Vec<(Line, usize)> = self.lines.iter().copied().zip(numbers).collect();
         let name = source.name.clone();
         move |offset| {
-            let is_there = |line: &Line| (line.at..line.at + u32::from(line.len)).contains(&u32::from(offset));
-            let (_, row) = lines.iter().find(|(line, _)| is_there(line))?;
-            Some(format!("{name}:{row}"))
+            let (_, number) = lines.iter().find(|(line, _)| line.holds(offset))?;
+            Some(format!("{name}:{number}"))
         }
     }
 }

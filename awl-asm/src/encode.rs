@@ -29,6 +29,13 @@ pub struct Line {
     pub hidden_len: u8,
 }
 
+impl Line {
+    /// Whether the byte at this offset of the image is one of them.
+    pub fn holds(&self, offset: u16) -> bool {
+        (self.at..self.at + u32::from(self.len)).contains(&offset.into())
+    }
+}
+
 /// An encoded program.
 #[derive(Debug, Default)]
 pub struct Encoding {

@@ -183,11 +183,7 @@ impl Listing<'_> {
 
     /// The source line of an instruction by its offset.
     fn line_of(&self, at: u16) -> usize {
-        let holds = |line: &Line| (line.at..line.at + u32::from(line.len)).contains(&u32::from(at));
-        let index = self.assembly.lines.iter().position(holds);
-        index
-            .and_then(|index| self.assembly.code.get(index))
-            .map_or(0, |selected| self.source.position(span_of(&self.assembly.program, selected).start as usize).0)
+        self.assembly.line_at(self.source, at).unwrap_or(0)
     }
 }
 

@@ -93,7 +93,8 @@ impl Program {
 
     /// `file:line` of the instruction at an offset of the image.
     pub fn place_of(&self, offset: u16) -> Option<String> {
-        self.assembly.places(&self.source)(offset)
+        let line = self.assembly.line_at(&self.source, offset)?;
+        Some(format!("{}:{line}", self.source.name))
     }
 
     /// The network that a line belongs to; `None` before the first one.
