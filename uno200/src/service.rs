@@ -4,8 +4,8 @@
 use plc_isa::LINE_ROOM;
 use plc_link::protocol::{
     self, BLOCK_MAX, CONTROL, FORCE, FORCE_LEN, IDENTIFICATION, IDENTIFY, READ_BLOCK, SET, STATUS, TRACE,
-    TRACE_CAPACITY, TRACE_FIRST, TRACE_HEAD_LEN, TRACE_NEXT, TRACE_SAMPLE_LEN, TRACE_SAMPLES, TRACE_SCAN,
-    TRACE_TRIGGERED_AT, TRACE_VALUES, VERSION, WATCH,
+    TRACE_CAPACITY, TRACE_DONE, TRACE_FILLING, TRACE_FIRST, TRACE_HEAD_LEN, TRACE_NEXT, TRACE_NONE, TRACE_SAMPLE_LEN,
+    TRACE_SAMPLES, TRACE_SCAN, TRACE_TRIGGERED_AT, TRACE_VALUES, TRACE_WAITING, VERSION, WATCH,
 };
 
 use crate::client::Client;
@@ -389,10 +389,10 @@ impl Client {
 
     fn trace_request(&mut self, request: &[u8]) -> Result<TracePhase, Error> {
         match Fields::of(&self.exchange(request)?).byte()? {
-            0 => Ok(TracePhase::None),
-            1 => Ok(TracePhase::Done),
-            2 => Ok(TracePhase::Waiting),
-            3 => Ok(TracePhase::Filling),
+            TRACE_NONE => Ok(TracePhase::None),
+            TRACE_DONE => Ok(TracePhase::Done),
+            TRACE_WAITING => Ok(TracePhase::Waiting),
+            TRACE_FILLING => Ok(TracePhase::Filling),
             other => Err(Error::BadAnswer(format!("{other} is no state of a trace"))),
         }
     }

@@ -37,6 +37,15 @@ pub const BLOCK_MAX: u8 = 64;
 /// Bytes of a force in an answer: reference and value.
 pub const FORCE_LEN: u8 = 7;
 
+/// A trace: there is none.
+pub const TRACE_NONE: u8 = 0;
+/// It is complete, or was stopped.
+pub const TRACE_DONE: u8 = 1;
+/// It waits for its trigger. From here on samples are taken.
+pub const TRACE_WAITING: u8 = 2;
+/// It fills behind the trigger.
+pub const TRACE_FILLING: u8 = 3;
+
 /// In the memory of a trace: how many values a sample has. These are offsets; words have the high byte first.
 pub const TRACE_VALUES: u16 = 8;
 /// Bytes of a sample.

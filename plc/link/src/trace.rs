@@ -8,8 +8,8 @@ use plc_vm::Memory;
 use crate::answer::{Answered, Exception, Request};
 use crate::place::{ANYTHING, BYTE, Place};
 use crate::protocol::{
-    TRACE_CAPACITY, TRACE_FIRST, TRACE_HEAD_LEN, TRACE_MAX, TRACE_NEXT, TRACE_SAMPLE_LEN, TRACE_SAMPLES, TRACE_SCAN,
-    TRACE_TRIGGERED_AT, TRACE_VALUES,
+    TRACE_CAPACITY, TRACE_DONE, TRACE_FILLING, TRACE_FIRST, TRACE_HEAD_LEN, TRACE_MAX, TRACE_NEXT, TRACE_NONE,
+    TRACE_SAMPLE_LEN, TRACE_SAMPLES, TRACE_SCAN, TRACE_TRIGGERED_AT, TRACE_VALUES, TRACE_WAITING,
 };
 use crate::station::Station;
 
@@ -32,11 +32,6 @@ const LEAST_LEN: u16 = TRACE_HEAD_LEN + PLACE_LEN * TRACE_MAX as u16;
 const ASKED: u8 = 2;
 const REFERENCES: u8 = 11;
 
-const NONE: u8 = 0;
-const DONE: u8 = 1;
-const WAITING: u8 = 2;
-const FILLING: u8 = 3;
-
 const AT_ONCE: u8 = 0;
 const RISING: u8 = 1;
 const FALLING: u8 = 2;
@@ -54,16 +49,16 @@ pub(crate) struct Trace {
 
 impl Trace {
     pub const fn none() -> Trace {
-        Trace { state: NONE, start: 0, end: 0 }
+        Trace { state: TRACE_NONE, start: 0, end: 0 }
     }
 
     /// There is no trace, and this memory is for the next one.
     pub fn place(&mut self, start: u16, end: u16) {
-        *self = Trace { state: NONE, start, end };
+        *self = Trace { state: TRACE_NONE, start, end };
     }
 
     pub fn is_going_on(&self) -> bool {
-        self.state >= WAITING
+        self.state >= TRACE_WAITING
     }
 
     /// Data address of its memory.
@@ -107,8 +102,8 @@ impl Trace {
         if samples < capacity {
             samples += 1;
             self.set_word(memory, TRACE_SAMPLES, samples);
-            if samples == capacity && self.state == FILLING {
-                self.state = DONE;
+            if samples == capacity && self.state == TRACE_FILLING {
+                self.state = TRACE_DONE;
             }
         }
     }
@@ -124,8 +119,8 @@ impl Trace {
             memory.set_byte(self.start + WAS_ACTIVE, u8::from(is_active));
             is_triggered = is_active && !(was_active && matches!(kind, RISING | FALLING));
         }
-        if self.state == WAITING && is_triggered {
-            self.state = FILLING;
+        if self.state == TRACE_WAITING && is_triggered {
+            self.state = TRACE_FILLING;
             let samples = self.word(memory, TRACE_SAMPLES).min(self.word(memory, BEFORE));
             self.set_word(memory, TRACE_SAMPLES, samples);
             self.set_word(memory, TRACE_TRIGGERED_AT, samples);
@@ -161,8 +156,8 @@ impl<S: Station> Request<'_, S> {
             2 => {
                 self.expect_len(2)?;
                 let trace = &mut self.station.link().trace;
-                if trace.state != NONE {
-                    trace.state = DONE;
+                if trace.state != TRACE_NONE {
+                    trace.state = TRACE_DONE;
                 }
             }
             _ => return Err(Exception::Value),
@@ -187,7 +182,7 @@ impl<S: Station> Request<'_, S> {
             self.set_low_first(7, trigger.0);
         }
         // What there was is over, even if this one is refused: its places go.
-        self.station.link().trace.state = NONE;
+        self.station.link().trace.state = TRACE_NONE;
         let trace = self.station.link().trace.clone();
         if trace.len() < LEAST_LEN {
             return Err(Exception::Busy);
@@ -220,7 +215,7 @@ impl<S: Station> Request<'_, S> {
         trace.set_word(memory, TRACE_SCAN, 0);
         trace.set_word(memory, TRACE_FIRST, first);
         trace.set_word(memory, TRACE_NEXT, first);
-        self.station.link().trace.state = WAITING;
+        self.station.link().trace.state = TRACE_WAITING;
         Ok(())
     }
 }
