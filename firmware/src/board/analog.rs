@@ -5,7 +5,7 @@ use core::mem::offset_of;
 
 use avr_device::atmega328p::ADC;
 use avr_device::interrupt;
-use plc_isa::{AIN_START, AIW_START, ANALOG_INPUTS};
+use plc_isa::{AIN_START, AIW_START, ANALOG_INPUTS, AnalogInput};
 
 use super::clock::UNO200_TICK;
 
@@ -33,6 +33,10 @@ static mut ANALOG: Analog = Analog { values: [0; CHANNELS], sums: [0; CHANNELS],
 global_asm!(
     ".equ AIW_START, {aiw_start}",
     ".equ AIN_START, {ain_start}",
+    ".equ REFERENCE, {reference}",
+    ".equ CHANNELS, {channels}",
+    ".equ RAW_MAX, {raw_max}",
+    ".equ SCALE, {scale}",
     ".equ SUMS, {sums}",
     ".equ FRESH, {fresh}",
     ".equ FILTER, {filter}",
@@ -45,6 +49,10 @@ global_asm!(
     ".set UNO200_ANALOG_FRESH, ANALOG + FRESH",
     aiw_start = const AIW_START,
     ain_start = const AIN_START,
+    reference = const REFERENCE_AVCC,
+    channels = const ANALOG_INPUTS,
+    raw_max = const AnalogInput::RAW_MAX,
+    scale = const AnalogInput::SCALE,
     sums = const offset_of!(Analog, sums),
     fresh = const offset_of!(Analog, fresh),
     filter = const offset_of!(Analog, filter),

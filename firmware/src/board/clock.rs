@@ -7,7 +7,7 @@ use avr_device::atmega328p::TC0;
 use avr_device::interrupt::{self, Mutex};
 
 /// Timer counts of 4 us in a millisecond.
-const COUNTS_PER_MS: u8 = 250;
+pub const COUNTS_PER_MS: u8 = 250;
 
 /// Milliseconds since power-up. Wraps after 49.7 days. Harnesses read and write it by this name; machine code of programs
 /// reads it at [`plc_isa::CLOCK`], which is where this section begins.

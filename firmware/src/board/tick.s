@@ -8,13 +8,7 @@
 .equ SREG, 0x3F
 ; Starts a conversion at 125 kHz: full precision, 104 us.
 .equ CONVERT, 0xC7
-; The supply voltage.
-.equ REFERENCE, 1 << 6
-.equ CHANNELS, 6
 .equ CHANNEL_MASK, 7
-.equ RAW_MAX, 1023
-; Times this, by 65,536, a raw count is what the program reads: 32,000 for RAW_MAX, and the nearest for every other.
-.equ SCALE, 2050002
 
 .section .text.uno200_tick_interrupt, "ax", @progbits
 

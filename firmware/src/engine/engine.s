@@ -994,6 +994,16 @@ write_bits:
     adc r27, r18
 .endm
 
+; Z at the entry of the timer in slot r26, in the image's table.
+.macro TIMER_ENTRY
+    lds r30, LINE + TIMERS_IN_FLASH
+    lds r31, LINE + TIMERS_IN_FLASH + 1
+    add r30, r26
+    adc r31, r1
+    add r30, r26
+    adc r31, r1
+.endm
+
 timer_word:
     PRESET_WORD
     rjmp place_timer
@@ -1002,12 +1012,7 @@ timer_constant:
 
 ; Timer in slot r26: X slot, Z byte of its bit, r18 mask of its bit, r19 bit 0: counts in 100 ms.
 place_timer:
-    lds r30, LINE + TIMERS_IN_FLASH
-    lds r31, LINE + TIMERS_IN_FLASH + 1
-    add r30, r26
-    adc r31, r1
-    add r30, r26
-    adc r31, r1
+    TIMER_ENTRY
     lpm r20, Z
     SLOT_ADDRESS TIMERS_START, TIMER_SLOT_LEN
     cpi r27, hi8(DATA_END)
@@ -1111,12 +1116,7 @@ uno200_advance_timers:
 
 ; Timer in slot r26: its number in r20, how it is started in r19.
 look_timer_up:
-    lds r30, LINE + TIMERS_IN_FLASH
-    lds r31, LINE + TIMERS_IN_FLASH + 1
-    add r30, r26
-    adc r31, r1
-    add r30, r26
-    adc r31, r1
+    TIMER_ENTRY
     lpm r20, Z+
     lpm r19, Z
     ret

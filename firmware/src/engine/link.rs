@@ -12,7 +12,7 @@ use plc_isa::{
     ProgramMemory, Q_START, SLOT_LEN, SLOT_START, V_RANGE_LEN,
 };
 
-use crate::board::clock::Moment;
+use crate::board::clock::{COUNTS_PER_MS, Moment};
 use crate::board::flash::ProgramSlot;
 use crate::board::stack;
 
@@ -180,6 +180,7 @@ global_asm!(
     ".equ SLOT_START, {slot_start}",
     ".equ SLOT_LEN, {slot_len}",
     ".equ V_RANGE_LEN, {v_range_len}",
+    ".equ COUNTS_PER_MS, {counts_per_ms}",
     ".equ FORCED_POINTS, {forced}",
     ".set LINE, {line}",
     // Mode in bit 0, then the fault. Harnesses read it by this name.
@@ -196,6 +197,7 @@ global_asm!(
     slot_start = const SLOT_START,
     slot_len = const SLOT_LEN,
     v_range_len = const V_RANGE_LEN,
+    counts_per_ms = const COUNTS_PER_MS,
     forced = const FORCED,
     state = const offset_of!(Line, state),
     line = sym LINE,

@@ -1,4 +1,4 @@
-; Answers on the line: what plc-link does, in a fifth of the flash that a compiler takes for it. Names, order of checks and
+; Answers on the line: what plc-link does, in a third of the flash that a compiler takes for it. Names, order of checks and
 ; bytes are those of plc-link and of docs/protocol.md; a test compares the two.
 ;
 ; While a request is answered Y is the frame, r17 the request's length, r16 its function, r15 and r14 what references may
@@ -990,7 +990,7 @@ identify:
     dec r25
     brne 1b
     st Z+, r1
-    ldi r24, 250
+    ldi r24, COUNTS_PER_MS
     st Z+, r24
     ldi r18, 4
     rcall high_first

@@ -5,7 +5,23 @@
 .equ LAST, 4
 .equ LONGEST, 8
 
-.equ COUNTS_PER_MS, 250
+; A number of counts in r18, r19 and r20, and the other way from r24, r25 and r26.
+.macro LOAD_COUNTS at
+    ldd r18, Z+\at
+    ldd r19, Z+\at + 1
+    ldd r20, Z+\at + 2
+.endm
+.macro STORE_COUNTS at
+    std Z+\at, r24
+    std Z+\at + 1, r25
+    std Z+\at + 2, r26
+.endm
+; Flags of the first less the second.
+.macro COMPARE_COUNTS
+    cp r18, r24
+    cpc r19, r25
+    cpc r20, r26
+.endm
 
 ; The program has been executed.
     .global line_count_scan
@@ -48,32 +64,18 @@ line_enter_scan:
     ; Less 1, so that 0, for none, is more than any.
     ldi r30, lo8(SCAN_TIMES)
     ldi r31, hi8(SCAN_TIMES)
-    ldd r18, Z+SHORTEST
-    ldd r19, Z+SHORTEST + 1
-    ldd r20, Z+SHORTEST + 2
+    LOAD_COUNTS SHORTEST
     subi r18, 1
     sbci r19, 0
     sbci r20, 0
-    cp r18, r24
-    cpc r19, r25
-    cpc r20, r26
+    COMPARE_COUNTS
     brlo 1f
-    std Z+SHORTEST, r24
-    std Z+SHORTEST + 1, r25
-    std Z+SHORTEST + 2, r26
-1:  std Z+LAST, r24
-    std Z+LAST + 1, r25
-    std Z+LAST + 2, r26
-    ldd r18, Z+LONGEST
-    ldd r19, Z+LONGEST + 1
-    ldd r20, Z+LONGEST + 2
-    cp r18, r24
-    cpc r19, r25
-    cpc r20, r26
+    STORE_COUNTS SHORTEST
+1:  STORE_COUNTS LAST
+    LOAD_COUNTS LONGEST
+    COMPARE_COUNTS
     brsh 2f
-    std Z+LONGEST, r24
-    std Z+LONGEST + 1, r25
-    std Z+LONGEST + 2, r26
+    STORE_COUNTS LONGEST
 2:  lds r24, TRACE_STATE
     cpi r24, TRACE_WAITING
     brlo 3f

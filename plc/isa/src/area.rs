@@ -140,11 +140,13 @@ impl AnalogInput {
         }
     }
 
+    /// By 65,536 it is 32,000 / 1,023, near enough for every count: a division takes the board longer than a scan has.
+    pub const SCALE: u32 = 2_050_002;
+
     /// The AIW value of a raw count, rounded to the nearest.
     pub const fn scale(raw: u16) -> u16 {
         let raw = if raw > Self::RAW_MAX { Self::RAW_MAX } else { raw };
-        // A division takes the board longer than a scan has. 2,050,002 / 65,536 is 32,000 / 1,023, near enough for every count.
-        ((raw as u32 * 2_050_002 + 0x8000) >> 16) as u16
+        ((raw as u32 * Self::SCALE + 0x8000) >> 16) as u16
     }
 
     /// The raw count nearest to an AIW value.
