@@ -9,6 +9,9 @@ impl Uno {
     /// There is a request: answers it, or a part of it.
     #[inline(never)]
     pub fn talk(&mut self) {
+        if serial::is_new() {
+            link::forget();
+        }
         let len = serial::take();
         if len == 0 {
             return serial::ignore();

@@ -1,6 +1,6 @@
 //! The scan: inputs, program, communication, self-test, outputs; and the way between RUN and STOP.
 
-use plc_isa::{CRC_LEN, DATA_START, I_START, ProgramMemory, Settings};
+use plc_isa::{CRC_LEN, DATA_START, I_START, ImageError, ImageFault, ProgramMemory, Settings};
 use plc_vm::{Exit, Fault, Mode, Plc};
 
 use crate::board::clock::Moment;
@@ -72,7 +72,7 @@ impl Uno {
         }
         if holds {
             // Only these two hold.
-            self.fail(if fault as u8 == Fault::Panic.to_bytes()[0] { Fault::Panic } else { Fault::Hang });
+            self.fail(if fault as u8 == Fault::Panic.code() { Fault::Panic } else { Fault::Hang });
         } else {
             self.run();
         }
@@ -143,8 +143,10 @@ impl Uno {
     /// Whether what is in flash may not be the program that was checked, which may still be in force.
     #[inline(never)]
     fn is_program_in_doubt(&self) -> bool {
-        // Bad image, undefined instruction, program changed.
-        matches!(self.plc.fault_word() as u8, 1 | 3 | 4)
+        const BAD_IMAGE: u8 = Fault::BadImage(ImageError { fault: ImageFault::Length, at: 0 }).code();
+        const UNDEFINED: u8 = Fault::UndefinedInstruction { at: 0 }.code();
+        const CHANGED: u8 = Fault::ProgramChanged.code();
+        matches!(self.plc.fault_word() as u8, BAD_IMAGE | UNDEFINED | CHANGED)
     }
 
     /// Scan after scan.

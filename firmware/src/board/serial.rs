@@ -154,6 +154,12 @@ pub fn has_request() -> bool {
     state() & NEEDS_ANSWER != 0
 }
 
+/// Whether that request has just come: nothing has been done about it.
+#[inline(always)]
+pub fn is_new() -> bool {
+    state() == COMPLETE
+}
+
 /// Whether an answer is on its way and the frame must stay as it is.
 pub fn is_sending() -> bool {
     state() >= ANSWERING

@@ -35,10 +35,7 @@ first:
     breq 1f
     cpse r24, r25
     rjmp ignore
-1:  ; Of the request before there may be work left: a module took the line over.
-    ldi r25, NEW
-    sts PHASE, r25
-    ldi r25, RECEIVING
+1:  ldi r25, RECEIVING
     sts RTU + RTU_STATE, r25
     lds r25, FRAME
     sts RTU + RTU_NEXT, r25

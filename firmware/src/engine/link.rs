@@ -228,6 +228,12 @@ fn line() -> &'static mut Line {
     unsafe { &mut *&raw mut LINE }
 }
 
+/// Forgets the request before, of which there is work left when a module took the line over meanwhile.
+#[inline(always)]
+pub fn forget() {
+    line().phase = NEW;
+}
+
 /// Answers the request of so many bytes, at least 1, in the frame. Returns the length of the answer, which has replaced
 /// it; 0: the answer takes another scan, at whose end this is called again.
 pub fn answer(len: u8) -> u8 {

@@ -54,6 +54,11 @@ impl Fault {
         u32::from_le_bytes([1, fault as u8, low, high])
     }
 
+    /// The first of [`to_bytes`](Self::to_bytes).
+    pub const fn code(self) -> u8 {
+        self.to_bytes()[0]
+    }
+
     /// Code, detail and offset, low byte first: how the board keeps and reports a fault.
     #[cfg_attr(target_arch = "avr", inline(always))]
     pub const fn to_bytes(self) -> [u8; 4] {
