@@ -1,5 +1,7 @@
 //! The board's line seen from a master: frames of Modbus RTU and their answers. What requests mean is not known here.
 
+use awl_sim::machine::Machine;
+use awl_sim::machine::host::Host;
 use plc_vm::Fault;
 
 use crate::bench_board::{BenchBoard, MS};
@@ -174,4 +176,25 @@ pub fn stop(board: &mut BenchBoard) {
 /// RUN, which a fault can end at once.
 pub fn run(board: &mut BenchBoard) {
     assert_eq!(command(board, Command::Run), Ok(()));
+}
+
+/// A whole exchange on the host: requests are answered after a scan, and a scan follows. `now_ms`: the time of the last
+/// one.
+pub fn exchange_on_host(host: &mut Host, now_ms: &mut u64, request: &[u8]) -> Option<Vec<u8>> {
+    let mut scan = |host: &mut Host| {
+        *now_ms += 1;
+        host.scan(*now_ms);
+    };
+    if !host.take_request(request) {
+        return Some(vec![request[0] | 0x80, 3]);
+    }
+    for _ in 0..4 {
+        if let Some(answer) = host.answer() {
+            host.carry_out();
+            scan(host);
+            return Some(answer);
+        }
+        scan(host);
+    }
+    None
 }

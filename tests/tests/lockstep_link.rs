@@ -6,7 +6,6 @@
 mod requests;
 
 use awl_sim::machine::Machine;
-use awl_sim::machine::host::Host;
 use fastrand::Rng;
 use plc_isa::{AC_START, ARENA_START, EVENTS_SEEN, I_START, S_START, SM_START};
 use tests::bench_board::BenchBoard;
@@ -40,26 +39,6 @@ fn memory(byte: impl Fn(u16) -> u8, end: u16) -> Vec<u8> {
     places.map(byte).collect()
 }
 
-/// A whole exchange on the host: requests are answered after a scan, and a scan follows.
-fn exchange(host: &mut Host, now_ms: &mut u64, request: &[u8]) -> Option<Vec<u8>> {
-    let mut scan = |host: &mut Host| {
-        *now_ms += 1;
-        host.scan(*now_ms);
-    };
-    if !host.take_request(request) {
-        return Some(vec![request[0] | 0x80, 3]);
-    }
-    for _ in 0..4 {
-        if let Some(answer) = host.answer() {
-            host.carry_out();
-            scan(host);
-            return Some(answer);
-        }
-        scan(host);
-    }
-    None
-}
-
 #[test]
 fn random_requests_have_the_same_answers_on_host_and_board() {
     let text = read(&folder("link").join("areas.awl"));
@@ -77,7 +56,7 @@ fn random_requests_have_the_same_answers_on_host_and_board() {
             continue;
         }
         assert!(request.len() <= PDU_MAX);
-        let wanted = exchange(&mut host, &mut now_ms, &request);
+        let wanted = link::exchange_on_host(&mut host, &mut now_ms, &request);
         let got = link::exchange(&mut board, UNIT, &request);
         let [wanted, got] = [wanted, got].map(|answer| answer.map(|answer| comparable(&request, answer)));
         assert_eq!(got, wanted, "request {number}: {request:02X?}");

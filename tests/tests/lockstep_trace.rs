@@ -11,7 +11,7 @@ use tests::bench_board::BenchBoard;
 use tests::case::host;
 use tests::effort::effort;
 use tests::image::image;
-use tests::link::{Command, UNIT, exchange, identify, stop};
+use tests::link::{Command, UNIT, exchange, exchange_on_host, identify, stop};
 
 /// Values that are others in every scan, of every size: MW0 and VW0 count, QB0 is the low byte, C5 counts every other scan,
 /// AC0 takes larger steps.
@@ -95,16 +95,7 @@ impl Pair {
     }
 
     fn ask_host(&mut self, request: &[u8]) -> Vec<u8> {
-        assert!(self.host.take_request(request));
-        for _ in 0..4 {
-            if let Some(answer) = self.host.answer() {
-                self.host.carry_out();
-                self.scan_host();
-                return answer;
-            }
-            self.scan_host();
-        }
-        panic!("no answer to {request:02X?}");
+        exchange_on_host(&mut self.host, &mut self.now_ms, request).expect("an answer")
     }
 
     /// The answer of both.
