@@ -38,8 +38,8 @@ pub fn now_ms_low() -> u16 {
 /// A moment in time, to the timer's count. Moments repeat after 65 seconds.
 #[derive(Clone, Copy)]
 pub struct Moment {
-    /// The lower half of the clock.
-    pub ms: u16,
+    /// The lower half of the clock, low byte first.
+    pub ms: [u8; 2],
     /// Counts of 4 us in this millisecond.
     pub counts: u8,
 }
@@ -56,7 +56,7 @@ impl Moment {
                 (low, high, TC0::steal().tcnt0().read().bits(), tick.read_volatile())
             };
             if low == again {
-                return Moment { ms: u16::from_le_bytes([low, high]), counts };
+                return Moment { ms: [low, high], counts };
             }
         }
     }

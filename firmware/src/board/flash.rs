@@ -142,12 +142,10 @@ fn module_start(table: u16) -> u16 {
 fn is_known(number: u8, table: u16) -> bool {
     let distance = word(table.wrapping_sub(4));
     let start = table.wrapping_sub(distance);
+    // Functions and controllers call the module of reals, and all call that of operands.
+    let called = if matches!(number, FUNCTION_MODULE | PID_MODULE) { REAL_MODULE } else { OPERANDS_MODULE };
     // The jump table is where the module itself says, which is what the checksum is of.
-    if word(start) != distance || !is_used(OPERANDS_MODULE) {
-        return false;
-    }
-    // Functions and controllers call the module of reals.
-    if matches!(number, FUNCTION_MODULE | PID_MODULE) && !is_used(REAL_MODULE) {
+    if word(start) != distance || !is_used(called) {
         return false;
     }
     let mut crc = Crc32::new();

@@ -26,18 +26,17 @@ pub fn paint() {
 
 #[inline(always)]
 fn stack_pointer() -> usize {
-    let (low, high): (u8, u8);
+    let here: u16;
     // SAFETY: reads two registers.
     unsafe {
         core::arch::asm!(
-            "in {low}, 0x3D",
-            "in {high}, 0x3E",
-            low = out(reg) low,
-            high = out(reg) high,
+            "in {here:l}, 0x3D",
+            "in {here:h}, 0x3E",
+            here = out(reg_pair) here,
             options(nomem, nostack, preserves_flags)
         );
     }
-    usize::from(u16::from_le_bytes([low, high]))
+    here.into()
 }
 
 /// Bytes that the stack has never used.

@@ -218,7 +218,7 @@ unsafe extern "C" {
     fn line_clear_forces();
     fn uno200_tell_forces();
     fn line_count_scan();
-    fn line_enter_scan(ms: u16, counts: u8);
+    fn line_enter_scan(ms_low: u8, ms_high: u8, counts: u8);
 }
 
 /// The state. Only the main program uses it, never while the assembly runs.
@@ -390,5 +390,5 @@ pub fn count_scan() {
 #[inline(always)]
 pub fn enter_scan(start: Moment) {
     // SAFETY: the assembly writes the times of scans and, for a trace, data memory behind the frame.
-    unsafe { line_enter_scan(start.ms, start.counts) }
+    unsafe { line_enter_scan(start.ms[0], start.ms[1], start.counts) }
 }

@@ -36,19 +36,20 @@ line_count_scan:
     brne 1b
 2:  ret
 
-; A scan is over that began in millisecond r24, r25 at timer count r22. No scan takes longer than three bytes hold.
+; A scan is over that began in millisecond r24, r22 at timer count r20. No scan takes longer than three bytes hold.
     .global line_enter_scan
 line_enter_scan:
     lds r18, UNO200_TICK
     lds r19, UNO200_TICK + 1
-    in r20, TCNT0
+    in r25, TCNT0
     ; Neither the clock nor the timer may have gone on between.
     lds r21, UNO200_TICK
     cp r18, r21
     brne line_enter_scan
     sub r18, r24
-    sbc r19, r25
-    sub r20, r22
+    sbc r19, r22
+    sub r25, r20
+    mov r20, r25
     sbc r21, r21
     ldi r23, COUNTS_PER_MS
     mul r18, r23

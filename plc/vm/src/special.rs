@@ -51,7 +51,7 @@ pub(crate) fn write_no_scan_time(memory: &mut Memory) {
     memory.bytes_mut()[SMW22_LAST..SMW24_MIN + 2].copy_from_slice(&[0; 4]);
 }
 
-/// Enters the time from one scan start to the next; `first` when it is the first since RUN.
+/// Enters the time from one scan start to the next; `first` when it is the first since RUN, when all are 0.
 pub(crate) fn write_scan_time(memory: &mut Memory, passed_ms: u16, first: bool) {
     let [high, low] = passed_ms.min(i16::MAX as u16).to_be_bytes();
     let bytes = memory.bytes_mut();
@@ -59,7 +59,7 @@ pub(crate) fn write_scan_time(memory: &mut Memory, passed_ms: u16, first: bool) 
     if first || (high, low) < (bytes[SMW24_MIN], bytes[SMW24_MIN + 1]) {
         [bytes[SMW24_MIN], bytes[SMW24_MIN + 1]] = [high, low];
     }
-    if first || (high, low) > (bytes[SMW26_MAX], bytes[SMW26_MAX + 1]) {
+    if (high, low) > (bytes[SMW26_MAX], bytes[SMW26_MAX + 1]) {
         [bytes[SMW26_MAX], bytes[SMW26_MAX + 1]] = [high, low];
     }
 }
