@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use plc_isa::{
-    Bit, CRC_LEN, Crc32, DIRECTORY_AT, Encoded, HEADER_LEN, Header, Kind, LABEL_LEN, MODULE_NAMES, MODULES,
-    NAME_LEN_MAX, Op, Operand, ROUTINE_LEN, SLOT_LEN, SLOT_START, TimerResolution, timer_resolution,
+    APPROACH_LEN, Bit, CRC_LEN, Crc32, DIRECTORY_AT, Encoded, HEADER_LEN, Header, Kind, LABEL_LEN, MODULE_NAMES,
+    MODULES, NAME_LEN_MAX, Op, Operand, ROUTINE_LEN, SLOT_LEN, SLOT_START, TimerResolution, timer_resolution,
 };
 
 use crate::address::Address;
@@ -238,6 +238,8 @@ struct Encoder<'a> {
     /// The S bit of the segment, as an operand.
     segment: Option<Operand>,
     has_interrupts: bool,
+    /// Where a status window was looked for last, or the unit begins.
+    approached_at: usize,
 }
 
 impl<'a> Encoder<'a> {
@@ -258,6 +260,7 @@ impl<'a> Encoder<'a> {
             open_call: None,
             segment: None,
             has_interrupts: checked.units.has_interrupts(),
+            approached_at: 0,
         }
     }
 
@@ -268,6 +271,7 @@ impl<'a> Encoder<'a> {
             let offset = (self.image.len() as u16).to_le_bytes();
             self.patch(usize::from(entry), offset);
         }
+        self.approached_at = self.image.len();
         let mut before = None;
         for index in part.code.clone() {
             self.instruction(part, index, before);
@@ -315,8 +319,26 @@ impl<'a> Encoder<'a> {
         for (op, number) in self.checked.demand.takeover.behind(selected) {
             self.push(op, number.map(Operand::Number).as_slice());
         }
+        let hidden_len = hidden_len + self.approach(start);
         let len = (self.image.len() - start) as u8;
         self.lines[index] = Line { at: start as u32, len, hidden_len: hidden_len as u8 };
+    }
+
+    /// Lets the program look for a status window before the instruction that begins here, when the next one would be too
+    /// far from the last look. Returns by how many bytes it has moved.
+    fn approach(&mut self, start: usize) -> usize {
+        if self.image.len() - self.approached_at <= usize::from(APPROACH_LEN) {
+            return 0;
+        }
+        let instruction = self.image.split_off(start);
+        self.push(Op::Approach, &[]);
+        self.approached_at = start;
+        let len = self.image.len() - start;
+        self.image.extend(instruction);
+        if let Some((at, _)) = self.open_call.as_mut().filter(|(at, _)| *at > start) {
+            *at += len;
+        }
+        len
     }
 
     /// The offset behind a call with parameters is known when another statement begins.

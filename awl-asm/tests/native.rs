@@ -8,8 +8,8 @@ use awl_asm::assemble::assemble;
 use awl_asm::native::{Options, TranslateError, Translated, translate, translate_with};
 use awl_asm::source::Source;
 use plc_isa::{
-    CRC_LEN, ENTRY_LEN, Header, ImageError, ImageFault, NATIVE_INTERFACE, Op, Operand, ProgramMemory, SLOT_LEN, decode,
-    verify,
+    CRC_LEN, ENTRY_LEN, FORMAT_VERSION, Header, ImageError, ImageFault, NATIVE_INTERFACE, Op, Operand, ProgramMemory,
+    SLOT_LEN, decode, verify,
 };
 
 const PROGRAM: &str = "\
@@ -196,7 +196,9 @@ fn the_command_writes_native_images() {
     assert!(is_said, "{summary}");
     let output = awl_asm(directory.path(), &["p.awl", "--native", "-o", "p.hex"]);
     assert!(output.status.success(), "{}", stderr(&output));
-    assert!(std::fs::read_to_string(at("p.hex")).unwrap().starts_with(":10600000553230300501"));
+    assert!(
+        std::fs::read_to_string(at("p.hex")).unwrap().starts_with(&format!(":1060000055323030{FORMAT_VERSION:02X}01"))
+    );
     let output = awl_asm(directory.path(), &["--disassemble", "p.bin"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(stderr(&output).contains("translated to machine code"), "{}", stderr(&output));

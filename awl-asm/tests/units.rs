@@ -4,7 +4,7 @@ use awl_asm::assemble::{Assembly, assemble};
 use awl_asm::ast::{UnitId, UnitKind};
 use awl_asm::disassemble::{disassemble, instructions};
 use awl_asm::source::Source;
-use plc_isa::{L_START, Op, verify};
+use plc_isa::{APPROACH_LEN, L_START, Op, verify};
 
 fn assembled(text: &str) -> Assembly {
     let assembly = assemble(&Source::new("units.awl", text).expect("a text"), Vec::new());
@@ -206,4 +206,32 @@ fn memory_that_only_the_running_program_knows_takes_the_rest() {
     assert_eq!(demand("LD SM0.0\nMOVW *VD0, VW4000\n").v_ranges, [(0, 449), (4000, 447)]);
     assert_eq!(demand("//# memory VB0-VB99\nLD SM0.0\nMOVW *VD10, VW20\n").v_ranges, [(0, 100)]);
     comes_back("//# memory VB0-VB99\nLD SM0.0\nMOVW *VD10, VW20\n");
+}
+
+#[test]
+fn status_windows_are_looked_for_often_enough_and_not_more_often() {
+    let rungs = "LD T32\nAW>= MW0, 5\nMOVD VD0, VD4\n= Q0.0\nLD I0.0\nLPS\nA I0.1\n= Q0.1\nLPP\nR M0.0, 9\n".repeat(40);
+    let call = "LD I0.3\nCALL Mixer, T37, *AC1, &VB10, 1.5, -5, TRUE, M0.0, MW2, *VD0\n".repeat(9);
+    let text =
+        main_block(&format!("{rungs}LD SM0.0\nCALL SBR8\nFOR VW0, 1, 3\n{call}NEXT\nLD I0.0\nJMP 1\n{rungs}LBL 1"))
+            + &subroutine("Mixer:SBR7", PARAMETERS, &rungs)
+            + &subroutine("short:SBR8", "", "LD I0.0\n= Q0.0");
+    comes_back(&text);
+    let image = image(&text);
+    let program = verify(image.as_slice()).expect("a valid image");
+    let mut looks = Vec::new();
+    for unit in instructions(&program).chunk_by(|a, b| a.unit == b.unit) {
+        let (mut seen, mut count) = (unit[0].at, 0);
+        for line in unit {
+            let distance = line.at - seen;
+            assert!(distance <= APPROACH_LEN, "{:?} at {}", line.decoded.op, line.at);
+            if line.decoded.op == Op::Approach {
+                // The next instruction, with what is hidden around it, would not have ended near enough.
+                assert!(distance > APPROACH_LEN - 25, "at {}", line.at);
+                (seen, count) = (line.at, count + 1);
+            }
+        }
+        looks.push(count);
+    }
+    assert!(looks[0] > 15 && looks[1] > 5 && looks[2] == 0, "{looks:?}");
 }

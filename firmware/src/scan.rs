@@ -1,7 +1,7 @@
 //! The scan: inputs, program, communication, self-test, outputs; and the way between RUN and STOP.
 
 use plc_isa::{CRC_LEN, DATA_START, I_START, ImageError, ImageFault, ProgramMemory, Settings};
-use plc_vm::{Exit, Fault, Mode, Plc};
+use plc_vm::{Fault, Mode, Plc};
 
 use crate::board::clock::Moment;
 use crate::board::data::Data;
@@ -10,7 +10,7 @@ use crate::board::flash::ProgramSlot;
 use crate::board::ports::{self, Ports};
 use crate::board::trace::{self, Mark};
 use crate::board::{Board, analog, clock, fault_memory, serial, stack, takeover, watchdog};
-use crate::engine::{self, link};
+use crate::engine::{self, Left, link};
 use crate::environment::ScanTime;
 use crate::retention::Retention;
 use crate::self_test::SelfTest;
@@ -200,17 +200,17 @@ impl Uno {
         let start_ms = self.plc.time() as u16;
         let mut time = ScanTime::starting(start_ms, self.settings.watchdog_ms);
         let Some(execution) = self.plc.begin_at_set_time(self.data.memory(), &mut time) else { return };
-        let (exit, at) = engine::run(execution);
-        if exit != Exit::End {
-            self.leave(exit, at);
+        let (left, at) = engine::run(execution);
+        if !left.is_at_end() {
+            self.leave(left, at);
         } else if clock::now_ms_low() != start_ms && time.is_over() {
             self.fail_at_end();
         }
     }
 
     #[inline(never)]
-    fn leave(&mut self, exit: Exit, at: u16) {
-        self.plc.finish(exit, at);
+    fn leave(&mut self, left: Left, at: u16) {
+        self.plc.finish(left.exit(), at);
         self.tell();
     }
 
@@ -243,7 +243,10 @@ impl Uno {
     /// While the next period is waited for. A scan that took longer than its period starts at once.
     #[inline(never)]
     fn is_early(&mut self) -> bool {
-        self.look_at_clock();
+        let now_ms = clock::now_ms();
+        if now_ms as u16 != self.plc.time() as u16 {
+            self.tick(now_ms);
+        }
         self.plc.mode() == Mode::Run && !self.is_due()
     }
 

@@ -5,8 +5,8 @@
 use std::collections::BTreeMap;
 
 use awl_asm::disassemble::instructions;
-use plc_isa::{DATA_END, verify};
-use tests::bench_board::{BenchBoard, MS, example, example_text, image};
+use plc_isa::{DATA_END, Op, Program, verify};
+use tests::bench_board::{BenchBoard, MS, example, example_text, firmware, image};
 use tests::link::{Command, UNIT, checksum, frame, identify, run};
 use tests::measure::{Executable, Tier, scans};
 
@@ -241,11 +241,6 @@ fn forces() -> Vec<Request> {
 
 fn others(subject: &Subject, room: u16) -> Vec<Request> {
     let program = verify(subject.image.as_slice()).expect("the assembler's images are good");
-    let entries: Vec<Vec<u8>> = instructions(&program)
-        .iter()
-        .take(usize::from((room - 5) / 10).min(24))
-        .map(|line| [&word(line.at)[..], &reference(DOUBLE_OF_M, 16)].concat())
-        .collect();
     let command = |command: Command| command.pdu().to_vec();
     let mut requests = vec![
         request("43", vec![43, 14, 2, 0]),
@@ -253,7 +248,7 @@ fn others(subject: &Subject, room: u16) -> Vec<Request> {
         request("66 forget", command(Command::ClearFault)),
         request("66 RUN", command(Command::Run)),
         request("66 STOP", command(Command::Stop)),
-        request("69", [vec![69, entries.len() as u8], entries.concat()].concat()),
+        request("69", status(&program, room, 0)),
         request("70 state", vec![70, 0]),
         request("71", vec![71, 0, 0, 0, 64]),
     ];
@@ -264,11 +259,26 @@ fn others(subject: &Subject, room: u16) -> Vec<Request> {
     requests
 }
 
+/// A window of as many instructions as there may be, from one on.
+fn status(program: &Program<&[u8]>, room: u16, first: usize) -> Vec<u8> {
+    let lines = instructions(program).into_iter().skip(first).take(usize::from((room - 5) / 10).min(24));
+    let entries: Vec<Vec<u8>> = lines.map(|line| [&word(line.at)[..], &reference(DOUBLE_OF_M, 16)].concat()).collect();
+    [vec![69, entries.len() as u8], entries.concat()].concat()
+}
+
 /// A trace of as many operands as there may be, with a trigger that does not come.
 fn trace(kind: u8, number: u16) -> Vec<u8> {
     let values = reference(kind, number).repeat(8);
     [&[70, 1, 0, 1, 0, 0, 1][..], &reference(BIT_OF_M, 31), &[8], &values].concat()
 }
+
+/// Networks of short instructions: the more of them lie between two looks for a window, the more steps lead to it.
+const SHORT_NETWORKS: [&str; 4] = [
+    "LD I0.0\n= Q0.0\n",
+    "LD I0.0\nO I0.1\nLD I0.2\nON I0.3\nALD\n= Q0.0\n",
+    "LD I0.0\nLPS\nA I0.1\n= Q0.0\nLRD\nA I0.2\n= Q0.1\nLPP\nA I0.3\n= Q0.2\n",
+    "LD I0.0\nA I0.1\nLD I0.2\nA I0.3\nOLD\nNOT\n= Q0.0\n",
+];
 
 /// A board whose clock stands still: then quiet scans are alike, and what a request adds to one is seen whenever it
 /// comes. What the millisecond has a scan do comes on top of both.
@@ -310,6 +320,34 @@ impl Bench {
         (heard[1..heard.len() - 2].to_vec(), longest)
     }
 
+    fn line_state(&self) -> u8 {
+        let rtu = firmware().elf.data_symbol("RTU").expect("the firmware has a line");
+        self.board.avr.data()[usize::from(rtu)]
+    }
+
+    /// How many cycles longer than a quiet scan the longest is while an answer is made. What characters take that come
+    /// and go is left out: of long scans it is more, the longer they are.
+    fn work(&mut self, pdu: &[u8]) -> u64 {
+        let quiet = (0..3).map(|_| self.scan()).max().unwrap_or(0);
+        self.board.say(&frame(UNIT, pdu));
+        while self.line_state() < RECEIVING {
+            self.scan();
+        }
+        while self.line_state() == RECEIVING {
+            self.scan();
+        }
+        let mut longest = 0;
+        while self.line_state() < ANSWERING {
+            longest = longest.max(self.scan());
+        }
+        while self.line_state() >= ANSWERING {
+            self.scan();
+        }
+        let heard = self.board.avr.uart_take();
+        assert_eq!(heard.get(1), pdu.first(), "{pdu:02X?}: {heard:02X?}");
+        longest.saturating_sub(quiet)
+    }
+
     /// How many cycles longer than a quiet scan the longest is with this request, at several moments of a scan.
     fn cost(&mut self, request: &Request) -> u64 {
         let mut most = 0;
@@ -332,6 +370,10 @@ impl Bench {
         most
     }
 }
+
+/// States of the line: a request comes in, and from here on an answer goes out.
+const RECEIVING: u8 = 2;
+const ANSWERING: u8 = 12;
 
 /// How often each request is asked.
 const ROUNDS: u64 = 16;
@@ -358,6 +400,28 @@ fn no_function_makes_a_scan_much_longer() {
     let longest = table.iter().filter_map(|((_, name), columns)| Some((*name, columns.iter().flatten().max()?)));
     let too_long: Vec<_> = longest.filter(|&(_, &cycles)| cycles > LONGER_MAX).collect();
     assert!(too_long.is_empty(), "cycles by which scans are longer: {too_long:?}");
+}
+
+/// The hardest are those before which the board has looked for one long ago, in instructions.
+#[test]
+fn a_window_makes_a_scan_no_longer_wherever_it_is() {
+    for network in SHORT_NETWORKS {
+        // All but some hundred bytes of the slot.
+        let image = image(&network.repeat(3_300 / network.lines().count()));
+        let program = verify(image.as_slice()).expect("the assembler's images are good");
+        let looks = program.instructions().filter(|(_, decoded)| decoded.op == Op::Approach).map(|(at, _)| at);
+        let looks: Vec<u16> = looks.collect();
+        let lines = instructions(&program);
+        let before = |look: u16| lines.partition_point(|line| line.at < look) - 1;
+        let mut bench = Bench::new(&image);
+        let room = identify(&mut bench.board).room;
+        let mut cost = |first| bench.work(&status(&program, room, first));
+        let firsts = [looks[0], looks[1], looks[looks.len() / 2], looks[looks.len() - 2]].map(before);
+        let costs = firsts.map(&mut cost);
+        let us = costs.map(|cycles| format!("{:.1}", cycles as f64 / US as f64));
+        println!("{} instructions: a window behind {firsts:?} of them takes {us:?} us of a scan", lines.len());
+        assert!(costs.into_iter().all(|cycles| cycles <= LONGER_MAX), "{network}");
+    }
 }
 
 #[test]

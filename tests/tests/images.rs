@@ -81,7 +81,8 @@ fn faults_of_the_header() {
     assert_eq!(fault_with(4, &[2]), Some(ImageFault::Version), "before modules with a state");
     assert_eq!(fault_with(4, &[3]), Some(ImageFault::Version), "before settings of the serial line");
     assert_eq!(fault_with(4, &[4]), Some(ImageFault::Version), "with lengths of V ranges");
-    assert_eq!(fault_with(4, &[6]), Some(ImageFault::Version));
+    assert_eq!(fault_with(4, &[5]), Some(ImageFault::Version), "without looks for status windows");
+    assert_eq!(fault_with(4, &[7]), Some(ImageFault::Version));
     assert_eq!(fault_with(5, &[1]), Some(ImageFault::Interface), "machine code, on the host");
     assert_eq!(fault_with(29, &[7]), Some(ImageFault::Settings));
     assert_eq!(fault_with(8, &[0xFF, 0xFF]), Some(ImageFault::Length), "code longer than the image");

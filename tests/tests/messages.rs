@@ -144,11 +144,12 @@ fn diagnostics(text: String) -> Vec<(Code, usize, String)> {
 
 #[test]
 fn a_program_that_is_too_large() {
-    // Header 68 bytes, name 4, `LD` and `=` 2 each, end of program 1, checksum 4: 7680 bytes hold 3801 of them.
+    // Header 68 bytes, name 4, `LD` and `=` 2 each, 50 looks for a status window of 1, end of program 1, checksum 4: 7680
+    // bytes hold 3776 of them.
     let program = |lines: usize| "LD I0.0\n".to_string() + &"= M0.0\n".repeat(lines - 1);
-    assert_eq!(diagnostics(program(3801)), []);
-    let [(code, line, message)] = &diagnostics(program(3803))[..] else { panic!("one error") };
-    assert_eq!((*code, *line), (Code::ProgramTooLarge, 3802));
+    assert_eq!(diagnostics(program(3776)), []);
+    let [(code, line, message)] = &diagnostics(program(3778))[..] else { panic!("one error") };
+    assert_eq!((*code, *line), (Code::ProgramTooLarge, 3777));
     assert!(message.contains("7683 bytes") && message.contains("7680"), "{message}");
 }
 

@@ -66,7 +66,7 @@ fn exchanged_instructions_break_a_case() {
 fn mean_the_same(row: &Row, other: &Row) -> bool {
     let is_in = |ops: &[Op]| ops.contains(&row.instruction.op) && ops.contains(&other.instruction.op);
     let returns = is_in(&[Op::Cret, Op::Creti]);
-    let idle = is_in(&[Op::Scre, Op::Refresh, Op::Poll]) && row.instruction.op != Op::Poll;
+    let idle = is_in(&[Op::Scre, Op::Refresh, Op::Poll, Op::Approach]) && row.instruction.op != Op::Poll;
     is_in(&[Op::Movd, Op::Movr]) || is_in(&[Op::A, Op::ScrAnd]) || returns || idle
 }
 

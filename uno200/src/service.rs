@@ -25,6 +25,19 @@ pub const TRACE_MAX: usize = protocol::TRACE_MAX as usize;
 /// Most forced operands.
 pub const FORCE_MAX: usize = protocol::FORCES_MAX as usize;
 
+/// Divides instructions, which ascend, into status windows: at most `most` in each, and near enough to each other.
+pub fn windows(mut instructions: &[(u16, Reference)], most: usize) -> Vec<&[(u16, Reference)]> {
+    let mut windows = Vec::new();
+    while let Some(&(first, _)) = instructions.first() {
+        let near = |&&(offset, _): &&(u16, Reference)| offset.saturating_sub(first) < protocol::STATUS_SPAN;
+        let len = instructions.iter().take(most.clamp(1, STATUS_MAX)).take_while(near).count();
+        let (window, rest) = instructions.split_at(len);
+        windows.push(window);
+        instructions = rest;
+    }
+    windows
+}
+
 /// What the PLC says about itself.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Identity {
@@ -318,8 +331,8 @@ impl Client {
         Ok(entries.map(|e| Forced { reference: Reference([e[0], e[1], e[2]]), value: raw(&e[3..]) }).collect())
     }
 
-    /// What up to [`STATUS_MAX`] instructions do in the next scan: offsets in the image, ascending, each with the
-    /// operand whose value is wanted, or [`Reference::NONE`].
+    /// What up to [`STATUS_MAX`] instructions do in the next scan: offsets in the image, ascending and near each other as
+    /// in [`windows`], each with the operand whose value is wanted, or [`Reference::NONE`].
     pub fn status(&mut self, instructions: &[(u16, Reference)]) -> Result<Status, Error> {
         let mut request = vec![STATUS, count(instructions.len(), STATUS_MAX, "instructions in a status window")?];
         for (offset, reference) in instructions {
@@ -463,5 +476,23 @@ impl<'a> Fields<'a> {
 
     fn four(&mut self) -> Result<[u8; 4], Error> {
         self.double().map(u32::to_be_bytes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn windows_are_neither_too_large_nor_too_wide() {
+        let at = |offsets: &[u16]| offsets.iter().map(|&offset| (offset, Reference::NONE)).collect::<Vec<_>>();
+        let lens =
+            |offsets: &[u16], most| windows(&at(offsets), most).iter().map(|window| window.len()).collect::<Vec<_>>();
+        let close: Vec<u16> = (0..61).map(|index| 100 + 2 * index).collect();
+        assert_eq!(lens(&close, 24), [24, 24, 13]);
+        assert_eq!(lens(&close, 100), [24, 24, 13]);
+        assert_eq!(lens(&close[..3], 0), [1, 1, 1]);
+        assert_eq!(lens(&[0, 511, 512, 513, 2_000], 24), [2, 2, 1]);
+        assert!(lens(&[], 24).is_empty());
     }
 }

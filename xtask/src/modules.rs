@@ -13,9 +13,9 @@ use std::process::Command;
 use anyhow::{Context, Result, bail, ensure};
 use plc_isa::{
     AC_START, AIW_START, AQW_START, ARENA_START, COUNTER_SLOT_LEN, COUNTERS_MODULE, DATA_END, DATA_START, DIRECTORY_AT,
-    ENO, EVENTS_MODULE, EVENTS_SEEN, FORCED, FREEPORT_MODULE, HC0, HC3, HEADER_LEN, Instruction, MODULE_NAMES,
-    OPERANDS_MODULE, PULSES_MODULE, PowerFlow, REAL_MODULE, SLOT_START, SM_IN_V, SM_START, TIMER_SLOT_LEN,
-    kind_numbers, module_instructions, packed_stack, state_at,
+    ENO, EVENTS_MODULE, EVENTS_SEEN, FORCED, FREEPORT_MODULE, HC0, HC3, HEADER_LEN, Instruction, JUMP_TABLE,
+    MODULE_NAMES, OPERANDS_MODULE, PULSES_MODULE, PowerFlow, REAL_MODULE, SLOT_START, SM_IN_V, SM_START,
+    TIMER_SLOT_LEN, kind_numbers, module_instructions, packed_stack, state_at,
 };
 
 use crate::packages;
@@ -122,8 +122,9 @@ fn text(number: u8, source: &Path) -> Result<String> {
 }
 
 /// Constants of interface.inc that plc-isa has, too.
-fn shared() -> [(&'static str, u16); 25] {
+fn shared() -> [(&'static str, u16); 26] {
     [
+        ("JUMP_TABLE", JUMP_TABLE),
         ("DATA_START", DATA_START),
         ("DATA_END", DATA_END),
         ("ARENA_START", ARENA_START),

@@ -12,7 +12,7 @@ use super::{Ways, is_fast, typical};
 use crate::native::Cycles;
 
 /// From entering the engine to the first instruction; the way out belongs to what leaves the program.
-pub const START: u32 = 44;
+pub const START: u32 = 43;
 
 /// When a millisecond has passed, the next jump back asks the watchdog and the next timer of 1 ms advances all of them,
 /// which looks at each timer of the program.
@@ -187,15 +187,16 @@ const TABLE: &[Entry] = &[
     (Op::Ctd, &[CounterSlot, Word], [130, 133], [118, 118], [0, 0]),
     (Op::Ctud, &[CounterSlot, IntConst], [124, 126], [110, 110], [0, 0]),
     (Op::Ctud, &[CounterSlot, Word], [133, 135], [119, 119], [0, 0]),
-    (Op::For, &[WordOut, AnyInt, AnyInt, LoopEnd], [0, 0], [78, 80], [28, 87]),
-    (Op::Next, &[LoopStart, Here], [74, 81], [74, 81], [80, 87]),
-    (Op::Jmp, &[LabelIndex, Here], [16, 16], [35, 35], [35, 42]),
+    (Op::For, &[WordOut, AnyInt, AnyInt, LoopEnd], [0, 0], [78, 80], [33, 92]),
+    (Op::Next, &[LoopStart, Here], [74, 81], [74, 81], [83, 90]),
+    (Op::Jmp, &[LabelIndex, Here], [16, 16], [39, 39], [39, 44]),
     (Op::Lbl, &[LabelNumber], [13, 13], [13, 13], [0, 0]),
-    (Op::End, &[], [14, 14], [0, 0], [30, 30]),
-    (Op::Stop, &[], [14, 14], [0, 0], [40, 40]),
+    (Op::End, &[], [14, 14], [0, 0], [29, 29]),
+    (Op::Stop, &[], [14, 14], [0, 0], [42, 42]),
     (Op::Wdr, &[], [19, 19], [49, 49], [0, 0]),
     (Op::Refresh, &[], [76, 76], [76, 76], [0, 0]),
-    (Op::MainEnd, &[], [0, 0], [0, 0], [28, 28]),
+    (Op::Approach, &[], [18, 18], [18, 18], [0, 0]),
+    (Op::MainEnd, &[], [0, 0], [0, 0], [27, 27]),
 ];
 
 #[cfg(test)]

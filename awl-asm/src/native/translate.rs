@@ -229,7 +229,7 @@ impl<'a> Translator<'a> {
             (Op::ScrAnd, &[Operand::Bit(scr)]) => self.contact(Combine::And, scr, true),
             (Op::Scrt, &[Operand::Bit(bit), Operand::Bit(own)]) => self.scr_transition(bit, own),
             (Op::Cscre, &[Operand::Bit(scr)]) => self.conditional_scr_end(scr),
-            (Op::Scre, _) => {}
+            (Op::Scre | Op::Approach, _) => {}
             (Op::Poll, _) => self.poll(),
             (Op::Aeno, &[Operand::Number(errors)]) => self.and_eno(errors),
             _ => self.by_bytecode(decoded),

@@ -61,7 +61,7 @@ pub fn piece(instruction: &[u8]) -> Vec<u8> {
 }
 
 /// From the vector to the handler, and back through the end of the program behind the instruction.
-pub const BYTECODE: Cycles = Cycles::exactly(59);
+pub const BYTECODE: Cycles = Cycles::exactly(62);
 
 /// Cycles that [`Vector::Bytecode`] takes more for an instruction of a bytecode image, with power flow where it needs that.
 pub fn bytecode_cycles<P: ProgramMemory>(decoded: &Decoded, plan: &Plan<P>, image: &[u8]) -> Cycles {

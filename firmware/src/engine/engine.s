@@ -23,13 +23,17 @@
 ; In the image's table of timers.
 .equ STARTED_BY_TOF, 1
 
-; Entries of a status window: 2 bytes for the offset of the instruction, 2 for the address of the operand with its size in
-; the upper 4 bits, 2 for the logic stack, 4 for what stands at that address. The last one is followed by 0xFFFF.
+; Entries of a status window: 2 bytes for Y at the instruction, 2 for the address of the operand with its size in the upper
+; 4 bits, 2 for the logic stack, 4 for what stands at that address. The stack is SREG, in which bit 7 is set and bit 6 the
+; top, and the levels below. The last entry is followed by 0xFFFF.
 .equ WINDOW_ENTRY_LEN, 10
+.equ WINDOW_Y_LEN, 2
 .equ WINDOW_END, 0xFF
 .equ WINDOW_ADDRESS, 0x0F
-; Becomes bit 15 of the logic stack.
-.equ WINDOW_EXECUTED, 0x40
+; Steps begin no farther before a window. No more bytes lie between two places where the program looks whether they are to.
+.equ WINDOW_APPROACH, APPROACH_LEN + 2
+; A window and the way to it reach over so many pages of 256 bytes at most.
+.equ WINDOW_PAGES, 4
 
 ; ---- dispatch
 
@@ -117,10 +121,24 @@
     BOX_OUT \bad
 .endm
 
-; What all handlers find: the upper byte of the bit page, and that of the table in use beside the token in r2.
+; The program goes step by step no more, or not yet.
+.macro NO_STEPS
+    ldi r24, hi8(TABLE_START / 2)
+    mov r3, r24
+.endm
+
+; What all handlers find: the upper byte of the bit page, and that of their table beside the token in r2.
 .macro FOR_HANDLERS
-    lds r3, CONTEXT + PAGE
+    NO_STEPS
     ldi r27, 1
+.endm
+
+; Goes to `near` when a status window may begin soon behind an address in flash with this upper byte.
+.macro GO_WHERE_NEAR high, near
+    lds r24, CONTEXT + WINDOW_PAGE
+    sub r24, \high
+    cpi r24, WINDOW_PAGES
+    brlo \near
 .endm
 
 ; Behind an instruction of more than two bytes, Z at the next one.
@@ -211,11 +229,11 @@ uno200_vectors:
 .global uno200_run
 uno200_run:
     ENTER
-    movw r28, r24
+    movw r30, r24
     FOR_HANDLERS
     clr r16
     clt
-    rcall next
+    rcall next_z
 finish:
     ldi r24, LEFT_AT_END
 epilogue:
@@ -290,26 +308,17 @@ leave_here:
 
 bytecode_vector:
     PUSH_KEPT
-    movw r28, r30
     FOR_HANDLERS
-    rcall next
+    call landed
     POP_KEPT
-    ret
-
-loop_vector:
-    lds r18, UNO200_TICK
-    lds r19, CONTEXT + TICK
-    ldi r24, 0
-    cpse r18, r19
-    rjmp ask_watchdog
     ret
 
 ; ---- status windows
 
 ; Every instruction of a program that goes step by step comes here, Z in the table of steps. Y is two bytes behind its start.
-; r4, r5: below this Y nothing is looked at; 0: the instruction that was just executed is in the window. r6, r7: the Y of the
-; first one in the window. r10, r11: the data address of the next entry, or of the one that was just executed. r12, r13: of
-; the first. r14, r15: the last Y that was looked at.
+; r4, r5: below this Y nothing is looked at; r5 = 0: the instruction that was just executed is in the window. r6, r7: the Y
+; of the first one in the window. r8, r9: from here on steps lead to it. r10, r11: the data address of the next entry, or of
+; the one that was just executed, behind its Y. r12, r13: of the first. r14, r15: the Y of the last.
 step:
     cp r28, r4
     cpc r29, r5
@@ -317,64 +326,70 @@ step:
 handle:
     ldi r31, hi8(TABLE_START / 2)
     ijmp
-1:  cpse r5, r1
-    rjmp 2f
+1:  movw r20, r28
+    movw r28, r10
+    cpse r5, r1
+    rjmp 3f
     ; The logic stack and the operand right behind the instruction of the window.
-    movw r30, r10
-    ldd r24, Z + 2
-    ldd r25, Z + 3
-    andi r25, WINDOW_ADDRESS
-    mov r18, r16
-    ldi r19, WINDOW_EXECUTED
-    lsl r18
-    rol r19
-    bld r18, 0
-    std Z + 4, r19
-    std Z + 5, r18
-    mov r17, r26
-    movw r26, r24
-    ld r18, X+
-    std Z + 6, r18
-    ld r18, X+
-    std Z + 7, r18
-    ld r18, X+
-    std Z + 8, r18
-    ld r18, X+
-    std Z + 9, r18
-    mov r26, r17
-    ldi r27, 1
-    movw r4, r6
-    adiw r30, WINDOW_ENTRY_LEN
-    ; Which entry this instruction has, if any.
-3:  movw r20, r28
-    subi r20, 2
-    sbci r21, hi8(SLOT_START)
-4:  ld r18, Z
-    ldd r19, Z + 1
+    ld r30, Y+
+    ld r31, Y+
+    andi r31, WINDOW_ADDRESS
+    in r18, SREG
+    st Y+, r18
+    st Y+, r16
+    ld r18, Z
+    st Y+, r18
+    ldd r18, Z + 1
+    st Y+, r18
+    ldd r18, Z + 2
+    st Y+, r18
+    ldd r18, Z + 3
+    st Y+, r18
+    ; Whether the next entry is of this instruction, or one behind it.
+2:  ld r18, Y+
+    ld r19, Y+
     cp r18, r20
     cpc r19, r21
-    breq 6f
-    brsh 5f
-    adiw r30, WINDOW_ENTRY_LEN
-    rjmp 4b
-    ; It is between two entries, or the program has jumped back and may be at an earlier one.
-5:  cp r14, r28
-    cpc r15, r29
-    brlo 7f
-    clr r14
-    clr r15
-    movw r30, r12
-    rjmp 4b
-6:  clr r4
-    clr r5
-7:  movw r14, r28
-    movw r10, r30
+    brne 4f
+    movw r10, r28
+    movw r28, r20
     mov r30, r2
-    cpi r19, WINDOW_END
-    brne handle
-    rjmp behind
-2:  movw r30, r10
+    ldi r31, hi8(TABLE_START / 2)
+    ijmp
+3:  sbiw r28, WINDOW_Y_LEN
+    clr r5
+    rjmp 2b
+4:  brsh 5f
+    adiw r28, WINDOW_ENTRY_LEN - WINDOW_Y_LEN
+    rjmp 2b
+5:  movw r4, r18
+    cp r28, r12
+    cpc r29, r13
+    breq 6f
+    movw r30, r28
+    sbiw r30, WINDOW_ENTRY_LEN + WINDOW_Y_LEN
+    ld r22, Z
+    ldd r23, Z + 1
+    cp r22, r20
+    cpc r23, r21
+    brlo 7f
+    ; The program has jumped back.
+    movw r28, r12
     rjmp 3b
+    ; Before the window, on the way to it or farther.
+6:  cp r20, r8
+    cpc r21, r9
+    brlo 8f
+    rjmp 9f
+    ; Between two entries or behind the last one.
+7:  cpi r19, WINDOW_END
+    brne 9f
+    movw r4, r6
+8:  NO_STEPS
+9:  movw r10, r28
+    movw r28, r20
+    mov r30, r2
+    rjmp handle
 
 ; ---- the tables, at multiples of 512 bytes: of a program that goes step by step, and of handlers
 
@@ -440,8 +455,7 @@ module:
 module_done:
     pop r29
     pop r28
-    FOR_HANDLERS
-    rjmp next
+    rjmp next_x
 ; r24: 1 for an illegal pointer, 2 for an illegal real, 0 for a routine that the module does not have.
 module_fault:
     subi r24, lo8(-(LEFT_BY_UNDEFINED))
@@ -449,14 +463,13 @@ module_fault:
 
 ; ---- the rest of the dispatch
 
-; Behind the window, in the main program, only a jump back leads to it.
-behind:
-    lds r18, CONTEXT + DEPTH
-    cpse r18, r1
-    rjmp handle
-    ldi r31, hi8(TABLE_START / 2)
-    mov r3, r31
-    ijmp
+loop_vector:
+    lds r18, UNO200_TICK
+    lds r19, CONTEXT + TICK
+    ldi r24, 0
+    cpse r18, r19
+    rjmp ask_watchdog
+    ret
 
 stop_vector:
     ldi r24, LEFT_BY_STOP
@@ -1004,66 +1017,6 @@ write_bits:
     adc r31, r1
 .endm
 
-timer_word:
-    PRESET_WORD
-    rjmp place_timer
-timer_constant:
-    PRESET_CONSTANT
-
-; Timer in slot r26: X slot, Z byte of its bit, r18 mask of its bit, r19 bit 0: counts in 100 ms.
-place_timer:
-    TIMER_ENTRY
-    lpm r20, Z
-    SLOT_ADDRESS TIMERS_START, TIMER_SLOT_LEN
-    cpi r27, hi8(DATA_END)
-    brsh slot_outside
-    ldi r19, 1
-    ldi r21, lo8(T_BITS_START)
-    cpi r20, 101
-    brsh place_bit
-    mov r18, r20
-    andi r18, 31
-    breq 1f
-    cpi r18, 5
-    brsh place_bit
-    ldi r19, 0
-
-; Bit r20 of the bytes from r21 of the bit page on: byte Z, mask r18.
-place_bit:
-    ldi r18, 1
-    sbrc r20, 1
-    ldi r18, 4
-    sbrc r20, 0
-    lsl r18
-    sbrc r20, 2
-    swap r18
-    lsr r20
-    lsr r20
-    lsr r20
-    add r20, r21
-    mov r30, r20
-    ldi r31, 1
-    ret
-slot_outside:
-    jmp outside
-; A timer of 1 ms is brought up to date first.
-1:  bld r17, 0
-    push r20
-    push r24
-    push r25
-    push r26
-    push r27
-    call uno200_refresh_timers
-    pop r27
-    pop r26
-    pop r25
-    pop r24
-    pop r20
-    bst r17, 0
-    ldi r19, 0
-    ldi r21, lo8(T_BITS_START)
-    rjmp place_bit
-
 ; void uno200_advance_timers(u8 is_10_ms, u16 ticks): the running timers of 1 ms or 10 ms count on.
 .global uno200_advance_timers
 uno200_advance_timers:
@@ -1121,6 +1074,67 @@ look_timer_up:
     lpm r19, Z
     ret
 
+timer_word:
+    PRESET_WORD
+    rjmp place_timer
+timer_constant:
+    PRESET_CONSTANT
+
+; Timer in slot r26: X slot, Z byte of its bit, r18 mask of its bit, r19 bit 0: counts in 100 ms.
+place_timer:
+    TIMER_ENTRY
+    lpm r20, Z
+    SLOT_ADDRESS TIMERS_START, TIMER_SLOT_LEN
+    cpi r27, hi8(DATA_END)
+    brsh outside_afar
+    ldi r19, 1
+    ldi r21, lo8(T_BITS_START)
+    cpi r20, 101
+    brsh place_bit
+    mov r18, r20
+    andi r18, 31
+    breq 1f
+    cpi r18, 5
+    brsh place_bit
+    ldi r19, 0
+
+; Bit r20 of the bytes from r21 of the bit page on: byte Z, mask r18.
+place_bit:
+    ldi r18, 1
+    sbrc r20, 1
+    ldi r18, 4
+    sbrc r20, 0
+    lsl r18
+    sbrc r20, 2
+    swap r18
+    lsr r20
+    lsr r20
+    lsr r20
+    add r20, r21
+    mov r30, r20
+    ldi r31, 1
+    ret
+; Reached by short jumps from far behind the tables.
+outside_afar:
+    jmp outside
+; A timer of 1 ms is brought up to date first.
+1:  bld r17, 0
+    push r20
+    push r24
+    push r25
+    push r26
+    push r27
+    call uno200_refresh_timers
+    pop r27
+    pop r26
+    pop r25
+    pop r24
+    pop r20
+    bst r17, 0
+    ldi r19, 0
+    ldi r21, lo8(T_BITS_START)
+    rjmp place_bit
+
 counter_word:
     PRESET_WORD
     rjmp place_counter
@@ -1141,7 +1155,7 @@ place_counter:
     lsl r19
     ldi r21, lo8(C_BITS_START)
     rjmp place_bit
-2:  jmp outside
+2:  rjmp outside_afar
 
 ; ---- comparisons that are small rather than fast
 
@@ -1277,7 +1291,7 @@ word_box:
 constant_box:
     CONSTANT_BOX 1f
     ret
-1:  jmp outside
+1:  rjmp outside_afar
 
 ; OUT := OUT * IN1, of 32 bits in r18 to r21.
 multiply:
@@ -1355,24 +1369,32 @@ divide:
 
 ; ---- status windows: their beginning
 
-; Goes through the bytecode at r20 and r21 step by step: machine code like that of a native program, so that r4 to r15 are
-; free. r22 and r23: the data address of the window's first entry.
+; Executes the bytecode at r20 and r21, step by step where a status window is: machine code like that of a native program,
+; so that r4 to r15 are free. r22 and r23: the data address of the window's first entry. Before it stands what the last one
+; begins with.
 .global uno200_steps
 uno200_steps:
     movw r30, r22
-    movw r12, r22
-    movw r10, r22
-    ld r18, Z
-    ldd r19, Z + 1
-    subi r18, lo8(-(SLOT_START + 2))
-    sbci r19, hi8(-(SLOT_START + 2))
-    movw r6, r18
-    movw r4, r18
-    movw r28, r20
+    sbiw r30, WINDOW_Y_LEN
+    ld r14, Z+
+    ld r15, Z+
+    ld r4, Z+
+    ld r5, Z+
+    movw r12, r30
+    movw r10, r30
+    movw r6, r4
+    movw r18, r4
+    subi r18, lo8(WINDOW_APPROACH)
+    sbci r19, hi8(WINDOW_APPROACH)
+    movw r8, r18
+    sts CONTEXT + WINDOW_PAGE, r15
     FOR_HANDLERS
     clr r16
-    call next
-    ; The end of the program is reached: what was executed last may have to be entered, and the end comes once more.
+    movw r30, r20
+    call landed
+    ; The end of the program is reached. When what was executed last is to be entered, the end comes once more.
+    cpse r5, r1
+    ret
     ldi r29, 0xFF
     jmp step
 

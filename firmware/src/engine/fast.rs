@@ -49,8 +49,8 @@ struct Context {
     tick: u8,
     /// How many routines are being executed.
     depth: u8,
-    /// The upper byte of the word address of the jump table in use.
-    page: u8,
+    /// The upper byte of where the last instruction of a status window is in flash; 0: there is none in this scan.
+    window_page: u8,
 }
 
 static mut CONTEXT: Context = Context {
@@ -65,7 +65,7 @@ static mut CONTEXT: Context = Context {
     stack: 0,
     tick: 0,
     depth: 0,
-    page: 0,
+    window_page: 0,
 };
 
 /// What the module for the clock keeps of the time of day; 0 until it is set.
@@ -73,9 +73,6 @@ static mut TIME_OF_DAY: [u8; 10] = [0; 10];
 
 /// The execution that the assembly is in.
 static mut EXECUTION: *mut Execution<'static> = ptr::null_mut();
-
-/// The upper byte of the word address of the jump table. In front of it lies that for steps.
-const PAGE: u8 = 2;
 
 const LEFT_AT_END: u8 = 0;
 const LEFT_BY_STOP: u8 = 1;
@@ -114,7 +111,7 @@ global_asm!(
     ".equ LEFT_AT, {left_at}",
     ".equ STACK, {stack}",
     ".equ TICK, {tick}",
-    ".equ PAGE, {page}",
+    ".equ WINDOW_PAGE, {window_page}",
     ".equ LEFT_AT_END, {at_end}",
     ".equ LEFT_BY_STOP, {by_stop}",
     ".equ LEFT_BY_WATCHDOG, {by_watchdog}",
@@ -150,7 +147,7 @@ global_asm!(
     left_at = const offset_of!(Context, left_at),
     stack = const offset_of!(Context, stack),
     tick = const offset_of!(Context, tick),
-    page = const offset_of!(Context, page),
+    window_page = const offset_of!(Context, window_page),
     at_end = const LEFT_AT_END,
     by_stop = const LEFT_BY_STOP,
     by_watchdog = const LEFT_BY_WATCHDOG,
@@ -175,10 +172,35 @@ pub fn advance_timers(resolution: TimerResolution, ticks: u16) {
     unsafe { uno200_advance_timers(u8::from(resolution == TimerResolution::Ms10), ticks) }
 }
 
-/// Executes the program. Returns why it was left, and the offset of the instruction that left it. `window` is the data
-/// address of the first entry of a status window, which is filled in; 0: there is none. Native programs leave it alone.
+/// Why the program was left, as the assembly says it.
+#[derive(Clone, Copy)]
+pub struct Left(u8);
+
+impl Left {
+    /// Whether the program came to its end.
+    #[inline(always)]
+    pub fn is_at_end(self) -> bool {
+        self.0 == LEFT_AT_END
+    }
+
+    /// The same in words.
+    #[inline(always)]
+    pub fn exit(self) -> Exit {
+        match self.0 {
+            LEFT_AT_END => Exit::End,
+            LEFT_BY_STOP => Exit::Stop,
+            LEFT_BY_WATCHDOG => Exit::Watchdog,
+            LEFT_BY_POINTER => Exit::ComparedPointer,
+            LEFT_BY_REAL => Exit::ComparedReal,
+            _ => Exit::Undefined,
+        }
+    }
+}
+
+/// Executes the program. Returns why it was left, and the offset of the instruction that left it. A status window that
+/// is to be filled in is; native programs leave it alone.
 #[inline(always)]
-pub fn run(mut execution: Execution<'_>) -> (Exit, u16) {
+pub fn run(mut execution: Execution<'_>) -> (Left, u16) {
     enter(&mut execution);
     // SAFETY: the program has been verified; the assembly reads flash, writes to addresses of the plan, and keeps what
     // the calling convention asks for. Machine code is trusted to do the same: its translator made it from a verified
@@ -195,15 +217,7 @@ pub fn run(mut execution: Execution<'_>) -> (Exit, u16) {
     };
     // SAFETY: the assembly has returned; nothing else uses the context.
     let at = unsafe { (*&raw const CONTEXT).left_at };
-    let exit = match left {
-        LEFT_AT_END => Exit::End,
-        LEFT_BY_STOP => Exit::Stop,
-        LEFT_BY_WATCHDOG => Exit::Watchdog,
-        LEFT_BY_POINTER => Exit::ComparedPointer,
-        LEFT_BY_REAL => Exit::ComparedReal,
-        _ => Exit::Undefined,
-    };
-    (exit, at.wrapping_sub(SLOT_START + 2))
+    (Left(left), at.wrapping_sub(SLOT_START + 2))
 }
 
 /// Executes bytecode step by step.
@@ -214,10 +228,9 @@ pub fn run(mut execution: Execution<'_>) -> (Exit, u16) {
 unsafe fn run_steps(window: u16, address: u16) -> u8 {
     // SAFETY: nothing else uses the context; the steps are machine code that keeps to the interface of native programs.
     unsafe {
-        let context = &raw mut CONTEXT;
-        (*context).page = PAGE - 1;
         let left = uno200_run_steps(uno200_steps as *const () as u16, window, address);
-        (*context).page = PAGE;
+        // The program may have been left before its end.
+        (*&raw mut CONTEXT).window_page = 0;
         left
     }
 }
@@ -231,7 +244,6 @@ fn enter(execution: &mut Execution<'_>) {
         let context = &raw mut CONTEXT;
         if execution.is_first_scan() {
             let entry = execution.program().entry();
-            (*context).page = PAGE;
             (*context).is_native = entry.is_some();
             (*context).start =
                 entry.map_or(SLOT_START + execution.program().code_at(), |entry| (SLOT_START + entry) / 2);

@@ -8,7 +8,8 @@
 ;
 ; At the start of a block: r2 token, X the address of the operand byte in the bit page, Y the address in flash behind
 ; token and operand byte, T the top of the logic stack, r16 the levels below, S1 in bit 0. To keep: Y (or behind more
-; of the instruction), r3, r16, r27 = 1 (next_x restores it), r1 = 0. Free: r0, r2, r17 to r26, r30, r31.
+; of the instruction), r3, r16, r27 = 1 (next_x restores it), r1 = 0. What goes on elsewhere than behind itself does so at
+; `landed`, with the address in Z. Free: r0, r2, r17 to r26, r30, r31.
 
 ; ---- contacts
 
@@ -192,7 +193,7 @@ assign_far:
     lpm r31, Z
     mov r30, r26
     subi r31, hi8(-(SLOT_START))
-    rjmp next_z
+    rjmp landed
 
 % Call Routine Here
     brtc 2f
@@ -219,7 +220,7 @@ assign_far:
     lpm r25, Z
     movw r30, r24
     subi r31, hi8(-(SLOT_START))
-    rjmp next_z
+    rjmp landed
 ; Too deep: SM4.3.
 1:  lds r18, ERROR_BITS
     ori r18, 1 << PROGRAMMING_ERROR
@@ -236,10 +237,10 @@ assign_far:
     brcs 1f
     sts CONTEXT + DEPTH, r18
     pop r16
-    pop r29
-    pop r28
+    pop r31
+    pop r30
     set
-    rjmp next
+    rjmp landed
 ; Flash has changed: nothing was called.
 1:  jmp outside
 
@@ -522,7 +523,155 @@ reset_byte:
     st X, r24
     ldi r27, 1
     NEXT_Z
-3:  jmp outside
+3:  rjmp outside_afar
+
+; ---- program control
+
+% For WordOut AnyInt AnyInt LoopEnd
+    brts 1f
+    adiw r28, 7
+    movw r30, r28
+    rjmp go_to_end
+1:  movw r30, r28
+    mov r18, r26
+    lpm r19, Z+
+    rcall any_int
+    movw r22, r24
+    rcall any_int
+    movw r26, r18
+    rcall check_output
+    st X+, r23
+    st X, r22
+    ldi r27, 1
+    cp r24, r22
+    cpc r25, r23
+    brlt go_to_end
+    adiw r30, 2
+    rjmp next_z
+go_to_end:
+    lpm r24, Z+
+    lpm r25, Z
+    movw r30, r24
+    subi r31, hi8(-(SLOT_START))
+    rjmp landed
+
+% Next LoopStart Here
+    movw r30, r28
+    lpm r27, Z+
+    movw r22, r30
+    movw r30, r26
+    subi r31, hi8(-(SLOT_START))
+    adiw r30, 1
+    lpm r18, Z+
+    lpm r19, Z+
+    adiw r30, 3
+    rcall any_int
+    adiw r30, 2
+    movw r26, r18
+    rcall check_output
+    ld r21, X+
+    ld r20, X
+    set
+    cp r20, r24
+    cpc r21, r25
+    in r0, SREG
+    subi r20, 0xFF
+    sbci r21, 0xFF
+    st X, r20
+    st -X, r21
+    ldi r27, 1
+    sbrc r0, SIGN
+    rjmp go_back
+    movw r30, r22
+    rjmp next_z
+
+% Jmp LabelIndex Here
+    brts 1f
+    rjmp next
+1:  lds r30, LINE + LABELS_IN_FLASH
+    lds r31, LINE + LABELS_IN_FLASH + 1
+    add r30, r26
+    adc r31, r1
+    add r30, r26
+    adc r31, r1
+    lpm r24, Z+
+    lpm r25, Z
+    movw r30, r24
+    subi r31, hi8(-(SLOT_START))
+    cp r30, r28
+    cpc r31, r29
+    brsh landed
+; Goes back to Z as long as the watchdog allows.
+go_back:
+    lds r18, UNO200_TICK
+    lds r19, CONTEXT + TICK
+    cpse r18, r19
+    rjmp 3f
+; Goes on at Z, which need not be behind this instruction: a status window may be there.
+landed:
+    GO_WHERE_NEAR r31, near
+    NEXT_Z
+3:  push r30
+    push r31
+    call uno200_is_overdue
+    pop r31
+    pop r30
+    set
+    ldi r27, 1
+    tst r24
+    breq landed
+    ldi r24, LEFT_BY_WATCHDOG
+leave_afar:
+    jmp leave
+
+% Approach
+    NO_STEPS
+    GO_WHERE_NEAR r29, 1f
+    NEXT_ONE_BYTE
+1:  movw r30, r28
+    sbiw r30, 1
+; The page may be the right one. r4 to r15 are as steps know them, unless changed flash has led here without a window.
+near:
+    lds r24, CONTEXT + WINDOW_PAGE
+    tst r24
+    breq 2f
+    cp r30, r8
+    cpc r31, r9
+    brlo 2f
+    cp r14, r30
+    cpc r15, r31
+    brlo 2f
+    ; The upper byte for the table of steps is the same.
+    mov r3, r27
+    cpse r5, r1
+    movw r4, r6
+2:  rjmp next_z
+
+% End
+    brts end_of_main
+    rjmp next_one_byte
+
+% Stop
+    brts 1f
+    rjmp next_one_byte
+1:  ldi r24, LEFT_BY_STOP
+    rjmp leave_afar
+
+% Wdr
+    sbiw r28, 1
+    brtc 1f
+    call uno200_retrigger_watchdog
+    set
+    rjmp next_x
+1:  rjmp next
+
+; The end of a routine is another, unless flash has changed.
+% MainEnd
+end_of_main:
+    lds r18, CONTEXT + DEPTH
+    cpse r18, r1
+    rjmp outside_afar
+    ret
 
 ; ---- integer arithmetic
 
@@ -540,7 +689,7 @@ reset_byte:
     adc r25, r23
     rjmp write_result
 1:  rjmp skip_3
-2:  jmp outside
+2:  rjmp outside_afar
 
 % SubInt Word WordOut
     brtc 1b
@@ -564,7 +713,7 @@ reset_byte:
     sbci r25, 0xFF
     rjmp write_wrapped
 1:  rjmp skip_1
-2:  jmp outside
+2:  rjmp outside_afar
 
 % Decw WordOut
     brtc 1b
@@ -656,128 +805,3 @@ reset_byte:
     rcall counter_word
     rcall count_up_down
     rjmp next_x
-
-; ---- program control
-
-% For WordOut AnyInt AnyInt LoopEnd
-    brts 1f
-    adiw r28, 7
-    movw r30, r28
-    rjmp go_to_end
-1:  movw r30, r28
-    mov r18, r26
-    lpm r19, Z+
-    rcall any_int
-    movw r22, r24
-    rcall any_int
-    movw r26, r18
-    rcall check_output
-    st X+, r23
-    st X, r22
-    ldi r27, 1
-    cp r24, r22
-    cpc r25, r23
-    brlt go_to_end
-    adiw r30, 2
-    rjmp next_z
-go_to_end:
-    lpm r24, Z+
-    lpm r25, Z
-    movw r30, r24
-    subi r31, hi8(-(SLOT_START))
-    rjmp next_z
-
-% Next LoopStart Here
-    movw r30, r28
-    lpm r27, Z+
-    movw r22, r30
-    movw r30, r26
-    subi r31, hi8(-(SLOT_START))
-    adiw r30, 1
-    lpm r18, Z+
-    lpm r19, Z+
-    adiw r30, 3
-    rcall any_int
-    adiw r30, 2
-    movw r26, r18
-    rcall check_output
-    ld r21, X+
-    ld r20, X
-    set
-    cp r20, r24
-    cpc r21, r25
-    in r0, SREG
-    subi r20, 0xFF
-    sbci r21, 0xFF
-    st X, r20
-    st -X, r21
-    ldi r27, 1
-    sbrc r0, SIGN
-    rjmp go_back
-    movw r30, r22
-    rjmp next_z
-
-% Jmp LabelIndex Here
-    brts 1f
-    rjmp next
-1:  lds r30, LINE + LABELS_IN_FLASH
-    lds r31, LINE + LABELS_IN_FLASH + 1
-    add r30, r26
-    adc r31, r1
-    add r30, r26
-    adc r31, r1
-    lpm r24, Z+
-    lpm r25, Z
-    movw r30, r24
-    subi r31, hi8(-(SLOT_START))
-    cp r30, r28
-    cpc r31, r29
-    brlo go_back
-    rjmp next_z
-; Goes back to Z as long as the watchdog allows.
-go_back:
-    lds r18, UNO200_TICK
-    lds r19, CONTEXT + TICK
-    ; A status window may lie there.
-    lds r3, CONTEXT + PAGE
-    cpse r18, r19
-    rjmp 1f
-    NEXT_Z
-1:  push r30
-    push r31
-    call uno200_is_overdue
-    pop r31
-    pop r30
-    set
-    ldi r27, 1
-    tst r24
-    brne 2f
-    rjmp next_z
-2:  ldi r24, LEFT_BY_WATCHDOG
-    jmp leave
-
-% End
-    brts end_of_main
-    rjmp next_one_byte
-
-% Stop
-    brts 1f
-    rjmp next_one_byte
-1:  ldi r24, LEFT_BY_STOP
-    jmp leave
-
-% Wdr
-    sbiw r28, 1
-    brtc 1f
-    call uno200_retrigger_watchdog
-    set
-    rjmp next_x
-1:  rjmp next
-
-; The end of a routine is another, unless flash has changed.
-% MainEnd
-end_of_main:
-    lds r18, CONTEXT + DEPTH
-    cpse r18, r1
-    jmp outside
-    ret

@@ -5,10 +5,10 @@
 mod fast;
 pub mod link;
 #[cfg(feature = "engine")]
-pub use fast::{HAS_MODULES, NATIVE_INTERFACE, advance_timers, run};
+pub use fast::{HAS_MODULES, Left, NATIVE_INTERFACE, advance_timers, run};
 
 #[cfg(not(feature = "engine"))]
-pub use plain::{HAS_MODULES, LEFT_OUT, NATIVE_INTERFACE, run};
+pub use plain::{HAS_MODULES, LEFT_OUT, Left, NATIVE_INTERFACE, run};
 
 #[cfg(not(feature = "engine"))]
 mod plain {
@@ -26,8 +26,25 @@ mod plain {
     /// There is nothing that machine code could call.
     pub const NATIVE_INTERFACE: u8 = 0;
 
+    /// Why the program was left.
+    #[derive(Clone, Copy)]
+    pub struct Left(Exit);
+
+    impl Left {
+        /// Whether the program came to its end.
+        pub fn is_at_end(self) -> bool {
+            self.0 == Exit::End
+        }
+
+        /// The same in words.
+        pub fn exit(self) -> Exit {
+            self.0
+        }
+    }
+
     /// Executes the program. Returns why it was left, and the offset of the instruction that left it.
-    pub fn run(execution: Interpreter<'_, ProgramSlot, ScanTime>) -> (Exit, u16) {
-        execution.run()
+    pub fn run(execution: Interpreter<'_, ProgramSlot, ScanTime>) -> (Left, u16) {
+        let (exit, at) = execution.run();
+        (Left(exit), at)
     }
 }

@@ -1,7 +1,7 @@
 ; ---- function 69: what the logic stack and operands are right behind some instructions
 
-; The request becomes entries for the engine, from the last to the first, as plc-link/src/status.rs describes them; the
-; engine fills them in, and the answer is made of them.
+; The request becomes entries for the engine, from the last to the first; the engine fills them in, and the answer is made
+; of them. They are those of plc-link/src/status.rs, but for the way the engine knows instructions and stacks.
 .equ FIRST_ENTRY, 3
 .equ ENTRY_LEN, 10
 .equ ENTRIES_MAX, 24
@@ -9,6 +9,10 @@
 .equ NO_OPERAND, 0xFF
 .equ PROGRAM_BITS, 0x0A
 .equ BYTECODE_LOADED, 0x02
+; Instructions lie in the program slot, less than two pages of 256 bytes from the first to the last.
+.equ SPAN_PAGES, 2
+; The engine knows an instruction by an address in flash, two bytes behind its first.
+.equ AT_ENGINE, SLOT_START + 2
 
 status:
     lds r24, PHASE
@@ -23,14 +27,14 @@ status:
     ; A scan has filled them in. The answer is made at the end of the next one.
     ldi r24, READY
     sts PHASE, r24
-    ldd r24, Y+1
-    sts LEFT, r24
     rcall put_scans
     rjmp not_yet
 1:  andi r25, PROGRAM_BITS
     cpi r25, BYTECODE_LOADED
     breq 2f
     rjmp refuse_busy
+wrong_status:
+    rjmp refuse_value
 2:  ldi r24, ENTRIES_MAX
     ldi r25, STATUS_REFERENCE_LEN
     rcall expect_list
@@ -59,6 +63,10 @@ status:
     pop r30
 4:  ldd r23, Z+2
     ldd r22, Z+3
+    cpi r23, hi8(SLOT_LEN)
+    brsh wrong_status
+    subi r22, lo8(-(AT_ENGINE))
+    sbci r23, hi8(-(AT_ENGINE))
     ; Offsets ascend.
     lds r20, LEFT
     rcall behind_entries_of
@@ -89,11 +97,24 @@ arm:
     ldi r24, 0xFF
     std Z+FIRST_ENTRY, r24
     std Z+FIRST_ENTRY+1, r24
-    ldi r24, ARMED
+    sbiw r30, ENTRY_LEN - FIRST_ENTRY
+    ldd r24, Y+1
+    sts LEFT, r24
+    ; The engine finds the last instruction before the entries.
+    ld r24, Z
+    ldd r25, Z+1
+    std Y+FIRST_ENTRY-2, r24
+    std Y+FIRST_ENTRY-1, r25
+    ldd r18, Y+FIRST_ENTRY
+    ldd r19, Y+FIRST_ENTRY+1
+    sub r24, r18
+    sbc r25, r19
+    cpi r25, SPAN_PAGES
+    brlo 1f
+    rjmp wrong_status
+1:  ldi r24, ARMED
     sts PHASE, r24
     rjmp not_yet
-wrong_status:
-    rjmp refuse_value
 
 ; The entries end FIRST_ENTRY bytes behind Z: all, or the first r20.
 behind_entries:
@@ -118,6 +139,12 @@ collect:
     ldd r25, Y+3
     ldd r23, Y+4
     ldd r24, Y+5
+    ; The top of the stack, a bit of SREG, joins its levels.
+    bst r23, 6
+    lsl r24
+    bld r24, 0
+    andi r23, 0x80
+    adc r23, r1
     ldd r18, Y+6
     ldd r19, Y+7
     ldd r20, Y+8

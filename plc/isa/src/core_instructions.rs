@@ -307,6 +307,10 @@ macro_rules! core_instructions {
             Refresh refresh_timers() [] Hidden, needs 0, adds 0, Always {
                 0x6A..=0x6A ();
             }
+            /// Looks whether instructions shortly behind are watched: then the program goes to them step by step.
+            Approach approach() [] Hidden, needs 0, adds 0, Always {
+                0x51..=0x51 ();
+            }
             /// End of the program, behind the last instruction.
             MainEnd main_end() [] Hidden, needs 0, adds 0, Always {
                 0x77..=0x77 ();

@@ -13,7 +13,7 @@ use crate::tokens::{TOKEN_TABLE, TOKEN_TABLE_LEN};
 /// First bytes of every image.
 pub const MAGIC: [u8; 4] = *b"U200";
 /// Version of the image format and of the instruction set it is written in.
-pub const FORMAT_VERSION: u8 = 5;
+pub const FORMAT_VERSION: u8 = 6;
 /// Bytes of the header.
 pub const HEADER_LEN: u16 = DIRECTORY_AT + 2 * MODULES as u16;
 /// Offset of the directory of modules in the header: for each the word address of its jump table in flash, 0 where the

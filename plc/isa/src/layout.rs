@@ -80,6 +80,9 @@ pub const LINE_ROOM: u16 = 64;
 pub const TIMER_SLOT_LEN: u16 = 5;
 /// Arena bytes per counter: current value (2), state (1).
 pub const COUNTER_SLOT_LEN: u16 = 3;
+/// Most bytes of bytecode from the beginning of a unit, or from one instruction that looks for a status window, to the
+/// next: so far the board goes to a window step by step.
+pub const APPROACH_LEN: u16 = 152;
 /// Most edge instructions (EU and ED together) in a program.
 pub const EDGES_MAX: u16 = 256;
 
@@ -93,6 +96,9 @@ pub const SLOT_LEN: u16 = SLOT_END - SLOT_START;
 /// Vectors: routines of the firmware that machine code in the slot calls. Flash address of the first; each takes an
 /// `rjmp`, two bytes. What they do is said in docs/image.md.
 pub const NATIVE_VECTORS: u16 = 0x0068;
+
+/// The engine's jump table: flash address of an `rjmp` for each token.
+pub const JUMP_TABLE: u16 = 0x0400;
 
 /// Digital inputs with a pin on the Uno: I0.0-I0.5 at D2-D7.
 pub const DIGITAL_INPUTS: u8 = 6;

@@ -11,13 +11,13 @@
 //!
 //! Behind the last entry stands the offset 0xFFFF, which no instruction has.
 
-use plc_isa::LogicStack;
+use plc_isa::{LogicStack, SLOT_LEN};
 use plc_vm::{Memory, Mode};
 
 use crate::answer::{Answered, Exception, Request};
 use crate::link::Phase;
 use crate::place::{ANYTHING, Place};
-use crate::protocol::STATUS_MAX;
+use crate::protocol::{STATUS_MAX, STATUS_SPAN};
 use crate::station::Station;
 
 /// Bytes of an entry.
@@ -84,7 +84,8 @@ impl<S: Station> Request<'_, S> {
             let offset = self.word(at);
             let place = if self.byte(at + 2) == NO_OPERAND { Place::NONE } else { self.reference(at + 2, ANYTHING)? };
             let entry = FIRST + ENTRY_LEN as u8 * left;
-            if left + 1 != count && offset >= self.word(entry + ENTRY_LEN as u8).swap_bytes() {
+            let ascends = left + 1 == count || offset < self.word(entry + ENTRY_LEN as u8).swap_bytes();
+            if offset >= SLOT_LEN || !ascends {
                 return Err(Exception::Value);
             }
             self.set_low_first(entry, offset);
@@ -96,6 +97,10 @@ impl<S: Station> Request<'_, S> {
             if !self.station.has_time() {
                 return Ok(0);
             }
+        }
+        let [first, last] = [FIRST, end - ENTRY_LEN as u8].map(|entry| self.word(entry).swap_bytes());
+        if last - first >= STATUS_SPAN {
+            return Err(Exception::Value);
         }
         self.set_word(end, END);
         let link = self.station.link();

@@ -330,7 +330,7 @@ mod tests {
             && !NOT_WRITTEN.contains(&row.instruction.op)
     }
 
-    const NOT_WRITTEN: [Op; 6] = [Op::ScrAnd, Op::CallBegin, Op::BitCopy, Op::Ret, Op::Poll, Op::Aeno];
+    const NOT_WRITTEN: [Op; 7] = [Op::ScrAnd, Op::CallBegin, Op::BitCopy, Op::Ret, Op::Poll, Op::Aeno, Op::Approach];
 
     #[test]
     fn every_form_of_the_core_has_a_row() {

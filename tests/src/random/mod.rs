@@ -8,6 +8,7 @@
 //! Some of V memory is apart, so that comparisons of strings and reals find strings and numbers there: see `values.rs`.
 
 mod constants;
+mod interrupts;
 mod lines;
 mod loops;
 mod offer;
@@ -22,6 +23,7 @@ use fastrand::Rng;
 use plc_isa::{AnalogInput, INSTRUCTIONS, Instruction, Kind, Op, TimerFamily, timer_family};
 
 use crate::naive::Inputs;
+pub use interrupts::random_interrupts;
 pub use offer::Offer;
 use operands::Extent;
 use units::{Local, Subroutine};

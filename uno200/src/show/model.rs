@@ -10,7 +10,7 @@ use plc_isa::{Group, Op, decode, verify};
 
 use super::operands::{Watched, operands};
 use crate::program::Program;
-use crate::service::{Executed, STATUS_MAX};
+use crate::service::Executed;
 
 /// Columns between tab stops.
 const TAB: usize = 8;
@@ -125,14 +125,6 @@ impl Model {
     /// What each row's instruction has done to the power flow, from the answers by offset.
     pub fn power_flow(&self, answers: &HashMap<u16, Executed>) -> Vec<Option<Flow>> {
         self.rows.iter().map(|row| answers.get(&row.instruction()?.offset?).map(Flow::of)).collect()
-    }
-
-    /// The rows with an instruction among the visible ones, by their offsets, in windows of at most `most`.
-    pub fn windows(&self, visible: Range<usize>, most: usize) -> Vec<Vec<usize>> {
-        let offset = |index: usize| self.rows.get(index)?.instruction()?.offset;
-        let mut shown: Vec<usize> = visible.filter(|&index| offset(index).is_some()).collect();
-        shown.sort_by_key(|&index| offset(index));
-        shown.chunks(most.clamp(1, STATUS_MAX)).map(<[usize]>::to_vec).collect()
     }
 }
 
@@ -308,18 +300,5 @@ mod tests {
     fn levels_are_those_of_the_rung() {
         let text = "LD I0.0\nLPS\nA I0.1\n= Q0.0\nLPP\n= Q0.1\nLD I0.2\nLD I0.3\nOLD\n= Q0.2\n";
         assert_eq!(levels(&model(text)), [1, 2, 2, 2, 1, 1, 1, 2, 1, 1]);
-    }
-
-    #[test]
-    fn windows_ascend_and_are_not_too_large() {
-        let text = format!("LD I0.0\n// text\n{}", "= Q0.0\n".repeat(60));
-        let model = model(&text);
-        let windows = model.windows(0..model.rows.len(), 24);
-        assert_eq!(windows.iter().map(Vec::len).collect::<Vec<_>>(), [24, 24, 13]);
-        let all: Vec<u16> =
-            windows.iter().flatten().map(|&row| model.rows[row].instruction().unwrap().offset.unwrap()).collect();
-        assert!(all.is_sorted_by(|a, b| a < b));
-        assert_eq!(model.windows(5..8, 10).concat(), [5, 6, 7]);
-        assert_eq!(model.windows(1..2, 10).len(), 0);
     }
 }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use super::state::{News, Order, Wishes};
 use crate::client::Client;
 use crate::error::Error;
-use crate::service::{Command, Identity, STATUS_MAX, WATCH_MAX};
+use crate::service::{Command, Identity, STATUS_MAX, WATCH_MAX, windows};
 use crate::value::Base;
 
 /// The shortest time from one round of questions to the next.
@@ -115,7 +115,7 @@ impl Poller {
     fn ask(&mut self, answers: &mut Vec<News>, news: &mut Vec<News>) -> Result<(), Error> {
         let wishes = self.wishes.clone();
         let room = self.identity.as_ref().map_or(0, |identity| usize::from(identity.room));
-        for part in wishes.status.chunks(status_max(room)) {
+        for part in windows(&wishes.status, status_max(room)) {
             let status = self.client.status(part)?;
             let offsets = part.iter().map(|&(offset, _)| offset);
             answers.push(News::Status(offsets.zip(status.executed).collect()));

@@ -1,10 +1,11 @@
 //! Power flow of every line, compared with an independent observer of the same scan.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fs;
 
 use plc_isa::{Op, decode};
 use uno200::program::Program;
+use uno200::service::windows;
 use uno200::show::model::{Flow, Model};
 use uno200::{Client, Reference};
 
@@ -13,34 +14,36 @@ use crate::example;
 
 /// Asks for so many windows, and compares each line in them with what the observer saw in that scan. Returns how often
 /// lines were seen with power flow, without, and not executed.
-fn compare(program: &Program, bench: Bench, windows: usize) -> [usize; 3] {
+fn compare(program: &Program, bench: Bench, count: usize) -> [usize; 3] {
     let model = Model::new(program);
     let (bench, mut client): (_, Client) = connect(bench);
     let room = client.identify().unwrap().room;
-    let all = model.windows(0..model.rows.len(), usize::from(room.saturating_sub(4)) / 10);
+    let offsets = model.rows.iter().zip(0..).filter_map(|(line, row)| Some((line.instruction()?.offset?, row)));
+    let rows: BTreeMap<u16, usize> = offsets.collect();
+    let in_image: Vec<_> = rows.keys().map(|&offset| (offset, Reference::NONE)).collect();
+    let all = windows(&in_image, usize::from(room.saturating_sub(4)) / 10);
     let mut seen = [0; 3];
-    for window in all.iter().cycle().take(windows) {
-        let offset = |row: usize| model.rows[row].instruction().unwrap().offset.unwrap();
-        let asked: Vec<_> = window.iter().map(|&row| (offset(row), Reference::NONE)).collect();
-        let status = client.status(&asked).unwrap();
+    for asked in all.iter().cycle().take(count) {
+        let status = client.status(asked).unwrap();
         let answers = asked.iter().map(|&(offset, _)| offset).zip(status.executed.iter().copied());
         let answers: HashMap<u16, _> = answers.collect();
         let flows = model.power_flow(&answers);
         let observed = bench.with(|bench| bench.observed.clone());
-        for &row in window {
-            let expected = match observed.get(&offset(row)) {
+        for (offset, _) in *asked {
+            let row = rows[offset];
+            let expected = match observed.get(offset) {
                 None => Flow::NotExecuted,
                 Some(stack) if stack & 1 == 1 => Flow::On,
                 Some(_) => Flow::Off,
             };
             let line = (row + 1, &model.rows[row].text);
             assert_eq!(flows[row], Some(expected), "{line:?} of {}", model.name);
-            let stack = answers[&offset(row)].stack;
-            assert_eq!(observed.get(&offset(row)).copied().unwrap_or(0), stack, "{line:?} of {}", model.name);
+            let stack = answers[offset].stack;
+            assert_eq!(observed.get(offset).copied().unwrap_or(0), stack, "{line:?} of {}", model.name);
             seen[expected as usize] += 1;
         }
         // Rows that were not asked for have no power flow to show.
-        assert_eq!(flows.iter().flatten().count(), window.len());
+        assert_eq!(flows.iter().flatten().count(), asked.len());
     }
     seen
 }
