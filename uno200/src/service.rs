@@ -25,12 +25,17 @@ pub const TRACE_MAX: usize = protocol::TRACE_MAX as usize;
 /// Most forced operands.
 pub const FORCE_MAX: usize = protocol::FORCES_MAX as usize;
 
-/// Divides instructions, which ascend, into status windows: at most `most` in each, and near enough to each other.
-pub fn windows(mut instructions: &[(u16, Reference)], most: usize) -> Vec<&[(u16, Reference)]> {
+/// Bytes that the PLC needs beside the instructions of a status window, and for each, while it works on the question.
+const STATUS_BESIDE: usize = 5;
+const STATUS_LEN: usize = 10;
+
+/// Divides instructions, which ascend, into status windows: no more than the PLC has room for, and near enough to each other.
+pub fn windows(mut instructions: &[(u16, Reference)], room: usize) -> Vec<&[(u16, Reference)]> {
+    let most = (room.saturating_sub(STATUS_BESIDE) / STATUS_LEN).clamp(1, STATUS_MAX);
     let mut windows = Vec::new();
     while let Some(&(first, _)) = instructions.first() {
         let near = |&&(offset, _): &&(u16, Reference)| offset.saturating_sub(first) < protocol::STATUS_SPAN;
-        let len = instructions.iter().take(most.clamp(1, STATUS_MAX)).take_while(near).count();
+        let len = instructions.iter().take(most).take_while(near).count();
         let (window, rest) = instructions.split_at(len);
         windows.push(window);
         instructions = rest;
@@ -487,12 +492,13 @@ mod tests {
     fn windows_are_neither_too_large_nor_too_wide() {
         let at = |offsets: &[u16]| offsets.iter().map(|&offset| (offset, Reference::NONE)).collect::<Vec<_>>();
         let lens =
-            |offsets: &[u16], most| windows(&at(offsets), most).iter().map(|window| window.len()).collect::<Vec<_>>();
+            |offsets: &[u16], room| windows(&at(offsets), room).iter().map(|window| window.len()).collect::<Vec<_>>();
         let close: Vec<u16> = (0..61).map(|index| 100 + 2 * index).collect();
-        assert_eq!(lens(&close, 24), [24, 24, 13]);
-        assert_eq!(lens(&close, 100), [24, 24, 13]);
+        assert_eq!(lens(&close, 252), [24, 24, 13]);
+        assert_eq!(lens(&close, 1_000), [24, 24, 13]);
         assert_eq!(lens(&close[..3], 0), [1, 1, 1]);
-        assert_eq!(lens(&[0, 511, 512, 513, 2_000], 24), [2, 2, 1]);
-        assert!(lens(&[], 24).is_empty());
+        assert_eq!((lens(&close[..7], 64), lens(&close[..7], 65)), (vec![5, 2], vec![6, 1]));
+        assert_eq!(lens(&[0, 511, 512, 513, 2_000], 252), [2, 2, 1]);
+        assert!(lens(&[], 252).is_empty());
     }
 }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use super::state::{News, Order, Wishes};
 use crate::client::Client;
 use crate::error::Error;
-use crate::service::{Command, Identity, STATUS_MAX, WATCH_MAX, windows};
+use crate::service::{Command, Identity, WATCH_MAX, windows};
 use crate::value::Base;
 
 /// The shortest time from one round of questions to the next.
@@ -115,7 +115,7 @@ impl Poller {
     fn ask(&mut self, answers: &mut Vec<News>, news: &mut Vec<News>) -> Result<(), Error> {
         let wishes = self.wishes.clone();
         let room = self.identity.as_ref().map_or(0, |identity| usize::from(identity.room));
-        for part in windows(&wishes.status, status_max(room)) {
+        for part in windows(&wishes.status, room) {
             let status = self.client.status(part)?;
             let offsets = part.iter().map(|&(offset, _)| offset);
             answers.push(News::Status(offsets.zip(status.executed).collect()));
@@ -180,17 +180,10 @@ fn image(identity: &Identity) -> (u32, u16) {
     (identity.image_crc, identity.image_len)
 }
 
-/// Bytes before the first entry.
+/// Bytes before the first value.
 const HEAD_LEN: usize = 4;
-/// Bytes that the PLC needs for an instruction in a status window while it works on the question.
-const STATUS_LEN: usize = 10;
 /// Bytes of the longest value in an answer; in the question there are fewer.
 const WATCH_LEN: usize = 4;
-
-/// How many instructions a status window can have.
-fn status_max(room: usize) -> usize {
-    (room.saturating_sub(HEAD_LEN) / STATUS_LEN).clamp(1, STATUS_MAX)
-}
 
 /// How many operands can be watched at a time.
 fn watch_max(room: usize) -> usize {

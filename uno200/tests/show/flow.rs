@@ -1,8 +1,9 @@
 //! Power flow of every line, compared with an independent observer of the same scan.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fs;
 
+use awl_asm::source::Source;
 use plc_isa::{Op, decode};
 use uno200::program::Program;
 use uno200::service::windows;
@@ -21,7 +22,7 @@ fn compare(program: &Program, bench: Bench, count: usize) -> [usize; 3] {
     let offsets = model.rows.iter().zip(0..).filter_map(|(line, row)| Some((line.instruction()?.offset?, row)));
     let rows: BTreeMap<u16, usize> = offsets.collect();
     let in_image: Vec<_> = rows.keys().map(|&offset| (offset, Reference::NONE)).collect();
-    let all = windows(&in_image, usize::from(room.saturating_sub(4)) / 10);
+    let all = windows(&in_image, room.into());
     let mut seen = [0; 3];
     for asked in all.iter().cycle().take(count) {
         let status = client.status(asked).unwrap();
@@ -99,4 +100,22 @@ fn every_line_of_every_example_is_asked_for_at_its_own_instruction() {
         }
     }
     assert!(lines > 500, "{lines}");
+}
+
+/// Programs that leave more and more of the data memory to requests, byte by byte.
+#[test]
+fn the_largest_window_fits_whatever_the_room() {
+    let mut rooms = BTreeSet::new();
+    for bytes in 700..895 {
+        let text = format!("//# memory VB0-VB{bytes}\nNETWORK 1\n{}", "LD I0.0\n= Q0.0\n".repeat(15));
+        let program = Program::assembled(Source::new("room.awl", text).unwrap(), Vec::new()).unwrap();
+        let in_image: Vec<_> = program.assembly.lines.iter().map(|line| (line.at as u16, Reference::NONE)).collect();
+        let (_, mut client) = connect(Bench::with_random(&program.image, 1));
+        let room = client.identify().unwrap().room;
+        let window = windows(&in_image, room.into())[0];
+        assert_eq!(client.status(window).unwrap().executed.len(), window.len(), "room for {room} bytes");
+        assert!(window.len() == 24 || client.status(&in_image[..window.len() + 1]).is_err(), "room for {room} bytes");
+        rooms.insert(room);
+    }
+    assert!(rooms.len() > 180 && rooms.contains(&74) && rooms.contains(&244), "{rooms:?}");
 }
