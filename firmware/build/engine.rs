@@ -6,11 +6,9 @@ use std::fmt::Write as _;
 
 use plc_isa::{
     APPROACH_LEN, C_BITS_START, CORE_INSTRUCTIONS, COUNTER_SLOT_LEN, DATA_END, DATA_START, Form, INSTRUCTIONS,
-    Instruction, Kind, NATIVE_VECTORS, Relation, SLOT_START, SM_START, T_BITS_START, TIMER_SLOT_LEN, module_of_token,
+    Instruction, JUMP_TABLE, Kind, NATIVE_VECTORS, Relation, SLOT_START, SM_START, T_BITS_START, TIMER_SLOT_LEN,
+    WINDOW_LEN, module_of_token,
 };
-
-/// Where the jump table lies in flash: `ijmp` takes the token as the low byte of a word address.
-pub const TABLE_START: u16 = plc_isa::JUMP_TABLE;
 
 /// A form as the handlers name it: `Ldw Relation Word Word`, `wide Ldw Relation AnyInt AnyInt`.
 fn name(instruction: &Instruction, form: &Form) -> String {
@@ -143,18 +141,15 @@ pub fn generate(engine: &str, handlers: &str) -> String {
     let entries: String = table.entries.iter().map(|entry| format!("    rjmp {entry}\n")).collect();
     let wide = table.wide;
     let constants = format!(
-        ".equ NATIVE_VECTORS, {NATIVE_VECTORS}\n.equ TABLE_START, {TABLE_START}\n.equ SLOT_START, {SLOT_START}\n\
+        ".equ NATIVE_VECTORS, {NATIVE_VECTORS}\n.equ JUMP_TABLE, {JUMP_TABLE}\n.equ SLOT_START, {SLOT_START}\n\
          .equ DATA_START, {DATA_START}\n.equ DATA_END, {DATA_END}\n.equ SM_START, {SM_START}\n\
          .equ T_BITS_START, {T_BITS_START}\n.equ C_BITS_START, {C_BITS_START}\n.equ WIDE_COMPARISONS, {wide}\n\
          .equ TIMER_SLOT_LEN, {TIMER_SLOT_LEN}\n.equ COUNTER_SLOT_LEN, {COUNTER_SLOT_LEN}\n\
-         .equ APPROACH_LEN, {APPROACH_LEN}\n"
+         .equ APPROACH_LEN, {APPROACH_LEN}\n.equ WINDOW_LEN, {WINDOW_LEN}\n"
     );
     let text = engine.replace("    ENTRIES\n", &entries).replace("    HANDLERS\n", &text);
     constants + &text
 }
-
-/// A status window of less than 512 bytes and the way to it are seen by the upper bytes of four addresses.
-const _: () = assert!(512 + APPROACH_LEN + 2 <= 3 * 256);
 
 /// Kinds that the handlers decode themselves must keep their lengths.
 const _: () = assert!(Kind::AnyInt.stored_len() == 3 && Kind::Word.stored_len() == 2 && SLOT_START % 256 == 0);

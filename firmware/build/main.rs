@@ -21,7 +21,7 @@ fn main() {
         format!("-Wl,--defsym=PROGRAM_SLOT_START={:#x}", plc_isa::SLOT_START),
         format!("-Wl,--defsym=PROGRAM_SLOT_LEN={:#x}", plc_isa::SLOT_LEN),
         format!("-Wl,--defsym=NATIVE_VECTORS={:#x}", plc_isa::NATIVE_VECTORS),
-        format!("-Wl,--defsym=TABLE_START={:#x}", engine::TABLE_START),
+        format!("-Wl,--defsym=JUMP_TABLE={:#x}", plc_isa::JUMP_TABLE),
         // The variables of the firmware begin behind the data memory of the controller, with the clock.
         format!("-Wl,-Tdata={:#x}", DATA_SPACE + u32::from(plc_isa::CLOCK)),
         format!("-Wl,--defsym=CLOCK={:#x}", DATA_SPACE + u32::from(plc_isa::CLOCK)),

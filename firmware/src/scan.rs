@@ -243,6 +243,7 @@ impl Uno {
     /// While the next period is waited for. A scan that took longer than its period starts at once.
     #[inline(never)]
     fn is_early(&mut self) -> bool {
+        // A look at the clock in no hurry, in less code.
         let now_ms = clock::now_ms();
         if now_ms as u16 != self.plc.time() as u16 {
             self.tick(now_ms);

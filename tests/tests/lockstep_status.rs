@@ -10,7 +10,9 @@ use awl_sim::machine::Machine;
 use awl_sim::machine::uno::{Code, Uno};
 use awl_sim::operand::Operand;
 use fastrand::Rng;
-use plc_isa::{AQW_START, ARENA_START, AnalogInput, Area, DATA_START, LogicStack, Op, Program, SLOT_START, verify};
+use plc_isa::{
+    AQW_START, ARENA_START, AnalogInput, Area, DATA_START, LogicStack, Op, Program, SLOT_START, WINDOW_LEN, verify,
+};
 use plc_vm::{Environment, Memory, Mode, Plc};
 use tests::bench_board::firmware;
 use tests::effort::effort;
@@ -23,8 +25,6 @@ use tests::random::{random_inputs, random_interrupts, random_step_ms};
 const ENTRY_LEN: u16 = 10;
 const ENTRIES_MAX: usize = 24;
 const ADDRESS: u16 = SLOT_START + 2;
-/// Most bytes from the first instruction to the last.
-const SPAN_MAX: u16 = 511;
 /// Bytes of the frame before the first entry, with the address of the last one in them, and behind the last.
 const FIRST: u16 = 3;
 const LAST: u16 = 1;
@@ -144,7 +144,7 @@ fn set_inputs(machine: &mut impl Machine, inputs: &Inputs) {
 fn random_window(rng: &mut Rng, offsets: &[u16], entries_max: usize, plan_end: u16) -> Window {
     let first = rng.usize(..offsets.len());
     let near = offsets[first..].iter().take(rng.usize(1..=entries_max));
-    let near = near.take_while(|&at| at - offsets[first] <= SPAN_MAX);
+    let near = near.take_while(|&at| at - offsets[first] < WINDOW_LEN);
     let is_left_out = if rng.bool() { 4 } else { u8::MAX };
     let mut window = Window::new();
     for &at in near {

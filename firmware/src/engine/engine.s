@@ -32,8 +32,8 @@
 .equ WINDOW_ADDRESS, 0x0F
 ; Steps begin no farther before a window. No more bytes lie between two places where the program looks whether they are to.
 .equ WINDOW_APPROACH, APPROACH_LEN + 2
-; A window and the way to it reach over so many pages of 256 bytes at most.
-.equ WINDOW_PAGES, 4
+; A window and the way to it touch so many pages of 256 bytes at most.
+.equ WINDOW_PAGES, (WINDOW_LEN - 1 + WINDOW_APPROACH) / 256 + 2
 
 ; ---- dispatch
 
@@ -123,7 +123,7 @@
 
 ; The program goes step by step no more, or not yet.
 .macro NO_STEPS
-    ldi r24, hi8(TABLE_START / 2)
+    ldi r24, hi8(JUMP_TABLE / 2)
     mov r3, r24
 .endm
 
@@ -324,7 +324,7 @@ step:
     cpc r29, r5
     brsh 1f
 handle:
-    ldi r31, hi8(TABLE_START / 2)
+    ldi r31, hi8(JUMP_TABLE / 2)
     ijmp
 1:  movw r20, r28
     movw r28, r10
@@ -354,7 +354,7 @@ handle:
     movw r10, r28
     movw r28, r20
     mov r30, r2
-    ldi r31, hi8(TABLE_START / 2)
+    ldi r31, hi8(JUMP_TABLE / 2)
     ijmp
 3:  sbiw r28, WINDOW_Y_LEN
     clr r5
@@ -393,7 +393,7 @@ handle:
 
 ; ---- the tables, at multiples of 512 bytes: of a program that goes step by step, and of handlers
 
-.org TABLE_START - 512 - NATIVE_VECTORS
+.org JUMP_TABLE - 512 - NATIVE_VECTORS
     .rept 256
     rjmp step
     .endr

@@ -9,7 +9,7 @@ use core::mem::offset_of;
 
 use plc_isa::{
     AC_START, AIN_START, AIW_START, AQW_START, ARENA_START, DATA_END, FORCED, HC0, I_START, LINE_ROOM, Program,
-    ProgramMemory, Q_START, SLOT_LEN, SLOT_START, V_RANGE_LEN,
+    ProgramMemory, Q_START, SLOT_LEN, SLOT_START, V_RANGE_LEN, WINDOW_LEN,
 };
 
 use crate::board::clock::{COUNTS_PER_MS, Moment};
@@ -179,6 +179,7 @@ global_asm!(
     ".equ ARENA_START, {arena_start}",
     ".equ SLOT_START, {slot_start}",
     ".equ SLOT_LEN, {slot_len}",
+    ".equ WINDOW_LEN, {window_len}",
     ".equ V_RANGE_LEN, {v_range_len}",
     ".equ COUNTS_PER_MS, {counts_per_ms}",
     ".equ FORCED_POINTS, {forced}",
@@ -196,6 +197,7 @@ global_asm!(
     arena_start = const ARENA_START,
     slot_start = const SLOT_START,
     slot_len = const SLOT_LEN,
+    window_len = const WINDOW_LEN,
     v_range_len = const V_RANGE_LEN,
     counts_per_ms = const COUNTS_PER_MS,
     forced = const FORCED,

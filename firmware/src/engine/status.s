@@ -9,8 +9,6 @@
 .equ NO_OPERAND, 0xFF
 .equ PROGRAM_BITS, 0x0A
 .equ BYTECODE_LOADED, 0x02
-; Instructions lie in the program slot, less than two pages of 256 bytes from the first to the last.
-.equ SPAN_PAGES, 2
 ; The engine knows an instruction by an address in flash, two bytes behind its first.
 .equ AT_ENGINE, SLOT_START + 2
 
@@ -109,7 +107,7 @@ arm:
     ldd r19, Y+FIRST_ENTRY+1
     sub r24, r18
     sbc r25, r19
-    cpi r25, SPAN_PAGES
+    cpi r25, hi8(WINDOW_LEN)
     brlo 1f
     rjmp wrong_status
 1:  ldi r24, ARMED

@@ -83,6 +83,8 @@ pub const COUNTER_SLOT_LEN: u16 = 3;
 /// Most bytes of bytecode from the beginning of a unit, or from one instruction that looks for a status window, to the
 /// next: so far the board goes to a window step by step.
 pub const APPROACH_LEN: u16 = 152;
+/// Less than so many bytes of bytecode lie between the first and the last instruction of a status window; a multiple of 256.
+pub const WINDOW_LEN: u16 = 512;
 /// Most edge instructions (EU and ED together) in a program.
 pub const EDGES_MAX: u16 = 256;
 
@@ -97,7 +99,8 @@ pub const SLOT_LEN: u16 = SLOT_END - SLOT_START;
 /// `rjmp`, two bytes. What they do is said in docs/image.md.
 pub const NATIVE_VECTORS: u16 = 0x0068;
 
-/// The engine's jump table: flash address of an `rjmp` for each token.
+/// The engine's jump table: flash address of an `rjmp` for each token, a multiple of 512, because the token is the low byte
+/// of a word address there.
 pub const JUMP_TABLE: u16 = 0x0400;
 
 /// Digital inputs with a pin on the Uno: I0.0-I0.5 at D2-D7.

@@ -29,7 +29,7 @@ pub const SET_MAX: u8 = 16;
 /// Most instructions in a status window.
 pub const STATUS_MAX: u8 = 24;
 /// Less than so many bytes of the image lie between the first and the last instruction of a status window.
-pub const STATUS_SPAN: u16 = 512;
+pub const STATUS_SPAN: u16 = plc_isa::WINDOW_LEN;
 /// Most operands in a trace.
 pub const TRACE_MAX: u8 = 8;
 /// Most operands forced at the same time.
