@@ -1,21 +1,27 @@
-//! Errors and warnings as data: code, place, words. How they are shown is the renderer's business.
+//! The kinds of errors and warnings of AWL. What a diagnostic consists of besides, and how it is
+//! shown, is said in the crate diagnostics.
 
-use crate::ast::Span;
+pub use diagnostics::Severity;
 
-/// How bad it is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Severity {
-    /// No image is made.
-    Error,
-    /// The program means something, but perhaps not what its author meant.
-    Warning,
+/// An error or warning about AWL.
+pub type Diagnostic = diagnostics::Diagnostic<Code>;
+
+macro_rules! page {
+    ($code:literal) => {
+        include_str!(concat!("../../docs/errors/", $code, ".md"))
+    };
 }
 
 macro_rules! codes {
     ($( $name:ident = $code:literal; )+) => {
         /// Every kind of diagnostic. Each has a page in docs/errors.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-        pub enum Code { $( #[doc = concat!("`", $code, "`, explained in docs/errors/", $code, ".md")] $name, )+ }
+        pub enum Code {
+            $(
+                #[doc = concat!("`", $code, "`, explained in docs/errors/", $code, ".md")]
+                $name,
+            )+
+        }
 
         impl Code {
             /// All codes in order.
@@ -28,7 +34,9 @@ macro_rules! codes {
 
             /// The page that explains it, in Markdown.
             pub const fn page(self) -> &'static str {
-                match self { $( Code::$name => include_str!(concat!("../../docs/errors/", $code, ".md")), )+ }
+                match self {
+                    $( Code::$name => page!($code), )+
+                }
             }
         }
     };
@@ -58,7 +66,10 @@ codes! {
     Block = "E0021";
     NotSupported = "E0022";
     TooMany = "E0023";
+    Promise = "E0024";
     DataBlock = "E0060";
+    Variable = "E0061";
+    NoFreePlace = "E0062";
     UnitHeader = "E0070";
     Declaration = "E0071";
     UnknownRoutine = "E0072";
@@ -84,9 +95,16 @@ codes! {
     StartedTwice = "W0008";
     JumpIntoLoop = "W0009";
     UnusedValue = "W0010";
+    InputWritten = "W0011";
+    InactiveOutput = "W0012";
+    MixedCoils = "W0013";
+    Overlap = "W0014";
+    EveryScan = "W0015";
+    EmptyProgram = "W0016";
     NeverCalled = "W0020";
     MixedMnemonics = "W0030";
     NoEffect = "W0032";
+    NotForBoard = "W0033";
 }
 
 impl Code {
@@ -101,65 +119,16 @@ impl Code {
     }
 }
 
-/// One error or warning.
-#[derive(Debug, Clone)]
-pub struct Diagnostic {
-    /// Which.
-    pub code: Code,
-    /// The place the caret points at.
-    pub span: Span,
-    /// What is wrong, in a sentence without full stop that stands by itself.
-    pub message: String,
-    /// A few words beside the caret.
-    pub label: Option<String>,
-    /// The text that should probably stand at `span` instead.
-    pub suggestion: Option<String>,
-    /// What to do, or what the rule is.
-    pub help: Vec<String>,
-    /// Other places that belong to it, with a few words each.
-    pub related: Vec<(Span, String)>,
-}
-
-impl Diagnostic {
-    /// A diagnostic with a message.
-    pub fn new(code: Code, span: Span, message: impl Into<String>) -> Diagnostic {
-        Diagnostic {
-            code,
-            span,
-            message: message.into(),
-            label: None,
-            suggestion: None,
-            help: Vec::new(),
-            related: Vec::new(),
-        }
+impl diagnostics::Code for Code {
+    fn text(self) -> Option<&'static str> {
+        Some(self.text())
     }
 
-    /// Adds words beside the caret.
-    pub fn label(mut self, label: impl Into<String>) -> Self {
-        self.label = Some(label.into());
-        self
+    fn severity(self) -> Severity {
+        self.severity()
     }
 
-    /// Adds a replacement for the text at the caret.
-    pub fn suggest(mut self, text: impl Into<String>) -> Self {
-        self.suggestion = Some(text.into());
-        self
-    }
-
-    /// Adds a line of help.
-    pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help.push(help.into());
-        self
-    }
-
-    /// Adds another place.
-    pub fn related(mut self, span: Span, words: impl Into<String>) -> Self {
-        self.related.push((span, words.into()));
-        self
-    }
-
-    /// Error or warning.
-    pub fn severity(&self) -> Severity {
-        self.code.severity()
+    fn page(self) -> Option<&'static str> {
+        Some(self.page())
     }
 }

@@ -1,50 +1,30 @@
-//! The assembler as a library: AWL text to program image and back, with diagnostics. It never runs a program.
+//! The assembler as a library: AWL text to program image and back, with diagnostics. It never runs
+//! a program.
+//!
+//! The folders are its pipeline, and each uses the ones before it only: `text`, `meaning`, `plan`,
+//! `image`; [`assemble`] runs them; `output` is made of what is assembled. `host` is what
+//! command lines need besides.
 
-pub mod address;
 pub mod assemble;
-pub mod ast;
-mod blocks;
-mod calls;
-pub mod check;
-mod constants;
-pub mod cost;
-pub mod data_block;
 pub mod diagnostic;
-mod directives;
-pub mod disassemble;
-pub mod encode;
-mod extent;
-pub mod files;
-pub mod firmware;
-mod fit;
-pub mod flash;
-pub mod format;
-pub mod hardware;
-pub mod hex;
-mod instructions;
-mod lexer;
-mod limits;
-pub mod listing;
-mod literal;
-mod locals;
-pub mod map;
-mod misfit;
-mod mnemonic_set;
-mod mnemonics;
-pub mod modules;
-pub mod native;
-pub mod operand;
-pub mod parser;
-pub mod plan;
-mod pointers;
-pub mod render;
-mod resolve;
-pub mod select;
-pub mod source;
-mod special;
-pub mod suggest;
-pub mod symbols;
-mod takeover;
-pub mod units;
+#[cfg(feature = "cli")]
+mod host;
+mod image;
+mod meaning;
+mod output;
+mod plan;
+mod text;
+
+pub use diagnostics::{render, source};
+#[cfg(feature = "cli")]
+pub use host::{args, files, firmware, flash, report};
+pub use image::{encode, hex, tools};
+pub use meaning::{check, select, selected, units};
+pub use output::{cost, disassemble, for_tools, listing, longest_scan, manual, map, native};
+pub use plan::{demand, modules};
+pub use text::{
+    address, ast, cursor, data_block, declared, directive_table, format, locals, mnemonics,
+    operand, parser, refused, suggest, symbols,
+};
 
 pub use address::Address;

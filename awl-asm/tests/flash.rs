@@ -1,4 +1,5 @@
-//! `awl-asm --flash` from outside, with a script in avrdude's place: arguments, files, exit codes. No board, no avrdude.
+//! `awl-asm --flash` from outside, with a script in avrdude's place: arguments, files, exit codes.
+//! No board, no avrdude.
 
 #![cfg(unix)]
 
@@ -14,10 +15,13 @@ const BAD: &str = "LD I0.9\n= Q0.0\n";
 /// One record at address 0.
 const FIRMWARE: &str = ":020000000C945E\n:00000001FF\n";
 
-/// Notes its arguments and keeps what it would write.
-const WRITES: &str = "echo \"$@\" > called\nfor word; do :; done\n\
-                      file=${word#flash:w:}; cp \"${file%:i}\" flashed\necho 'verified' >&2\n";
-const FAILS: &str = "echo 'avrdude OS error: cannot open port /dev/none: Permission denied' >&2\nexit 1\n";
+/// Notes its arguments and keeps the first and the last file.
+const WRITES: &str = "echo \"$@\" > called\nfor word; do case $word in flash:*)\n\
+                      file=${word#flash:?:}; file=${file%:i}\n\
+                      [ -n \"$first\" ] || { first=$file; cp \"$file\" first; };; esac; done\n\
+                      cp \"$file\" flashed\necho 'verified' >&2\n";
+const FAILS: &str =
+    "echo 'avrdude OS error: cannot open port /dev/none: Permission denied' >&2\nexit 1\n";
 
 /// A folder with the program `p.awl` and what stands in for avrdude.
 struct Bench(TempDir);
@@ -62,7 +66,11 @@ impl Bench {
             .args(arguments)
             .output()
             .unwrap();
-        assert_eq!(fs::read_dir(self.path("tmp")).unwrap().count(), 0, "a temporary file is left behind");
+        assert_eq!(
+            fs::read_dir(self.path("tmp")).unwrap().count(),
+            0,
+            "a temporary file is left behind"
+        );
         (output.status.code(), String::from_utf8(output.stderr).unwrap())
     }
 
@@ -76,10 +84,20 @@ impl Bench {
 fn the_program_goes_to_the_board_and_nowhere_else() {
     let bench = Bench::new(GOOD, WRITES);
     let (code, errors) = bench.run(&["p.awl", "--flash", "/dev/port"]);
-    assert_eq!((code, errors.starts_with("/dev/port: 2 instructions, ")), (Some(0), true), "{errors}");
+    assert_eq!(
+        (code, errors.starts_with("/dev/port: 2 instructions, ")),
+        (Some(0), true),
+        "{errors}"
+    );
     let called = bench.read("called").expect("avrdude was called");
-    let start = "-c arduino -p m328p -P /dev/port -b 115200 -D -U flash:w:";
-    assert!(called.starts_with(start) && called.ends_with(":i\n") && called.matches("-U").count() == 1, "{called}");
+    let start = "-c arduino -p m328p -P /dev/port -b 115200 -D -U flash:v:";
+    assert!(
+        called.starts_with(start)
+            && called.ends_with(":i\n")
+            && called.matches(" -U ").count() == 2,
+        "{called}"
+    );
+    assert_eq!(called.matches(" -U flash:w:").count(), 1, "{called}");
     assert!(!bench.has_image());
     assert_eq!(bench.run(&["p.awl", "-o", "p.hex"]).0, Some(0));
     assert_eq!(bench.read("flashed"), bench.read("p.hex"));
@@ -89,7 +107,11 @@ fn the_program_goes_to_the_board_and_nowhere_else() {
 fn an_output_is_written_as_well_if_it_is_named() {
     let bench = Bench::new(GOOD, WRITES);
     let (code, errors) = bench.run(&["p.awl", "--flash", "/dev/port", "-o", "p.hex"]);
-    assert_eq!((code, errors.starts_with("p.hex, /dev/port: 2 instructions, ")), (Some(0), true), "{errors}");
+    assert_eq!(
+        (code, errors.starts_with("p.hex, /dev/port: 2 instructions, ")),
+        (Some(0), true),
+        "{errors}"
+    );
     assert!(bench.read("p.hex").is_some());
     assert_eq!(bench.read("flashed"), bench.read("p.hex"));
 }
@@ -106,16 +128,17 @@ fn a_program_with_errors_never_touches_the_board() {
 fn the_firmware_goes_first_in_the_same_session() {
     let bench = Bench::new(GOOD, WRITES);
     bench.write("mine.hex", FIRMWARE);
-    assert_eq!(bench.run(&["p.awl", "--flash", "/dev/port", "--with-firmware", "mine.hex"]).0, Some(0));
+    assert_eq!(
+        bench.run(&["p.awl", "--flash", "/dev/port", "--with-firmware", "mine.hex"]).0,
+        Some(0)
+    );
     let called = bench.read("called").expect("avrdude was called");
-    let files: Vec<&str> = called.split(" -U flash:w:").skip(1).collect();
-    assert_eq!((files.len(), files[0]), (2, "mine.hex:i"), "{called}");
+    assert_eq!(called.matches(" -U flash:w:").count(), 2, "{called}");
+    assert_eq!(bench.read("first").as_deref(), Some(FIRMWARE));
 
-    // Without a name: where `cargo xtask firmware` puts it.
-    fs::create_dir_all(bench.path("target/firmware")).unwrap();
-    fs::rename(bench.path("mine.hex"), bench.path("target/firmware/uno200.hex")).unwrap();
+    // Without a name: the one that is part of the program.
     assert_eq!(bench.run(&["p.awl", "--flash", "/dev/port", "--with-firmware"]).0, Some(0));
-    assert!(bench.read("called").unwrap().contains("target/firmware/uno200.hex:i -U flash:w:"));
+    assert!(bench.read("first").unwrap() == awl_asm::hex::FIRMWARE);
 }
 
 #[test]
@@ -123,8 +146,7 @@ fn what_is_no_firmware_never_touches_the_board() {
     let bench = Bench::new(GOOD, WRITES);
     assert_eq!(bench.run(&["p.awl", "-o", "program.hex"]).0, Some(0));
     for (arguments, words) in [
-        (&["p.awl", "--flash", "/dev/port", "--with-firmware"][..], "cargo xtask firmware"),
-        (&["p.awl", "--flash", "/dev/port", "--with-firmware", "program.hex"], "program slot"),
+        (&["p.awl", "--flash", "/dev/port", "--with-firmware", "program.hex"][..], "program slot"),
         (&["p.awl", "--flash", "/dev/port", "--with-firmware", "none.hex"], "cannot read none.hex"),
         (&["--flash", "/dev/port", "--with-firmware", "p.awl"], "name the program before"),
         (&["p.awl", "--with-firmware"], "--flash <PORT>"),
@@ -140,15 +162,18 @@ fn what_is_no_firmware_never_touches_the_board() {
 fn a_failure_is_explained_and_exit_2() {
     let bench = Bench::new(GOOD, FAILS);
     let (code, errors) = bench.run(&["p.awl", "--flash", "/dev/none"]);
-    let expected = "error: no permission to open /dev/none\n  = help: Linux: sudo usermod -aG dialout";
+    let expected =
+        "error: no permission to open /dev/none\n  = help: Linux: sudo usermod -aG dialout";
     assert_eq!((code, errors.starts_with(expected)), (Some(2), true), "{errors}");
-    let last = "avrdude's last lines:\n  avrdude OS error: cannot open port /dev/none: Permission denied\n";
+    let last = "avrdude's last lines:\n  avrdude OS error: cannot open port /dev/none: \
+        Permission denied\n";
     assert!(errors.ends_with(last), "{errors}");
 }
 
 #[test]
 fn without_avrdude_its_package_is_named() {
     let bench = Bench::new(GOOD, WRITES);
-    let (code, errors) = bench.run_with_path(&["p.awl", "--flash", "/dev/port"], &bench.path("tmp"));
+    let (code, errors) =
+        bench.run_with_path(&["p.awl", "--flash", "/dev/port"], &bench.path("tmp"));
     assert_eq!((code, errors.contains("apt-get install avrdude")), (Some(2), true), "{errors}");
 }

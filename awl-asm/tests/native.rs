@@ -1,5 +1,5 @@
-//! Native translation as a library and from the command line: the image, its bounds, what is said. That the machine code
-//! does what it must is tested where there is a chip to run it.
+//! Native translation as a library and from the command line: the image, its bounds, what is said.
+//! That the machine code does what it must is tested where there is a chip to run it.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -8,8 +8,8 @@ use awl_asm::assemble::assemble;
 use awl_asm::native::{Options, TranslateError, Translated, translate, translate_with};
 use awl_asm::source::Source;
 use plc_isa::{
-    CRC_LEN, ENTRY_LEN, FORMAT_VERSION, Header, ImageError, ImageFault, NATIVE_INTERFACE, Op, Operand, ProgramMemory,
-    SLOT_LEN, decode, verify,
+    CRC_LEN, ENTRY_LEN, FORMAT_VERSION, Header, ImageError, ImageFault, NATIVE_INTERFACE, Op,
+    Operand, ProgramMemory, SLOT_LEN, decode, verify,
 };
 
 const PROGRAM: &str = "\
@@ -73,7 +73,11 @@ fn a_native_image_is_for_the_board_alone() {
     let header = program.plan().header;
     let entry = program.entry().unwrap();
     assert_eq!((header.interface, header.labels), (NATIVE_INTERFACE, 0));
-    assert!(entry.is_multiple_of(2) && entry >= program.code_at() + ENTRY_LEN && entry < header.code_end());
+    assert!(
+        entry.is_multiple_of(2)
+            && entry >= program.code_at() + ENTRY_LEN
+            && entry < header.code_end()
+    );
     let error = verify(native.as_slice()).unwrap_err();
     assert_eq!(error, ImageError { fault: ImageFault::Interface, at: 5 });
 }
@@ -103,9 +107,17 @@ fn every_instruction_has_its_place_and_its_cycles() {
         for instruction in &native.instructions {
             let decoded = decode(&bytecode, at).unwrap();
             assert_eq!((instruction.at, instruction.native.start), (at, end));
-            let leads_away = matches!(decoded.op, Op::Jmp | Op::For | Op::Next | Op::End | Op::Stop | Op::MainEnd);
+            let leads_away = matches!(
+                decoded.op,
+                Op::Jmp | Op::For | Op::Next | Op::End | Op::Stop | Op::MainEnd
+            );
             assert_eq!(instruction.taken.is_some(), leads_away, "{:?}", decoded.op);
-            assert_eq!(instruction.not_taken.is_some(), decoded.op != Op::MainEnd, "{:?}", decoded.op);
+            assert_eq!(
+                instruction.not_taken.is_some(),
+                decoded.op != Op::MainEnd,
+                "{:?}",
+                decoded.op
+            );
             let is_free = matches!(decoded.op, Op::Nop | Op::Lbl);
             assert_eq!(instruction.cycles.max == 0, is_free, "{:?}", decoded.op);
             assert!(instruction.cycles.min <= instruction.cycles.max);
@@ -130,7 +142,10 @@ fn entries_outside_the_code_are_refused() {
     };
     let code_at = header.code_at();
     let refused = Some(ImageError { fault: ImageFault::Interface, at: code_at });
-    assert_eq!(fault_with(code_at, &verify(Board(&native)).unwrap().entry().unwrap().to_le_bytes()), None);
+    assert_eq!(
+        fault_with(code_at, &verify(Board(&native)).unwrap().entry().unwrap().to_le_bytes()),
+        None
+    );
     for entry in [0, code_at, code_at + 1, header.code_end(), header.code_end() | 1, 0xFFFE] {
         assert_eq!(fault_with(code_at, &entry.to_le_bytes()), refused, "entry {entry:#06x}");
     }
@@ -143,14 +158,24 @@ fn entries_outside_the_code_are_refused() {
 fn a_bad_image_is_not_translated() {
     let mut image = assembled(PROGRAM);
     image[40] ^= 1;
-    assert!(matches!(translate(&image), Err(TranslateError::Invalid(error)) if error.fault == ImageFault::Crc));
+    assert!(matches!(
+        translate(&image),
+        Err(TranslateError::Invalid(error)) if error.fault == ImageFault::Crc
+    ));
     let native = translated(PROGRAM).image;
-    assert!(matches!(translate(&native), Err(TranslateError::Invalid(error)) if error.fault == ImageFault::Interface));
+    assert!(matches!(
+        translate(&native),
+        Err(TranslateError::Invalid(error)) if error.fault == ImageFault::Interface
+    ));
 }
 
 /// Instructions that take much more room translated.
 fn long_program() -> String {
-    (0..700).map(|index| format!("LD M{}.{}\n+I VW{}, VW{}\n", index % 32, index % 8, index % 90, index % 50)).collect()
+    (0..700)
+        .map(|index| {
+            format!("LD M{}.{}\n+I VW{}, VW{}\n", index % 32, index % 8, index % 90, index % 50)
+        })
+        .collect()
 }
 
 #[test]
@@ -166,15 +191,22 @@ fn a_program_that_does_not_fit_is_refused_with_its_numbers() {
 /// More machine code than the addresses of the chip reach.
 #[test]
 fn a_program_far_too_large_is_refused_too() {
-    let lines: String = (0..1_450).map(|index| format!("+I VW{}, VW{}\n", index % 90, index % 50)).collect();
+    let lines: String =
+        (0..1_450).map(|index| format!("+I VW{}, VW{}\n", index % 90, index % 50)).collect();
     let text = format!("LD I0.0\nJMP 1\nLBL 2\nLD I0.1\n{lines}JMP 2\nLBL 1\n");
     let bytecode = assembled(&text);
-    let Err(TranslateError::TooLarge { total_len, .. }) = translate(&bytecode) else { panic!("it fits") };
+    let Err(TranslateError::TooLarge { total_len, .. }) = translate(&bytecode) else {
+        panic!("it fits")
+    };
     assert!(total_len > 60_000, "{total_len}");
 }
 
 fn awl_asm(directory: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_awl-asm")).args(arguments).current_dir(directory).output().unwrap()
+    Command::new(env!("CARGO_BIN_EXE_awl-asm"))
+        .args(arguments)
+        .current_dir(directory)
+        .output()
+        .unwrap()
 }
 
 fn stderr(output: &Output) -> String {
@@ -197,7 +229,9 @@ fn the_command_writes_native_images() {
     let output = awl_asm(directory.path(), &["p.awl", "--native", "-o", "p.hex"]);
     assert!(output.status.success(), "{}", stderr(&output));
     assert!(
-        std::fs::read_to_string(at("p.hex")).unwrap().starts_with(&format!(":1060000055323030{FORMAT_VERSION:02X}01"))
+        std::fs::read_to_string(at("p.hex"))
+            .unwrap()
+            .starts_with(&format!(":1060000055323030{FORMAT_VERSION:02X}01"))
     );
     let output = awl_asm(directory.path(), &["--disassemble", "p.bin"]);
     assert_eq!(output.status.code(), Some(1));
@@ -292,7 +326,9 @@ fn what_interrupts_execute_stays_bytecode() {
     let native = translated(UNITS);
     let (before, after) = (verify(&bytecode).unwrap(), verify(Board(&native.image)).unwrap());
     let (before, after) = (before.plan(), after.plan());
-    let named = |wanted| (0..before.header.routines).find(|&index| before.routine_name(index) == wanted).unwrap();
+    let named = |wanted| {
+        (0..before.header.routines).find(|&index| before.routine_name(index) == wanted).unwrap()
+    };
     let (work, timed) = (named((false, 0)), named((true, 0)));
     for routine in [work, timed] {
         let ops = unit(&Board(&native.image), after.routine(routine));
@@ -302,11 +338,13 @@ fn what_interrupts_execute_stays_bytecode() {
     let ops = unit(&Board(&native.image), after.label(1));
     assert_eq!((before.header.labels, after.header.labels, ops[0]), (2, 2, Op::Lbl));
     // Machine code: the main program and what it calls.
-    let translated = native.instructions.iter().map(|instruction| decode(&bytecode, instruction.at).unwrap().op);
+    let translated =
+        native.instructions.iter().map(|instruction| decode(&bytecode, instruction.at).unwrap().op);
     let (main, work) = (unit(&bytecode, before.code_at()), unit(&bytecode, before.routine(work)));
     assert_eq!(translated.collect::<Vec<_>>(), [main, work].concat());
-    let follow = native.instructions.windows(2).all(|pair| pair[0].native.end == pair[1].native.start);
-    assert!(follow, "one behind the other");
+    let follow =
+        native.instructions.windows(2).all(|pair| pair[0].native.end == pair[1].native.start);
+    assert!(follow, "one after the other");
 }
 
 /// The assembler does not allow it, the loader does; the board would say so in SM4.3.
@@ -314,21 +352,38 @@ fn what_interrupts_execute_stays_bytecode() {
 fn calls_that_are_nested_too_deep_are_not_translated() {
     let chain = |first: u8, last: u8| {
         let routine = |number: u8| {
-            let next = if number < last { format!("CALL SBR{}", number + 1) } else { "INCW VW0".to_string() };
-            format!("SUBROUTINE_BLOCK S{number}:SBR{number}\nBEGIN\nLD SM0.0\n{next}\nEND_SUBROUTINE_BLOCK\n")
+            let next = if number < last {
+                format!("CALL SBR{}", number + 1)
+            } else {
+                "INCW VW0".to_string()
+            };
+            format!(
+                "SUBROUTINE_BLOCK S{number}:SBR{number}\nBEGIN\nLD SM0.0\n{next}\n\
+                 END_SUBROUTINE_BLOCK\n"
+            )
         };
         (first..=last).map(routine).collect::<String>()
     };
-    let main = "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nLD SM0.0\nCALL SBR0\nCALL SBR20\nEND_ORGANIZATION_BLOCK\n";
+    let main = "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nLD SM0.0\nCALL SBR0\nCALL SBR20\n\
+        END_ORGANIZATION_BLOCK\n";
     let mut image = assembled(&format!("{main}{}{}", chain(0, 7), chain(20, 21)));
     translate(&image).unwrap();
     // The last but one of the long chain calls the first of the short one.
-    let call = |routine| Op::Call.instruction().encode(&[Operand::Number(routine)]).unwrap().bytes().to_vec();
+    let call = |routine| {
+        Op::Call
+            .instruction()
+            .encode(&[Operand::Number(routine)], &plc_isa::UNO)
+            .unwrap()
+            .bytes()
+            .to_vec()
+    };
     let at = image.windows(2).position(|bytes| bytes == call(7)).unwrap();
     image[at..at + 2].copy_from_slice(&call(8));
     let end = image.len() - usize::from(CRC_LEN);
     let crc = plc_isa::Crc32::of(&image[..end]);
     image[end..].copy_from_slice(&crc.to_le_bytes());
-    let Err(error @ TranslateError::Missing { .. }) = translate(&image) else { panic!("it is translated") };
+    let Err(error @ TranslateError::Missing { .. }) = translate(&image) else {
+        panic!("it is translated")
+    };
     assert!(error.to_string().contains("nested so deep"), "{error}");
 }

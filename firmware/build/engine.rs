@@ -1,13 +1,13 @@
-//! Puts the fast engine's assembly together: the jump table follows from the instruction table and the names above the
-//! handlers. What the handlers do stands in `src/engine`.
+//! Puts the fast engine's assembly together: the jump table follows from the instruction table and
+//! the names above the handlers. What the handlers do is in `src/engine`.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use plc_isa::{
-    APPROACH_LEN, C_BITS_START, CORE_INSTRUCTIONS, COUNTER_SLOT_LEN, DATA_END, DATA_START, Form, INSTRUCTIONS,
-    Instruction, JUMP_TABLE, Kind, NATIVE_VECTORS, Relation, SLOT_START, SM_START, T_BITS_START, TIMER_SLOT_LEN,
-    WINDOW_LEN, module_of_token,
+    APPROACH_LEN, C_BITS_START, CORE_INSTRUCTIONS, COUNTER_SLOT_LEN, DATA_END, DATA_START, Form,
+    INSTRUCTIONS, Instruction, JUMP_TABLE, Kind, NATIVE_VECTORS, ROUTINE_LEN, Relation, SLOT_START,
+    SM_START, T_BITS_START, TIMER_SLOT_LEN, WINDOW_LEN, module_of_token,
 };
 
 /// A form as the handlers name it: `Ldw Relation Word Word`, `wide Ldw Relation AnyInt AnyInt`.
@@ -31,8 +31,12 @@ fn blocks(handlers: &str) -> Vec<Block> {
     for line in handlers.lines() {
         match (line.strip_prefix("% "), blocks.last_mut()) {
             // Several names above one text.
-            (Some(form), Some(block)) if block.text.is_empty() => block.forms.push(form.to_string()),
-            (Some(form), _) => blocks.push(Block { forms: vec![form.to_string()], text: String::new() }),
+            (Some(form), Some(block)) if block.text.is_empty() => {
+                block.forms.push(form.to_string())
+            }
+            (Some(form), _) => {
+                blocks.push(Block { forms: vec![form.to_string()], text: String::new() })
+            }
             (None, Some(block)) => block.text += &format!("{line}\n"),
             (None, None) => {}
         }
@@ -64,13 +68,15 @@ struct Table {
     forms: BTreeMap<String, (&'static Instruction, &'static Form)>,
     /// Where each token leads.
     entries: Vec<String>,
-    /// Tokens behind the prefix that have a handler: the first so many.
+    /// Tokens after the prefix that have a handler: the first so many.
     wide: u8,
 }
 
 impl Table {
     fn new() -> Table {
-        let of = |instruction: &'static Instruction| instruction.forms.iter().map(move |form| (instruction, form));
+        let of = |instruction: &'static Instruction| {
+            instruction.forms.iter().map(move |form| (instruction, form))
+        };
         let named = |(instruction, form)| (name(instruction, form), (instruction, form));
         Table {
             forms: core().flat_map(of).map(named).collect(),
@@ -79,11 +85,13 @@ impl Table {
         }
     }
 
-    /// Enters the tokens of a block's forms. Returns its text with labels: once for all, or once for each token when it
-    /// depends on that.
+    /// Enters the tokens of a block's forms. Returns its text with labels: once for all, or once
+    /// for each token when it depends on that.
     fn enter(&mut self, block: &Block) -> String {
         let forms: Vec<_> = block.forms.iter().map(|name| self.take(name)).collect();
-        let depends = ["{n}", "{order}", "{branch}", "{inverse}"].iter().any(|place| block.text.contains(place));
+        let depends = ["{n}", "{order}", "{branch}", "{inverse}"]
+            .iter()
+            .any(|place| block.text.contains(place));
         let mut text = String::new();
         let mut write = |(instruction, form): (&Instruction, &Form), token: u8| {
             let label = label(instruction, form, token);
@@ -91,7 +99,8 @@ impl Table {
             text += &format!("{label}:\n{own}");
             label
         };
-        let shared = forms.first().filter(|_| !depends).map(|&form| write(form, form.1.first_token));
+        let shared =
+            forms.first().filter(|_| !depends).map(|&form| write(form, form.1.first_token));
         for &(instruction, form) in &forms {
             for token in form.first_token..=form.last_token {
                 let label = shared.clone().unwrap_or_else(|| write((instruction, form), token));
@@ -103,12 +112,17 @@ impl Table {
 
     /// The form of this name, which gets its only handler.
     fn take(&mut self, name: &str) -> (&'static Instruction, &'static Form) {
-        self.forms.remove(name).unwrap_or_else(|| panic!("no such form, or it has a handler already: {name}"))
+        self.forms
+            .remove(name)
+            .unwrap_or_else(|| panic!("no such form, or it has a handler already: {name}"))
     }
 
     fn lead(&mut self, form: &Form, token: u8, label: String) {
         if form.prefix.is_some() {
-            assert!(token == self.wide, "tokens behind the prefix have handlers in order, from the first on");
+            assert!(
+                token == self.wide,
+                "tokens after the prefix have handlers in order, from the first on"
+            );
             self.wide += 1;
         }
         self.entries[usize::from(form.prefix.unwrap_or(token))] = label;
@@ -129,11 +143,11 @@ fn label(instruction: &Instruction, form: &Form, token: u8) -> String {
     format!("{:?}_{}{token:02X}", instruction.op, if form.prefix.is_some() { "FE" } else { "" })
 }
 
-/// Joins the two sources to the assembly of the engine.
+/// Joins the handlers and what is before and after them to the assembly of the engine.
 ///
 /// # Panics
 /// When a handler is for no form of the core, or a form has none or two: the build ends.
-pub fn generate(engine: &str, handlers: &str) -> String {
+pub fn generate(before: &str, handlers: &str, after: &str) -> String {
     let mut table = Table::new();
     let text: String = blocks(handlers).iter().map(|block| table.enter(block)).collect();
     let missing: Vec<&String> = table.forms.keys().collect();
@@ -141,15 +155,21 @@ pub fn generate(engine: &str, handlers: &str) -> String {
     let entries: String = table.entries.iter().map(|entry| format!("    rjmp {entry}\n")).collect();
     let wide = table.wide;
     let constants = format!(
-        ".equ NATIVE_VECTORS, {NATIVE_VECTORS}\n.equ JUMP_TABLE, {JUMP_TABLE}\n.equ SLOT_START, {SLOT_START}\n\
+        ".equ NATIVE_VECTORS, {NATIVE_VECTORS}\n.equ JUMP_TABLE, {JUMP_TABLE}\n\
+            .equ SLOT_START, {SLOT_START}\n\
          .equ DATA_START, {DATA_START}\n.equ DATA_END, {DATA_END}\n.equ SM_START, {SM_START}\n\
-         .equ T_BITS_START, {T_BITS_START}\n.equ C_BITS_START, {C_BITS_START}\n.equ WIDE_COMPARISONS, {wide}\n\
+         .equ T_BITS_START, {T_BITS_START}\n.equ C_BITS_START, {C_BITS_START}\n\
+         .equ WIDE_COMPARISONS, {wide}\n\
          .equ TIMER_SLOT_LEN, {TIMER_SLOT_LEN}\n.equ COUNTER_SLOT_LEN, {COUNTER_SLOT_LEN}\n\
-         .equ APPROACH_LEN, {APPROACH_LEN}\n.equ WINDOW_LEN, {WINDOW_LEN}\n"
+         .equ APPROACH_LEN, {APPROACH_LEN}\n.equ WINDOW_LEN, {WINDOW_LEN}\n\
+         .equ ROUTINE_LEN, {ROUTINE_LEN}\n"
     );
-    let text = engine.replace("    ENTRIES\n", &entries).replace("    HANDLERS\n", &text);
-    constants + &text
+    constants + &before.replace("    ENTRIES\n", &entries) + &text + after
 }
 
 /// Kinds that the handlers decode themselves must keep their lengths.
-const _: () = assert!(Kind::AnyInt.stored_len() == 3 && Kind::Word.stored_len() == 2 && SLOT_START % 256 == 0);
+const _: () = assert!(
+    Kind::AnyInt.stored_len() == 3
+        && Kind::Word.stored_len() == 2
+        && SLOT_START.is_multiple_of(256)
+);

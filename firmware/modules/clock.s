@@ -1,4 +1,5 @@
-; Module 6: intervals and the time of day. They do what plc-vm does (plc/vm/src/modules: points.rs, clock.rs).
+; Module 6: intervals and the time of day. They do what plc-vm does (plc/vm/src/modules: points.rs,
+; clock.rs).
 
 .include "interface.inc"
 
@@ -9,7 +10,8 @@ STUB bytes_in, ROOM + 1
 STUB bytes_to, WRITE + ROOM + 1
 STUB abandon, ABANDON
 
-; The clock in the firmware's memory: date and time as numbers (month 0: it was never set), and the millisecond clock then.
+; The clock in the firmware's memory: date and time as numbers (month 0: it was never set), and the
+; millisecond clock then.
 .equ YEAR, 0
 .equ MONTH, 1
 .equ DAY, 2
@@ -22,11 +24,14 @@ STUB abandon, ABANDON
 ; Bytes of the buffer of TODR and TODW.
 .equ BUFFER_LEN, 8
 
+; The millisecond clock. Means: plc-vm modules/points.rs points.
+; in: OUT   ends: OUT := it
 Bitim:
     call MODULE_NOW
     rjmp write
 
-; OUT := the time that has passed since IN.
+; The time that has passed. Means: plc-vm modules/points.rs points.
+; in: IN, OUT   ends: OUT := the clock - IN
 Citim:
     call MODULE_NOW
     movw r18, r22
@@ -38,12 +43,15 @@ Citim:
     sbc r21, r25
     movw r22, r18
     movw r24, r20
+; in: r25:r22 milliseconds, OUT   ends: OUT := them
 write:
     rcall target_double
     st X+, r25
     st X+, r24
     st X+, r23
     st X, r22
+; The firmware's own code may have changed T.
+; in: -   ends: with power flow
 done:
     ; The firmware's own code may have changed it.
     set
@@ -51,7 +59,8 @@ done:
 
 ; ---- the time of day
 
-; Days of month r19 in year r18, in r24. Changes r25.
+; Means: plc-vm modules/clock.rs days_in.
+; in: r18 year from 2000 on, r19 month   out: r24 days   destroys: r25
 days_in:
     cpi r19, 2
     brne 1f
@@ -69,7 +78,9 @@ days_in:
     subi r24, -30
     ret
 
-; The BCD number at X in r24. Carry: it is one, and less than r30.
+; A field of the buffer.
+; in: X, r30 what it must be less than
+; out: r24 number, X after it, carry: it is a BCD number and less   destroys: r0, r25
 bcd:
     ld r24, X+
     mov r25, r24
@@ -97,6 +108,8 @@ bcd:
     mov \register, r24
 .endm
 
+; Sets the clock, if the buffer is a time. Means: plc-vm modules/clock.rs from_buffer, set.
+; in: BUFFER   ends: with the clock set
 Todw:
     rcall bytes_in
     sbiw r30, BUFFER_LEN
@@ -124,13 +137,17 @@ Todw:
     std Z + HOUR, r21
     std Z + MINUTE, r22
     std Z + SECOND, r23
+    ; The fields are written by now: MODULE_NOW destroys r18 to r23.
     call MODULE_NOW
     call MODULE_STATE
     rcall store_time
     rjmp done
+
+; in: -   ends: abandons the instruction
 bad:
     rjmp abandon
 
+; in: Z the clock, r25:r22 milliseconds   out: SET_AT := them   destroys: -
 store_time:
     std Z + SET_AT, r22
     std Z + SET_AT + 1, r23
@@ -138,7 +155,8 @@ store_time:
     std Z + SET_AT + 3, r25
     ret
 
-; How often r21 to r18 is in r25 to r22, in r26; the rest stays.
+; How often a time is in another one; by subtraction, as 49 days are all that 32 bits hold.
+; in: r25:r22 time, r21:r18 unit   out: r26 how often, r25:r22 the rest   destroys: -
 take:
     ldi r26, -1
 1:  inc r26
@@ -173,6 +191,8 @@ take:
 1:  std Z + \field, r18
 .endm
 
+; Brings the clock up to now and writes it. Means: plc-vm modules/clock.rs now, to_buffer.
+; in: BUFFER   ends: with the time in the 8 bytes of BUFFER
 Todr:
     call MODULE_STATE
     ldd r24, Z + MONTH
@@ -180,6 +200,7 @@ Todr:
     breq bad
     call MODULE_NOW
     call MODULE_STATE
+    ; Now, for SET_AT; then what has passed since.
     push r22
     push r23
     push r24
@@ -223,6 +244,7 @@ Todr:
     ldd r18, Z + YEAR
     ldd r19, Z + MONTH
     ldd r20, Z + DAY
+    ; The date, day by day: at most 50.
 1:  subi r26, 1
     brcs 2f
     inc r20
@@ -245,7 +267,8 @@ Todr:
     rcall bytes_to
     sbiw r30, BUFFER_LEN
     brcs far_bad
-    ; The days since 2000-01-01, a Saturday, but for whole weeks.
+    ; The days since 2000-01-01, a Saturday, but for whole weeks: a year has one more than those, a
+    ; leap year two, a month what it has beyond 28.
     mov r21, r18
     subi r21, -3
     lsr r21
@@ -259,11 +282,13 @@ Todr:
     subi r24, 28
     add r21, r24
     rjmp 3b
+    ; 1 is Sunday.
 4:  subi r21, 7
     brcc 4b
     subi r21, -8
     call MODULE_STATE
     ldi r19, FIELDS
+    ; The fields as BCD numbers, a 0, the day of the week.
 5:  ld r24, Z+
     ldi r25, 0
 6:  subi r24, 10
@@ -278,5 +303,7 @@ Todr:
     st X+, r1
     st X, r21
     rjmp done
+
+; in: -   ends: abandons the instruction
 far_bad:
     rjmp abandon

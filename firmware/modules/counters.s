@@ -1,9 +1,10 @@
-; Module 8: high-speed counters. HSC0 counts at I0.0 to I0.2, HSC3 at I0.1; they do what plc-vm does (plc/vm/src/modules:
-; high_speed.rs).
+; Module 8: high-speed counters. HSC0 counts at I0.0 to I0.2, HSC3 at I0.1; they do what plc-vm does
+; (plc/vm/src/modules: high_speed.rs).
 ;
-; Single pulses come by INT0 and INT1, an interrupt for each rising edge; encoders, the direction and the reset by changes of
-; pins. What happens most - the value changes in its last byte, and nothing else does - is done at once; all else by `step`.
-; Two tracks that have both changed since the last look went on in the direction they had.
+; Single pulses come by INT0 and INT1, an interrupt for each rising edge; encoders, the direction
+; and the reset by changes of pins. What happens most - the value changes in its last byte, and
+; nothing else does - is done at once; all else by `step`. Two tracks that have both changed since
+; the last look went on in the direction they had.
 
 .include "interface.inc"
 
@@ -11,13 +12,8 @@ OPERANDS
 STUB abandon, ABANDON
 .include "special.inc"
 
-; ---- the image
-
-.equ IMAGE_INVERTED_INPUTS, IMAGE + 27
-
 ; ---- registers of the processor
 
-.equ PIND, 0x09
 .equ PCIFR, 0x1B
 .equ EIFR, 0x1C
 .equ EIMSK, 0x1D
@@ -34,7 +30,8 @@ STUB abandon, ABANDON
 .equ RISING_0, 0
 .equ RISING_1, 2
 
-; Bits of PIND: I0.0 and I0.1, which are clocks or the tracks of an encoder, or clock and direction, and I0.2.
+; Bits of PIND: I0.0 and I0.1, which are clocks or the tracks of an encoder, or clock and direction,
+; and I0.2.
 .equ FIRST, 2
 .equ SECOND, 3
 .equ RESET, 4
@@ -44,21 +41,20 @@ STUB abandon, ABANDON
 
 ; Of HSC0, and 4 bytes further of HSC3: the preset, its last byte first;
 .equ PRESET, COUNTERS_STATE
-; behind those, where its special memory is; its bits of EIMSK, and of PCICR, while it counts.
+; after those, where its special memory is; its bits of EIMSK, and of PCICR, while it counts.
 .equ SPECIAL, 8
 .equ EDGES, 10
 .equ CHANGES, 11
 .equ OTHER, 4
-; The pins as HSC0 saw them last, as the program sees them; the reset is 1 when it resets. Which of them are inverted for that.
+; The pins as HSC0 saw them last, as the program sees them; the reset is 1 when it resets. Which of
+; them are inverted for that.
 .equ PINS, COUNTERS_STATE + 16
 .equ INVERTED, COUNTERS_STATE + 17
 
-; Special memory.
+; Special memory: the status, the control byte, then the new value and the new preset, double words.
 .equ SMB36, SPECIAL_IN_RANGES + 36
 .equ SMB136, SPECIAL_IN_RANGES + 136
 .equ CONTROL, 1
-.equ NEW_CURRENT, 2
-.equ NEW_PRESET, 6
 ; Control.
 .equ RESET_LOW, 0
 .equ ONE_FOLD, 2
@@ -80,13 +76,16 @@ STUB abandon, ABANDON
 .equ EXTERNAL_DIRECTION, 3
 .equ TWO_CLOCKS, 4
 .equ QUADRATURE, 5
-; every edge of two tracks counts, and nothing resets or is inverted; pins that are looked at whenever they change.
+; every edge of two tracks counts, and nothing resets or is inverted; pins that are looked at
+; whenever they change.
 .equ PLAIN, 6
 .equ WATCHED, 7
 
 ; ---- interrupts: what happens most
 
-; The next value of a counter, of which only the last byte changes. Otherwise all is looked at.
+; The next value of a counter, of which only the last byte changes. Otherwise all is looked at by
+; `step`, for which more registers must be saved: when the byte goes round, and at the preset's last
+; byte, before and after, because there the status changes.
 .macro COUNT_UP offset
     lds r30, HIGH_SPEED_COUNTER_0 + \offset + 3
     lds r31, PRESET + \offset
@@ -130,21 +129,26 @@ STUB abandon, ABANDON
     in r0, MORE_FLAGS
 .endm
 
-; INT0: the clock of HSC0, or the one that counts up.
+; INT0: the clock of HSC0, or the one that counts up. Means: plc-vm modules/high_speed.rs edge.
+; in: -   ends: the interrupt
 first_input:
     in r0, MORE_FLAGS
     sbrc r0, WATCHED
     rcall watched
     sbrs r0, UP_0
     rjmp 1f
+; in: r0 MORE_FLAGS, HSC0 counts up   ends: the interrupt, HSC0 one more
 up:
     COUNT_UP 0
 1:  sbrc r0, TWO_CLOCKS
     rjmp turn
+; in: r0 MORE_FLAGS, HSC0 counts down   ends: the interrupt, HSC0 one less
 down:
     COUNT_DOWN 0
 
-; INT1: the clock of HSC3, or the one of HSC0 that counts down.
+; INT1: the clock of HSC3, or the one of HSC0 that counts down. Means: plc-vm modules/high_speed.rs
+; edge.
+; in: -   ends: the interrupt
 second_input:
     in r0, MORE_FLAGS
     sbrc r0, TWO_CLOCKS
@@ -159,7 +163,9 @@ second_input:
     rjmp down
     rjmp turn
 
-; PCINT2: the tracks of an encoder, the direction, the reset.
+; PCINT2: the tracks of an encoder, the direction, the reset. Means: plc-vm modules/high_speed.rs
+; edge.
+; in: -   ends: the interrupt
 any_input:
     in r0, MORE_FLAGS
     sbrs r0, PLAIN
@@ -168,7 +174,8 @@ any_input:
     lds r31, PINS
     sts PINS, r30
     eor r31, r30
-; The pins now in r30, what has changed in r31.
+; An encoder of which every edge counts.
+; in: r30 the pins now, r31 what has changed, r0 MORE_FLAGS   ends: the interrupt
 tracks:
     andi r31, TRACKS
     breq done
@@ -178,7 +185,7 @@ tracks:
     eor r31, r30
     lsr r31
     eor r31, r30
-; HSC0 counts, up when the bit FIRST of r31 says so.
+; in: r31 bit FIRST: HSC0 counts up; r0 MORE_FLAGS   ends: the interrupt, the direction as it counts
 count:
     sbrs r31, FIRST
     rjmp 1f
@@ -187,8 +194,8 @@ count:
     rjmp turn
 1:  sbrs r0, UP_0
     rjmp down
-
-; The direction of HSC0 changes, and it counts. MORE_FLAGS in r0.
+; The direction of HSC0 changes, and it counts. Means: plc-vm modules/high_speed.rs turn.
+; in: r0 MORE_FLAGS   ends: the interrupt
 turn:
     ldi r30, 1 << UP_0
     eor r0, r30
@@ -199,7 +206,8 @@ turn:
 
 ; ---- interrupts: what happens now and then
 
-; The next step of HSC0 in its direction, for `step`.
+; The next step of HSC0 in its direction.
+; in: r0 MORE_FLAGS   out: r30, r31 as `step` takes them   destroys: -
 on:
     ldi r31, 1
     sbrs r0, UP_0
@@ -207,8 +215,11 @@ on:
     ldi r30, lo8(PRESET)
     ret
 
-; Both tracks have changed: two steps, at once when only the last byte changes and the preset is not near.
+; Both tracks have changed: two steps, at once when only the last byte changes and the preset is not
+; near.
+; in: r0 MORE_FLAGS   ends: the interrupt
 twice:
+    ; Up, the preset may not be 0, 1 or 2 further, in its last byte; down, not 0, 1 or 2 back.
     lds r30, HIGH_SPEED_COUNTER_0 + 3
     lds r31, PRESET
     sub r31, r30
@@ -229,19 +240,25 @@ twice:
 3:  rcall on
     rcall step
     mov r31, r0
+; in: r30, r31 as `step` takes them   ends: the interrupt
 one_step:
     rcall step
+; in: -   ends: the interrupt
 done:
     INTERRUPT_DONE
 
+; in: -   out: the event of the direction   destroys: r30
 turned:
     EVENT COUNTER_0_DIRECTION_EVENT
     ret
 
-; A clock whose pins have changed, too: they come first. While it is reset the clock does not count.
+; A clock whose pins have changed, too: they come first. While it is reset the clock does not count:
+; then this ends the interrupt.
+; in: r0 MORE_FLAGS   out: r0 MORE_FLAGS   destroys: Z, T
 watched:
     sbis PCIFR, PINS_BIT
     ret
+    ; `watch` has switched the clock off when it is reset: then what was counting is left.
     LOOK
     rcall watch
     sbic EIMSK, INT0
@@ -250,14 +267,16 @@ watched:
     pop r0
     rjmp done
 
-; Pins that do not only count: the direction and the reset; tracks with a reset, of which one edge of four counts, or which
-; are inverted.
+; Pins that do not only count: the direction and the reset; tracks with a reset, of which one edge
+; of four counts, or which are inverted.
+; in: -   ends: the interrupt
 not_plain:
     LOOK
     sbrc r0, QUADRATURE
     rjmp 1f
     rcall watch
     rjmp done
+    ; r31: what has changed; `watch` takes what was before, and is called for the reset alone.
 1:  push r18
     lds r18, PCMSK2
     eor r31, r30
@@ -267,6 +286,7 @@ not_plain:
     eor r31, r30
     rcall watch
     eor r31, r30
+    ; T: every edge of both counts. Nothing counts while it is reset.
 2:  bst r18, SECOND
     and r18, r30
     andi r18, 1 << RESET
@@ -281,13 +301,8 @@ not_plain:
     mov r31, r30
     rjmp count
 
-.macro EACH instruction, registers:vararg
-    .irp register, \registers
-    \instruction \register
-    .endr
-.endm
-
-; What the pins say about direction and reset: r30 now, r31 before. MORE_FLAGS in r0, before and after; keeps r30, r31.
+; What the pins say about direction and reset. Means: plc-vm modules/high_speed.rs direction, edge.
+; in: r30 the pins now, r31 before, r0 MORE_FLAGS   out: r0 MORE_FLAGS   destroys: T
 watch:
     EACH push, r18, r19, r20, r21, r22, r23, r26, r27, r30, r31
     mov r23, r30
@@ -333,12 +348,14 @@ watch:
 3:  EACH pop, r31, r30, r27, r26, r23, r22, r21, r20, r19, r18
     ret
 
-; A counter's next value, 1 or -1 in r31 further, with what it causes. In r30 the low byte of its place in memory. Keeps
-; r30; the step then is in r0.
+; A counter's next value, with what it causes. Means: plc-vm modules/high_speed.rs edge.
+; in: r31 step, 1 or -1, r30 low byte of the counter's place in memory   out: r0 the step
+; destroys: r31
 step:
     mov r0, r31
     EACH push, r18, r19, r20, r21, r26, r27
     rcall current
+    ; The step with its sign: r31 is its upper bytes.
     mov r31, r0
     lsl r31
     sbc r31, r31
@@ -351,6 +368,7 @@ step:
     st -X, r20
     st -X, r21
     rcall status
+    ; EVENT changes r30.
     sbrs r18, IS_EQUAL
     rjmp 3f
     mov r26, r30
@@ -363,12 +381,14 @@ step:
 3:  EACH pop, r27, r26, r21, r20, r19, r18
     ret
 
-; The status follows from value, preset and direction of the counter at r30, the low byte of its place.
+; The status follows from value, preset and direction. Means: plc-vm modules/high_speed.rs
+; write_status.
+; in: r30 low byte of the counter's place   out: r18 the status   destroys: r19-r21, r31, X
 settle:
     rcall current
     rjmp status
 
-; The value of the counter at r30 in r21 (highest) to r18, X behind it.
+; in: r30 low byte of a counter's place   out: r21:r18 its value, X after it   destroys: -
 current:
     mov r26, r30
     subi r26, lo8(PRESET - HIGH_SPEED_COUNTER_0)
@@ -379,7 +399,8 @@ current:
     ld r18, X+
     ret
 
-; The status, in r18 too, of the counter at r30 with the value in r21 to r18. Changes r26, r27, r31.
+; in: r30 low byte of a counter's place, r21:r18 its value   out: r18 its status, which is written
+; destroys: r31, X
 status:
     ldi r31, hi8(PRESET)
     ld r26, Z

@@ -1,8 +1,9 @@
-; Module 0: bytes, words and double words with any operand: moves, arithmetic, logic, shifts, conversions, comparisons, ranges
-; of bits. They do what plc-vm does (plc/vm/src/modules).
+; Module 0: bytes, words and double words with any operand: moves, arithmetic, logic, shifts,
+; conversions, comparisons, ranges of bits. They do what plc-vm does (plc/vm/src/modules).
 ;
-; Most routines share one way: IN1 and OUT are brought to 32 bits with their sign, and what becomes of them is written in
-; the width of OUT. Routines that do the same in three widths have numbers in a row.
+; Most routines share one way: IN1 and OUT are brought to 32 bits with their sign, and what becomes
+; of them is written in the width of OUT. Routines that do the same in three widths have numbers in
+; a row.
 
 .include "interface.inc"
 
@@ -10,12 +11,15 @@ OPERANDS
 STUB read_byte, READ + 1
 STUB abandon, ABANDON
 
-; The value of IN, as long as r20 says.
+; Reads IN.
+; in: r20 its length, 1, 2 or 4   out: r25:r22 the value, Y after the operand   destroys: r0, X, Z
 read_in:
     mov r26, r20
     ori r26, READ
     rjmp operands
-; The address of OUT, as long as r19 says.
+
+; Finds OUT.
+; in: r19 its length, 1, 2 or 4   out: X its address, Y after the operand   destroys: r0, r22-r25, Z
 target_out:
     mov r26, r19
     ori r26, WRITE
@@ -23,7 +27,8 @@ target_out:
 
 ; ---- subroutines
 
-; r26 / 3 in r18, the remainder in r26.
+; Of a routine's number in its group: which operation it is, and its width.
+; in: r26 number   out: r18 number / 3, r26 the remainder   destroys: -
 divide_by_3:
     ldi r18, -1
 1:  inc r18
@@ -32,7 +37,8 @@ divide_by_3:
     subi r26, -3
     ret
 
-; The width in bytes, r26 and r19, from its number 0, 1, 2 in r26.
+; The width that a routine's number stands for.
+; in: r26 0 byte, 1 word, 2 double word   out: r19 and r26 the length, 1, 2 or 4   destroys: -
 width:
     lsl r26
     brne 1f
@@ -40,7 +46,8 @@ width:
 1:  mov r19, r26
     ret
 
-; The value of r31 bytes at X, with its sign. X behind it.
+; Reads a value with its sign. Means: plc-vm references.rs get.
+; in: X address, r31 length   out: r25:r22 value, X after it   destroys: -
 load:
     sbrc r31, 2
     rjmp 2f
@@ -59,10 +66,13 @@ load:
     ld r22, X+
     ret
 
-; The value to the r31 bytes at X or, `store`, before X, which is at the first of them then.
+; Writes a value. Means: plc-vm references.rs put.
+; in: X address, r31 length, r25:r22 value   out: X the address again   destroys: -
 store_at:
     add r26, r31
     adc r27, r1
+; Writes a value before an address: backwards, because the lowest byte, which all have, is the last.
+; in: X the address after it, r31 length, r25:r22 value   out: X its first byte   destroys: -
 store:
     st -X, r22
     sbrc r31, 0
@@ -74,7 +84,8 @@ store:
     st -X, r25
     ret
 
-; Z: the value fits r31 bytes.
+; Whether a value can be written in a length. Means: plc-vm references.rs holds.
+; in: r25:r22 value, r31 length   out: zero flag: it fits   destroys: r0
 fits:
     cp r1, r1
     sbrc r31, 2
@@ -90,7 +101,8 @@ fits:
     cpc r23, r0
     ret
 
-; Z: the r31 lowest bytes of the value are 0.
+; Whether as much of a value as is written is 0.
+; in: r25:r22 value, r31 length   out: zero flag: it is   destroys: r0
 is_zero:
     mov r0, r22
     sbrs r31, 0
@@ -102,43 +114,59 @@ is_zero:
 1:  tst r0
     ret
 
-; The value with the other sign.
+; in: r25:r22 a number   out: r25:r22 with the other sign   destroys: -
 negate:
-    com r25
-    com r24
-    com r23
-    neg r22
-    sbci r23, -1
-    sbci r24, -1
-    sbci r25, -1
+    NEGATE r25, r24, r23, r22
     ret
 
 ; ---- moves and conversions: lengths of IN in r20, of OUT in r19
 
+; Copies a double word or a real. Means: plc-vm modules/mod.rs move_.
+; in: IN, OUT   ends: OUT := IN
 Movd:
 Movr:
     ldi r20, 4
     rjmp 1f
+
+; A word with its sign. Means: plc-vm modules/convert.rs map.
+; in: IN, OUT   ends: OUT := IN
 Itd:
     ldi r20, 2
 1:  ldi r19, 4
     rjmp convert
+
+; A double word that fits a word. Means: plc-vm modules/convert.rs narrow.
+; in: IN, OUT   ends: OUT := IN, or SM1.1
 Dti:
     ldi r20, 4
     rjmp 1f
+
+; A byte without a sign. Means: plc-vm modules/convert.rs map.
+; in: IN, OUT   ends: OUT := IN
 Bti:
     ldi r20, 1
     rjmp 1f
+
+; Copies a word. Means: plc-vm modules/mod.rs move_.
+; in: IN, OUT   ends: OUT := IN
 MovwAny:
     ldi r20, 2
 1:  ldi r19, 2
     rjmp convert
+
+; A word that fits a byte. Means: plc-vm modules/convert.rs narrow.
+; in: IN, OUT   ends: OUT := IN, or SM1.1
 Itb:
     ldi r20, 2
     rjmp 1f
+
+; Copies a byte. Means: plc-vm modules/mod.rs move_.
+; in: IN, OUT   ends: OUT := IN
 MovbAny:
     ldi r20, 1
 1:  ldi r19, 1
+; Copies between lengths; where OUT is the shorter one, what does not fit is an overflow.
+; in: r20 length of IN, r19 of OUT   ends: OUT := IN, or SM1.1
 convert:
     rcall read_in
     rcall target_out
@@ -147,7 +175,9 @@ convert:
     brsh write
     rcall fits
     ldi r20, 1 << OVERFLOW
-; Z: the value is written and the bit r20 of SMB1 becomes 0. Otherwise it becomes 1.
+; Ends with a value, if there is one. Means: plc-vm modules/convert.rs put_if.
+; in: zero flag: there is one, r25:r22 it, X address, r31 length, r20 bit of SMB1 for none
+; ends: with the value, the bit 0; or with the bit 1, ENO 0
 write_if:
     ldi r18, 0
     breq 1f
@@ -157,18 +187,18 @@ write_if:
 1:  rcall store_at
     rjmp status
 
-; The segments for the digits 0 to F: bit 0 is a, bit 6 is g.
+; The segments of a hexadecimal digit: bit 0 is a, bit 6 is g. Means: plc-vm modules/convert.rs
+; convert.
+; in: IN, OUT   ends: OUT := segments
 Seg:
     ldi r20, 1
     ldi r19, 1
     rcall read_in
     rcall target_out
     rcall 1f
-    .byte 0x3F, 0x06, 0x5B, 0x4F, 0x66, 0x6D, 0x7D, 0x07, 0x7F, 0x67, 0x77, 0x7C, 0x39, 0x5E, 0x79, 0x71
-1:  pop r31
-    pop r30
-    lsl r30
-    rol r31
+    .byte 0x3F, 0x06, 0x5B, 0x4F, 0x66, 0x6D, 0x7D, 0x07
+    .byte 0x7F, 0x67, 0x77, 0x7C, 0x39, 0x5E, 0x79, 0x71
+1:  BYTES_AFTER_CALL
     andi r22, 0x0F
     add r30, r22
     adc r31, r1
@@ -176,6 +206,8 @@ Seg:
     ldi r31, 1
     rjmp write
 
+; The word with the bit whose number is in IN. Means: plc-vm modules/convert.rs convert.
+; in: IN, OUT   ends: OUT := word
 Deco:
     ldi r20, 1
     ldi r19, 2
@@ -192,13 +224,15 @@ Deco:
     rol r23
     rjmp 1b
 
+; The number of the lowest bit that is 1, and 0 for none. Means: plc-vm modules/convert.rs convert.
+; in: IN, OUT   ends: OUT := number
 Enco:
     ldi r20, 2
     ldi r19, 1
     rcall read_in
     rcall target_out
     mov r31, r19
-    ; Behind the 16 bits stands one more, for 0.
+    ; After the 16 bits is one more, for 0.
     ldi r18, -1
     sec
 1:  inc r18
@@ -207,10 +241,14 @@ Enco:
     brcc 1b
     andi r18, 0x0F
     mov r22, r18
+; Ends with a value.
+; in: r25:r22 value, X address, r31 length   ends: with it written
 write:
     rcall store_at
     rjmp done
 
+; Exchanges the bytes of a word. Means: plc-vm modules/mod.rs move_.
+; in: OUT   ends: OUT exchanged
 Swap:
     ldi r19, 2
     rcall target_out
@@ -218,11 +256,14 @@ Swap:
     ld r25, X
     st X, r24
     st -X, r25
+; in: -   ends: with nothing more
 done:
     DONE
 
 ; ---- BCD, in place
 
+; A number of four BCD digits in place. Means: plc-vm modules/convert.rs of_bcd.
+; in: OUT   ends: OUT := number, or SM1.6
 Bcdi:
     ldi r19, 2
     rcall target_out
@@ -234,6 +275,7 @@ Bcdi:
     cpi r20, 10
     brsh no_bcd
     rcall shift_digit
+    ; Times ten: twice, and four times that.
     lsl r22
     rol r23
     movw r18, r22
@@ -249,6 +291,8 @@ Bcdi:
     brne 1b
     rjmp is_bcd
 
+; The four BCD digits of a number in place. Means: plc-vm modules/convert.rs to_bcd.
+; in: OUT   ends: OUT := digits, or SM1.6
 Ibcd:
     ldi r19, 2
     rcall target_out
@@ -271,15 +315,20 @@ Ibcd:
     rcall shift_digit
     add r22, r24
     mov r23, r25
+; in: r23:r22 result, X address, r31 length 2   ends: OUT := result, SM1.6 := 0
 is_bcd:
     sez
     rjmp 1f
+
+; in: -   ends: SM1.6 := 1, ENO := 0
 no_bcd:
     clz
 1:  ldi r20, 1 << NO_BCD
     rjmp write_if
 
-; The word at X in r24 and r25, 0 in r22 and r23.
+; Reads the word of BCDI and IBCD.
+; in: X its address, r19 length 2
+; out: r25:r24 the word, r23:r22 0, r31 length, X the address again   destroys: -
 begin_bcd:
     mov r31, r19
     ld r25, X+
@@ -289,7 +338,9 @@ begin_bcd:
     clr r23
     ret
 
-; Another digit of r24 and r25: how often r20 and r21 are in r22 and r23.
+; Takes a decimal digit out of a number, by subtraction.
+; in: r23:r22 number, r21:r20 what the digit counts, r25:r24 digits before it
+; out: r25:r24 with the digit, r23:r22 the rest   destroys: r18
 next_digit:
     rcall shift_digit
 1:  sub r22, r20
@@ -300,7 +351,8 @@ next_digit:
 2:  add r22, r20
     adc r23, r21
     ret
-; r24 and r25 a digit to the left.
+
+; in: r25:r24   out: r25:r24 a hexadecimal digit to the left   destroys: r18
 shift_digit:
     ldi r18, 4
 1:  lsl r24

@@ -1,8 +1,9 @@
 ; Module 5: points of the board beside the process image, and interrupt events.
 ;
-; Events are looked for whenever the program polls: the engine comes to `events` when pins, T32 and T96, or the clock
-; are others than at the last poll. Routines are entered as a call enters them; where they return to is bytecode of this
-; module, which comes back here. Nothing of this is done by interrupts of the processor.
+; Events are looked for whenever the program polls: the engine comes to `events` when pins, T32 and
+; T96, or the clock are others than at the last poll. Routines are entered as a call enters them;
+; where they return to is bytecode of this module, which comes back here. Nothing of this is done by
+; interrupts of the processor.
 
 .include "interface.inc"
 
@@ -12,16 +13,9 @@ STUB source_byte, 1
 STUB target_byte, WRITE + 1
 STUB abandon, ABANDON
 
-; ---- the image
-
-.equ IMAGE_INVERTED_INPUTS, IMAGE + 27
-.equ IMAGE_INVERTED_OUTPUTS, IMAGE + 28
-
 ; ---- registers and data memory
 
-.equ DDRB, 0x04
 .equ PORTB, 0x05
-.equ PIND, 0x09
 ; IB0 begins at bit 2 of the pins.
 .equ INPUTS, 0x3F
 .equ OUTPUTS, 6
@@ -30,7 +24,8 @@ STUB abandon, ABANDON
 
 ; ---- points
 
-; The inputs as they are now, like IB0, in r18: those that are forced with their values. Changes r19, Z.
+; The inputs as they are now, like IB0: those that are forced with their values.
+; in: -   out: r18   destroys: r19, Z
 inputs:
     ldi r30, lo8(IMAGE_INVERTED_INPUTS)
     ldi r31, hi8(IMAGE_INVERTED_INPUTS)
@@ -40,6 +35,7 @@ inputs:
     lsr r19
     eor r18, r19
     andi r18, INPUTS
+    ; Forced bits become 0, then their values.
     lds r19, FORCED_INPUTS
     or r18, r19
     eor r18, r19
@@ -47,14 +43,16 @@ inputs:
     or r18, r19
     ret
 
-; The number of a point in the word at Y. Changes Z.
+; in: Y at a word   out: r20 the number of its point, 0 to 7   destroys: Z
 point:
     movw r30, r28
     lpm r20, Z
     andi r20, 7
     ret
 
-; In the order of their numbers: each pair loads, combines by AND, by OR; the second of a pair inverts.
+; Contacts of an input as it is now: each pair loads, combines by AND, by OR; the second of a pair
+; inverts. Means: plc-vm modules/points.rs input.
+; in: BIT   ends: as COMBINE
 Ldi:
 Ldni:
 Ai:
@@ -75,12 +73,17 @@ Oni:
     ldi r26, COMBINE
     rjmp operands
 
+; Means: plc-vm modules/points.rs points.
+; in: BIT   ends: BIT := power flow
 AssignImmediate:
     rcall point
     rcall write_point
+; in: -   ends: with nothing more
 done:
     DONE
 
+; Means: plc-vm modules/mod.rs write_bits.
+; in: BIT, N   ends: with N outputs from BIT on 1 or 0
 SetImmediate:
 ResetImmediate:
     mov r18, r26
@@ -104,8 +107,9 @@ ResetImmediate:
     rjmp done
 1:  rjmp abandon
 
-; T to output r20 in the process image and, where there is one and the output is not forced, to its pin: the pin of a
-; forced one is left as the scan before left it. Keeps r20, r22.
+; An output: its bit in the process image and, where there is one and the output is not forced, its
+; pin. The pin of a forced one is left as the scan before left it.
+; in: r20 number, T value   out: r20 as it was   destroys: r18, r19, r21, X, Z
 write_point:
     mov r26, r20
     lsr r26
@@ -115,12 +119,8 @@ write_point:
     ldi r27, hi8(DATA_START)
     mov r19, r20
     andi r19, 7
-    ldi r18, 1
-1:  subi r19, 1
-    brcs 2f
-    lsl r18
-    rjmp 1b
-2:  ld r19, X
+    BIT_MASK r18, r19
+    ld r19, X
     or r19, r18
     brts 3f
     eor r19, r18
@@ -143,14 +143,15 @@ write_point:
     out DDRB, r21
 5:  ret
 
-; Which outputs are inverted, in r19. Changes Z.
+; in: -   out: r19 which outputs are inverted   destroys: Z
 inverted_outputs:
     ldi r30, lo8(IMAGE_INVERTED_OUTPUTS)
     ldi r31, hi8(IMAGE_INVERTED_OUTPUTS)
     lpm r19, Z
     ret
 
-; OUT := a byte of I: IB0 by its pins.
+; A byte of I, IB0 by its pins. Means: plc-vm modules/points.rs points.
+; in: IN, OUT   ends: OUT := the byte
 Bir:
     rcall source_byte
     cpi r27, hi8(DATA_START)
@@ -167,7 +168,8 @@ Bir:
     rjmp done
 1:  rjmp abandon
 
-; A byte of Q := IN: QB0 to its pins, too.
+; A byte to Q, QB0 to its pins, too. Means: plc-vm modules/points.rs points.
+; in: IN, OUT   ends: OUT := IN
 Biw:
     rcall read_byte
     rcall target_byte
@@ -193,9 +195,13 @@ Biw:
     out DDRB, r22
 2:  rjmp done
 
-; The Uno has no LED for it: L is output Q0.5.
+; The Uno has no LED for it: L is output Q0.5. Means: plc-vm modules/hardware.rs hardware.
+; in: IN   ends: with IN read
 Dled:
     rcall read_byte
     rjmp done
 
 .include "events.inc"
+.include "event_sources.inc"
+.include "event_queues.inc"
+.include "special.inc"

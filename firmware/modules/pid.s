@@ -1,4 +1,5 @@
-; Module 12: PID, bit for bit as plc/vm/src/pid.rs, which says what is computed and why. Needs module 1, real.
+; Module 12: PID, bit for bit as plc/vm/src/pid.rs, which says what is computed and why. Needs
+; module 1, real.
 
 .include "interface.inc"
 .include "real.inc"
@@ -7,15 +8,11 @@
     STUB target_table, WRITE + ROOM + 1
     REAL
 
-.equ IMAGE_ARENA_LEN, IMAGE + 10
-.equ IMAGE_EVENTS, IMAGE + 39
 .equ SYSTEM_BITS, RESULT_BITS - 1
 .equ FIRST_SCAN, 1
-.equ SPL, 0x3D
-.equ SPH, 0x3E
 
-; Computed in steps. A step is a byte: what is done with r25:r22, and with which real of the loop table, at Y, or of those
-; on the stack.
+; Computed in steps. A step is a byte: what is done with r25:r22, and with which real of the loop
+; table, at Y, or of those on the stack.
 .equ ADD, 0 << 6
 .equ SUB, 1 << 6
 .equ MUL, 2 << 6
@@ -46,16 +43,28 @@
 ; Of an integral time without effect, its exponent, which is even.
 .equ NO_INTEGRAL_EXPONENT, 113 + BIAS
 
-.macro STEPS steps:vararg
+; STEPS is all of them; many begin with FIRST_STEPS and end with LAST_STEPS.
+.macro FIRST_STEPS steps:vararg
         rcall   steps
+        .irp    step, \steps
+        .byte   \step
+        .endr
+.endm
+.macro LAST_STEPS steps:vararg
         .irp    step, \steps
         .byte   \step
         .endr
         .byte   END
         .balign 2
 .endm
+.macro STEPS steps:vararg
+        rcall   steps
+        LAST_STEPS \steps
+.endm
 
-; TBL, LOOP, the number of the history bit: power flow was missing. T: power flow.
+; Controls a loop. The third operand is the number of the history bit: power flow was missing.
+; Means: plc-vm modules/real.rs pid, pid.rs execute.
+; in: TBL, LOOP, history, T power flow   ends: with the loop table, or SM1.1, ENO 0
 Pid:
         ; Executed without power flow, too, but a box.
         ldi     r18, 1
@@ -71,6 +80,7 @@ Pid:
         lpm     r18, Z
         sub     r26, r18
         sbc     r27, r1
+        ; So many bytes have the bits.
         adiw    r24, 7
         lsr     r25
         ror     r24
@@ -78,6 +88,7 @@ Pid:
         lsr     r24
         sub     r26, r24
         sbc     r27, r1
+        ; The byte of the history bit, and its mask in r19.
         movw    r30, r28
         adiw    r30, 3
         lpm     r24, Z
@@ -92,12 +103,8 @@ Pid:
         sbci    r27, hi8(-ARENA_START)
         cpi     r27, hi8(DATA_END)
         brsh    abandon
-        ldi     r19, 1
-1:      subi    r18, 1
-        brcs    2f
-        lsl     r19
-        rjmp    1b
-2:      ld      r18, X
+        BIT_MASK r19, r18
+        ld      r18, X
         mov     r20, r18
         and     r20, r19                ; not zero: a start
         or      r18, r19
@@ -113,9 +120,11 @@ Pid:
         rcall   target_table
         sbiw    r30, TABLE_LEN
         brcc    5f
+; in: -   ends: abandons the instruction
 abandon:
         ldi     r26, ABANDON
         rjmp    operands
+        ; The reals on the stack, the last one first: 60.0, then zeros.
 5:      movw    r28, r26
         push    r1                      ; 60.0
         push    r1
@@ -130,12 +139,15 @@ abandon:
         push    r1
         dec     r18
         brne    6b
+        ; A start takes the process value for the setpoint and the last one, and the output for the
+        ; bias.
         tst     r20
         breq    7f
         STEPS   LOAD + PROCESS, STORE + WANTED, STORE + LAST, LOAD + OUTPUT
         rjmp    8f
 7:      STEPS   LOAD + SETPOINT, STORE + WANTED, LOAD + TABLE_LAST, STORE + LAST, LOAD + TABLE_BIAS
 8:      STEPS   STORE + SUM, LOAD + WANTED, SUB + PROCESS, STORE + ERROR, LOAD + GAIN
+        ; Without a gain the other two actions have one of 1.
         rcall   is_zero
         brne    9f
         ldi     r25, 0x3F               ; 1.0
@@ -143,12 +155,15 @@ abandon:
 9:      STEPS   STORE + OTHER_GAIN
         rcall   no_integral
         breq    10f
-        STEPS   MUL + SIXTY, STORE + REST, LOAD + OTHER_GAIN, MUL + SAMPLE_TIME, DIV + REST, MUL + ERROR, ADD + SUM, STORE + SUM
+        FIRST_STEPS MUL + SIXTY, STORE + REST, LOAD + OTHER_GAIN, MUL + SAMPLE_TIME
+        LAST_STEPS DIV + REST, MUL + ERROR, ADD + SUM, STORE + SUM
 10:     STEPS   LOAD + GAIN, MUL + ERROR, STORE + REST, LOAD + DERIVATIVE_TIME
         rcall   is_zero
         breq    11f
-        STEPS   MUL + SIXTY, MUL + OTHER_GAIN, DIV + SAMPLE_TIME, STORE + ERROR, LOAD + LAST, SUB + PROCESS, MUL + ERROR, ADD + REST, STORE + REST
+        FIRST_STEPS MUL + SIXTY, MUL + OTHER_GAIN, DIV + SAMPLE_TIME, STORE + ERROR, LOAD + LAST
+        LAST_STEPS SUB + PROCESS, MUL + ERROR, ADD + REST, STORE + REST
 11:     STEPS   LOAD + SUM, ADD + REST
+        ; The output; and when it was limited, the integral sum that belongs to it.
         rcall   limit
         STEPS   STORE + OUTPUT
         rcall   no_integral
@@ -158,10 +173,13 @@ abandon:
 12:     STEPS   LOAD + SUM
         rcall   limit
         STEPS   STORE + SUM
-13:     STEPS   LOAD + SUM, STORE + TABLE_BIAS, LOAD + WANTED, STORE + SETPOINT, LOAD + PROCESS, STORE + TABLE_LAST
+13:     FIRST_STEPS LOAD + SUM, STORE + TABLE_BIAS, LOAD + WANTED, STORE + SETPOINT
+        LAST_STEPS LOAD + PROCESS, STORE + TABLE_LAST
         ldi     r19, 0
         rjmp    14f
-; There is no result; two bytes more on the stack.
+
+; There is no result.
+; in: two bytes more on the stack than the reals   ends: SM1.1 := 1, ENO := 0
 failed:
         pop     r0
         pop     r0
@@ -181,17 +199,17 @@ failed:
         set
         DONE
 
-; The steps behind the call, which is not from a subroutine if it needs the stack.
+; The steps after the call, which is not from a subroutine if it needs the stack.
+; in: Y the loop table, r25:r22 a real   out: r25:r22 a real   destroys: r0, r18-r21, X, Z, T
 steps:
-        pop     r31
-        pop     r30
-        lsl     r30
-        rol     r31
+        BYTES_AFTER_CALL
 1:      lpm     r20, Z+
         cpi     r20, END
         breq    5f
         mov     r19, r20
         andi    r19, 0x3C
+        ; X at the real: in the table, or on the stack, where the first one has the number
+        ; TABLE_LEN.
         movw    r26, r28
         cpi     r19, TABLE_LEN
         brcs    2f
@@ -234,14 +252,16 @@ steps:
 5:      adiw    r30, 1
         rjmp    go_on
 
-; r25:r22 := the integral time. Z: it is zero, or 2^113 or more.
+; Whether the integral time is zero, or 2^113 or more: without effect.
+; in: Y the loop table   out: r25:r22 the integral time, zero flag: it is
+; destroys: r0, r18-r21, X, Z, T
 no_integral:
         STEPS   LOAD + INTEGRAL_TIME
         mov     r30, r25
         lsl     r30
         cpi     r30, NO_INTEGRAL_EXPONENT
         brcc    1f
-; Z: r25:r22 is zero.
+; in: r25:r22 real   out: zero flag: it is zero   destroys: r30
 is_zero:
         mov     r30, r25
         lsl     r30
@@ -252,7 +272,8 @@ is_zero:
 1:      cp      r1, r1
         ret
 
-; The nearest value from 0.0 to 1.0; T: another one.
+; The nearest value from 0.0 to 1.0. Means: plc-vm pid.rs limit.
+; in: r25:r22 real   out: r25:r22 that value, T: it is another one   destroys: r30
 limit:
         clt
         sbrc    r25, 7

@@ -1,4 +1,5 @@
-; Module 4: tables, FILL and copies of blocks. They do what plc-vm does (plc/vm/src/modules/table.rs).
+; Module 4: tables, FILL and copies of blocks. They do what plc-vm does
+; (plc/vm/src/modules/table.rs).
 
 .include "interface.inc"
 
@@ -15,7 +16,11 @@ STUB abandon, ABANDON
 .equ LIFO_BIT, 1
 .equ FIRST_BLOCK, 5
 
-; A table at X, with room Z: its length in r20, its number of entries in r21, X at the first. Carry: it is not complete.
+; A table: its length, its number of entries, the entries, all words. Means: plc-vm modules/table.rs
+; table_at.
+; in: X address, Z room
+; out: r20 length, r21 number of entries, X the first, carry: it is not complete
+; destroys: r24, r25, Z
 check_table:
     sbiw r30, 4
     brcs 1f
@@ -29,7 +34,9 @@ check_table:
     cp r20, r21
     cpc r1, r24
 1:  ret
-; Carry: r24 and r25 are no number of entries, or there is no room Z for them.
+
+; in: r24, r25 a word, its high byte in r24, Z room in bytes
+; out: carry: it is no number of entries, or they have no room   destroys: r25
 check_room:
     tst r24
     brne 1f
@@ -42,7 +49,9 @@ check_room:
 1:  sec
     ret
 
-; Carry: the bit r25 of SMB1 becomes 0. Otherwise it becomes 1, and ENO 0. Keeps the carry.
+; A bit of SMB1 that tells that nothing can be done. Keeps the carry.
+; in: r25 the bit, carry: it becomes 0, otherwise 1 and ENO 0   out: the carry as it was
+; destroys: r24
 status:
     lds r24, RESULT_BITS
     or r24, r25
@@ -53,7 +62,7 @@ status:
 2:  sts RESULT_BITS, r24
     ret
 
-; Entry r25 of the table at X, at Z.
+; in: X the first entry, r25 number of an entry   out: Z that entry   destroys: r25
 at_entry:
     movw r30, r26
     lsl r25
@@ -61,6 +70,8 @@ at_entry:
     adc r31, r1
     ret
 
+; Appends to a table. Means: plc-vm modules/table.rs add_to_table.
+; in: DATA, TBL   ends: with DATA in TBL, or SM1.4
 Att:
     rcall read_word
     movw r18, r22
@@ -78,11 +89,16 @@ Att:
     st Z, r22
     inc r21
     st -X, r21
+; in: -   ends: with nothing more
 done:
     DONE
+
+; in: -   ends: abandons the instruction
 bad:
     rjmp abandon
 
+; Takes the first, the last entry out of a table. Means: plc-vm modules/table.rs take_from_table.
+; in: TBL, DATA   ends: DATA := the entry, or SM1.5
 Fifo:
 Lifo:
     mov r19, r26
@@ -99,6 +115,7 @@ Lifo:
     ldi r25, 1 << TABLE_EMPTY
     rcall status
     brcc done
+    ; LIFO takes the last one, FIFO number 0.
     dec r21
     mov r25, r21
     sbrs r19, LIFO_BIT
@@ -122,7 +139,10 @@ Lifo:
     st Z, r24
     rjmp done
 
-; The table begins with its number of entries.
+; Looks in a table, which begins with its number of entries here. Means: plc-vm modules/table.rs
+; find.
+; in: relation, TBL, PTN, INDX
+; ends: INDX := the first entry from INDX on with the relation to PTN, or their number
 Fnd:
     movw r30, r28
     adiw r28, 1
@@ -134,6 +154,7 @@ Fnd:
     sbiw r30, 2
     rcall check_room
     brcs bad
+    ; X waits in r18 and r21, as r20 is the number of entries.
     mov r18, r26
     mov r21, r27
     rcall read_word
@@ -161,13 +182,13 @@ Fnd:
     ld r0, Z+
     ld r25, Z+
     ; A bit for each relation that holds, in their order.
-    ldi r18, 0x31
+    ldi r18, EQUAL_HOLD
     cp r25, r22
     cpc r0, r23
     breq 4f
-    ldi r18, 0x16
+    ldi r18, LESS_HOLD
     brlt 4f
-    ldi r18, 0x2A
+    ldi r18, GREATER_HOLD
 4:  and r18, r19
     brne 5f
     inc r24
@@ -176,7 +197,10 @@ Fnd:
     st -X, r1
     rjmp done
 
+; Fills words. Means: plc-vm modules/table.rs fill.
+; in: IN, OUT, N   ends: with N words from OUT on as IN
 Fill:
+    ; N first: it is what IN and OUT must have room for.
     adiw r28, 4
     rcall read_byte
     mov r20, r22
@@ -196,6 +220,8 @@ Fill:
     st X+, r22
     rjmp 1b
 
+; Copies bytes, words, double words. Means: plc-vm modules/table.rs copy_block.
+; in: IN, OUT, N   ends: with N values from OUT on as those from IN on
 Bmb:
 Bmw:
 Bmd:
@@ -241,6 +267,7 @@ Bmd:
     st X+, r0
     sbiw r24, 1
     brne 4b
+; in: -   ends: with nothing more
 far_done:
     DONE
 5:  add r30, r24
@@ -252,5 +279,7 @@ far_done:
     sbiw r24, 1
     brne 6b
     rjmp far_done
+
+; in: -   ends: abandons the instruction
 far_bad:
     rjmp abandon

@@ -18,7 +18,8 @@ STUB abandon, ABANDON
 
 .include "strings.inc"
 
-; r18 bytes from r20 and r21 to X, as if all were read before the first is written.
+; Copies characters as if all were read before the first is written.
+; in: r18 how many, r21:r20 from, X to   out: -   destroys: r0, r25, X, Z
 move:
     mov r25, r18
     movw r30, r20
@@ -30,6 +31,7 @@ move:
     rcall fetch
     st X+, r0
     rjmp 1b
+    ; Backwards. Flash is above all of data memory, so that this never reads there.
 2:  add r30, r25
     adc r31, r1
     add r26, r25
@@ -41,7 +43,10 @@ move:
     rjmp 3b
 4:  ret
 
-; Compares r25 characters of two strings. Z: they are the same; otherwise those in r26 and r0 differ.
+; Compares characters of two strings.
+; in: r25 how many, r21:r20, r23:r22 characters
+; out: zero flag: they are the same; otherwise r26 and r0 differ, and carry: r26 is less
+; destroys: r20-r23, r25, Z
 compare:
     subi r25, 1
     brcs 1f
@@ -58,15 +63,20 @@ compare:
 1:  sez
     ret
 
+; The length of a string. Means: plc-vm modules/text.rs text.
+; in: IN, OUT   ends: OUT := length
 Slen:
     rcall bytes_in
     rcall begin_first
     brcs bad
     rcall target_byte
     st X, r18
+; in: -   ends: with nothing more
 done:
     DONE
 
+; Copies a part of a string. Means: plc-vm modules/text.rs text.
+; in: IN, INDX, N, OUT   ends: OUT := N characters of IN from INDX on
 Sscpy:
     rcall bytes_in
     rcall begin_first
@@ -80,22 +90,29 @@ Sscpy:
     mov r18, r22
     rjmp write
 
+; Copies a string. Means: plc-vm modules/text.rs text.
+; in: IN, OUT   ends: OUT := IN
 Scpy:
     rcall bytes_in
     rcall begin_first
     brcs bad
+; in: r18 length, r21:r20 characters, OUT   ends: OUT := them
 write:
     rcall bytes_to
     clr r19
     rjmp append
 
+; Appends a string to another one. Means: plc-vm modules/text.rs text.
+; in: IN, OUT   ends: OUT := OUT and IN
 Scat:
     rcall bytes_in
     rcall begin_first
     brcs bad
     rcall bytes_to
     ld r19, X
-; The first string behind the r19 characters at X.
+; Writes a string after the characters that OUT keeps.
+; in: r18 length, r21:r20 characters, X OUT, Z its room, r19 how many characters it keeps
+; ends: OUT := these and those
 append:
     movw r22, r26
     adiw r26, 1
@@ -112,12 +129,18 @@ append:
     movw r26, r22
     st X, r19
     rjmp done
+
+; in: -   ends: abandons the instruction
 bad:
     rjmp abandon
 
-; T: CFND.
+; Looks for a string in another one. Means: plc-vm modules/text.rs find_text.
+; in: IN1, IN2, OUT   ends: OUT := the first position from OUT on, or 0
 Sfnd:
     clt
+; Looks for the first character that is one of a set. From the common part on T says that it is
+; CFND. Means: plc-vm modules/text.rs find_text.
+; in: IN1, IN2, OUT   ends: OUT := its position from OUT on, or 0
 Cfnd:
     rcall bytes_in
     rcall begin_first
@@ -131,13 +154,14 @@ Cfnd:
     breq bad
     push r26
     push r27
+    ; at_position takes it in r22, which is the low byte of the sought.
     mov r25, r22
     mov r22, r24
     rcall at_position
     mov r22, r25
     brcs 6f
 1:  brts 3f
-    ; Where the sought does not fit, it fits nowhere behind either.
+    ; Where the sought does not fit, it fits nowhere after either.
     tst r19
     breq 6f
     cp r18, r19
@@ -177,6 +201,9 @@ Cfnd:
     set
     rjmp done
 
+; Compares strings, and loads the result or combines it: of the characters, then of the lengths.
+; Means: plc-vm modules/compare.rs compare_texts.
+; in: relation, IN1, IN2   ends: as RELATE
 LoadText:
 AndText:
 OrText:

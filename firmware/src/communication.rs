@@ -1,5 +1,5 @@
-//! The communication phase of the scan: requests on the serial line are answered, a little in every scan. What they
-//! mean is the engine's.
+//! The communication phase of the scan: requests on the serial line are answered, a little in every
+//! scan. What they mean is the engine's.
 
 use crate::board::serial;
 use crate::engine::link;
@@ -17,9 +17,6 @@ impl Uno {
             return serial::ignore();
         }
         let len = link::answer(len);
-        if len == 0 {
-            return;
-        }
         match link::command() {
             link::STOP => self.stop(),
             link::CLEAR_FAULT => self.clear_fault(),
@@ -29,6 +26,8 @@ impl Uno {
             }
             _ => {}
         }
-        serial::send(link::frame(), len);
+        if len != 0 {
+            serial::send(link::frame(), len);
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! uno200: the Arduino Uno as a PLC. Start-up only; the scan is in `scan`, the hardware in `board`.
 #![no_std]
 #![no_main]
-#![feature(abi_avr_interrupt, asm_experimental_arch)]
+#![feature(asm_experimental_arch)]
 #![deny(unsafe_code)]
 
 mod board;

@@ -1,19 +1,23 @@
-//! Retained values: kept in the EEPROM in a ring of copies, so that a power cut leaves the last complete one.
+//! Retained values: kept in the EEPROM in a ring of copies, so that a power cut leaves the last
+//! complete one.
 //!
-//! A copy is a sequence number, the values and a checksum, which also covers what the values belong to. The oldest
-//! copy is overwritten, byte by byte in the background, from a snapshot behind the program's own memory. What is
-//! saved when, and how long the EEPROM lives: docs/retention.md.
+//! A copy is a sequence number, the values and a checksum, which also covers what the values belong
+//! to. The oldest copy is overwritten, byte by byte in the background, from a snapshot after the
+//! program's own memory. What is saved when, and how long the EEPROM lives: docs/retention.md.
 
-use plc_isa::{Crc32, Plan, ProgramMemory, RETENTION_LEN, RETENTION_OVERHEAD, RetainedWalk};
+use plc_isa::{
+    Crc32, Plan, ProgramMemory, RETENTION_COPY_INTERVAL_MS, RETENTION_INTERVAL_MIN_MS,
+    RETENTION_LEN, RETENTION_OVERHEAD, RetainedWalk,
+};
 use plc_vm::Memory;
 
 use crate::board::clock;
 use crate::board::eeprom::Eeprom;
 
-/// Ten years for each of the 100,000 times that a byte of the EEPROM can be written: between two writes of one copy.
-const COPY_INTERVAL: u16 = units(3_155_760);
+/// Between two writes of one copy.
+const COPY_INTERVAL: u16 = units(RETENTION_COPY_INTERVAL_MS);
 /// However many copies there are, changes are saved no more often.
-const INTERVAL_MIN: u16 = units(60_000);
+const INTERVAL_MIN: u16 = units(RETENTION_INTERVAL_MIN_MS);
 /// Bytes compared, or looked at before one is written, in a scan.
 const BYTES_PER_SCAN: u8 = 4;
 /// Bytes of a sequence number, which begins a copy.
@@ -35,8 +39,9 @@ fn unit_of(ms: u32) -> u16 {
 enum Phase {
     /// Looks for values that differ from the last copy.
     Comparing,
-    /// Nothing valid was found. What others have left is erased, so that none of it is ever taken for the last copy.
-    /// The first copy waits for the end of a scan, which has seen that values were lost.
+    /// Nothing valid was found. What others have left is erased, so that none of it is ever taken
+    /// for the last copy. The first copy waits for the end of a scan, which has seen that values
+    /// were lost.
     Erasing,
     /// Writes the snapshot.
     Writing,
@@ -87,9 +92,15 @@ impl Retention {
         }
     }
 
-    /// Brings the values of the last complete copy back. Returns whether there should be one and is none.
+    /// Brings the values of the last complete copy back. Returns whether there should be one and is
+    /// none.
     #[inline(never)]
-    pub fn restore<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory, eeprom: &Eeprom) -> bool {
+    pub fn restore<P: ProgramMemory>(
+        &mut self,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+        eeprom: &Eeprom,
+    ) -> bool {
         self.identity = Crc32::new();
         self.len = plan.retained_into(&mut self.identity);
         if self.len == 0 {
@@ -110,13 +121,24 @@ impl Retention {
         !is_found
     }
 
+    /// Bytes of the values.
+    pub fn len(&self) -> u16 {
+        self.len
+    }
+
     fn copy_len(&self) -> u16 {
         self.len + RETENTION_OVERHEAD
     }
 
-    /// Looks for the newest complete copy. The number of copies there can be gives the time between two.
+    /// Looks for the newest complete copy. The number of copies there can be gives the time between
+    /// two.
     #[inline(never)]
-    fn find_last<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory, eeprom: &Eeprom) -> bool {
+    fn find_last<P: ProgramMemory>(
+        &mut self,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+        eeprom: &Eeprom,
+    ) -> bool {
         let (mut at, mut copies, mut is_found) = (0, 0, false);
         (self.copy, self.sequence) = (0, 0);
         while at + self.copy_len() <= RETENTION_LEN {
@@ -134,7 +156,8 @@ impl Retention {
         is_found
     }
 
-    /// Reads a whole copy to a place behind the program's memory, which leaves room for it. Returns whether it is complete.
+    /// Reads a whole copy to a place after the program's memory, which leaves room for it. Returns
+    /// whether it is complete.
     #[inline(never)]
     fn read_copy<P: ProgramMemory>(
         &mut self,
@@ -151,10 +174,11 @@ impl Retention {
             self.crc.byte(byte);
             (at, place) = (at + 1, place + 1);
         }
-        self.crc.is_complete()
+        self.crc.ends()
     }
 
-    /// Brings the values to the snapshot behind the program's memory, or `back` to where they belong from a copy there.
+    /// Brings the values to the snapshot after the program's memory, or `back` to where they
+    /// belong from a copy there.
     #[inline(never)]
     fn exchange<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory, back: bool) {
         self.walk = RetainedWalk::START;
@@ -163,7 +187,8 @@ impl Retention {
             place += SEQUENCE_LEN;
         }
         while self.walk.next(plan, u16::MAX) {
-            let (from, to) = if back { (place, self.walk.address) } else { (self.walk.address, place) };
+            let (from, to) =
+                if back { (place, self.walk.address) } else { (self.walk.address, place) };
             memory.copy(from, to, self.walk.len);
             place += self.walk.len;
         }
@@ -188,8 +213,15 @@ impl Retention {
         self.len != 0 && (self.is_due || !runs || !matches!(self.phase, Phase::Comparing))
     }
 
-    /// A little work after a scan in which there is, and in which the program `was_executed` or not.
-    pub fn step<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory, eeprom: &Eeprom, was_executed: bool) {
+    /// A little work after a scan in which there is, and in which the program `was_executed` or
+    /// not.
+    pub fn step<P: ProgramMemory>(
+        &mut self,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+        eeprom: &Eeprom,
+        was_executed: bool,
+    ) {
         self.has_run |= was_executed;
         if matches!(self.phase, Phase::Comparing) {
             self.compare(plan, memory);
@@ -225,7 +257,8 @@ impl Retention {
         self.enter(Phase::Writing);
     }
 
-    /// Goes on with the copy, or with erasing: over bytes that are right already up to one that is written.
+    /// Goes on with the copy, or with erasing: over bytes that are right already up to one that is
+    /// written.
     fn write<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory, eeprom: &Eeprom) {
         for _ in 0..BYTES_PER_SCAN {
             let is_erasing = matches!(self.phase, Phase::Erasing);

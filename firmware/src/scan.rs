@@ -11,7 +11,7 @@ use crate::board::ports::{self, Ports};
 use crate::board::trace::{self, Mark};
 use crate::board::{Board, analog, clock, fault_memory, serial, stack, takeover, watchdog};
 use crate::engine::{self, Left, link};
-use crate::environment::ScanTime;
+use crate::environment::{ModuleEvents, ScanTime};
 use crate::retention::Retention;
 use crate::self_test::SelfTest;
 
@@ -29,7 +29,7 @@ pub struct Uno {
     ports: Ports,
     eeprom: Eeprom,
     data: Data,
-    plc: Plc<ProgramSlot>,
+    plc: Plc<ProgramSlot, ModuleEvents>,
     settings: Settings,
     retention: Retention,
     self_test: SelfTest,
@@ -37,8 +37,8 @@ pub struct Uno {
     scan_start_ms: u16,
     /// A millisecond or more has passed since the last self-test of the program.
     has_ticked: bool,
-    /// RUN was asked for, or single scans: they begin with a scan, when the answer has been sent. Within a scan RUN can
-    /// end, but not begin.
+    /// RUN was asked for, or single scans: they begin with a scan, when the answer has been sent.
+    /// Within a scan RUN can end, but not begin.
     pub(crate) is_run_requested: bool,
 }
 
@@ -49,7 +49,7 @@ impl Uno {
             ports: board.ports,
             eeprom: board.eeprom,
             data: board.data,
-            plc: Plc::new(),
+            plc: Plc::with_events(ModuleEvents),
             settings: Settings { watchdog_ms: 0, modbus_address: 0, ..Settings::DEFAULT },
             retention: Retention::none(),
             self_test: SelfTest::STARTING,
@@ -59,7 +59,8 @@ impl Uno {
         }
     }
 
-    /// Power has come: loads the program and goes to RUN, unless there is none or a fault of before forbids it.
+    /// Power has come: loads the program and goes to RUN, unless there is none or a fault of before
+    /// forbids it.
     pub fn power_up(&mut self) {
         self.settings.modbus_address = Settings::DEFAULT.modbus_address;
         // Before loading, which may have a fault of its own to remember.
@@ -78,11 +79,13 @@ impl Uno {
         }
     }
 
-    /// Loads the program in the slot, if there is one. Requests are written behind its memory from now on.
+    /// Loads the program in the slot, if there is one. Requests are written after its memory from
+    /// now on.
     fn load(&mut self) {
         serial::hold();
         self.load_program();
-        serial::place(link::place(self.plc.program()), &self.settings);
+        let room = link::place(self.plc.program(), self.retention.len());
+        serial::place(room, &self.settings);
     }
 
     #[inline(always)]
@@ -93,7 +96,7 @@ impl Uno {
         }
         // A long program takes longer than the watchdog waits. Outputs are off.
         watchdog::stop();
-        let loaded = self.plc.load(self.data.memory(), ProgramSlot);
+        let loaded = self.plc.replace(self.data.memory(), ProgramSlot);
         watchdog::start();
         if loaded.is_err() {
             return self.tell();
@@ -119,7 +122,7 @@ impl Uno {
         self.tell();
     }
 
-    /// To RUN: with a first scan, or on from where the program stood.
+    /// To RUN: with a first scan, or on from where the program was.
     #[inline(always)]
     fn go(&mut self) -> bool {
         if link::has_scans_left() {
@@ -129,7 +132,8 @@ impl Uno {
         self.plc.run()
     }
 
-    /// What is in flash is known to be bad when the program is in doubt, and the first fault says how.
+    /// What is in flash is known to be bad when the program is in doubt, and the first fault says
+    /// how.
     #[inline(never)]
     fn fail_test(&mut self, finding: Finding) {
         if !self.is_program_in_doubt() {
@@ -140,10 +144,12 @@ impl Uno {
         }
     }
 
-    /// Whether what is in flash may not be the program that was checked, which may still be in force.
+    /// Whether what is in flash may not be the program that was checked, which may still be in
+    /// force.
     #[inline(never)]
     fn is_program_in_doubt(&self) -> bool {
-        const BAD_IMAGE: u8 = Fault::BadImage(ImageError { fault: ImageFault::Length, at: 0 }).code();
+        const BAD_IMAGE: u8 =
+            Fault::BadImage(ImageError { fault: ImageFault::Length, at: 0 }).code();
         const UNDEFINED: u8 = Fault::UndefinedInstruction { at: 0 }.code();
         const CHANGED: u8 = Fault::ProgramChanged.code();
         matches!(self.plc.fault_word() as u8, BAD_IMAGE | UNDEFINED | CHANGED)
@@ -188,7 +194,7 @@ impl Uno {
         if executes {
             link::enter_scan(start);
             if link::is_stepping() && link::count_down() {
-                self.stop();
+                self.pause();
             }
         }
         trace::mark(Mark::ScanEnd);
@@ -199,7 +205,9 @@ impl Uno {
     fn execute(&mut self) {
         let start_ms = self.plc.time() as u16;
         let mut time = ScanTime::starting(start_ms, self.settings.watchdog_ms);
-        let Some(execution) = self.plc.begin_at_set_time(self.data.memory(), &mut time) else { return };
+        let Some(execution) = self.plc.begin(self.data.memory(), &mut time) else {
+            return;
+        };
         let (left, at) = engine::run(execution);
         if !left.is_at_end() {
             self.leave(left, at);
@@ -214,7 +222,8 @@ impl Uno {
         self.tell();
     }
 
-    /// Only loops are watched while they run: what else took so long came to the end of the program.
+    /// Only loops are watched while they run: what else took so long came to the end of the
+    /// program.
     #[inline(never)]
     fn fail_at_end(&mut self) {
         let Some(program) = self.plc.program() else { return };
@@ -283,13 +292,15 @@ impl Uno {
         }
         // On time the period goes on from where it was due, too late it begins anew.
         let is_late = passed_ms - period_ms >= period_ms;
-        self.scan_start_ms = if is_late { now_ms } else { self.scan_start_ms.wrapping_add(period_ms) };
+        self.scan_start_ms =
+            if is_late { now_ms } else { self.scan_start_ms.wrapping_add(period_ms) };
         true
     }
 
     #[inline(always)]
     fn read_inputs(&mut self) {
-        self.data.memory().bytes_mut()[FIRST_INPUT_BYTE] = self.ports.inputs() ^ self.settings.invert_inputs;
+        self.data.memory().bytes_mut()[FIRST_INPUT_BYTE] =
+            self.ports.inputs() ^ self.settings.invert_inputs;
         if analog::has_fresh() {
             analog::take_fresh();
         }
@@ -298,7 +309,9 @@ impl Uno {
     #[inline(always)]
     fn write_outputs(&mut self, runs: bool) {
         if runs {
-            self.ports.drive_outputs(self.plc.outputs(self.data.memory(), 0) ^ self.settings.invert_outputs);
+            self.ports.drive_outputs(
+                self.plc.outputs(self.data.memory(), 0) ^ self.settings.invert_outputs,
+            );
         } else {
             ports::release_outputs();
         }
@@ -324,6 +337,14 @@ impl Uno {
     pub(crate) fn stop(&mut self) {
         self.plc.stop();
         self.tell();
+    }
+
+    /// The last single scan is over. Forces hold until the next one.
+    #[inline(always)]
+    fn pause(&mut self) {
+        self.plc.stop();
+        takeover::end();
+        self.tell_status();
     }
 
     /// Forgets the fault that led to STOP.

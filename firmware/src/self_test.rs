@@ -1,7 +1,7 @@
 //! The self-test of the program: a byte of its checksum at each tick.
 //!
-//! The stack's canary is looked at in every scan; the tick is supervised by the hardware watchdog, which is fed only
-//! while it goes on.
+//! The stack's canary is looked at in every scan; the tick is supervised by the hardware watchdog,
+//! which is fed only while it goes on.
 
 use plc_isa::{Crc32, Program, ProgramMemory};
 
@@ -25,8 +25,7 @@ impl SelfTest {
             self.offset += 1;
             return false;
         }
-        let is_whole = self.crc.is_complete();
-        *self = SelfTest::STARTING;
-        !is_whole
+        self.offset = 0;
+        !self.crc.ends()
     }
 }

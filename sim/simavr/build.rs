@@ -1,4 +1,5 @@
-//! Compiles the C shim against the installed libsimavr and links both; without the feature `link` does nothing.
+//! Compiles the C shim against the installed libsimavr and links both; without the feature `link`
+//! does nothing.
 
 #[cfg(not(feature = "link"))]
 fn main() {
@@ -11,7 +12,9 @@ fn main() {
     println!("cargo::rerun-if-changed=src/shim.c");
     println!("cargo::rerun-if-changed={HEADER}");
     if !std::path::Path::new(HEADER).exists() {
-        println!("cargo::error=there is no {HEADER}; on Debian: apt-get install libsimavr-dev libelf-dev");
+        println!(
+            "cargo::error=there is no {HEADER}; on Debian: apt-get install libsimavr-dev libelf-dev"
+        );
         return;
     }
     cc::Build::new().file("src/shim.c").warnings_into_errors(true).compile("simavr_shim");

@@ -1,4 +1,5 @@
-//! What happens to the PLC from outside beside values that are set: pulses, a clock that is set, characters on the line.
+//! What happens to the PLC from outside beside values that are set: pulses, a clock that is set,
+//! characters on the line.
 
 use crate::pulse::Pulse;
 use plc_vm::TimeOfDay;
@@ -33,8 +34,8 @@ impl Action {
         }
     }
 
-    /// Whether a machine that is told of it before lets it begin at its time. To a board with a clock of its own it would
-    /// come late by up to a scan otherwise.
+    /// Whether a machine that is told of it before lets it begin at its time. To a board with a
+    /// clock of its own it would come late by up to a scan otherwise.
     pub fn keeps_its_time(&self) -> bool {
         matches!(self, Action::Pulse(_) | Action::Receive { .. })
     }

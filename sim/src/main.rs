@@ -1,4 +1,5 @@
-//! The command `awl-sim`. All it does is in the library; here are arguments, messages and exit codes.
+//! The command `awl-sim`. All it does is in the library; here are arguments, messages and exit
+//! codes.
 
 mod cli;
 

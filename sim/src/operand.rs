@@ -1,4 +1,5 @@
-//! What can be set, expected and traced: an address, the current value of a timer or counter, a real. No access to it.
+//! What can be set, expected and traced: an address, the current value of a timer or counter, a
+//! real. No access to it.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -21,8 +22,8 @@ pub enum Operand {
     CounterCurrent(u8),
     /// A double word or accumulator that holds a real, written `VD20:real`.
     Real(Address),
-    /// The part of the time in thousandths that output Q0.n is on, written `Q0.1.duty`: what PLS, or the analog output
-    /// at the same pin, makes of it.
+    /// The part of the time in thousandths that output Q0.n is on, written `Q0.1.duty`: what PLS,
+    /// or the analog output at the same pin, makes of it.
     Duty(u8),
 }
 
@@ -41,8 +42,16 @@ pub enum Width {
     Real,
 }
 
+/// What can be after an address or a symbol.
+const ENDINGS: [&str; 3] = [".cv", ":real", ".duty"];
+
+/// The address or symbol of an operand as it is written, without `.cv` and its like.
+pub fn stem(text: &str) -> &str {
+    ENDINGS.into_iter().find_map(|ending| strip_ending(text, ending)).unwrap_or(text)
+}
+
 impl Operand {
-    /// Reads an operand as [`operand::parse`] does, or an output with `.duty` behind it.
+    /// Reads an operand as [`operand::parse`] does, or an output with `.duty` after it.
     pub fn parse(text: &str, symbols: &[Symbol]) -> Result<Operand, OperandError> {
         if let Some(stem) = strip_ending(text, ".duty") {
             return match operand::address(stem, symbols)? {
@@ -65,7 +74,9 @@ impl Operand {
     /// The same bits as a real, where there are 32 of them.
     pub fn as_real(self) -> Option<Operand> {
         match self {
-            Operand::At(address @ (Address::Double { .. } | Address::Accumulator(_))) => Some(Operand::Real(address)),
+            Operand::At(address @ (Address::Double { .. } | Address::Accumulator(_))) => {
+                Some(Operand::Real(address))
+            }
             Operand::Real(_) => Some(self),
             _ => None,
         }
@@ -93,12 +104,16 @@ impl Operand {
     /// How wide its value is.
     pub fn width(self) -> Width {
         match self {
-            Operand::At(Address::Bit { .. } | Address::Timer(_) | Address::Counter(_)) => Width::Bit,
-            Operand::At(Address::Byte { .. }) => Width::Byte,
-            Operand::At(Address::Double { .. } | Address::Accumulator(_) | Address::HighSpeedCounter(_)) => {
-                Width::Double
+            Operand::At(Address::Bit { .. } | Address::Timer(_) | Address::Counter(_)) => {
+                Width::Bit
             }
-            Operand::At(Address::Word { .. } | Address::Analog(_) | Address::AnalogOutput(_)) => Width::Word,
+            Operand::At(Address::Byte { .. }) => Width::Byte,
+            Operand::At(
+                Address::Double { .. } | Address::Accumulator(_) | Address::HighSpeedCounter(_),
+            ) => Width::Double,
+            Operand::At(Address::Word { .. } | Address::Analog(_) | Address::AnalogOutput(_)) => {
+                Width::Word
+            }
             Operand::Real(_) => Width::Real,
             Operand::TimerCurrent(_) | Operand::CounterCurrent(_) | Operand::Duty(_) => Width::Word,
         }
@@ -107,8 +122,12 @@ impl Operand {
     /// The values it can have, words and double words signed; of a real the bits.
     pub fn range(self) -> RangeInclusive<i32> {
         match (self, self.width()) {
-            (Operand::At(Address::Analog(AnalogInput::Raw(_))), _) => 0..=i32::from(AnalogInput::RAW_MAX),
-            (Operand::At(Address::Analog(AnalogInput::Scaled(_))), _) => 0..=i32::from(AnalogInput::SCALED_MAX),
+            (Operand::At(Address::Analog(AnalogInput::Raw(_))), _) => {
+                0..=i32::from(AnalogInput::RAW_MAX)
+            }
+            (Operand::At(Address::Analog(AnalogInput::Scaled(_))), _) => {
+                0..=i32::from(AnalogInput::SCALED_MAX)
+            }
             (Operand::Duty(_), _) => 0..=DUTY_MAX,
             (_, Width::Bit) => 0..=1,
             (_, Width::Byte) => 0..=255,
@@ -146,15 +165,11 @@ impl fmt::Display for Operand {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use awl_asm::ast::Value;
+    use awl_asm::source::Source;
+    use awl_asm::symbols::load;
 
     fn symbols() -> Vec<Symbol> {
-        let symbol = |name: &str, address: &str| Symbol {
-            name: name.to_string(),
-            value: Value::Address(Address::parse(address).unwrap()),
-            comment: String::new(),
-        };
-        vec![symbol("Delay", "T101"), symbol("lift up", "Q0.1")]
+        load(&Source::new("symbols", "Delay\tT101\nlift up\tQ0.1\n").unwrap()).0
     }
 
     #[test]
@@ -164,6 +179,7 @@ mod tests {
         assert_eq!(Operand::parse("z5.CV", &symbols), Ok(Operand::CounterCurrent(5)));
         assert_eq!(Operand::parse("Delay.cv", &symbols), Ok(Operand::TimerCurrent(101)));
         assert_eq!(Operand::CounterCurrent(5).to_string(), "C5.cv");
+        assert_eq!(["z5.CV", "Delay", "VD8:real"].map(stem), ["z5", "Delay", "VD8"]);
     }
 
     #[test]
@@ -185,7 +201,10 @@ mod tests {
         let symbols = symbols();
         let duty = Operand::parse("lift up.DUTY", &symbols).unwrap();
         assert_eq!((duty.to_string(), duty.range()), ("Q0.1.duty".to_string(), 0..=1000));
-        assert!(Operand::parse("I0.1.duty", &symbols).is_err() && Operand::parse("Q1.0.duty", &symbols).is_err());
+        assert!(
+            Operand::parse("I0.1.duty", &symbols).is_err()
+                && Operand::parse("Q1.0.duty", &symbols).is_err()
+        );
     }
 
     #[test]

@@ -1,25 +1,28 @@
-//! Errors in a text, with their place, shown the way compilers do. It does not know what the text is about.
+//! Errors in a text, with their place, shown the way compilers do. It does not know what the text
+//! is about.
 
 use std::fmt;
 use std::ops::Range;
 
-use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use diagnostics::{Diagnostic, Source, Span, render};
 
 /// Something wrong at a place of a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
     /// The bytes of the text that the caret points at.
     pub span: Range<usize>,
-    /// What is wrong: a sentence without full stop that stands by itself.
+    /// What is wrong: a sentence without full stop that is by itself.
     pub message: String,
-    /// What to do about it, or what was probably meant.
+    /// What to do about it.
     pub help: Option<String>,
+    /// The text that should probably be at `span` instead.
+    pub suggestion: Option<String>,
 }
 
 impl Problem {
     /// A problem without help.
     pub fn new(span: Range<usize>, message: impl Into<String>) -> Problem {
-        Problem { span, message: message.into(), help: None }
+        Problem { span, message: message.into(), help: None, suggestion: None }
     }
 
     /// Adds help.
@@ -28,11 +31,21 @@ impl Problem {
         self
     }
 
+    /// The same as a diagnostic without a code.
+    pub fn diagnostic(&self) -> Diagnostic<()> {
+        let span = Span::new(self.span.start, self.span.end);
+        let mut diagnostic = Diagnostic::new((), span, &self.message);
+        // What was probably meant says enough.
+        diagnostic.suggestion.clone_from(&self.suggestion);
+        if self.suggestion.is_none() {
+            diagnostic.help.extend(self.help.clone());
+        }
+        diagnostic
+    }
+
     /// Adds "did you mean" where something similar is known.
     pub fn did_you_mean(mut self, suggestion: Option<impl fmt::Display>) -> Problem {
-        if let Some(suggestion) = suggestion {
-            self.help = Some(format!("did you mean `{suggestion}`?"));
-        }
+        self.suggestion = suggestion.map(|suggestion| suggestion.to_string());
         self
     }
 }
@@ -51,31 +64,17 @@ pub struct Problems {
 impl Problems {
     /// The problems as people read them; with terminal colours if asked for. Ends with a line feed.
     pub fn render(&self, coloured: bool) -> String {
-        let renderer = if coloured { Renderer::styled() } else { Renderer::plain() };
-        self.list.iter().map(|problem| self.render_one(&renderer, problem) + "\n").collect()
+        let source = match Source::new(&self.origin, &self.text) {
+            Ok(source) => source,
+            Err(error) => return format!("error: {error}\n"),
+        };
+        self.diagnostics().iter().map(|one| render::human(&source, one, coloured)).collect()
     }
 
-    fn render_one(&self, renderer: &Renderer, problem: &Problem) -> String {
-        let place = AnnotationKind::Primary.span(whole_characters(&self.text, &problem.span));
-        let snippet = Snippet::source(&*self.text).path(&*self.origin).annotation(place);
-        let group = Level::ERROR.primary_title(&*problem.message).element(snippet);
-        match &problem.help {
-            Some(help) => renderer.render(&[group.element(Level::HELP.message(&**help))]),
-            None => renderer.render(&[group]),
-        }
+    /// The problems as diagnostics without codes.
+    pub fn diagnostics(&self) -> Vec<Diagnostic<()>> {
+        self.list.iter().map(Problem::diagnostic).collect()
     }
-}
-
-/// The span inside its line of the text, widened to whole characters. The renderer takes nothing else, and what is
-/// missing at the end of a line does not belong to the next one.
-fn whole_characters(text: &str, span: &Range<usize>) -> Range<usize> {
-    let is_boundary = |at: &usize| text.is_char_boundary(*at);
-    let start = span.start.min(text.len());
-    let start = (0..=start).rev().find(is_boundary).unwrap_or(0);
-    let line_end = text[start..].find(['\r', '\n']).map_or(text.len(), |len| start + len);
-    let end = span.end.clamp(start, line_end);
-    let end = (end..=text.len()).find(is_boundary).unwrap_or(text.len());
-    start..end
 }
 
 impl fmt::Display for Problems {

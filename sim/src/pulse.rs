@@ -1,4 +1,5 @@
-//! Pulses at digital inputs: a train of them at one input, or at two as an encoder gives them. Times in nanoseconds.
+//! Pulses at digital inputs: a train of them at one input, or at two as an encoder gives them.
+//! Times in nanoseconds.
 
 /// Nanoseconds in a millisecond.
 pub const NS_PER_MS: u64 = 1_000_000;
@@ -14,7 +15,8 @@ pub struct Pulse {
     pub at_ms: u64,
     /// The input: bit of IB0.
     pub input: u8,
-    /// The input that follows a quarter of the period later, as the second track of an encoder does.
+    /// The input that follows a quarter of the period later, as the second track of an encoder
+    /// does.
     pub second: Option<u8>,
     /// Pulses in 1,000 seconds.
     pub millihertz: u64,
@@ -39,7 +41,7 @@ impl Pulse {
         (u128::from(millihertz) * u128::from(ms) / 1_000_000) as u64
     }
 
-    /// When the last pulse and the pause behind it are over, in milliseconds, rounded up.
+    /// When the last pulse and the pause after it are over, in milliseconds, rounded up.
     pub fn end_ms(&self) -> u64 {
         self.at_ms + self.time_of(self.edges()).div_ceil(NS_PER_MS)
     }
@@ -113,7 +115,8 @@ impl Pulses {
         self.trains.iter().filter_map(Train::next).map(|edge| edge.at_ns).min()
     }
 
-    /// Takes the next edge up to this time. The sooner first; of the same time that of the train that began first.
+    /// Takes the next edge up to this time. The sooner first; of the same time that of the train
+    /// that began first.
     pub fn take(&mut self, until_ns: u64) -> Option<Edge> {
         let edge = self.trains.iter().filter_map(Train::next).min_by_key(|edge| edge.at_ns)?;
         if edge.at_ns > until_ns {
@@ -134,14 +137,22 @@ mod tests {
     fn train(pulse: Pulse) -> Vec<(u64, u8, bool)> {
         let mut pulses = Pulses::default();
         pulses.begin(pulse);
-        std::iter::from_fn(|| pulses.take(u64::MAX)).map(|edge| (edge.at_ns, edge.input, edge.level)).collect()
+        std::iter::from_fn(|| pulses.take(u64::MAX))
+            .map(|edge| (edge.at_ns, edge.input, edge.level))
+            .collect()
     }
 
-    const PULSE: Pulse = Pulse { at_ms: 2, input: 3, second: None, millihertz: 1_000_000, count: 2 };
+    const PULSE: Pulse =
+        Pulse { at_ms: 2, input: 3, second: None, millihertz: 1_000_000, count: 2 };
 
     #[test]
     fn half_of_each_period_is_high() {
-        let expected = [(2_000_000, 3, true), (2_500_000, 3, false), (3_000_000, 3, true), (3_500_000, 3, false)];
+        let expected = [
+            (2_000_000, 3, true),
+            (2_500_000, 3, false),
+            (3_000_000, 3, true),
+            (3_500_000, 3, false),
+        ];
         assert_eq!(train(PULSE), expected);
         assert_eq!(PULSE.end_ms(), 4);
     }
@@ -149,7 +160,8 @@ mod tests {
     #[test]
     fn the_second_track_follows_by_a_quarter() {
         let encoder = Pulse { at_ms: 0, input: 0, second: Some(1), millihertz: 250_000, count: 1 };
-        let expected = [(0, 0, true), (1_000_000, 1, true), (2_000_000, 0, false), (3_000_000, 1, false)];
+        let expected =
+            [(0, 0, true), (1_000_000, 1, true), (2_000_000, 0, false), (3_000_000, 1, false)];
         assert_eq!(train(encoder), expected);
     }
 
@@ -166,16 +178,25 @@ mod tests {
         let mut pulses = Pulses::default();
         pulses.begin(PULSE);
         pulses.begin(Pulse { input: 4, at_ms: 3, count: 1, ..PULSE });
-        let order: Vec<_> =
-            std::iter::from_fn(|| pulses.take(3_000_000)).map(|edge| (edge.at_ns, edge.input)).collect();
+        let order: Vec<_> = std::iter::from_fn(|| pulses.take(3_000_000))
+            .map(|edge| (edge.at_ns, edge.input))
+            .collect();
         assert_eq!(order, [(2_000_000, 3), (2_500_000, 3), (3_000_000, 3), (3_000_000, 4)]);
         assert_eq!(pulses.next_ns(), Some(3_500_000));
         pulses.begin(Pulse { at_ms: 9, count: 9, ..PULSE });
         // It is told of before its time, and ends the one before at its time.
         pulses.begin(Pulse { at_ms: 10, count: 1, ..PULSE });
-        let rest: Vec<_> = std::iter::from_fn(|| pulses.take(u64::MAX)).map(|edge| (edge.at_ns, edge.input)).collect();
-        let expected =
-            [(3_500_000, 3), (3_500_000, 4), (9_000_000, 3), (9_500_000, 3), (10_000_000, 3), (10_500_000, 3)];
+        let rest: Vec<_> = std::iter::from_fn(|| pulses.take(u64::MAX))
+            .map(|edge| (edge.at_ns, edge.input))
+            .collect();
+        let expected = [
+            (3_500_000, 3),
+            (3_500_000, 4),
+            (9_000_000, 3),
+            (9_500_000, 3),
+            (10_000_000, 3),
+            (10_500_000, 3),
+        ];
         assert_eq!(rest, expected);
     }
 }

@@ -37,7 +37,8 @@ impl Plc {
     fn new(text: &str) -> Plc {
         let assembly = assemble(&Source::new("p.awl", text).unwrap(), Vec::new());
         let image = assembly.image.unwrap_or_else(|| panic!("{:?}", assembly.diagnostics));
-        let mut plc = Plc { host: Host::new(image, Box::new(|at| format!("byte {at}"))), now_ms: 0 };
+        let mut plc =
+            Plc { host: Host::new(image, Box::new(|at| format!("byte {at}"))), now_ms: 0 };
         plc.scan();
         plc
     }
@@ -105,7 +106,10 @@ fn forces_end_with_run_and_those_of_stop_with_the_next() {
     plc.scan();
     plc.ask(&[66, 0, 0, 0]);
     plc.scan();
-    assert_eq!((plc.host.mode(), plc.get("Q0.0"), plc.forced(), plc.get("SM4.7")), (Mode::Stop, 0, 0, 0));
+    assert_eq!(
+        (plc.host.mode(), plc.get("Q0.0"), plc.forced(), plc.get("SM4.7")),
+        (Mode::Stop, 0, 0, 0)
+    );
     plc.ask(&[66, 1, 0, 0]);
     plc.scan();
     assert_eq!((plc.host.mode(), plc.get("Q0.0")), (Mode::Run, 1));

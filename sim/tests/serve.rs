@@ -1,5 +1,5 @@
-//! The simulator as a PLC on the network, with a client of somebody else's. What the answers are in detail, plc-link's own
-//! tests say.
+//! The simulator as a PLC on the network, with a client of somebody else's. What the answers are in
+//! detail, plc-link's own tests say.
 
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
@@ -54,7 +54,9 @@ impl Plc {
         let thread = thread::spawn(move || {
             let (scenario, mut changes) = (Scenario::default(), Vec::new());
             let course = Course::new(&scenario, None, 1);
-            let outcome = server.run(&mut host(text), course, 1, &mut |change| changes.push(change.clone())).unwrap();
+            let outcome = server
+                .run(&mut host(text), course, 1, &mut |change| changes.push(change.clone()))
+                .unwrap();
             (outcome, changes)
         });
         Plc { address, stopper, thread }
@@ -97,7 +99,10 @@ fn every_area_is_read_and_written() {
     client.write_multiple_coils(1016, &[true, false, true]).unwrap().unwrap();
     assert_eq!(client.read_coils(1016, 3).unwrap().unwrap(), [true, false, true]);
     client.write_multiple_coils(3000, &[true; 8]).unwrap().unwrap();
-    assert_eq!(client.read_discrete_inputs(3000, 9).unwrap().unwrap(), [[true; 8].as_slice(), &[false]].concat());
+    assert_eq!(
+        client.read_discrete_inputs(3000, 9).unwrap().unwrap(),
+        [[true; 8].as_slice(), &[false]].concat()
+    );
     assert_eq!(client.read_coils(2000, 1).unwrap().unwrap(), [true]);
     assert_eq!(client.read_discrete_inputs(0, 128).unwrap().unwrap(), [false; 128]);
     assert_eq!(client.read_coils(6000, 128).unwrap().unwrap(), [false; 128]);
@@ -127,13 +132,19 @@ fn what_cannot_be_is_an_exception() {
     let mut client = plc.client();
     assert_eq!(client.read_coils(500, 1).unwrap(), Err(ExceptionCode::IllegalDataAddress));
     assert_eq!(client.read_coils(0, 0).unwrap(), Err(ExceptionCode::IllegalDataValue));
-    assert_eq!(client.write_single_coil(6000, true).unwrap(), Err(ExceptionCode::IllegalDataAddress));
-    assert_eq!(client.read_holding_registers(1, 1).unwrap(), Err(ExceptionCode::IllegalDataAddress));
+    assert_eq!(
+        client.write_single_coil(6000, true).unwrap(),
+        Err(ExceptionCode::IllegalDataAddress)
+    );
+    assert_eq!(
+        client.read_holding_registers(1, 1).unwrap(),
+        Err(ExceptionCode::IllegalDataAddress)
+    );
     assert_eq!(client.masked_write_register(5, 0, 0).unwrap(), Err(ExceptionCode::IllegalFunction));
     plc.stop();
 }
 
-/// The answer to a frame of which only the unit and what is behind it are given.
+/// The answer to a frame of which only the unit and what is after it are given.
 fn exchange(stream: &mut TcpStream, unit: u8, pdu: &[u8]) -> Vec<u8> {
     let header = [0xAB, 0xCD, 0, 0, 0, pdu.len() as u8 + 1, unit];
     stream.write_all(&[&header, pdu].concat()).unwrap();
@@ -201,6 +212,7 @@ fn clients_command_and_see_a_fault() {
     // A watchdog fault, and the server goes on.
     assert_eq!(service(&mut client, 65, &[])[3], 2);
     let (_, changes) = plc.stop();
-    let modes: Vec<_> = changes.iter().map(|change| (change.mode, change.fault.is_some())).collect();
+    let modes: Vec<_> =
+        changes.iter().map(|change| (change.mode, change.fault.is_some())).collect();
     assert_eq!(modes, [(Mode::Stop, false), (Mode::Run, false), (Mode::Stop, true)]);
 }

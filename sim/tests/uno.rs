@@ -53,8 +53,15 @@ fn read(uno: &mut Uno, name: &str) -> i32 {
 /// Runs a scenario on a board with its own clock, looking at it every millisecond.
 fn outcome(uno: &mut Uno, text: &str) -> Outcome {
     let context = Context { symbols: &[], plant: None, has_operand: &mut |_| Ok(()) };
-    let scenario = Scenario::parse("t.scn", text, context).unwrap_or_else(|problems| panic!("{problems}"));
-    let job = Job { scan_ms: 1, length: Length::Scenario, signals: Vec::new(), plant: None, progress: None };
+    let scenario =
+        Scenario::parse("t.scn", text, context).unwrap_or_else(|problems| panic!("{problems}"));
+    let job = Job {
+        scan_ms: 1,
+        length: Length::Scenario,
+        signals: Vec::new(),
+        plant: None,
+        progress: None,
+    };
     run(uno, &scenario, job).unwrap()
 }
 
@@ -67,9 +74,11 @@ fn assert_holds(program: &str, scenario: &str) {
 
 #[test]
 fn pins_are_what_the_program_sees_and_sets() {
-    let text = "//# invert I0.1, Q0.1\n//# pullup I0.2\nLD I0.0\n= Q0.0\nLD I0.1\n= Q0.1\nLD I0.2\n= Q0.2\n";
+    let text = "//# invert I0.1, Q0.1\n//# pullup I0.2\nLD I0.0\n= Q0.0\nLD I0.1\n= Q0.1\n\
+        LD I0.2\n= Q0.2\n";
     let mut uno = uno(text, Clock::LockStep);
-    let pins = |uno: &Uno| [0, 1, 2].map(|output| uno.avr().level(Pin::of_uno(FIRST_OUTPUT + output)));
+    let pins =
+        |uno: &Uno| [0, 1, 2].map(|output| uno.avr().level(Pin::of_uno(FIRST_OUTPUT + output)));
     assert_eq!((uno.mode(), uno.pin_levels()), (Mode::Stop, 0b10), "no power: everything is off");
     uno.scan(0);
     assert_eq!((uno.mode(), uno.pin_levels(), pins(&uno)), (Mode::Run, 0b10, [false, true, false]));
@@ -77,19 +86,26 @@ fn pins_are_what_the_program_sees_and_sets() {
         uno.write(operand(&format!("I0.{input}")), 1).unwrap();
     }
     uno.scan(1);
-    assert_eq!((read(&mut uno, "QB0"), uno.pin_levels(), pins(&uno)), (0b111, 0b101, [true, false, true]));
+    assert_eq!(
+        (read(&mut uno, "QB0"), uno.pin_levels(), pins(&uno)),
+        (0b111, 0b101, [true, false, true])
+    );
     assert!(!uno.avr().level(Pin::of_uno(FIRST_INPUT + 1)), "the inverted input is low");
     assert!(uno.avr().has_pull_up(Pin::of_uno(FIRST_INPUT + 2)));
     // The same by levels: the pull-up does not win.
     uno.drive_pin(1, true);
     uno.drive_pin(2, false);
     uno.scan(2);
-    assert_eq!((read(&mut uno, "QB0"), read(&mut uno, "I0.1"), uno.pin_levels()), (0b001, 0, 0b011));
+    assert_eq!(
+        (read(&mut uno, "QB0"), read(&mut uno, "I0.1"), uno.pin_levels()),
+        (0b001, 0, 0b011)
+    );
 }
 
 #[test]
 fn outputs_are_released_outside_of_run() {
-    let mut uno = uno("//# invert Q0.1\nLD SM0.0\n= Q0.0\n= Q0.1\nLD I0.0\nSTOP\n", Clock::LockStep);
+    let mut uno =
+        uno("//# invert Q0.1\nLD SM0.0\n= Q0.0\n= Q0.1\nLD I0.0\nSTOP\n", Clock::LockStep);
     let is_driven = |uno: &Uno| uno.avr().is_output(Pin::of_uno(FIRST_OUTPUT));
     uno.scan(0);
     assert_eq!((is_driven(&uno), uno.pin_levels(), read(&mut uno, "QB0")), (true, 0b01, 0b11));
@@ -103,18 +119,22 @@ fn outputs_are_released_outside_of_run() {
 fn the_board_keeps_time_by_its_own_clock() {
     let program = "LD I0.0\nTON T37, 10\nLD T37\n= Q0.0\nLD SM0.0\nINCW VW0\n";
     // The tick of 100 ms falls anywhere, and a scan is over in less than 2 ms.
-    let scenario = "at 50ms I0.0 = 1\nat 949ms expect Q0.0 = 0\nat 1053ms expect Q0.0 = 1, T37.cv = 10, VW0 = 500..30000\n\
+    let scenario = "at 50ms I0.0 = 1\nat 949ms expect Q0.0 = 0\n\
+        at 1053ms expect Q0.0 = 1, T37.cv = 10, VW0 = 500..30000\n\
                     at 2s I0.0 = 0\nat 2002ms expect Q0.0 = 0";
     assert_holds(program, scenario);
 }
 
 #[test]
 fn what_is_set_for_time_0_is_there_in_the_first_scan() {
-    let program = "LDN SM0.1\nJMP 1\nLD SM0.0\nMOVW Ain0, VW0\nMOVW Ain1, VW2\nMOVW Ain2, VW4\nMOVW Ain3, VW6\n\
+    let program = "LDN SM0.1\nJMP 1\nLD SM0.0\nMOVW Ain0, VW0\nMOVW Ain1, VW2\nMOVW Ain2, VW4\n\
+        MOVW Ain3, VW6\n\
                    MOVW Ain4, VW8\nMOVW Ain5, VW10\nLD I0.3\n= Q0.3\nLBL 1\n";
-    let scenario = "at 0ms I0.3 = 1, MW4 = 77, Ain0 = 1023, Ain1 = 11, Ain2 = 222, Ain3 = 512, Ain4 = 513, Ain5 = 1022\n\
+    let scenario = "at 0ms I0.3 = 1, MW4 = 77, Ain0 = 1023, Ain1 = 11, Ain2 = 222, Ain3 = 512, \
+        Ain4 = 513, Ain5 = 1022\n\
                     at 3ms expect Q0.3 = 1, MW4 = 77\n\
-                    at 3ms expect VW0 = 1023, VW2 = 11, VW4 = 222, VW6 = 512, VW8 = 513, VW10 = 1022";
+                    at 3ms expect VW0 = 1023, VW2 = 11, VW4 = 222, VW6 = 512, VW8 = 513, VW10 = \
+                    1022";
     assert_holds(program, scenario);
 }
 
@@ -123,7 +143,8 @@ fn a_fixed_period_is_kept() {
     let program = "//# scan 20ms\nLD SM0.0\nINCW VW0\n";
     assert_holds(
         program,
-        "at 1ms expect VW0 = 1\nat 19ms expect VW0 = 1\nat 990ms expect VW0 = 50\nat 1010ms expect VW0 = 51",
+        "at 1ms expect VW0 = 1\nat 19ms expect VW0 = 1\nat 990ms expect VW0 = 50\n\
+            at 1010ms expect VW0 = 51",
     );
     // With a held clock nothing else can start the next scan.
     let mut uno = uno(program, Clock::LockStep);
@@ -148,7 +169,10 @@ fn inputs_without_a_pin_are_0_and_cannot_be_set() {
     for (name, value) in [("I1.0", 0), ("IB0", 0x3F), ("IB15", 0)] {
         uno.write(operand(name), value).unwrap();
     }
-    assert_eq!(uno.write(operand("VW0"), 1).unwrap_err().to_string(), "the program does not use VW0");
+    assert_eq!(
+        uno.write(operand("VW0"), 1).unwrap_err().to_string(),
+        "the program does not use VW0"
+    );
 }
 
 fn assert_ends_an_endless_scan(code: Code) {
@@ -163,7 +187,10 @@ fn assert_ends_an_endless_scan(code: Code) {
     uno.scan(1);
     assert_eq!(uno.fault_kind(), Some(Fault::Watchdog { at: jump_at }));
     let text = uno.fault().unwrap();
-    assert!(text.starts_with("watchdog: the scan took longer than 500 ms; the program was at byte "), "{text}");
+    assert!(
+        text.starts_with("watchdog: the scan took longer than 500 ms; the program was at byte "),
+        "{text}"
+    );
     assert_eq!((uno.mode(), uno.pin_levels(), read(&mut uno, "MW0")), (Mode::Stop, 0, 1));
     uno.write(operand("I0.0"), 0).unwrap();
     uno.scan(2);
@@ -189,12 +216,16 @@ fn what_is_no_place_of_the_bytecode_is_not_named_as_one() {
     let unsound = "LD SM0.0\nMOVD 16#7FC00000, VD8\nINCW VW20\nLD I0.1\nAR> VD8, 5.0\n= Q0.2\n";
     let endless = "LBL 1\nLD SM0.0\nJMP 1\n";
     let interrupted = format!(
-        "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nLD SM0.1\nMOVB 5, SMB34\nATCH I0, 10\nENI\nLD I0.0\nLBL 0\nLD I0.1\nJMP 0\n\
-         LD I0.2\n= Q0.1\nEND_ORGANIZATION_BLOCK\nINTERRUPT_BLOCK I0:INT0\nBEGIN\n{endless}END_INTERRUPT_BLOCK\n"
+        "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nLD SM0.1\nMOVB 5, SMB34\nATCH I0, 10\nENI\nLD I0.0\n\
+            LBL 0\nLD I0.1\nJMP 0\n\
+         LD I0.2\n= Q0.1\nEND_ORGANIZATION_BLOCK\nINTERRUPT_BLOCK I0:INT0\nBEGIN\n\
+         {endless}END_INTERRUPT_BLOCK\n"
     );
-    // Longer and longer routines: one of them closes its loop at the offset of that of the main program.
-    let longer =
-        (8..14).map(|len| interrupted.replace(endless, &format!("LD SM0.0\n{}{endless}", "NOT\n".repeat(len))));
+    // Longer and longer routines: one of them closes its loop at the offset of that of the main
+    // program.
+    let longer = (8..14).map(|len| {
+        interrupted.replace(endless, &format!("LD SM0.0\n{}{endless}", "NOT\n".repeat(len)))
+    });
     for text in longer.chain([unsound.to_string(), interrupted.clone()]) {
         let interpreted = fault_of(Code::Bytecode, &text);
         assert!(interpreted.contains(" at byte "), "{interpreted}");
@@ -221,7 +252,11 @@ fn what_does_not_fit_when_it_is_translated_is_an_error_and_changes_nothing() {
     assert!(error.starts_with("translated the program needs "), "{error}");
     uno.scan(0);
     assert_eq!((uno.mode(), uno.pin_levels()), (Mode::Run, 0b10), "what was there before");
-    assert_eq!(uno.avr().flash()[usize::from(SLOT_START) + 5], NATIVE_INTERFACE, "and that is machine code");
+    assert_eq!(
+        uno.avr().flash()[usize::from(SLOT_START) + 5],
+        NATIVE_INTERFACE,
+        "and that is machine code"
+    );
     let mut uno = board(too_large, Clock::LockStep);
     uno.scan(0);
     assert_eq!(uno.mode(), Mode::Run, "as bytecode it fits");
@@ -236,7 +271,10 @@ fn a_clock_that_stands_still_is_a_fault() {
     // The interrupt of the tick, off.
     uno.avr_mut().data_mut()[0x6E] = 0;
     uno.catch_up(2_000);
-    assert_eq!((uno.mode(), uno.pin_levels(), uno.fault_kind()), (Mode::Stop, 0, Some(Fault::Hang)));
+    assert_eq!(
+        (uno.mode(), uno.pin_levels(), uno.fault_kind()),
+        (Mode::Stop, 0, Some(Fault::Hang))
+    );
 }
 
 #[test]
@@ -257,7 +295,8 @@ fn bad_images_and_none() {
 
 #[test]
 fn many_programs_in_one_board_leave_nothing_to_the_next() {
-    let set_all = image("LD SM0.0\nMOVW -1, MW0\nMOVW -1, VW0\nS Q0.0, 6\nS S0.0, 255\n//# retain VB0-VB1\n");
+    let set_all =
+        image("LD SM0.0\nMOVW -1, MW0\nMOVW -1, VW0\nS Q0.0, 6\nS S0.0, 255\n//# retain VB0-VB1\n");
     let nothing = image("LD I0.0\n= V0.0\n");
     let mut uno = board(Vec::new(), Clock::LockStep);
     let mut lengths = Vec::new();
@@ -266,7 +305,11 @@ fn many_programs_in_one_board_leave_nothing_to_the_next() {
         (0..5).for_each(|scan| uno.scan(scan));
         assert_eq!((uno.pin_levels(), read(&mut uno, "MW0")), (0x3F, -1));
         uno.load(nothing.clone()).unwrap();
-        assert_eq!((uno.mode(), uno.pin_levels(), read(&mut uno, "MW0")), (Mode::Stop, 0, 0), "no power");
+        assert_eq!(
+            (uno.mode(), uno.pin_levels(), read(&mut uno, "MW0")),
+            (Mode::Stop, 0, 0),
+            "no power"
+        );
         uno.scan(0);
         assert_eq!((uno.mode(), uno.pin_levels(), read(&mut uno, "VB0")), (Mode::Run, 0, 0));
         assert_eq!(["MW0", "SB0", "SB31"].map(|name| read(&mut uno, name)), [0; 3]);
@@ -306,19 +349,29 @@ fn assert_examples_do_what_they_shall(target: Target) {
             continue;
         }
         count += 1;
-        let opened = open_machine(&path, &[], target).unwrap_or_else(|error| panic!("{stem}: {error}"));
+        let opened =
+            open_machine(&path, &[], target).unwrap_or_else(|error| panic!("{stem}: {error}"));
         let Opened { mut machine, symbols, scan_ms, .. } = opened;
         let text = fs::read_to_string(path.with_extension("scn")).unwrap();
         let mut has_operand = |operand| machine.read(operand).map(|_| ());
         let context = Context { symbols: &symbols, plant: None, has_operand: &mut has_operand };
-        let scenario = Scenario::parse(&stem, &text, context).unwrap_or_else(|problems| panic!("{problems}"));
+        let scenario =
+            Scenario::parse(&stem, &text, context).unwrap_or_else(|problems| panic!("{problems}"));
         let plant = scenario.plant.as_ref().map(|spec| spec.build().unwrap());
         // Of the tank, which runs for ten minutes, only the beginning.
         let length = Length::For(scenario.run_ms.map_or(10_000, |ms| ms.min(40_000)));
         let scan_ms = scenario.scan_ms.or(scan_ms).unwrap_or(1);
-        let outcome =
-            run(&mut *machine, &scenario, Job { scan_ms, length, signals: Vec::new(), plant, progress: None }).unwrap();
-        assert!(outcome.failures.is_empty() && outcome.fault.is_none(), "{stem}: {:#?}", outcome.failures);
+        let outcome = run(
+            &mut *machine,
+            &scenario,
+            Job { scan_ms, length, signals: Vec::new(), plant, progress: None },
+        )
+        .unwrap();
+        assert!(
+            outcome.failures.is_empty() && outcome.fault.is_none(),
+            "{stem}: {:#?}",
+            outcome.failures
+        );
         assert!(outcome.met >= 2, "{stem}: {}", outcome.met);
     }
     assert_eq!(count, 14);
@@ -337,10 +390,14 @@ fn examples_do_the_same_translated() {
 #[test]
 fn pulses_come_at_the_pins_in_their_time() {
     // As fast as the scans of the board can follow without an interrupt.
-    let program = "LD I0.0\nLD I0.5\nCTU C0, 9999\nLD I0.1\nEU\nLD I0.0\nALD\nINCW VW0\nLD SM0.0\nMOVW C0, VW2\n";
-    let scenario = "at 10ms pulse I0.0 200Hz for 500ms\nat 261ms expect C0.cv = 50..51\nat 700ms expect C0.cv = 100, I0.0 = 0
-        at 700ms I0.5 = 1\nat 710ms I0.5 = 0\nat 800ms pulse I0.0, I0.1 100Hz 30 times\nat 1200ms expect C0.cv = 30, VW0 = 30
-        at 1200ms pulse I0.0, I0.1 100Hz 30 times reverse\nat 1600ms expect C0.cv = 60, VW0 = 30, VW2 = 60";
+    let program = "LD I0.0\nLD I0.5\nCTU C0, 9999\nLD I0.1\nEU\nLD I0.0\nALD\nINCW VW0\nLD SM0.0\n\
+        MOVW C0, VW2\n";
+    let scenario = "at 10ms pulse I0.0 200Hz for 500ms\nat 261ms expect C0.cv = 50..51\n\
+        at 700ms expect C0.cv = 100, I0.0 = 0
+        at 700ms I0.5 = 1\nat 710ms I0.5 = 0\nat 800ms pulse I0.0, I0.1 100Hz 30 times\n\
+        at 1200ms expect C0.cv = 30, VW0 = 30
+        at 1200ms pulse I0.0, I0.1 100Hz 30 times reverse\n\
+        at 1600ms expect C0.cv = 60, VW0 = 30, VW2 = 60";
     assert_holds(program, scenario);
     // The program sees it the other way round.
     assert_holds(&format!("//# invert I0.0\n{program}"), scenario);
@@ -366,19 +423,26 @@ fn the_clock_is_set_by_a_scenario() {
     let outcome = outcome(&mut uno(CLOCK, Clock::LockStep), CLOCK_IS_SET);
     assert!(outcome.failures.is_empty() && outcome.fault.is_none(), "{outcome:#?}");
     // Set before power comes.
-    assert_holds(CLOCK, "at 0s clock 2000-01-01 00:00:00\nat 1500ms expect VD0 = 16#00010100, VD4 = 16#00010007");
+    assert_holds(
+        CLOCK,
+        "at 0s clock 2000-01-01 00:00:00\nat 1500ms expect VD0 = 16#00010100, VD4 = 16#00010007",
+    );
 }
 
 #[test]
 fn characters_come_and_go_by_the_line() {
-    let program = "//# memory VB0-VB7\nLD SM0.1\nMOVB 16#19, SMB30\nMOVB 2, VB0\nMOVW 16#6869, VW1\nLD I0.0\nEU\nXMT VB0, 0\n\
+    let program = "//# memory VB0-VB7\nLD SM0.1\nMOVB 16#19, SMB30\nMOVB 2, VB0\n\
+        MOVW 16#6869, VW1\nLD I0.0\nEU\nXMT VB0, 0\n\
                    LD I0.1\nMOVB 0, SMB30\n";
-    let scenario = "at 20ms receive \"abc\"\nat 25ms expect SMB2 = 99\nat 25ms expect sent \"\"\nat 25ms I0.0 = 1\n\
-                    at 30ms expect sent \"hi\"\nat 30ms I0.1 = 1\nat 40ms receive \"status\\r\"\nat 99ms expect SMB2 = 99\n\
+    let scenario = "at 20ms receive \"abc\"\nat 25ms expect SMB2 = 99\nat 25ms expect sent \"\"\n\
+        at 25ms I0.0 = 1\n\
+                    at 30ms expect sent \"hi\"\nat 30ms I0.1 = 1\nat 40ms receive \"status\\r\"\n\
+                    at 99ms expect SMB2 = 99\n\
                     at 99ms expect sent \"\"";
     let mut uno = uno(program, Clock::FreeRunning);
     let outcome = outcome(&mut uno, scenario);
     assert!(outcome.failures.is_empty() && outcome.fault.is_none(), "{outcome:#?}");
-    let held = board(image(program), Clock::LockStep).act(&Action::Receive { at_ms: 0, bytes: vec![1] });
+    let held =
+        board(image(program), Clock::LockStep).act(&Action::Receive { at_ms: 0, bytes: vec![1] });
     assert!(held.is_err_and(|error| error.to_string().contains("its own clock")));
 }

@@ -21,8 +21,9 @@ def connected(way: str, place: str):
 class Plc:
     """Answers that must be as wanted; each check counts."""
 
-    def __init__(self, client):
+    def __init__(self, client, product: str):
         self.client = client
+        self.product = product
         self.checks = 0
 
     def same(self, what: str, got, wanted) -> None:
@@ -83,7 +84,7 @@ def registers(plc: Plc) -> None:
     plc.refused("V the program has not", client.read_holding_registers(130, count=1), 2)
     plc.refused("T the program has not", client.write_register(6036, 1), 2)
     plc.refused("HC0", client.write_register(8008, 1), 2)
-    plc.refused("AIW behind the last", client.read_input_registers(31, count=2), 2)
+    plc.refused("AIW after the last", client.read_input_registers(31, count=2), 2)
     plc.refused("33 timers", client.read_holding_registers(6000, count=33), 3)
     plc.good("VW0 back", client.write_registers(0, [0] * 4))
 
@@ -92,7 +93,7 @@ def identification(plc: Plc) -> None:
     client = plc.client
     answer = client.read_device_information(read_code=2)
     names = {number: text.decode() for number, text in answer.information.items()}
-    plc.same("identification", (names[0], names[1], names[6]), ("uno200", "Arduino Uno", "areas"))
+    plc.same("identification", (names[0], names[1], names[6]), ("uno200", plc.product, "areas"))
     plc.refused("no such object", client.read_device_information(read_code=4, object_id=9), 2)
     plc.refused("no such function", client.mask_write_register(address=0, and_mask=0xF2, or_mask=0x25), 1)
 
@@ -100,7 +101,8 @@ def identification(plc: Plc) -> None:
 def main() -> None:
     _, way, place = sys.argv
     client = connected(way, place)
-    plc = Plc(client)
+    # On the network it is the simulator that answers.
+    plc = Plc(client, "simulator" if way == "tcp" else "Arduino Uno")
     for part in (bits, registers, identification):
         part(plc)
     client.close()

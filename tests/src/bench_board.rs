@@ -1,5 +1,6 @@
-//! The shipped firmware on a simulated Uno that runs by its own clock: power, program, pins, scans, serial line. What
-//! it must do is for the tests to say; [`lockstep`](crate::lockstep) is for comparisons with the host.
+//! The shipped firmware on a simulated Uno that runs by its own clock: power, program, pins, scans,
+//! serial line. What it must do is for the tests to say; [`lockstep`](crate::lockstep) is for
+//! comparisons with the host.
 
 use std::ops::{Deref, DerefMut};
 
@@ -14,11 +15,11 @@ const PORT_B: usize = 0x25;
 const DIRECTIONS_B: usize = 0x24;
 const PORT_D: usize = 0x2B;
 
-/// Longest time from mark to mark unless a test says otherwise: a start with the longest program, a scan until the
-/// longest usual watchdog time.
+/// Longest time from mark to mark unless a test says otherwise: a start with the longest program, a
+/// scan until the longest usual watchdog time.
 const PAUSE_MAX: u64 = 2_000 * MS;
-/// An answer has ended when there was nothing for so long and so many scans: a line takes 6 ms at most, and the next
-/// one begins in the first scan after it.
+/// An answer has ended when there was nothing for so long and so many scans: a line takes 6 ms at
+/// most, and the next one begins in the first scan after it.
 const SILENCE_MS: u64 = 10;
 const SILENCE_SCANS: usize = 3;
 
@@ -155,11 +156,17 @@ impl BenchBoard {
         scans
     }
 
-    /// Runs in small steps, within scans too, until something is so. Returns how many cycles that took.
+    /// Runs in small steps, within scans too, until something is so. Returns how many cycles that
+    /// took.
     ///
     /// # Panics
     /// If it is not so after `cycles_max`.
-    pub fn run_until(&mut self, step: u64, cycles_max: u64, mut is_so: impl FnMut(&BenchBoard) -> bool) -> u64 {
+    pub fn run_until(
+        &mut self,
+        step: u64,
+        cycles_max: u64,
+        mut is_so: impl FnMut(&BenchBoard) -> bool,
+    ) -> u64 {
         let start = self.avr.cycles();
         while !is_so(self) {
             assert!(self.avr.cycles() - start <= cycles_max, "not within {} ms", cycles_max / MS);

@@ -1,7 +1,8 @@
-//! Cases: AWL files that carry their scenario and its expectations in `//$` lines. Reads, assembles and runs them.
+//! Cases: AWL files that carry their scenario and its expectations in `//$` lines. Reads, assembles
+//! and runs them.
 //!
-//! `README.md` says how a case is written. The examples are cases too, with their scenario in a file of its own. What
-//! runs a case is any [`Machine`].
+//! `README.md` says how a case is written. The examples are cases too, with their scenario in a
+//! file of its own. What runs a case is any [`Machine`].
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -40,7 +41,10 @@ impl Case {
     /// All cases, by name.
     pub fn all() -> Vec<Case> {
         let root = folder("cases");
-        files(&root).iter().map(|path| Case::new(format!("tests/cases/{}", name_of(&root, path)), read(path))).collect()
+        files(&root)
+            .iter()
+            .map(|path| Case::new(format!("tests/cases/{}", name_of(&root, path)), read(path)))
+            .collect()
     }
 
     /// The examples with their scenarios.
@@ -50,7 +54,13 @@ impl Case {
             let file = format!("examples/{}", name_of(&root, path));
             let scenario_path = path.with_extension("scn");
             let scenario_file = format!("examples/{}", name_of(&root, &scenario_path));
-            Case { file, awl: read(path), scenario_file, scenario: read(&scenario_path), faults: Vec::new() }
+            Case {
+                file,
+                awl: read(path),
+                scenario_file,
+                scenario: read(&scenario_path),
+                faults: Vec::new(),
+            }
         };
         files(&root).iter().map(example).collect()
     }
@@ -75,10 +85,15 @@ impl Case {
     pub fn prepare(self) -> Result<Prepared, String> {
         let source = Source::new(&*self.file, &*self.awl).map_err(|e| e.to_string())?;
         let assembly = assemble(&source, Vec::new());
-        let errors = assembly.diagnostics.iter().filter(|diagnostic| diagnostic.severity() == Severity::Error);
+        let errors = assembly
+            .diagnostics
+            .iter()
+            .filter(|diagnostic| diagnostic.severity() == Severity::Error);
         let text: String = errors.map(|diagnostic| human(&source, diagnostic, false)).collect();
         match assembly.image {
-            Some(ref image) if text.is_empty() => Ok(Prepared { image: image.clone(), case: self, assembly }),
+            Some(ref image) if text.is_empty() => {
+                Ok(Prepared { image: image.clone(), case: self, assembly })
+            }
             _ => Err(text),
         }
     }
@@ -104,21 +119,22 @@ impl Prepared {
         Case::all().into_iter().map(prepare).collect()
     }
 
-    /// Whether something happens to the PLC from outside in it that is no value: pulses, a clock that is set.
+    /// Whether something happens to the PLC from outside in it that is no value: pulses, a clock
+    /// that is set.
     pub fn has_actions(&self) -> bool {
         let statements = self.case.scenario.lines().filter_map(|line| line.split('#').next());
         let words = statements.map(|statement| statement.split_whitespace().collect::<Vec<_>>());
         words.into_iter().any(|words| matches!(words[..], ["at", _, "pulse" | "clock", ..]))
     }
 
-    /// Runs a machine that has the case's program, or one to be judged by it, and returns everything that is not as the
-    /// case wants it.
+    /// Runs a machine that has the case's program, or one to be judged by it, and returns
+    /// everything that is not as the case wants it.
     pub fn failures(&self, machine: &mut dyn Machine) -> Vec<String> {
         let scenario = match self.scenario(machine) {
             Ok(scenario) => scenario,
             Err(problems) => return vec![problems],
         };
-        if scenario.expectations.is_empty() && self.case.faults.is_empty() {
+        if !scenario.expects_something() && self.case.faults.is_empty() {
             return vec![format!("{}: nothing is expected", self.place(1))];
         }
         let scan_ms = scenario.scan_ms.unwrap_or(match self.assembly.program.settings.scan_ms {
@@ -129,7 +145,8 @@ impl Prepared {
             Ok(plant) => plant,
             Err(error) => return vec![format!("{}: {}", self.place(1), error.message)],
         };
-        let job = Job { scan_ms, length: Length::Scenario, signals: Vec::new(), plant, progress: None };
+        let job =
+            Job { scan_ms, length: Length::Scenario, signals: Vec::new(), plant, progress: None };
         match run(machine, &scenario, job) {
             Ok(outcome) => self.judge(&outcome),
             Err(error) => vec![format!("{}: {error}", self.place(1))],
@@ -140,18 +157,26 @@ impl Prepared {
         let mut has_operand = |operand| machine.read(operand).map(|_| ());
         let symbols = &self.assembly.program.symbols;
         let context = Context { symbols, plant: None, has_operand: &mut has_operand };
-        Scenario::parse(&self.case.scenario_file, &self.case.scenario, context).map_err(|problems| problems.to_string())
+        Scenario::parse(&self.case.scenario_file, &self.case.scenario, context)
+            .map_err(|problems| problems.to_string())
     }
 
     fn judge(&self, outcome: &Outcome) -> Vec<String> {
-        let mut failures: Vec<String> =
-            outcome.failures.iter().map(|failure| format!("{}: {failure}", self.place(failure.line))).collect();
+        let mut failures: Vec<String> = outcome
+            .failures
+            .iter()
+            .map(|failure| format!("{}: {failure}", self.place(failure.line)))
+            .collect();
         let fault = outcome.fault.as_ref().map_or("", |fault| &fault.text);
         if !fault.is_empty() && self.case.faults.is_empty() {
             failures.push(format!("{}: fault: {fault}", self.place(1)));
         }
         let missing = self.case.faults.iter().filter(|wanted| !fault.contains(wanted.as_str()));
-        failures.extend(missing.map(|wanted| format!("{}: expected fault {wanted}, got \"{fault}\"", self.place(1))));
+        failures.extend(
+            missing.map(|wanted| {
+                format!("{}: expected fault {wanted}, got \"{fault}\"", self.place(1))
+            }),
+        );
         failures
     }
 
@@ -183,7 +208,8 @@ pub fn read(path: &Path) -> String {
 /// # Panics
 /// If the folder cannot be read.
 pub fn files(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let entries =
+        fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let mut found = Vec::new();
     for path in entries.map_while(Result::ok).map(|entry| entry.path()) {
         if path.is_dir() {

@@ -1,7 +1,10 @@
-//! The repository's own commands, as users have them. The tests' crate has none, so cargo is asked for them.
+//! The repository's own commands, as users have them. The tests' crate has none, so cargo is asked
+//! for them.
 
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
+
+use crate::case::folder;
 
 /// The program of a package of the workspace, built beside the test that runs.
 ///
@@ -17,7 +20,13 @@ pub fn built(package: &str) -> PathBuf {
     target.join("debug").join(package)
 }
 
-/// Runs a command, and `step` over and over until it has ended. Returns how that was, and what it wrote.
+/// The firmware that is part of the tools: what a user's board gets, whichever compiler is here.
+pub fn kept_firmware() -> PathBuf {
+    folder("../awl-asm/firmware/uno200.hex")
+}
+
+/// Runs a command, and `step` over and over until it has ended. Returns how that was, and what it
+/// wrote.
 ///
 /// # Panics
 /// If it does not start.

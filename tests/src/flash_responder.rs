@@ -1,8 +1,11 @@
-//! Boards that are no Uno, or a broken one: as much of a bootloader's STK500 protocol as brings avrdude to its errors.
+//! Boards that are no Uno, or a broken one: as much of a bootloader's STK500 protocol as brings
+//! avrdude to its errors.
 
 use std::io;
 use std::path::Path;
 
+use plc_isa::SLOT_START;
+use simavr::Avr;
 use virtual_uno::Port;
 
 const IN_SYNC: u8 = 0x14;
@@ -16,7 +19,7 @@ pub enum Flaw {
     NoBootloader,
     /// It is an ATmega168.
     OtherChip,
-    /// A bit of each byte that is read is wrong.
+    /// A bit of each byte of the program that is read is wrong.
     WrongBytes,
 }
 
@@ -30,9 +33,11 @@ pub struct Responder {
 }
 
 impl Responder {
-    /// A board.
+    /// A board with the firmware.
     pub fn new(flaw: Flaw) -> io::Result<Responder> {
-        let flash = vec![0xFF; FLASH_LEN];
+        let mut avr = Avr::new();
+        avr.load_hex(awl_asm::hex::FIRMWARE).map_err(io::Error::other)?;
+        let flash = avr.flash()[..FLASH_LEN].to_vec();
         Ok(Responder { port: Port::new()?, flaw, received: Vec::new(), flash, address: 0 })
     }
 
@@ -48,7 +53,8 @@ impl Responder {
             return if received.is_empty() { Ok(()) } else { self.port.write(b"Hello\r\n") };
         }
         self.received.extend(received);
-        while let Some(len) = command_len(&self.received).filter(|len| *len <= self.received.len()) {
+        while let Some(len) = command_len(&self.received).filter(|len| *len <= self.received.len())
+        {
             let command: Vec<u8> = self.received.drain(..len).collect();
             let data = self.obey(&command);
             self.port.write(&[&[IN_SYNC], &data[..], &[OK]].concat())?;
@@ -73,15 +79,20 @@ impl Responder {
             }
             [b't', high, low, ..] => {
                 let len = usize::from(u16::from_be_bytes([high, low]));
-                let flip = u8::from(self.flaw == Flaw::WrongBytes);
-                self.flash[self.address..self.address + len].iter().map(|byte| byte ^ flip).collect()
+                let is_program = self.address >= usize::from(SLOT_START);
+                let flip = u8::from(self.flaw == Flaw::WrongBytes && is_program);
+                self.flash[self.address..self.address + len]
+                    .iter()
+                    .map(|byte| byte ^ flip)
+                    .collect()
             }
             _ => Vec::new(),
         }
     }
 }
 
-/// The length of the command at the beginning, with the space at its end; none while it cannot be told.
+/// The length of the command at the beginning, with the space at its end; none while it cannot be
+/// told.
 fn command_len(received: &[u8]) -> Option<usize> {
     Some(match received {
         [b'A', ..] => 3,

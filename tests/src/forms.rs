@@ -1,6 +1,7 @@
-//! The forms of the instruction table as they stand in an image: to count them, and to exchange them.
+//! The forms of the instruction table as they stand in an image: to count them, and to exchange
+//! them.
 
-use plc_isa::{Form, Header, INSTRUCTIONS, Instruction, Kind, Op, Relation, decode};
+use plc_isa::{Form, Header, INSTRUCTIONS, Instruction, Kind, Relation, decode};
 
 use crate::image::signed;
 
@@ -13,12 +14,12 @@ pub struct Row {
     pub form: &'static Form,
 }
 
-/// Where an instruction stands in an image.
+/// Where an instruction is in an image.
 #[derive(Clone, Copy)]
-pub struct Place {
-    /// What stands there.
+pub struct FormPlace {
+    /// What is there.
     pub row: Row,
-    /// Offset of its token, behind the prefix if there is one.
+    /// Offset of its token, after the prefix if there is one.
     pub token_at: usize,
     /// Its comparison.
     pub relation: Option<Relation>,
@@ -26,7 +27,9 @@ pub struct Place {
 
 /// Every form of every instruction.
 pub fn rows() -> Vec<Row> {
-    let of = |instruction: &'static Instruction| instruction.forms.iter().map(move |form| Row { instruction, form });
+    let of = |instruction: &'static Instruction| {
+        instruction.forms.iter().map(move |form| Row { instruction, form })
+    };
     INSTRUCTIONS.iter().flat_map(of).collect()
 }
 
@@ -42,7 +45,8 @@ impl Row {
         self.first() == other.first()
     }
 
-    /// Whether the bytes of one can be read as the other, and do the same to the depth of the stack.
+    /// Whether the bytes of one can be read as the other, and do the same to the depth of the
+    /// stack.
     pub fn is_sibling(&self, other: &Row) -> bool {
         let span = |form: &Form| form.last_token - form.first_token;
         !self.is(other)
@@ -61,19 +65,16 @@ impl Row {
     }
 
     fn holds(&self, prefix: Option<u8>, token: u8) -> bool {
-        self.form.prefix == prefix && (self.form.first_token..=self.form.last_token).contains(&token)
+        self.form.prefix == prefix
+            && (self.form.first_token..=self.form.last_token).contains(&token)
     }
 
-    /// The comparisons that the form can be written with; `None` alone if it has none. Strings are equal or not, and a
-    /// table is searched for four relations (reference 1.2, 1.7).
+    /// The comparisons that the form can be written with; `None` alone if it has none.
     pub fn relations(&self) -> Vec<Option<Relation>> {
-        let known = match self.instruction.op {
-            _ if !self.instruction.has_relation() => return vec![None],
-            Op::LoadText | Op::AndText | Op::OrText => 2,
-            Op::Fnd => 4,
-            _ => Relation::ALL.len(),
-        };
-        Relation::ALL[..known].iter().copied().map(Some).collect()
+        match self.instruction.relations() {
+            [] => vec![None],
+            known => known.iter().copied().map(Some).collect(),
+        }
     }
 }
 
@@ -81,7 +82,7 @@ impl Row {
 ///
 /// # Panics
 /// If the image is not valid.
-pub fn places(image: &[u8]) -> Vec<Place> {
+pub fn places(image: &[u8]) -> Vec<FormPlace> {
     let header = Header::read(&image).expect("a valid header");
     let rows = rows();
     let (mut at, mut places) = (header.code_at(), Vec::new());
@@ -90,8 +91,11 @@ pub fn places(image: &[u8]) -> Vec<Place> {
         let first = image[usize::from(at)];
         let prefix = rows.iter().find_map(|row| row.form.prefix.filter(|&prefix| prefix == first));
         let token_at = usize::from(at) + usize::from(prefix.is_some());
-        let row = rows.iter().find(|row| row.holds(prefix, image[token_at])).expect("a token of the table");
-        places.push(Place { row: *row, token_at, relation: decoded.relation() });
+        let row = rows
+            .iter()
+            .find(|row| row.holds(prefix, image[token_at]))
+            .expect("a token of the table");
+        places.push(FormPlace { row: *row, token_at, relation: decoded.relation() });
         at += decoded.len;
     }
     places
@@ -110,14 +114,18 @@ pub fn with_row(image: &[u8], from: &Row, to: &Row) -> Option<Vec<u8>> {
 pub fn with_relation(image: &[u8], row: &Row, from: Relation, to: Relation) -> Option<Vec<u8>> {
     let has_own_byte = row.form.kinds.contains(&Kind::RelationByte);
     changed(image, |place, bytes| match place.relation {
-        Some(relation) if place.row.is(row) && relation == from && has_own_byte => bytes[1] = to as u8,
-        Some(relation) if place.row.is(row) && relation == from => bytes[0] = row.form.first_token + to as u8,
+        Some(relation) if place.row.is(row) && relation == from && has_own_byte => {
+            bytes[1] = to as u8
+        }
+        Some(relation) if place.row.is(row) && relation == from => {
+            bytes[0] = row.form.first_token + to as u8
+        }
         _ => {}
     })
 }
 
 /// The image after `change` has seen each of its instructions with its bytes from the token on.
-fn changed(image: &[u8], change: impl Fn(&Place, &mut [u8])) -> Option<Vec<u8>> {
+fn changed(image: &[u8], change: impl Fn(&FormPlace, &mut [u8])) -> Option<Vec<u8>> {
     let mut changed = image.to_vec();
     for place in places(image) {
         change(&place, &mut changed[place.token_at..]);

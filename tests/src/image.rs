@@ -6,7 +6,10 @@ use awl_asm::assemble::assemble;
 use awl_asm::render::human;
 use awl_asm::source::Source;
 use fastrand::Rng;
-use plc_isa::{CRC_LEN, Crc32, DIRECTORY_AT, HEADER_LEN, NATIVE_INTERFACE, ProgramMemory, SLOT_LEN};
+use plc_isa::{
+    CRC_LEN, Crc32, DIRECTORY_AT, HEADER_LEN, NATIVE_INTERFACE, Profile, ProgramMemory, SLOT_LEN,
+    UNO,
+};
 
 use crate::case::{folder, read};
 
@@ -19,6 +22,7 @@ pub struct OnBoard<'a>(pub &'a [u8]);
 
 impl ProgramMemory for OnBoard<'_> {
     const NATIVE_INTERFACE: u8 = NATIVE_INTERFACE;
+    const PROFILE: Option<&'static Profile> = Some(&UNO);
 
     fn len(&self) -> u16 {
         ProgramMemory::len(&self.0)
@@ -37,7 +41,8 @@ pub fn image(text: &str) -> Vec<u8> {
     let source = Source::new("program", text).unwrap_or_else(|error| panic!("{error}"));
     let assembly = assemble(&source, Vec::new());
     assembly.image.unwrap_or_else(|| {
-        let messages: Vec<_> = assembly.diagnostics.iter().map(|message| human(&source, message, false)).collect();
+        let messages: Vec<_> =
+            assembly.diagnostics.iter().map(|message| human(&source, message, false)).collect();
         panic!("{}\n{text}", messages.concat())
     })
 }
@@ -58,7 +63,8 @@ pub fn example(name: &str) -> Vec<u8> {
     image(&example_text(name))
 }
 
-/// Makes the checksum right again, so that the rest is looked at. What is shorter than a checksum stays as it is.
+/// Makes the checksum right again, so that the rest is looked at. What is shorter than a checksum
+/// stays as it is.
 pub fn sign(image: &mut [u8]) {
     let Some(end) = <[u8]>::len(image).checked_sub(usize::from(CRC_LEN)) else { return };
     let crc = Crc32::of(&image[..end]);
@@ -78,9 +84,9 @@ fn is_of_modules(offset: usize) -> bool {
     (MODULES_LEN_AT..MODULES_LEN_AT + 2).contains(&offset) || directory.contains(&offset)
 }
 
-/// The image with one to three bytes changed at these offsets, as far as they are not the checksum and say nothing of
-/// modules; the checksum is right again. It is as long as the slot, because the board does not know the length of a
-/// file.
+/// The image with one to three bytes changed at these offsets, as far as they are not the checksum
+/// and say nothing of modules; the checksum is right again. It is as long as the slot, because the
+/// board does not know the length of a file.
 pub fn damaged(image: &[u8], rng: &mut Rng, offsets: Range<usize>) -> Vec<u8> {
     let mut image = image.to_vec();
     let end = image.len() - usize::from(CRC_LEN);

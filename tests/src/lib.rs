@@ -1,14 +1,15 @@
-//! What the tests of all machines share: cases, a naive evaluator of AWL, random programs, broken texts.
+//! What the tests of all machines share: cases, a naive evaluator of AWL, random programs, broken
+//! texts.
 
 #[cfg(feature = "uno")]
 pub mod bench_board;
 pub mod case;
-#[cfg(feature = "uno")]
 pub mod commands;
 pub mod effort;
 #[cfg(feature = "uno")]
 pub mod flash_responder;
 pub mod forms;
+pub mod fuzz;
 pub mod image;
 #[cfg(feature = "uno")]
 pub mod link;
@@ -25,3 +26,5 @@ pub mod power;
 pub mod random;
 pub mod retained;
 pub mod still_time;
+#[cfg(feature = "uno")]
+pub mod vm_on_avr;

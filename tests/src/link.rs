@@ -1,4 +1,5 @@
-//! The board's line seen from a master: frames of Modbus RTU and their answers. What requests mean is not known here.
+//! The board's line seen from a master: frames of Modbus RTU and their answers. What requests mean
+//! is not known here.
 
 use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
@@ -18,10 +19,14 @@ pub const CHARACTER: u64 = 11 * 8 * 17;
 /// So many bytes simavr has taken at most and not given to the board yet.
 const TAKEN_MAX: usize = 64;
 
-/// The checksum of Modbus RTU, CRC-16 with the reflected polynomial 8005. It is sent low byte first.
+/// The checksum of Modbus RTU, CRC-16 with the reflected polynomial 8005. It is sent low byte
+/// first.
 pub fn checksum(bytes: &[u8]) -> u16 {
     bytes.iter().fold(0xFFFF, |crc, &byte| {
-        (0..8).fold(crc ^ u16::from(byte), |crc, _| if crc & 1 != 0 { crc >> 1 ^ 0xA001 } else { crc >> 1 })
+        (0..8).fold(
+            crc ^ u16::from(byte),
+            |crc, _| if crc & 1 != 0 { crc >> 1 ^ 0xA001 } else { crc >> 1 },
+        )
     })
 }
 
@@ -32,12 +37,14 @@ pub fn frame(unit: u8, pdu: &[u8]) -> Vec<u8> {
     frame
 }
 
-/// Cycles until the board has the last of so many bytes, when none of them waits outside simavr any more.
+/// Cycles until the board has the last of so many bytes, when none of them waits outside simavr any
+/// more.
 pub fn last_bytes(count: usize) -> u64 {
     count.min(TAKEN_MAX) as u64 * CHARACTER
 }
 
-/// Sends a frame and returns what comes back until the line is silent: nothing, if the board does not answer in time.
+/// Sends a frame and returns what comes back until the line is silent: nothing, if the board does
+/// not answer in time.
 pub fn say(board: &mut BenchBoard, frame: &[u8]) -> Vec<u8> {
     let _ = board.avr.uart_take();
     board.say(frame);
@@ -78,7 +85,8 @@ pub fn ask(board: &mut BenchBoard, pdu: &[u8]) -> Vec<u8> {
 /// What a board says of itself, by service function 65.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Identity {
-    /// Bit 0 RUN, 1 there is a program, 2 something is forced, 3 the program is machine code, 4 single scans go on.
+    /// Bit 0 RUN, 1 there is a program, 2 something is forced, 3 the program is machine code, 4
+    /// single scans go on.
     pub state: u8,
     /// The fault that led to STOP.
     pub fault: Option<Fault>,
@@ -113,8 +121,13 @@ fn number(bytes: &[u8]) -> u32 {
 /// Without an answer.
 pub fn identify(board: &mut BenchBoard) -> Identity {
     let answer = ask(board, &[65]);
-    assert_eq!((answer.len(), answer[0], answer[1], &answer[12..14]), (40, 65, 1, &[0, 250][..]), "{answer:02X?}");
-    let fault = |at: usize| Fault::from_bytes([answer[at], answer[at + 1], answer[at + 2], answer[at + 3]]);
+    assert_eq!(
+        (answer.len(), answer[0], answer[1], &answer[12..14]),
+        (40, 65, 1, &[0, 250][..]),
+        "{answer:02X?}"
+    );
+    let fault =
+        |at: usize| Fault::from_bytes([answer[at], answer[at + 1], answer[at + 2], answer[at + 3]]);
     Identity {
         state: answer[3],
         fault: fault(4),
@@ -178,8 +191,8 @@ pub fn run(board: &mut BenchBoard) {
     assert_eq!(command(board, Command::Run), Ok(()));
 }
 
-/// A whole exchange on the host: requests are answered after a scan, and a scan follows. `now_ms`: the time of the last
-/// one.
+/// A whole exchange on the host: requests are answered after a scan, and a scan follows. `now_ms`:
+/// the time of the last one.
 pub fn exchange_on_host(host: &mut Host, now_ms: &mut u64, request: &[u8]) -> Option<Vec<u8>> {
     let mut scan = |host: &mut Host| {
         *now_ms += 1;

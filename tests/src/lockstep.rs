@@ -1,4 +1,5 @@
-//! Host and board side by side: the same inputs and times for both, and everything compared after every scan.
+//! Host and board side by side: the same inputs and times for both, and everything compared after
+//! every scan.
 
 mod runs;
 
@@ -9,8 +10,8 @@ use awl_sim::machine::uno::{Clock, Code, Uno};
 use awl_sim::machine::{Machine, MachineError, Mode};
 use awl_sim::operand::Operand;
 use plc_isa::{
-    ARENA_START, Area, DATA_END, DATA_START, DIGITAL_OUTPUTS, ENO, EVENTS_SEEN, Header, Op, Program, ProgramMemory,
-    SLOT_END, SLOT_START, verify,
+    ARENA_START, Area, DATA_END, DATA_START, DIGITAL_OUTPUTS, ENO, EVENTS_SEEN, Header, Op,
+    Program, ProgramMemory, SLOT_END, SLOT_START, verify,
 };
 use plc_vm::Fault;
 
@@ -18,13 +19,17 @@ use crate::bench_board::firmware;
 use crate::case::host;
 use crate::image::OnBoard;
 
-pub use runs::{Programs, assert_cases_are_the_same, assert_random_programs_are_the_same, random_image};
+pub use runs::{
+    Programs, assert_cases_are_the_same, assert_random_programs_are_the_same, random_image,
+    random_scans,
+};
 
 /// Pins of the outputs.
 const OUTPUT_PINS: u8 = (1 << DIGITAL_OUTPUTS) - 1;
 /// How long a scan runs that the host has already seen to be endless: 100 ms of the board.
 const ENDLESS_CYCLES: u64 = 1_600_000;
-/// How long any other may run: ten minutes. The host charges loops less than the board takes for them.
+/// How long any other may run: ten minutes. The host charges loops less than the board takes for
+/// them.
 const LONG_CYCLES: u64 = 10 * 60 * 16_000_000;
 
 /// A board in lock-step, for many programs in this form.
@@ -32,14 +37,17 @@ const LONG_CYCLES: u64 = 10 * 60 * 16_000_000;
 /// # Panics
 /// Without the firmware: nothing is left out silently.
 pub fn board(code: Code) -> Uno {
-    Uno::new(&firmware(), code, Clock::LockStep, Box::new(|_| String::new())).unwrap_or_else(|error| panic!("{error}"))
+    Uno::new(&firmware(), code, Clock::LockStep, Box::new(|_| String::new()))
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// A host and a board with the same program. As a machine it is the host; the board must be the same.
+/// A host and a board with the same program. As a machine it is the host; the board must be the
+/// same.
 pub struct Pair<'a> {
     host: Host,
     uno: &'a mut Uno,
-    /// One past the last data address that is compared: behind its plan the board keeps a copy of what is retained.
+    /// One past the last data address that is compared: after its plan the board keeps a copy of
+    /// what is retained.
     compared_end: u16,
     /// Whether the program can see ENO. If not, a translated one does not keep it.
     reads_eno: bool,
@@ -50,7 +58,8 @@ pub struct Pair<'a> {
 }
 
 impl<'a> Pair<'a> {
-    /// Both with this image, their clocks beginning at this time. An error if it does not fit when it is translated.
+    /// Both with this image, their clocks beginning at this time. An error if it does not fit when
+    /// it is translated.
     pub fn new(uno: &'a mut Uno, image: &[u8], clock_ms: u32) -> Result<Pair<'a>, TranslateError> {
         let mut host = host(image);
         host.start_clock_at(clock_ms);
@@ -59,12 +68,14 @@ impl<'a> Pair<'a> {
         uno.hold_clock_for(LONG_CYCLES);
         let program = verify(image).ok();
         let retaining = program.as_ref().map(Program::plan).filter(|plan| plan.header.retained > 0);
-        // Behind that the board's modules keep their state.
-        let data_end = program.as_ref().and_then(|program| program.memory().modules_end()).unwrap_or(DATA_END);
+        // After that the board's modules keep their state.
+        let data_end =
+            program.as_ref().and_then(|program| program.memory().modules_end()).unwrap_or(DATA_END);
         let compared_end = retaining.map_or(data_end, |plan| plan.end());
         let jumps = program.as_ref().map(jumps).unwrap_or_default();
-        let reads_eno =
-            program.as_ref().is_some_and(|program| program.instructions().any(|(_, found)| found.op == Op::Aeno));
+        let reads_eno = program
+            .as_ref()
+            .is_some_and(|program| program.instructions().any(|(_, found)| found.op == Op::Aeno));
         Ok(Pair { host, uno, compared_end, reads_eno, jumps, scans: 0, difference: None })
     }
 
@@ -75,18 +86,21 @@ impl<'a> Pair<'a> {
 
     fn must_be(&mut self, what: impl FnOnce() -> String, board: &str, host: &str) {
         if board != host && self.difference.is_none() {
-            self.difference = Some(format!("after scan {}: {} is {board}, should be {host}", self.scans, what()));
+            self.difference =
+                Some(format!("after scan {}: {} is {board}, should be {host}", self.scans, what()));
         }
     }
 
     fn compare(&mut self) {
         let broken = self.uno.broken().unwrap_or_default().to_string();
         self.must_be(|| "what is wrong with the board".to_string(), &broken, "");
-        let faults = [self.uno.fault_kind(), self.host.fault_kind()].map(|fault| self.described(fault));
+        let faults =
+            [self.uno.fault_kind(), self.host.fault_kind()].map(|fault| self.described(fault));
         self.must_be(|| "the fault".to_string(), &faults[0], &faults[1]);
         let modes = [self.uno.mode(), self.host.mode()].map(|mode| format!("{mode:?}"));
         self.must_be(|| "the mode".to_string(), &modes[0], &modes[1]);
-        let pins = [self.uno.pin_levels(), self.host.pin_levels()].map(|pins| format!("{:06b}", pins & OUTPUT_PINS));
+        let pins = [self.uno.pin_levels(), self.host.pin_levels()]
+            .map(|pins| format!("{:06b}", pins & OUTPUT_PINS));
         self.must_be(|| "the level of the outputs".to_string(), &pins[0], &pins[1]);
         // How far an endless loop came is a matter of speed.
         if !matches!(self.host.fault_kind(), Some(Fault::Watchdog { .. })) {
@@ -94,17 +108,24 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// A fault; the place at which the watchdog came only as far as it is no matter of speed too. What machine code leaves
-    /// to the firmware stands elsewhere.
+    /// A fault; the place at which the watchdog came only as far as it is no matter of speed too.
+    /// What machine code leaves to the firmware is elsewhere.
     fn described(&self, fault: Option<Fault>) -> String {
         let is_translated = || {
             let slot = self.uno.avr().flash().get(SLOT_START.into()..SLOT_END.into());
-            slot.and_then(|slot| Header::read(&OnBoard(slot)).ok()).is_some_and(|header| header.interface != 0)
+            slot.and_then(|slot| Header::read(&OnBoard(slot)).ok())
+                .is_some_and(|header| header.interface != 0)
         };
         match fault {
-            Some(Fault::Watchdog { at }) if self.jumps.contains(&at) => "the watchdog at a jump".to_string(),
-            Some(Fault::ComparedPointer { .. }) if is_translated() => "a comparison by an illegal pointer".to_string(),
-            Some(Fault::ComparedReal { .. }) if is_translated() => "a comparison of an illegal real".to_string(),
+            Some(Fault::Watchdog { at }) if self.jumps.contains(&at) => {
+                "the watchdog at a jump".to_string()
+            }
+            Some(Fault::ComparedPointer { .. }) if is_translated() => {
+                "a comparison by an illegal pointer".to_string()
+            }
+            Some(Fault::ComparedReal { .. }) if is_translated() => {
+                "a comparison of an illegal real".to_string()
+            }
             fault => format!("{fault:?}"),
         }
     }
@@ -114,8 +135,12 @@ impl<'a> Pair<'a> {
         let bytes = self.uno.memory().iter().zip(self.host.memory().bytes()).take(len);
         // What has been seen of events, each keeps in its own way.
         let reads_eno = self.reads_eno;
-        let is_own = |address: u16| (EVENTS_SEEN..ARENA_START).contains(&address) || address == ENO && !reads_eno;
-        let different = (DATA_START..).zip(bytes).find(|&(address, (board, host))| board != host && !is_own(address));
+        let is_own = |address: u16| {
+            (EVENTS_SEEN..ARENA_START).contains(&address) || address == ENO && !reads_eno
+        };
+        let different = (DATA_START..)
+            .zip(bytes)
+            .find(|&(address, (board, host))| board != host && !is_own(address));
         if let Some((address, (&board, &host))) = different {
             self.must_be(|| name(address), &board.to_string(), &host.to_string());
         }
@@ -192,7 +217,10 @@ mod tests {
         let others = [
             ("LD SM0.0\n= Q0.0\n= M0.7\n", "the byte at 0x0120 (MB0) is 128, should be 0"),
             ("LD SM0.0\n= Q0.0\n= V0.0\n", "the byte at 0x0240 is 1, should be 0"),
-            ("//# invert Q0.1\nLD SM0.0\n= Q0.0\n", "the level of the outputs is 000011, should be 000001"),
+            (
+                "//# invert Q0.1\nLD SM0.0\n= Q0.0\n",
+                "the level of the outputs is 000011, should be 000001",
+            ),
             ("LD SM0.0\n= Q0.0\nSTOP\n", "the mode is Stop, should be Run"),
         ];
         for (other, difference) in others {
@@ -205,7 +233,9 @@ mod tests {
         let mut pair = Pair::new(&mut uno, &image(same), 0).unwrap();
         pair.uno.load(b"U200 is no image".to_vec()).unwrap();
         pair.scan(0);
-        assert!(pair.difference().is_some_and(|found| found.contains("the fault is Some(BadImage")));
+        assert!(
+            pair.difference().is_some_and(|found| found.contains("the fault is Some(BadImage"))
+        );
     }
 
     #[test]

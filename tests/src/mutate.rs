@@ -1,4 +1,5 @@
-//! Broken texts made of good ones, for tests that nothing may panic on. Most results are no valid AWL.
+//! Broken texts made of good ones, for tests that nothing may panic on. Most results are no valid
+//! AWL.
 
 use fastrand::Rng;
 
@@ -14,7 +15,8 @@ const ODDITIES: [&str; 40] = [
 #[rustfmt::skip] // One a line would be a page.
 const WORDS: [&str; 24] = [
     "NETWORK", "LD", "LDW>=", "=", "S", "R", "FOR", "NEXT", "JMP", "LBL", "CTUD", "TON", "+I", "ALD", "LPP", "LDS",
-    "END_ORGANIZATION_BLOCK", "VAR", "BEGIN", "TITLE=", "//# scan 10ms", "//# retain VB0-VB31", "M0.0", "AIW0",
+    "END_ORGANIZATION_BLOCK", "VAR", "BEGIN", "TITLE=", "//# scan 10ms", "//# retain \
+        VB0-VB31", "M0.0", "AIW0",
 ];
 
 /// A text with one to eight things broken. Not always valid UTF-8.
@@ -23,7 +25,9 @@ pub fn mutate(rng: &mut Rng, text: &str) -> Vec<u8> {
     for _ in 0..rng.u32(1..=8) {
         bytes = match rng.u32(..10) {
             0..=3 => mutate_pieces(rng, &split_tokens(&bytes), &WORDS),
-            4..=6 => mutate_pieces(rng, &split_lines(&bytes), &["\n", "NETWORK\n", "LD I0.0\n", "//\n"]),
+            4..=6 => {
+                mutate_pieces(rng, &split_lines(&bytes), &["\n", "NETWORK\n", "LD I0.0\n", "//\n"])
+            }
             7 => insert_oddity(rng, bytes),
             8 => mutate_byte(rng, bytes),
             _ => cut(rng, bytes),

@@ -19,7 +19,8 @@ pub fn free_running(code: Code) -> Uno {
 /// # Panics
 /// If one does not hold, or if there are fewer than so many.
 pub fn assert_cases_hold(cases: impl Iterator<Item = Case>, at_least: usize) {
-    let cases: Vec<Prepared> = cases.map(|case| case.prepare().unwrap_or_else(|errors| panic!("{errors}"))).collect();
+    let cases: Vec<Prepared> =
+        cases.map(|case| case.prepare().unwrap_or_else(|errors| panic!("{errors}"))).collect();
     assert!(cases.len() >= at_least, "{}", cases.len());
     let mut failures = Vec::new();
     for code in [Code::Bytecode, Code::Native] {
@@ -27,7 +28,9 @@ pub fn assert_cases_hold(cases: impl Iterator<Item = Case>, at_least: usize) {
         for case in &cases {
             failures.extend(case.failures(&mut host(&case.image)));
             uno.load(case.image.clone()).unwrap_or_else(|error| panic!("{error}"));
-            failures.extend(case.failures(&mut uno).into_iter().map(|failure| format!("{code:?}: {failure}")));
+            failures.extend(
+                case.failures(&mut uno).into_iter().map(|failure| format!("{code:?}: {failure}")),
+            );
         }
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));

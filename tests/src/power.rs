@@ -17,7 +17,8 @@ pub use crate::bench_board::MS;
 pub const EEPROM_LEN: usize = 1024;
 /// The EEPROM of a new board.
 pub const ERASED: [u8; EEPROM_LEN] = [0xFF; EEPROM_LEN];
-/// Without a write for so many scans there is none to come: each of them looks at four bytes, or waits for one.
+/// Without a write for so many scans there is none to come: each of them looks at four bytes, or
+/// waits for one.
 const QUIET_SCANS: u32 = 300;
 /// How much of the stack must stay unused.
 const STACK_SPARE_MIN: usize = 128;

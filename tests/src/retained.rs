@@ -1,11 +1,13 @@
-//! What a program retains, listed naively: to compare with, and to write copies as the board keeps them.
+//! What a program retains, listed naively: to compare with, and to write copies as the board keeps
+//! them.
 
 use plc_isa::{Area, Plan, ProgramMemory};
 
 /// The data addresses of all retained bytes, in order.
 pub fn retained_addresses<P: ProgramMemory>(plan: &Plan<P>) -> Vec<u16> {
-    let numbers =
-        plan.retained().flat_map(|range| (range.first..range.first + range.count).map(move |n| (range.area, n)));
+    let numbers = plan
+        .retained()
+        .flat_map(|range| (range.first..range.first + range.count).map(move |n| (range.area, n)));
     let places = numbers.flat_map(|(area, number)| match area {
         Area::T => value(plan.timer_slot(number as u8).map(|slot| slot.address)),
         Area::C => value(plan.counter_slot(number as u8).map(|slot| slot.address)),
@@ -33,8 +35,8 @@ fn generation_program(ranges: &str, words: &[String]) -> String {
     format!("//# retain {ranges}\nLD SM0.0\nINCW VW0\n{moves}")
 }
 
-/// Programs in which every retained word has the number of the last scan, so that any mixture of two copies shows. The
-/// last of them retains as much as can be.
+/// Programs in which every retained word has the number of the last scan, so that any mixture of
+/// two copies shows. The last of them retains as much as can be.
 pub fn generation_programs() -> [String; 3] {
     let words = |area: &str, range: std::ops::Range<u16>| -> Vec<String> {
         range.step_by(2).map(|byte| format!("{area}W{byte}")).collect()
@@ -44,7 +46,10 @@ pub fn generation_programs() -> [String; 3] {
     [
         generation_program("VB0-VB1", &[]),
         generation_program("VB0-VB15, MB0-MB7, C0-C9, T0-T31, VB100-VB103, VB8-VB11", &mixed),
-        generation_program("VB0-VB405, MB0-MB31, VB0-VB51", &[words("V", 2..406), words("M", 0..32)].concat()),
+        generation_program(
+            "VB0-VB405, MB0-MB31, VB0-VB51",
+            &[words("V", 2..406), words("M", 0..32)].concat(),
+        ),
     ]
 }
 

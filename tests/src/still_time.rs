@@ -2,7 +2,8 @@
 
 use plc_vm::Environment;
 
-/// The time in milliseconds, which stands still within a scan. A program that loops is overdue at once.
+/// The time in milliseconds, which stands still within a scan. A program that loops is overdue at
+/// once.
 pub struct StillTime(pub u32);
 
 impl Environment for StillTime {

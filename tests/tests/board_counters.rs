@@ -1,5 +1,5 @@
-//! High-speed counters on the board, by its own clock: each pulse that was driven is counted, and nothing else, as on the
-//! host. What the modes are, the cases say.
+//! High-speed counters on the board, by its own clock: each pulse that was driven is counted, and
+//! nothing else, as on the host. What the modes are, the cases say.
 #![cfg(feature = "uno")]
 
 use awl_sim::machine::Machine;
@@ -35,7 +35,8 @@ fn run(board: &mut BenchBoard, cycles: u64) {
     }
 }
 
-/// So many edges, one each half period: the levels of I0.0 and I0.1 follow each other in this order.
+/// So many edges, one each half period: the levels of I0.0 and I0.1 follow each other in this
+/// order.
 fn edges(board: &mut BenchBoard, levels: &[u8], count: usize, cycles: u64) {
     for level in levels.iter().cycle().take(count) {
         board.drive_inputs(*level);
@@ -43,19 +44,28 @@ fn edges(board: &mut BenchBoard, levels: &[u8], count: usize, cycles: u64) {
     }
 }
 
-/// A main program, and three interrupt routines that count how often they are executed in VW0, VW2, VW4.
+/// A main program, and three interrupt routines that count how often they are executed in VW0, VW2,
+/// VW4.
 fn program(main: &str) -> String {
     let routine = |number: u8| {
-        format!("INTERRUPT_BLOCK I{number}:INT{number}\nBEGIN\nLD SM0.0\nINCW VW{}\nEND_INTERRUPT_BLOCK\n", 2 * number)
+        format!(
+            "INTERRUPT_BLOCK I{number}:INT{number}\nBEGIN\nLD SM0.0\nINCW VW{}\n\
+                END_INTERRUPT_BLOCK\n",
+            2 * number
+        )
     };
     let routines: String = (0..3).map(routine).collect();
-    format!("//# memory VB0-VB31\nORGANIZATION_BLOCK MAIN:OB1\nBEGIN\n{main}\nEND_ORGANIZATION_BLOCK\n{routines}")
+    format!(
+        "//# memory VB0-VB31\nORGANIZATION_BLOCK MAIN:OB1\nBEGIN\n{main}\nEND_ORGANIZATION_BLOCK\n\
+            {routines}"
+    )
 }
 
 /// HSC0 in a mode from the first scan on; its events and its status are in V memory.
 fn counting(mode: u8, control: u8, preset: i32) -> String {
     program(&format!(
-        "LD SM0.1\nMOVB {control}, SMB37\nMOVD {preset}, SMD42\nATCH I0, 12\nATCH I1, 27\nATCH I2, 28\nENI\n\
+        "LD SM0.1\nMOVB {control}, SMB37\nMOVD {preset}, SMD42\nATCH I0, 12\nATCH I1, 27\n\
+            ATCH I2, 28\nENI\n\
          HDEF 0, {mode}\nHSC 0\nLD SM0.0\nMOVB SMB36, VB8\nINCW VW10"
     ))
 }
@@ -88,8 +98,8 @@ fn operand(name: &str) -> Operand {
     Operand::parse(name, &[]).unwrap()
 }
 
-/// Random edges of I0.0 to I0.2, so many cycles apart: board and host have the same value and status afterwards, and when
-/// there is time for them, the same interrupts.
+/// Random edges of I0.0 to I0.2, so many cycles apart: board and host have the same value and
+/// status afterwards, and when there is time for them, the same interrupts.
 fn assert_same(seed: u64, mode: u8, control: u8, inverted: u8, gap: std::ops::Range<u64>) {
     let names = ["", "I0.0", "I0.1", "I0.0, I0.1", "I0.2", "I0.0, I0.2", "I0.1, I0.2", "I0.0-I0.2"];
     let settings = match names[usize::from(inverted)] {
@@ -113,7 +123,11 @@ fn assert_same(seed: u64, mode: u8, control: u8, inverted: u8, gap: std::ops::Ra
         board.drive_inputs(levels ^ inverted);
         run(&mut board, rng.u64(gap.clone()));
         let found = count(&board, HC0);
-        assert_eq!(found, model.get("HC0"), "mode {mode}, control {control:#x}, seed {seed}, inverted {inverted}");
+        assert_eq!(
+            found,
+            model.get("HC0"),
+            "mode {mode}, control {control:#x}, seed {seed}, inverted {inverted}"
+        );
     }
     board.scans(3);
     model.see(levels);
@@ -124,7 +138,11 @@ fn assert_same(seed: u64, mode: u8, control: u8, inverted: u8, gap: std::ops::Ra
     );
     if has_time {
         let events = [0, 2, 4].map(|byte| i32::from(vw(&board, byte)));
-        assert_eq!(events, ["VW0", "VW2", "VW4"].map(|name| model.get(name)), "mode {mode}, control {control:#x}");
+        assert_eq!(
+            events,
+            ["VW0", "VW2", "VW4"].map(|name| model.get(name)),
+            "mode {mode}, control {control:#x}"
+        );
     }
 }
 
@@ -171,8 +189,10 @@ fn inverted_inputs_are_the_other_way_round() {
 /// So many times at a preset, a routine sets the next one. The counter goes on meanwhile.
 #[test]
 fn routines_are_executed_at_each_preset() {
-    let main = "LD SM0.1\nMOVB 16#F8, SMB37\nMOVD 10, SMD42\nATCH I3, 12\nENI\nHDEF 0, 0\nHSC 0\nLD SM0.0\nINCW VW10";
-    let routine = "INTERRUPT_BLOCK I3:INT3\nBEGIN\nLD SM0.0\nINCW VW6\n+D 10, SMD42\nMOVB 16#A0, SMB37\nHSC 0\n\
+    let main = "LD SM0.1\nMOVB 16#F8, SMB37\nMOVD 10, SMD42\nATCH I3, 12\nENI\nHDEF 0, 0\nHSC 0\n\
+        LD SM0.0\nINCW VW10";
+    let routine = "INTERRUPT_BLOCK I3:INT3\nBEGIN\nLD SM0.0\nINCW VW6\n+D 10, SMD42\n\
+        MOVB 16#A0, SMB37\nHSC 0\n\
                    END_INTERRUPT_BLOCK\n";
     let mut board = BenchBoard::running(&(program(main) + routine));
     for half_period in [10 * MS, MS, 2_000, 1_000] {
@@ -186,7 +206,8 @@ fn routines_are_executed_at_each_preset() {
 
 #[test]
 fn stop_ends_it_and_run_begins_anew() {
-    let main = "LD SM0.1\nMOVB 16#80, SMB37\nAN I0.5\nHDEF 0, 3\nLD I0.4\nHSC 0\nAENO\nINCW VW6\nLD SM0.0\nINCW VW10";
+    let main = "LD SM0.1\nMOVB 16#80, SMB37\nAN I0.5\nHDEF 0, 3\nLD I0.4\nHSC 0\nAENO\nINCW VW6\n\
+        LD SM0.0\nINCW VW10";
     let mut board = BenchBoard::running(&program(main));
     board.drive_inputs(0b1_0000);
     board.scans_for(5);
@@ -216,15 +237,18 @@ fn stop_ends_it_and_run_begins_anew() {
     assert_eq!(count(&board, HC0) - before, -10, "HDEF and HSC again");
 }
 
-/// What is asked on the line, and answered in one scan or in several, and counters have nothing to do with each other.
+/// What is asked on the line, and answered in one scan or in several, and counters have nothing to
+/// do with each other.
 #[test]
 fn the_line_and_counters_leave_each_other_alone() {
-    for (mode, control, levels) in [(0, 0xF8, [1, 0, 1, 0]), (0, 0xF0, [1, 0, 1, 0]), (9, 0xF8, [0b01, 0b11, 0b10, 0])]
+    for (mode, control, levels) in
+        [(0, 0xF8, [1, 0, 1, 0]), (0, 0xF0, [1, 0, 1, 0]), (9, 0xF8, [0b01, 0b11, 0b10, 0])]
     {
         let text = counting(mode, control, 30_000);
         let (mut board, mut model) = (BenchBoard::running(&text), Model::new(&text));
         board.scans_for(5);
-        let watch: Vec<u8> = [67, 32].into_iter().chain((0..32).flat_map(|_| [0x88, 0, 20])).collect();
+        let watch: Vec<u8> =
+            [67, 32].into_iter().chain((0..32).flat_map(|_| [0x88, 0, 20])).collect();
         let requests: [&[u8]; 6] = [
             &[16, 0, 10, 0, 1, 2, 0x12, 0x34],
             &[23, 0, 10, 0, 1, 0, 11, 0, 1, 2, 0x56, 0x78],
@@ -238,14 +262,19 @@ fn the_line_and_counters_leave_each_other_alone() {
             assert_eq!(answer[0], request[0], "mode {mode}: {answer:02X?}");
             edges(&mut board, &levels, 8, 5_000);
             levels.iter().cycle().take(8).for_each(|&level| model.see(level));
-            assert_eq!(count(&board, HC0), model.get("HC0"), "mode {mode}, {control:02X}, after {request:02X?}");
+            assert_eq!(
+                count(&board, HC0),
+                model.get("HC0"),
+                "mode {mode}, {control:02X}, after {request:02X?}"
+            );
         }
         assert_eq!((vw(&board, 20), vw(&board, 22)), (0x1234, 0x5678), "all has been written");
         assert!(board.runs());
     }
 }
 
-/// Both tracks have changed before the board could look: they went on, over the preset too, and over a carry.
+/// Both tracks have changed before the board could look: they went on, over the preset too, and
+/// over a carry.
 #[test]
 fn tracks_go_on_in_their_direction() {
     let mut board = BenchBoard::running(&counting(9, 0xF8, 301));
@@ -269,8 +298,10 @@ fn tracks_go_on_in_their_direction() {
 /// Both counters at once, a routine for each.
 #[test]
 fn two_counters_count_side_by_side() {
-    let main = "LD SM0.1\nMOVB 16#F8, SMB37\nMOVD 300, SMD42\nMOVB 16#F0, SMB137\nMOVD -300, SMD142\n\
-                ATCH I0, 12\nATCH I1, 32\nENI\nHDEF 3, 0\nHDEF 0, 0\nHSC 0\nHSC 3\nLD SM0.0\nINCW VW10";
+    let main = "LD SM0.1\nMOVB 16#F8, SMB37\nMOVD 300, SMD42\nMOVB 16#F0, SMB137\n\
+        MOVD -300, SMD142\n\
+                ATCH I0, 12\nATCH I1, 32\nENI\nHDEF 3, 0\nHDEF 0, 0\nHSC 0\nHSC 3\nLD SM0.0\n\
+                INCW VW10";
     let mut board = BenchBoard::running(&program(main));
     // Both edges at once, and one after the other.
     edges(&mut board, &[0b11, 0b00, 0b01, 0b11, 0b10, 0b00], 3_000, 300);
@@ -279,12 +310,14 @@ fn two_counters_count_side_by_side() {
     assert_eq!((vw(&board, 0), vw(&board, 2)), (1, 1), "events 12 and 32");
 }
 
-/// What a program reads was the value at one moment, although its bytes change in the middle of an instruction.
+/// What a program reads was the value at one moment, although its bytes change in the middle of an
+/// instruction.
 #[test]
 fn values_are_read_at_one_moment() {
     let compare = "LDD< HC0, VD12\nINCW VW16\nLD SM0.0\nMOVD HC0, VD12\n".repeat(30);
     let main = format!(
-        "LD SM0.1\nMOVB 16#F8, SMB37\nHDEF 0, 0\nHSC 0\nLD SM0.0\nINCW VW10\nMOVD HC0, VD12\n{compare}LD SM0.0\nINCW VW10"
+        "LD SM0.1\nMOVB 16#F8, SMB37\nHDEF 0, 0\nHSC 0\nLD SM0.0\nINCW VW10\nMOVD HC0, VD12\n\
+            {compare}LD SM0.0\nINCW VW10"
     );
     let mut board = BenchBoard::running(&program(&main));
     let mut rng = Rng::with_seed(1);
@@ -323,7 +356,8 @@ fn interrupts(text: &str, levels: &[u8], edges: usize) -> Vec<u64> {
     found
 }
 
-/// What each pulse costs, and how long other interrupts may have to wait. The chip takes 4 cycles more to come to the vector.
+/// What each pulse costs, and how long other interrupts may have to wait. The chip takes 4 cycles
+/// more to come to the vector.
 #[test]
 fn interrupts_are_short() {
     let all = [0b000, 0b001, 0b000, 0b010, 0b011, 0b010, 0b110, 0b010, 0b011, 0b000];
@@ -343,12 +377,16 @@ fn interrupts_are_short() {
         let others = interrupts(&counting(mode, control, 3), &all, 400);
         let longest = cycles.into_iter().chain(others).max().unwrap_or(0);
         println!("mode {mode}, control {control:#x}: {usual} cycles, at most {longest}");
-        assert!(usual <= usual_max && longest <= LONGEST_MAX, "mode {mode}: {usual} cycles, at most {longest}");
+        assert!(
+            usual <= usual_max && longest <= LONGEST_MAX,
+            "mode {mode}: {usual} cycles, at most {longest}"
+        );
     }
 }
 
 /// Many pulses, as a scenario says it.
-const PULSES: &str = "LD SM0.1\nMOVB 16#F8, SMB37\nMOVB 16#F8, SMB137\nHDEF 0, 0\nHDEF 3, 0\nHSC 0\nHSC 3\n\
+const PULSES: &str = "LD SM0.1\nMOVB 16#F8, SMB37\nMOVB 16#F8, SMB137\nHDEF 0, 0\nHDEF 3, 0\n\
+    HSC 0\nHSC 3\n\
     //$ at 10ms pulse I0.0 30kHz for 300ms\n//$ at 10ms pulse I0.1 12.5kHz for 300ms\n\
     //$ at 390ms expect HC0 = 9000, HC3 = 3750\n\
     //$ at 400ms pulse I0.0 40kHz 4000 times\n//$ at 600ms expect HC0 = 13000\n";
@@ -356,7 +394,9 @@ const PULSES: &str = "LD SM0.1\nMOVB 16#F8, SMB37\nMOVB 16#F8, SMB137\nHDEF 0, 0
 /// Cases with a counter and the pulses above, as far as their inputs have pins.
 #[test]
 fn cases_hold_on_a_board_with_its_own_clock() {
-    let is_possible = |case: &Case| case.awl.contains("HDEF") && !case.awl.contains("I1.") && !case.awl.contains("IB1");
+    let is_possible = |case: &Case| {
+        case.awl.contains("HDEF") && !case.awl.contains("I1.") && !case.awl.contains("IB1")
+    };
     let pulses = Case::new("pulses".to_string(), PULSES.to_string());
     let cases = Case::all().into_iter().chain(Case::examples()).filter(is_possible).chain([pulses]);
     assert_cases_hold(cases, 7);
@@ -365,7 +405,8 @@ fn cases_hold_on_a_board_with_its_own_clock() {
 /// A program that does something else, and counts.
 fn station(mode: u8, control: u8) -> String {
     let counter = format!(
-        "NETWORK // Counts\nLD SM0.1\nMOVB {control}, SMB37\nMOVD 1000, SMD42\nHDEF 0, {mode}\nHSC 0\n\
+        "NETWORK // Counts\nLD SM0.1\nMOVB {control}, SMB37\nMOVD 1000, SMD42\nHDEF 0, {mode}\n\
+            HSC 0\n\
          LDD>= HC0, 500\n= Q0.5\n"
     );
     format!("{}\n{counter}", example_text("station1"))
@@ -380,7 +421,9 @@ fn drive(board: &mut BenchBoard, levels: &[u8], count: usize, cycles: u64) -> Ve
         loop {
             let left = next.saturating_sub(board.avr.cycles());
             match board.run(left).unwrap() {
-                Some(mark) if mark == Mark::ScanEnd as u8 => scans.push(board.avr.cycles() - board.scan_start()),
+                Some(mark) if mark == Mark::ScanEnd as u8 => {
+                    scans.push(board.avr.cycles() - board.scan_start())
+                }
                 Some(_) => {}
                 None => break,
             }
@@ -426,7 +469,8 @@ fn twenty_kilohertz_of_an_encoder_are_counted_without_loss() {
     assert_eq!(load.counted, edges as i32, "{load:?}");
 }
 
-/// The highest frequency at which nothing is lost, with the station's program. `-- --nocapture` shows all.
+/// The highest frequency at which nothing is lost, with the station's program. `-- --nocapture`
+/// shows all.
 #[test]
 fn the_highest_frequencies() {
     let fastest = |mode: u8, levels: &[u8], edges_counted: usize, kilohertz: &[u64]| {
@@ -436,7 +480,10 @@ fn the_highest_frequencies() {
             let edges = 10_000 * levels.len();
             let load = load(mode, levels, edges, cycles);
             let wanted = edges * edges_counted / levels.len();
-            println!("mode {mode}, {kilohertz} kHz: {} of {wanted}, scans of {:?} cycles", load.counted, load.scans);
+            println!(
+                "mode {mode}, {kilohertz} kHz: {} of {wanted}, scans of {:?} cycles",
+                load.counted, load.scans
+            );
             if load.counted != wanted as i32 {
                 break;
             }
@@ -444,10 +491,11 @@ fn the_highest_frequencies() {
         }
         fastest
     };
-    let single = fastest(0, &CLOCK, 1, &[1, 5, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100, 110, 120, 130]);
+    let single =
+        fastest(0, &CLOCK, 1, &[1, 5, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100, 110, 120, 130]);
     let encoder = fastest(9, &ENCODER, 4, &[1, 5, 10, 15, 20, 25, 30, 35, 40]);
-    // As docs/firmware.md says.
-    // A little less than what is measured, which depends on how the pulses meet the clock of the board.
+    // As docs/firmware.md says. A little less than what is measured, which depends on how the
+    // pulses meet the clock of the board.
     assert!(single >= 80, "{single} kHz");
     assert!(encoder >= 30, "{encoder} kHz");
 }

@@ -1,5 +1,5 @@
-//! Interrupt events on the board, by its own clock: which routines are executed, how often, in which order, and what they
-//! leave as it was. What an event is, the tests of the host say.
+//! Interrupt events on the board, by its own clock: which routines are executed, how often, in
+//! which order, and what they leave as it was. What an event is, the tests of the host say.
 #![cfg(feature = "uno")]
 
 use plc_isa::{ARENA_START, EVENTS_SEEN, Op, SM_START};
@@ -9,7 +9,8 @@ use tests::forms::places;
 use tests::image::{image, signed};
 use tests::link;
 
-/// What interrupts of the processor say, in the memory of module 5: events, and those of them that were lost.
+/// What interrupts of the processor say, in the memory of module 5: events, and those of them that
+/// were lost.
 const HARDWARE_EVENTS: u16 = 0x05E0;
 
 /// What a program sees: the word VW`byte`, when the V memory of the program begins with VB0.
@@ -114,7 +115,8 @@ fn t32_causes_its_event() {
 fn disabled_events_wait_detached_ones_are_forgotten() {
     let main = "LD SM0.1\nATCH I0, 0\nATCH I1, 2\n\
                 LD I0.4\nENI\nLDN I0.4\nDISI\nLD I0.5\nDTCH 2\nLD SM0.0\nINCW VW6";
-    let mut board = BenchBoard::running(&program(main, &["LD SM0.0\nINCW VW0", "LD SM0.0\nINCW VW2"]));
+    let mut board =
+        BenchBoard::running(&program(main, &["LD SM0.0\nINCW VW0", "LD SM0.0\nINCW VW2"]));
     board.drive_inputs(0b11);
     board.scans_for(5);
     assert_eq!((vw(&board, 0), vw(&board, 2)), (0, 0), "disabled");
@@ -147,13 +149,18 @@ fn cevnt_forgets_what_waits() {
     assert_eq!(vw(&board, 0), 1, "still attached");
 }
 
-/// A program whose routines, one for each event, write the event's number into a journal, the last one in VB0; main
-/// executes ENI with I0.5, DISI without, and these lines in its first scan.
+/// A program whose routines, one for each event, write the event's number into a journal, the last
+/// one in VB0; main executes ENI with I0.5, DISI without, and these lines in its first scan.
 fn journal(events: &[u8], first_scan: &str) -> String {
-    let attached: String = (0..).zip(events).map(|(index, event)| format!("ATCH I{index}, {event}\n")).collect();
-    let main =
-        format!("LD SM0.1\n{first_scan}{attached}LD I0.5\nENI\nLDN I0.5\nDISI\nLD I0.4\nEU\nCEVNT {}", events[0]);
-    let entry = |event| format!("LD SM0.0\nBMB VB0, VB1, 31\nMOVB {event}, VB0\nMOVB SMB4, VB32\nINCW VW33");
+    let attached: String =
+        (0..).zip(events).map(|(index, event)| format!("ATCH I{index}, {event}\n")).collect();
+    let main = format!(
+        "LD SM0.1\n{first_scan}{attached}LD I0.5\nENI\nLDN I0.5\nDISI\nLD I0.4\nEU\nCEVNT {}",
+        events[0]
+    );
+    let entry = |event| {
+        format!("LD SM0.0\nBMB VB0, VB1, 31\nMOVB {event}, VB0\nMOVB SMB4, VB32\nINCW VW33")
+    };
     let routines: Vec<String> = events.iter().map(entry).collect();
     program(&main, &routines.iter().map(String::as_str).collect::<Vec<_>>())
 }
@@ -198,7 +205,8 @@ fn groups_are_served_in_the_order_of_their_urgency() {
     assert_eq!(journal_of(&board)[..6], [9, 8, 0, 1, 10, 10]);
 }
 
-/// What interrupts of the processor say: events that have occurred, and of these the ones that did so twice.
+/// What interrupts of the processor say: events that have occurred, and of these the ones that did
+/// so twice.
 fn say_hardware(board: &mut BenchBoard, events: u8, lost: u8) {
     const LOOK_AGAIN: u8 = 1 << 7;
     let seen = board.byte(EVENTS_SEEN);
@@ -285,7 +293,10 @@ fn no_time_is_lost_between_polls() {
     let (start, before) = (board.tick(), vw(&board, 33));
     board.scans(50);
     let (passed, times) = (board.tick() - start, vw(&board, 33) - before);
-    assert!((i32::from(times) * 250).abs_diff(passed as i32) <= 500, "{times} times in {passed} ms");
+    assert!(
+        (i32::from(times) * 250).abs_diff(passed as i32) <= 500,
+        "{times} times in {passed} ms"
+    );
 }
 
 #[test]
@@ -298,7 +309,8 @@ fn cevnt_forgets_all_of_an_event_and_nothing_else() {
 
 #[test]
 fn off_delay_timers_cause_events_when_they_end() {
-    let main = "LD SM0.1\nATCH I0, 22\nENI\nLD I0.0\nTOF T96, 20\nLD I0.1\nR T96, 1\nLD T96\n= M0.0";
+    let main =
+        "LD SM0.1\nATCH I0, 22\nENI\nLD I0.0\nTOF T96, 20\nLD I0.1\nR T96, 1\nLD T96\n= M0.0";
     let mut board = BenchBoard::running(&program(main, &["LD SM0.0\nINCW VW0"]));
     board.drive_inputs(1);
     board.scans_for(5);
@@ -327,18 +339,26 @@ fn the_watchdog_ends_endless_routines() {
     run(&mut board, 700 * MS);
     let image = image(&text);
     let polls = |at: u16| image[usize::from(at)] == poll();
-    assert!(matches!(board.fault(), Some(Fault::Watchdog { at }) if polls(at)), "{:?}", board.fault());
+    assert!(
+        matches!(board.fault(), Some(Fault::Watchdog { at }) if polls(at)),
+        "{:?}",
+        board.fault()
+    );
 }
 
 fn poll() -> u8 {
     Op::Poll.instruction().forms[0].first_token
 }
 
-/// The image of a program with a look for events in place of each WDR: in a routine, or within a rung.
+/// The image of a program with a look for events in place of each WDR: in a routine, or within a
+/// rung.
 fn with_polls(text: &str) -> Vec<u8> {
     let mut image = image(text);
-    let found: Vec<usize> =
-        places(&image).iter().filter(|place| place.row.instruction.op == Op::Wdr).map(|place| place.token_at).collect();
+    let found: Vec<usize> = places(&image)
+        .iter()
+        .filter(|place| place.row.instruction.op == Op::Wdr)
+        .map(|place| place.token_at)
+        .collect();
     for &at in &found {
         image[at] = poll();
     }
@@ -359,7 +379,8 @@ fn no_routine_interrupts_another() {
     assert_eq!(vw(&board, 2), 0, "one within another");
 }
 
-/// The main program's accumulator, status of results and logic stack, while routines change them all the time.
+/// The main program's accumulator, status of results and logic stack, while routines change them
+/// all the time.
 #[test]
 fn routines_leave_the_main_program_alone() {
     let main = "LD SM0.1\nATCH I0, 0\nATCH I0, 1\nMOVB 1, SMB34\nATCH I0, 10\nENI\n\
@@ -369,7 +390,8 @@ fn routines_leave_the_main_program_alone() {
                 LD SM0.0\nLPS\nA SM0.0\n= M3.0\nLDN SM0.0\nO SM0.0\nALD\n= M3.1\n\
                 LDN M3.1\nINCW VW2\n\
                 LDD<> AC0, 305419896\nINCW VW2\nLDD<> AC3, -2\nINCW VW2\nLD SM0.0\nINCW VW6";
-    let routine = "LDN SM0.0\nLD SM0.0\nINCW VW0\nMOVD 77, AC0\nMOVD 78, AC3\nMOVW 5, VW12\n+I 1, VW12\n/I 0, VW12\nCRETI\nINCW VW2";
+    let routine = "LDN SM0.0\nLD SM0.0\nINCW VW0\nMOVD 77, AC0\nMOVD 78, AC3\nMOVW 5, VW12\n\
+        +I 1, VW12\n/I 0, VW12\nCRETI\nINCW VW2";
     let mut board = BenchBoard::running(&program(main, &[routine]));
     for _ in 0..2_000 {
         board.drive_inputs(1);
@@ -388,12 +410,15 @@ fn routines_leave_the_main_program_alone() {
 #[test]
 fn routines_leave_the_logic_stack_alone() {
     let main = "LD SM0.1\nMOVB 1, SMB34\nATCH I0, 10\nENI\n\
-                LDN SM0.0\nWDR\n= M0.0\nLD SM0.0\nWDR\n= M0.1\nLDN SM0.0\nLD SM0.0\nWDR\nALD\n= M0.2\n\
+                LDN SM0.0\nWDR\n= M0.0\nLD SM0.0\nWDR\n= M0.1\nLDN SM0.0\nLD SM0.0\nWDR\nALD\n\
+                = M0.2\n\
                 LD SM0.0\nLDN SM0.0\nWDR\nOLD\n= M0.3\n\
                 LDB<> MB0, 2#1010\nINCW VW2";
     let mut board = BenchBoard::new();
-    board
-        .insert(&with_polls(&program(main, &["LDN SM0.0\nLD SM0.0\nLDN SM0.0\n= M1.0\nINCW VW4\nLD SM0.0\nINCW VW0"])));
+    board.insert(&with_polls(&program(
+        main,
+        &["LDN SM0.0\nLD SM0.0\nLDN SM0.0\n= M1.0\nINCW VW4\nLD SM0.0\nINCW VW0"],
+    )));
     board.power_up();
     board.scans_for(2_000);
     let (routines, errors) = (vw(&board, 0), vw(&board, 2));
@@ -438,10 +463,13 @@ fn run_begins_without_interrupts() {
 fn routines_and_subroutines_call_each_other() {
     let main = "LD SM0.1\nATCH I0, 0\nENI\nLD SM0.0\nCALL Outer\nLD SM0.0\nINCW VW6";
     let routine = "LD SM0.0\nCALL Helper\nINCW VW0";
-    let subroutines = "SUBROUTINE_BLOCK Outer:SBR0\nBEGIN\nLD SM0.0\nCALL Inner\nEND_SUBROUTINE_BLOCK\n\
-                       SUBROUTINE_BLOCK Inner:SBR1\nBEGIN\nLD SM0.0\nMOVD 5, AC0\nLDD<> AC0, 5\nINCW VW4\n\
+    let subroutines = "SUBROUTINE_BLOCK Outer:SBR0\nBEGIN\nLD SM0.0\nCALL Inner\n\
+        END_SUBROUTINE_BLOCK\n\
+                       SUBROUTINE_BLOCK Inner:SBR1\nBEGIN\nLD SM0.0\nMOVD 5, AC0\nLDD<> AC0, 5\n\
+                       INCW VW4\n\
                        END_SUBROUTINE_BLOCK\n\
-                       SUBROUTINE_BLOCK Helper:SBR2\nBEGIN\nLD SM0.0\nINCD AC0\nINCW VW2\nEND_SUBROUTINE_BLOCK\n";
+                       SUBROUTINE_BLOCK Helper:SBR2\nBEGIN\nLD SM0.0\nINCD AC0\nINCW VW2\n\
+                       END_SUBROUTINE_BLOCK\n";
     let mut board = BenchBoard::running(&(program(main, &[routine]) + subroutines));
     for number in 0..500 {
         board.drive_inputs(1);
@@ -450,7 +478,11 @@ fn routines_and_subroutines_call_each_other() {
         run(&mut board, 4_000);
     }
     board.scan();
-    assert_eq!((vw(&board, 0), vw(&board, 2), vw(&board, 4)), (500, 500, 0), "routine, subroutine, errors");
+    assert_eq!(
+        (vw(&board, 0), vw(&board, 2), vw(&board, 4)),
+        (500, 500, 0),
+        "routine, subroutine, errors"
+    );
 }
 
 /// How fast edges can be for each to be counted, in a short program.

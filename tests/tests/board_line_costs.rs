@@ -1,5 +1,5 @@
-//! What the serial line costs the scans of the shipped firmware on a simulated Uno: an idle line, a master that always
-//! asks, and each function at its largest. What requests mean is not looked at.
+//! What the serial line costs the scans of the shipped firmware on a simulated Uno: an idle line, a
+//! master that always asks, and each function at its largest. What requests mean is not looked at.
 #![cfg(feature = "uno")]
 
 use std::collections::BTreeMap;
@@ -17,20 +17,23 @@ const IDLE_MAX: u64 = 100 * US;
 /// How much longer a request may make a scan.
 const LONGER_MAX: u64 = 150 * US;
 
-/// An upper bound: all that a scan does beside the program, such as reading inputs, and looking whether there is a
-/// request and something is forced.
+/// An upper bound: all that a scan does beside the program, such as reading inputs, and looking
+/// whether there is a request and something is forced.
 #[test]
 fn an_idle_line_costs_little() {
     for tier in [Tier::Interpreter, Tier::Native { pins: true }] {
         let figures = scans::measure(Executable::new("station1", &example_text("station1"), tier));
         let (usual, mean) = figures.overhead();
-        println!("{tier}: a scan takes {usual} cycles beside the program, {mean} on average; an idle line is a part");
+        println!(
+            "{tier}: a scan takes {usual} cycles beside the program, {mean} on average; an idle \
+                line is a part"
+        );
         assert!(usual <= IDLE_MAX && mean <= IDLE_MAX);
     }
 }
 
-/// Cycles of the program's scan with a line that is idle, that is used all the time, and the longest scans of both; and
-/// the scans in a second.
+/// Cycles of the program's scan with a line that is idle, that is used all the time, and the
+/// longest scans of both; and the scans in a second.
 #[test]
 fn answers_cost_little() {
     let mut board = BenchBoard::new();
@@ -39,7 +42,10 @@ fn answers_cost_little() {
     board.scans_for(200);
     let quiet = board.scans_for(1_000);
     let longest_quiet = quiet.iter().map(|scan| scan.cycles()).max().unwrap_or(0);
-    let watch: Vec<u8> = [67, 20].into_iter().chain((0..20).flat_map(|bit| [0x30 | (bit % 8), 0, bit / 8])).collect();
+    let watch: Vec<u8> = [67, 20]
+        .into_iter()
+        .chain((0..20).flat_map(|bit| [0x30 | (bit % 8), 0, bit / 8]))
+        .collect();
     let requests: [(&[u8], usize); 5] =
         [(&watch, 26), (&[1, 0, 0, 0, 8], 6), (&[3, 0, 0, 0, 1], 5), (&[65], 43), (&[68, 0], 5)];
     let (mut longest, mut longest_of, mut scans, start) = (0, [0; 5], 0, board.avr.cycles());
@@ -54,11 +60,18 @@ fn answers_cost_little() {
             longest_of[round % 5] = cycles.max(longest_of[round % 5]);
             scans += 1;
             heard.extend(board.avr.uart_take());
-            assert!(board.avr.cycles() - asked < 100 * MS, "round {round}: {heard:02X?}, state {}", board.runs());
+            assert!(
+                board.avr.cycles() - asked < 100 * MS,
+                "round {round}: {heard:02X?}, state {}",
+                board.runs()
+            );
         }
         assert_eq!((heard.len(), checksum(&heard)), (answer_len, 0), "{heard:02X?}");
         if round == 0 {
-            println!("20 operands watched in {:.1} ms", (board.avr.cycles() - asked) as f64 / MS as f64);
+            println!(
+                "20 operands watched in {:.1} ms",
+                (board.avr.cycles() - asked) as f64 / MS as f64
+            );
             assert!(board.avr.cycles() - asked < 50 * MS);
         }
     }
@@ -69,7 +82,10 @@ fn answers_cost_little() {
         quiet.len(),
         share * 100.0
     );
-    println!("longest scan: {longest_quiet} cycles quiet, {longest} with a master, {longest_of:?} by request");
+    println!(
+        "longest scan: {longest_quiet} cycles quiet, {longest} with a master, {longest_of:?} by \
+            request"
+    );
     assert!(share <= 0.15);
     assert!(longest <= longest_quiet + LONGER_MAX, "{} cycles longer", longest - longest_quiet);
 }
@@ -85,12 +101,15 @@ struct Subject {
     counters: (u16, u16),
 }
 
-/// Programs of which the one has hardly anything, and another so much that what is asked for is far from the beginning
-/// of every table.
+/// Programs of which the one has hardly anything, and another so much that what is asked for is far
+/// from the beginning of every table.
 fn subjects() -> [Subject; 3] {
-    let timers = |numbers: std::ops::Range<u16>| numbers.map(|n| format!("LD SM0.0\nTON T{n}, 9\n")).collect();
-    let counters =
-        |numbers: std::ops::Range<u16>| numbers.map(|n| format!("LD SM0.0\nLD SM0.0\nCTU C{n}, 9\n")).collect();
+    let timers = |numbers: std::ops::Range<u16>| {
+        numbers.map(|n| format!("LD SM0.0\nTON T{n}, 9\n")).collect()
+    };
+    let counters = |numbers: std::ops::Range<u16>| {
+        numbers.map(|n| format!("LD SM0.0\nLD SM0.0\nCTU C{n}, 9\n")).collect()
+    };
     // What is there shall cost no time of its own.
     let program = |parts: &[String]| {
         let executed = "LD I0.0\n= Q0.0\n".repeat(12);
@@ -99,7 +118,13 @@ fn subjects() -> [Subject; 3] {
     let scattered: String = (0..60).map(|n| format!("LD SM0.0\nMOVW 0, VW{}\n", 50 * n)).collect();
     let range = |first, end| format!("LD SM0.0\nMOVB 0, VB{first}\n//# memory VB{first}-VB{end}\n");
     [
-        Subject { name: "station1", image: example("station1"), v: (0, 0), timers: (101, 3), counters: (1, 2) },
+        Subject {
+            name: "station1",
+            image: example("station1"),
+            v: (0, 0),
+            timers: (101, 3),
+            counters: (1, 2),
+        },
         Subject {
             name: "small",
             image: program(&[range(0, 249), timers(101..133), counters(0..32)]),
@@ -145,15 +170,17 @@ const DOUBLE_OF_V: u8 = 0x8A;
 const VALUE_OF_T: u8 = 0x59;
 const VALUE_OF_C: u8 = 0x69;
 
-/// The most of each function that legal requests can ask for, with room for so many bytes. What a program does not have
-/// is left out.
+/// The most of each function that legal requests can ask for, with room for so many bytes. What a
+/// program does not have is left out.
 fn requests(subject: &Subject, room: u16) -> Vec<Request> {
-    [bits(room), registers(subject, room), watch(subject, room), forces(), others(subject, room)].concat()
+    [bits(room), registers(subject, room), watch(subject, room), forces(), others(subject, room)]
+        .concat()
 }
 
 fn bits(room: u16) -> Vec<Request> {
-    let read =
-        |function: u8, first, most: u16| [&[function][..], &word(first), &word(most.min(8 * (room - 2)))].concat();
+    let read = |function: u8, first, most: u16| {
+        [&[function][..], &word(first), &word(most.min(8 * (room - 2)))].concat()
+    };
     let write_many = |first, most: u16| {
         let (count, len) = (most.min(8 * (room - 6)), most.min(8 * (room - 6)).div_ceil(8));
         [&[15][..], &word(first), &word(count), &[len as u8], &vec![0; usize::from(len)]].concat()
@@ -177,22 +204,35 @@ fn registers(subject: &Subject, room: u16) -> Vec<Request> {
         (7_000 + subject.counters.0, subject.counters.1, ["3 C", "6 C", "16 C", "23 C"]),
         (8_000, 8, ["3 AC", "6 AC", "16 AC", "23 AC"]),
     ];
-    let mut requests = vec![request("3 AC to AQW", vec![3, 0x1F, 0x40, 0, 14]), request("4 AIW", vec![4, 0, 0, 0, 32])];
-    for (first, most, [read, write_one, write_many, both]) in areas.into_iter().filter(|(_, most, _)| *most > 0) {
+    let mut requests = vec![
+        request("3 AC to AQW", vec![3, 0x1F, 0x40, 0, 14]),
+        request("4 AIW", vec![4, 0, 0, 0, 32]),
+    ];
+    for (first, most, [read, write_one, write_many, both]) in
+        areas.into_iter().filter(|(_, most, _)| *most > 0)
+    {
         let count = |limit: u16, others: u16| most.min(limit).min((room - others) / 2);
-        let values = |count: u16| [&word(count)[..], &[2 * count as u8], &vec![1; usize::from(2 * count)]].concat();
-        let read_request = |function: u8| [&[function][..], &word(first), &word(count(125, 2))].concat();
+        let values = |count: u16| {
+            [&word(count)[..], &[2 * count as u8], &vec![1; usize::from(2 * count)]].concat()
+        };
+        let read_request =
+            |function: u8| [&[function][..], &word(first), &word(count(125, 2))].concat();
         requests.push(request(read, read_request(3)));
         requests.push(request(write_one, [&[6][..], &word(first + most - 1), &[0, 1]].concat()));
-        requests.push(request(write_many, [&[16][..], &word(first), &values(count(123, 6))].concat()));
-        requests.push(request(both, [&read_request(23)[..], &word(first), &values(count(121, 10))].concat()));
+        requests
+            .push(request(write_many, [&[16][..], &word(first), &values(count(123, 6))].concat()));
+        requests.push(request(
+            both,
+            [&read_request(23)[..], &word(first), &values(count(121, 10))].concat(),
+        ));
     }
     requests
 }
 
 /// References to as many operands of a kind as there may be, again and again if there are fewer.
 fn references(kind: u8, (first, count): (u16, u16), most: u16) -> Option<Vec<Vec<u8>>> {
-    (count > 0).then(|| (0..most).map(|n| reference(kind, first + (count - 1 - n % count))).collect())
+    (count > 0)
+        .then(|| (0..most).map(|n| reference(kind, first + (count - 1 - n % count))).collect())
 }
 
 /// Where the last double words of a range begin.
@@ -202,7 +242,8 @@ fn doubles((first, len): (u16, u16)) -> (u16, u16) {
 
 fn watch(subject: &Subject, room: u16) -> Vec<Request> {
     let most = |width: u16| 32.min((room - 2) / 3).min((room - 3) / width);
-    let watched = |references: Vec<Vec<u8>>| [vec![67, references.len() as u8], references.concat()].concat();
+    let watched =
+        |references: Vec<Vec<u8>>| [vec![67, references.len() as u8], references.concat()].concat();
     let set = |width: usize, mut references: Vec<Vec<u8>>| {
         references.iter_mut().for_each(|reference| reference.extend(vec![0; width]));
         [vec![72, references.len() as u8], references.concat()].concat()
@@ -218,7 +259,8 @@ fn watch(subject: &Subject, room: u16) -> Vec<Request> {
     for (watch_name, set_name, kind, width, place) in kinds {
         let watch = references(kind, place, most(width)).map(watched);
         let most_set = 16.min((room - 2) / (3 + width));
-        let set = references(kind, place, most_set).map(|references| set(usize::from(width), references));
+        let set =
+            references(kind, place, most_set).map(|references| set(usize::from(width), references));
         requests.extend(watch.map(|pdu| request(watch_name, pdu)));
         requests.extend(set.map(|pdu| request(set_name, pdu)));
     }
@@ -226,7 +268,8 @@ fn watch(subject: &Subject, room: u16) -> Vec<Request> {
 }
 
 fn forces() -> Vec<Request> {
-    let force = |number: u16| [&[68, 1][..], &reference(DOUBLE_OF_M, 12 + number), &[0; 4]].concat();
+    let force =
+        |number: u16| [&[68, 1][..], &reference(DOUBLE_OF_M, 12 + number), &[0; 4]].concat();
     let all_but = |missing: u16| (0..16 - missing).map(force).collect::<Vec<_>>();
     vec![
         Request { before: all_but(0), ..request("68 list", vec![68, 0]) },
@@ -252,7 +295,7 @@ fn others(subject: &Subject, room: u16) -> Vec<Request> {
         request("70 state", vec![70, 0]),
         request("71", vec![71, 0, 0, 0, 64]),
     ];
-    // Behind the frame there must be memory for it.
+    // After the frame there must be memory for it.
     if program.plan().end() + program.plan().retained_len() + room + 200 < DATA_END {
         requests.push(request("70 start", trace(DOUBLE_OF_M, 16)));
     }
@@ -261,8 +304,10 @@ fn others(subject: &Subject, room: u16) -> Vec<Request> {
 
 /// A window of as many instructions as there may be, from one on.
 fn status(program: &Program<&[u8]>, room: u16, first: usize) -> Vec<u8> {
-    let lines = instructions(program).into_iter().skip(first).take(usize::from((room - 5) / 10).min(24));
-    let entries: Vec<Vec<u8>> = lines.map(|line| [&word(line.at)[..], &reference(DOUBLE_OF_M, 16)].concat()).collect();
+    let lines =
+        instructions(program).into_iter().skip(first).take(usize::from((room - 5) / 10).min(24));
+    let entries: Vec<Vec<u8>> =
+        lines.map(|line| [&word(line.at)[..], &reference(DOUBLE_OF_M, 16)].concat()).collect();
     [vec![69, entries.len() as u8], entries.concat()].concat()
 }
 
@@ -272,7 +317,8 @@ fn trace(kind: u8, number: u16) -> Vec<u8> {
     [&[70, 1, 0, 1, 0, 0, 1][..], &reference(BIT_OF_M, 31), &[8], &values].concat()
 }
 
-/// Networks of short instructions: the more of them lie between two looks for a window, the more steps lead to it.
+/// Networks of short instructions: the more of them lie between two looks for a window, the more
+/// steps lead to it.
 const SHORT_NETWORKS: [&str; 4] = [
     "LD I0.0\n= Q0.0\n",
     "LD I0.0\nO I0.1\nLD I0.2\nON I0.3\nALD\n= Q0.0\n",
@@ -280,8 +326,8 @@ const SHORT_NETWORKS: [&str; 4] = [
     "LD I0.0\nA I0.1\nLD I0.2\nA I0.3\nOLD\nNOT\n= Q0.0\n",
 ];
 
-/// A board whose clock stands still: then quiet scans are alike, and what a request adds to one is seen whenever it
-/// comes. What the millisecond has a scan do comes on top of both.
+/// A board whose clock stands still: then quiet scans are alike, and what a request adds to one is
+/// seen whenever it comes. What the millisecond has a scan do comes on top of both.
 struct Bench {
     board: BenchBoard,
 }
@@ -302,7 +348,8 @@ impl Bench {
         self.board.scan().cycles()
     }
 
-    /// Sends a request and runs until its answer is over. Returns that, and the longest scan meanwhile.
+    /// Sends a request and runs until its answer is over. Returns that, and the longest scan
+    /// meanwhile.
     fn ask(&mut self, pdu: &[u8]) -> (Vec<u8>, u64) {
         let _ = self.board.avr.uart_take();
         self.board.say(&frame(UNIT, pdu));
@@ -325,8 +372,8 @@ impl Bench {
         self.board.avr.data()[usize::from(rtu)]
     }
 
-    /// How many cycles longer than a quiet scan the longest is while an answer is made. What characters take that come
-    /// and go is left out: of long scans it is more, the longer they are.
+    /// How many cycles longer than a quiet scan the longest is while an answer is made. What
+    /// characters take that come and go is left out: of long scans it is more, the longer they are.
     fn work(&mut self, pdu: &[u8]) -> u64 {
         let quiet = (0..3).map(|_| self.scan()).max().unwrap_or(0);
         self.board.say(&frame(UNIT, pdu));
@@ -348,7 +395,8 @@ impl Bench {
         longest.saturating_sub(quiet)
     }
 
-    /// How many cycles longer than a quiet scan the longest is with this request, at several moments of a scan.
+    /// How many cycles longer than a quiet scan the longest is with this request, at several
+    /// moments of a scan.
     fn cost(&mut self, request: &Request) -> u64 {
         let mut most = 0;
         for round in 0..ROUNDS {
@@ -359,7 +407,12 @@ impl Bench {
             let quiet = (0..20).map(|_| self.scan()).max().unwrap_or(0);
             self.board.run_on(quiet * round / ROUNDS);
             let (answer, longest) = self.ask(&request.pdu);
-            assert!(answer[0] == request.pdu[0], "{} {:02X?}: {answer:02X?}", request.name, request.pdu);
+            assert!(
+                answer[0] == request.pdu[0],
+                "{} {:02X?}: {answer:02X?}",
+                request.name,
+                request.pdu
+            );
             most = most.max(longest.saturating_sub(quiet));
             if !self.board.runs() {
                 run(&mut self.board);
@@ -387,17 +440,21 @@ fn no_function_makes_a_scan_much_longer() {
         let room = identify(&mut bench.board).room;
         println!("{}: room for {room} bytes", subject.name);
         for request in requests(subject, room) {
-            table.entry((request.pdu[0], request.name)).or_default()[column] = Some(bench.cost(&request));
+            table.entry((request.pdu[0], request.name)).or_default()[column] =
+                Some(bench.cost(&request));
         }
     }
     println!("microseconds by which the longest scan is longer");
     println!("{:<12}{:>9}{:>9}{:>9}", "", subjects[0].name, subjects[1].name, subjects[2].name);
     for ((_, name), columns) in &table {
-        let us =
-            |cycles: Option<u64>| cycles.map_or("-".to_string(), |cycles| format!("{:.1}", cycles as f64 / US as f64));
+        let us = |cycles: Option<u64>| {
+            cycles.map_or("-".to_string(), |cycles| format!("{:.1}", cycles as f64 / US as f64))
+        };
         println!("{name:<12}{:>9}{:>9}{:>9}", us(columns[0]), us(columns[1]), us(columns[2]));
     }
-    let longest = table.iter().filter_map(|((_, name), columns)| Some((*name, columns.iter().flatten().max()?)));
+    let longest = table
+        .iter()
+        .filter_map(|((_, name), columns)| Some((*name, columns.iter().flatten().max()?)));
     let too_long: Vec<_> = longest.filter(|&(_, &cycles)| cycles > LONGER_MAX).collect();
     assert!(too_long.is_empty(), "cycles by which scans are longer: {too_long:?}");
 }
@@ -409,17 +466,24 @@ fn a_window_makes_a_scan_no_longer_wherever_it_is() {
         // All but some hundred bytes of the slot.
         let image = image(&network.repeat(3_300 / network.lines().count()));
         let program = verify(image.as_slice()).expect("the assembler's images are good");
-        let looks = program.instructions().filter(|(_, decoded)| decoded.op == Op::Approach).map(|(at, _)| at);
+        let looks = program
+            .instructions()
+            .filter(|(_, decoded)| decoded.op == Op::Approach)
+            .map(|(at, _)| at);
         let looks: Vec<u16> = looks.collect();
         let lines = instructions(&program);
         let before = |look: u16| lines.partition_point(|line| line.at < look) - 1;
         let mut bench = Bench::new(&image);
         let room = identify(&mut bench.board).room;
         let mut cost = |first| bench.work(&status(&program, room, first));
-        let firsts = [looks[0], looks[1], looks[looks.len() / 2], looks[looks.len() - 2]].map(before);
+        let firsts =
+            [looks[0], looks[1], looks[looks.len() / 2], looks[looks.len() - 2]].map(before);
         let costs = firsts.map(&mut cost);
         let us = costs.map(|cycles| format!("{:.1}", cycles as f64 / US as f64));
-        println!("{} instructions: a window behind {firsts:?} of them takes {us:?} us of a scan", lines.len());
+        println!(
+            "{} instructions: a window after {firsts:?} of them takes {us:?} us of a scan",
+            lines.len()
+        );
         assert!(costs.into_iter().all(|cycles| cycles <= LONGER_MAX), "{network}");
     }
 }

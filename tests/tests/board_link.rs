@@ -1,11 +1,13 @@
-//! The serial line of the shipped firmware on a simulated Uno: frames of Modbus RTU, what stands between them, RUN and
-//! STOP, single scans. What requests mean is compared with the host elsewhere; noise, forcing and costs have tests of
-//! their own.
+//! The serial line of the shipped firmware on a simulated Uno: frames of Modbus RTU, what is
+//! between them, RUN and STOP, single scans. What requests mean is compared with the host
+//! elsewhere; noise, forcing and costs have tests of their own.
 #![cfg(feature = "uno")]
 
 use plc_isa::{CRC_LEN, M_START, SM_START};
 use tests::bench_board::{BenchBoard, MS, example, image};
-use tests::link::{Command, UNIT, ask, command, exchange, frame, identify, last_bytes, run, say, stop};
+use tests::link::{
+    Command, UNIT, ask, command, exchange, frame, identify, last_bytes, run, say, stop,
+};
 
 /// Counts scans and first scans, and has two outputs on.
 const COUNT: &str = "//# name count\nLD SM0.1\nINCW MW0\nLD SM0.0\nINCW MW2\n= Q0.0\n= Q0.5\n";
@@ -47,7 +49,11 @@ fn a_board_says_who_it_is() {
         board.insert(&image);
         board.power_up();
         let said = identify(&mut board);
-        let crc = image.iter().rev().take(usize::from(CRC_LEN)).fold(0, |crc, &byte| crc << 8 | u32::from(byte));
+        let crc = image
+            .iter()
+            .rev()
+            .take(usize::from(CRC_LEN))
+            .fold(0, |crc, &byte| crc << 8 | u32::from(byte));
         assert_eq!((said.state, said.image), (0b11, (image.len() as u16, crc)));
         assert_eq!((said.fault, said.fault_before_reset), (None, None));
         assert_eq!(usize::from(said.free_stack), board.unused_stack());
@@ -63,11 +69,15 @@ fn a_board_says_who_it_is() {
         board.slot()[image.len() - 1] ^= 1;
         board.reset();
         let again = identify(&mut board);
-        assert_eq!((again.fault, again.fault_before_reset, board.runs()), (None, refused.fault, true));
+        assert_eq!(
+            (again.fault, again.fault_before_reset, board.runs()),
+            (None, refused.fault, true)
+        );
     }
 }
 
-/// The board's clock counts in 4 us. Before the scan's mark it has been read, and behind it the times are calculated.
+/// The board's clock counts in 4 us. Before the scan's mark it has been read, and after it the
+/// times are calculated.
 const SCAN_US_TOLERANCE: u64 = 24;
 
 #[test]
@@ -77,11 +87,15 @@ fn scan_times_are_those_between_the_marks() {
     board.power_up();
     let us: Vec<u64> = board.scans(300).iter().map(|scan| scan.cycles() / (MS / 1000)).collect();
     let told = identify(&mut board).times.map(|counts| u64::from(counts) * 4);
-    let (shortest, longest) = (us.iter().min().copied().unwrap_or(0), us.iter().max().copied().unwrap_or(0));
+    let (shortest, longest) =
+        (us.iter().min().copied().unwrap_or(0), us.iter().max().copied().unwrap_or(0));
     println!("told {told:?} us, between the marks {shortest} to {longest}");
     assert!(told[0].abs_diff(shortest) <= SCAN_US_TOLERANCE, "{told:?}");
     // Answering takes some time, too.
-    assert!((longest..longest + 150 + SCAN_US_TOLERANCE).contains(&(told[2] + SCAN_US_TOLERANCE)), "{told:?}");
+    assert!(
+        (longest..longest + 150 + SCAN_US_TOLERANCE).contains(&(told[2] + SCAN_US_TOLERANCE)),
+        "{told:?}"
+    );
     assert!((told[0]..=told[2]).contains(&told[1]));
 }
 
@@ -93,9 +107,21 @@ fn frames_end_with_a_pause() {
     for at in 1..request.len() {
         let parts = request.split_at(at);
         // In simavr a character takes 11 bits: what is sent after it was taken comes 0.1 ms later.
-        assert_eq!(say_in_parts(&mut board, &[parts.0, parts.1], 1.0), answer, "{at} bytes, a short pause");
-        assert_eq!(say_in_parts(&mut board, &[parts.0, parts.1], 2.0), NOTHING, "{at} bytes, a long pause");
-        assert_eq!(say_in_parts(&mut board, &[parts.0, &request], 2.0), answer, "{at} bytes, then a whole one");
+        assert_eq!(
+            say_in_parts(&mut board, &[parts.0, parts.1], 1.0),
+            answer,
+            "{at} bytes, a short pause"
+        );
+        assert_eq!(
+            say_in_parts(&mut board, &[parts.0, parts.1], 2.0),
+            NOTHING,
+            "{at} bytes, a long pause"
+        );
+        assert_eq!(
+            say_in_parts(&mut board, &[parts.0, &request], 2.0),
+            answer,
+            "{at} bytes, then a whole one"
+        );
     }
     for byte in &request {
         board.say(&[*byte]);
@@ -119,17 +145,36 @@ fn what_is_no_frame_is_ignored() {
         }
     }
     let room = usize::from(identify(&mut board).room);
-    // Of another unit, too short, no frame at all: none is answered, each is forgotten after a pause.
+    // Of another unit, too short, no frame at all: none is answered, each is forgotten after a
+    // pause.
     let long = |len: usize| frame(UNIT, &[&[3, 0, 0, 0, 1], &vec![0xAA; len - 5][..]].concat());
     let nothing = frame(UNIT, &[]);
-    let rest = [frame(2, READ_COILS), frame(247, READ_COILS), vec![0xAA; 600], nothing, vec![0], vec![UNIT]];
+    let rest = [
+        frame(2, READ_COILS),
+        frame(247, READ_COILS),
+        vec![0xAA; 600],
+        nothing,
+        vec![0],
+        vec![UNIT],
+    ];
     for noise in rest {
-        assert_eq!(say_in_parts(&mut board, &[&noise, &request], 2.0), answer, "{} bytes before it", noise.len());
-        // Without the pause there is no request. (Of more bytes simavr would make pauses of its own.)
+        assert_eq!(
+            say_in_parts(&mut board, &[&noise, &request], 2.0),
+            answer,
+            "{} bytes before it",
+            noise.len()
+        );
+        // Without the pause there is no request. (Of more bytes simavr would make pauses of its
+        // own.)
         if noise.len() > 64 {
             continue;
         }
-        assert_eq!(say_in_parts(&mut board, &[&noise, &request], 0.5), NOTHING, "{} bytes before it", noise.len());
+        assert_eq!(
+            say_in_parts(&mut board, &[&noise, &request], 0.5),
+            NOTHING,
+            "{} bytes before it",
+            noise.len()
+        );
     }
     for len in [room, room + 1, room + 2, room + 3, 600] {
         assert_eq!(say(&mut board, &long(len)), frame(UNIT, &[0x83, 3]), "{len} bytes");
@@ -141,7 +186,8 @@ fn what_is_no_frame_is_ignored() {
 
 #[test]
 fn requests_to_all_are_carried_out_and_not_answered() {
-    let mut board = BenchBoard::running("//# name v\n//# memory VB0-VB9\nLD SM0.0\n= Q0.0\n= Q0.5\n");
+    let mut board =
+        BenchBoard::running("//# name v\n//# memory VB0-VB9\nLD SM0.0\n= Q0.0\n= Q0.5\n");
     assert_eq!(say(&mut board, &frame(0, &[6, 0, 1, 0x12, 0x34])), NOTHING);
     assert_eq!(ask(&mut board, &[3, 0, 1, 0, 1]), [3, 2, 0x12, 0x34]);
     assert_eq!(say(&mut board, &frame(0, &Command::Stop.pdu())), NOTHING);
@@ -155,7 +201,10 @@ fn requests_to_all_are_carried_out_and_not_answered() {
 fn stop_releases_the_outputs_and_run_starts_with_a_first_scan() {
     let mut board = BenchBoard::running(COUNT);
     board.scans(50);
-    assert_eq!((board.word(M_START), board.word(M_START + 2), board.outputs()), (1, 51, Some(0x21)));
+    assert_eq!(
+        (board.word(M_START), board.word(M_START + 2), board.outputs()),
+        (1, 51, Some(0x21))
+    );
     board.say(&frame(UNIT, &Command::Stop.pdu()));
     while board.runs() {
         assert_eq!(board.outputs(), Some(0x21));
@@ -167,7 +216,11 @@ fn stop_releases_the_outputs_and_run_starts_with_a_first_scan() {
         board.scan();
         assert!(board.is_released() && !board.runs() && board.fault().is_none());
     }
-    assert_eq!([0, 2].map(|byte| board.word(M_START + byte)), [1, scans], "memory is kept, the program stands");
+    assert_eq!(
+        [0, 2].map(|byte| board.word(M_START + byte)),
+        [1, scans],
+        "memory is kept, the program is"
+    );
     let _ = board.avr.uart_take();
     board.say(&frame(UNIT, &Command::Run.pdu()));
     while !board.runs() {
@@ -176,7 +229,11 @@ fn stop_releases_the_outputs_and_run_starts_with_a_first_scan() {
     }
     assert!(board.avr.uart_take().len() >= 6, "the answer is under way");
     assert_eq!(board.outputs(), Some(0x21), "the first scan is done");
-    assert_eq!([0, 2].map(|byte| board.word(M_START + byte)), [2, scans + 1], "a first scan with the memory of before");
+    assert_eq!(
+        [0, 2].map(|byte| board.word(M_START + byte)),
+        [2, scans + 1],
+        "a first scan with the memory of before"
+    );
     assert_eq!(board.byte(SM_START) >> 1 & 1, 1, "SM0.1");
     board.scan();
     assert_eq!((board.word(M_START), board.byte(SM_START) >> 1 & 1), (2, 0));
@@ -195,7 +252,11 @@ fn single_scans_go_on_where_the_program_stood() {
         assert_eq!(command(&mut board, Command::Scans(count)), Ok(()));
         board.scans_for(100);
         assert_eq!((board.runs(), board.is_released()), (false, true));
-        assert_eq!([0, 2].map(|byte| board.word(M_START + byte)), [1, scans + total], "no first scan, and so many");
+        assert_eq!(
+            [0, 2].map(|byte| board.word(M_START + byte)),
+            [1, scans + total],
+            "no first scan, and so many"
+        );
         board.scans_for(500);
     }
     assert_eq!(board.word(M_START + 4), 0, "time in STOP does not count");

@@ -1,21 +1,26 @@
-//! The loader's check on the board against the host's: images of the examples and of the cases with something wrong and a
-//! checksum that is right. Both must refuse the same, for the same reason, at the same place.
+//! The loader's check on the board against the host's: images of the examples and of the cases with
+//! something wrong and a checksum that is right. Both must refuse the same, for the same reason, at
+//! the same place.
 //!
-//! `DAMAGED_IMAGES=20000 cargo test --release --package tests --features uno --test board_loader` tries more.
+//! `DAMAGED_IMAGES=20000 cargo test --release --package tests --features uno --test board_loader`
+//! tries more.
 #![cfg(feature = "uno")]
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 use fastrand::Rng;
-use plc_isa::{CRC_LEN, DIRECTORY_AT, HEADER_LEN, Header, ImageError, SLOT_LEN, module_of_token, verify};
+use plc_isa::{
+    CRC_LEN, DIRECTORY_AT, HEADER_LEN, Header, ImageError, SLOT_LEN, module_of_token, verify,
+};
 use plc_vm::Fault;
 use tests::bench_board::BenchBoard;
 use tests::case::Case;
 use tests::effort::effort;
 use tests::image::{image, sign};
 
-/// Behind magic, version and interface, and before the directory of modules, which the board alone checks.
+/// After magic, version and interface, and before the directory of modules, which the board alone
+/// checks.
 const HEADER: Range<usize> = 6..DIRECTORY_AT as usize;
 /// The length of the modules, the same.
 const MODULES_LEN: Range<usize> = 32..34;
@@ -77,12 +82,14 @@ fn is_of_module(image: &[u8], at: u16) -> bool {
 
 #[test]
 fn the_board_refuses_what_the_host_refuses() {
-    let images: Vec<_> = Case::all().iter().chain(&Case::examples()).map(|case| image(&case.awl)).collect();
+    let images: Vec<_> =
+        Case::all().iter().chain(&Case::examples()).map(|case| image(&case.awl)).collect();
     let (mut board, mut rng, mut faults) = (BenchBoard::new(), Rng::with_seed(1), BTreeMap::new());
     for _ in 0..effort("DAMAGED_IMAGES", 1_500) {
         let index = rng.usize(..images.len());
         let image = damaged(&mut rng, &images[index]);
-        let (error, on_board) = (verify(image.as_slice()).err(), error_on_board(&mut board, &image));
+        let (error, on_board) =
+            (verify(image.as_slice()).err(), error_on_board(&mut board, &image));
         // The board has those modules alone that are in the image.
         if [error, on_board].iter().flatten().any(|error| is_of_module(&image, error.at)) {
             continue;

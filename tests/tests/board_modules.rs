@@ -1,8 +1,11 @@
-//! Images whose modules are not what they seem: a checksum that is right does not make them run. And what is taken back from
-//! modules when RUN ends.
+//! Images whose modules are not what they seem: a checksum that is right does not make them run.
+//! And what is taken back from modules when RUN ends.
 #![cfg(feature = "uno")]
 
-use plc_isa::{DIRECTORY_AT, EVENTS_MODULE, HEADER_LEN, ImageFault, MODULES, OPERANDS_MODULE, REAL_MODULE, SLOT_START};
+use plc_isa::{
+    DIRECTORY_AT, EVENTS_MODULE, HEADER_LEN, ImageFault, MODULES, OPERANDS_MODULE, REAL_MODULE,
+    SLOT_START,
+};
 use plc_vm::Fault;
 use tests::bench_board::{BenchBoard, MS};
 use tests::image::{image, signed};
@@ -36,19 +39,24 @@ fn is_refused(image: Vec<u8>) {
     board.power_up();
     board.scans(20);
     let fault = board.fault();
-    assert!(matches!(fault, Some(Fault::BadImage(error)) if error.fault == ImageFault::Module), "{fault:?}");
+    assert!(
+        matches!(fault, Some(Fault::BadImage(error)) if error.fault == ImageFault::Module),
+        "{fault:?}"
+    );
     assert!(!board.runs() && board.is_released());
 }
 
 #[test]
 fn a_jump_table_that_is_not_the_modules_own_is_refused() {
     let mut image = image("//# memory VB0-VB7\nLD SM0.0\n= Q0.0\n+D 5, VD0\n");
-    let is_there = |&module: &u8| module != OPERANDS_MODULE && word(&image, directory_entry(module)) != 0;
+    let is_there =
+        |&module: &u8| module != OPERANDS_MODULE && word(&image, directory_entry(module)) != 0;
     let module = (0..MODULES as u8).find(is_there).unwrap();
     let table = usize::from(word(&image, directory_entry(module))) * 2 - usize::from(SLOT_START);
     let routines = usize::from(image[table - 1]);
     let start = table - usize::from(word(&image, table - 4));
-    // Behind the modules a copy of its head, a table and code that would write to the firmware's memory.
+    // After the modules a copy of its head, a table and code that would write to the firmware's
+    // memory.
     let at = usize::from(HEADER_LEN) + usize::from(word(&image, LENGTHS[1]));
     let mut block = image[table - 6 - routines..table].to_vec();
     if !(at + block.len()).is_multiple_of(2) {
@@ -84,7 +92,8 @@ fn modules_that_others_call_must_be_there() {
 
 #[test]
 fn a_directory_entry_that_wraps_is_none() {
-    let text = "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nLD SM0.1\nATCH I0, 0\nENI\nEND_ORGANIZATION_BLOCK\n\
+    let text = "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nLD SM0.1\nATCH I0, 0\nENI\n\
+        END_ORGANIZATION_BLOCK\n\
                 INTERRUPT_BLOCK I0:INT0\nBEGIN\nLD SM0.0\n= Q0.1\nEND_INTERRUPT_BLOCK\n";
     let mut image = image(text);
     put(&mut image, directory_entry(EVENTS_MODULE), 0x8000);
@@ -123,16 +132,25 @@ fn a_counter_does_not_go_on_in_stop() {
             board.scans(2);
         }
         assert!(!board.runs());
-        assert_eq!((board.avr.data()[EIMSK], board.avr.data()[COUNT]), (0, before), "{earlier} cycles before");
+        assert_eq!(
+            (board.avr.data()[EIMSK], board.avr.data()[COUNT]),
+            (0, before),
+            "{earlier} cycles before"
+        );
     }
 }
 
 #[test]
 fn a_block_reaches_both_analog_outputs() {
     for text in ["FILL 16000, AQW0, 2", "BMW VW0, AQW0, 2"] {
-        let mut board =
-            BenchBoard::running(&format!("//# memory VB0-VB31\nLD SM0.0\nMOVW 8000, VW0\nMOVW 8000, VW2\n{text}\n"));
+        let mut board = BenchBoard::running(&format!(
+            "//# memory VB0-VB31\nLD SM0.0\nMOVW 8000, VW0\nMOVW 8000, VW2\n{text}\n"
+        ));
         board.scans(4);
-        assert_eq!(board.avr.data()[TCCR1A] & 0xF0, 0xF0, "{text}: both pins are driven by the timer");
+        assert_eq!(
+            board.avr.data()[TCCR1A] & 0xF0,
+            0xF0,
+            "{text}: both pins are driven by the timer"
+        );
     }
 }

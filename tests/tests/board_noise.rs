@@ -1,8 +1,10 @@
-//! What is no request on the serial line of the shipped firmware, on a simulated Uno: random bytes with pauses and
-//! without, and requests that were damaged. Nothing is answered, nothing changes, no tick is missed.
+//! What is no request on the serial line of the shipped firmware, on a simulated Uno: random bytes
+//! with pauses and without, and requests that were damaged. Nothing is answered, nothing changes,
+//! no tick is missed.
 //!
-//! `NOISE_BYTES=10_000_000 cargo test --release --package tests --features uno --test board_noise` listens to that many
-//! random bytes and to a hundredth as many damaged requests, half an hour of the board's time.
+//! `NOISE_BYTES=10_000_000 cargo test --release --package tests --features uno --test board_noise`
+//! listens to that many random bytes and to a hundredth as many damaged requests, half an hour of
+//! the board's time.
 #![cfg(feature = "uno")]
 
 #[path = "../../plc/link/tests/machine/requests.rs"]
@@ -23,19 +25,24 @@ fn noise_bytes() -> u64 {
 /// How many of them come for each damaged request.
 const BYTES_OF_REQUEST: u64 = 100;
 
-/// Outputs by the system's clock and by timers whose ticks are longer than a scan, so that a scan more or less until
-/// they start makes no difference to their end. And memory of which the program writes nothing.
-const TIMED: &str = "//# name timed\n//# memory VB0-VB255\nLD SM0.5\n= Q0.0\nTON T33, 5\nTOF T34, 3\nLD T33\n= Q0.1\n\
+/// Outputs by the system's clock and by timers whose ticks are longer than a scan, so that a scan
+/// more or less until they start makes no difference to their end. And memory of which the program
+/// writes nothing.
+const TIMED: &str = "//# name timed\n//# memory VB0-VB255\nLD SM0.5\n= Q0.0\nTON T33, 5\n\
+    TOF T34, 3\nLD T33\n= Q0.1\n\
     LD T34\n= Q0.2\n";
 
 /// What the program leaves alone: address and bytes.
-const KEPT: [(u16, usize); 5] = [(M_START, 32), (S_START, 32), (AC_START, 16), (AQW_START, 4), (ARENA_START, 256)];
+const KEPT: [(u16, usize); 5] =
+    [(M_START, 32), (S_START, 32), (AC_START, 16), (AQW_START, 4), (ARENA_START, 256)];
 
 /// What the outputs of that program are, so many milliseconds after the start of its first scan.
 fn timed_outputs(ms: u32) -> u8 {
     let phase = ms % 1_000;
     let is_after_first = ms >= 1_000;
-    u8::from(phase >= 500) | u8::from(phase >= 550) << 1 | u8::from(phase >= 500 || is_after_first && phase < 30) << 2
+    u8::from(phase >= 500)
+        | u8::from(phase >= 550) << 1
+        | u8::from(phase >= 500 || is_after_first && phase < 30) << 2
 }
 
 /// Nothing is sent for so long after what was sent, in milliseconds: frames end with 1.75 ms.
@@ -49,8 +56,8 @@ struct TimedBoard {
     /// A millisecond of the board's clock, and the cycle in which it began.
     first: u32,
     first_cycle: u64,
-    /// When the program can have started: it is known to the millisecond or two of its first scan, and all that follows
-    /// must agree.
+    /// When the program can have started: it is known to the millisecond or two of its first scan,
+    /// and all that follows must agree.
     starts: Vec<u32>,
     kept: Vec<u8>,
     longest: u64,
@@ -73,20 +80,33 @@ impl TimedBoard {
             Rng::with_seed(seed as u64).fill(&mut bytes);
             board.write(at, &bytes);
         }
-        let mut timed = TimedBoard { board, first, first_cycle, starts, kept: Vec::new(), longest: 0, scans: 0 };
+        let mut timed = TimedBoard {
+            board,
+            first,
+            first_cycle,
+            starts,
+            kept: Vec::new(),
+            longest: 0,
+            scans: 0,
+        };
         timed.kept = timed.kept_now();
         timed
     }
 
     fn kept_now(&self) -> Vec<u8> {
         let data = self.board.avr.data();
-        KEPT.iter().flat_map(|&(at, len)| &data[usize::from(at)..usize::from(at) + len]).copied().collect()
+        KEPT.iter()
+            .flat_map(|&(at, len)| &data[usize::from(at)..usize::from(at) + len])
+            .copied()
+            .collect()
     }
 
     /// The board's clock has not missed a millisecond.
     fn assert_tick(&self) {
-        let (passed, cycles) = (self.board.tick() - self.first, self.board.avr.cycles() - self.first_cycle);
-        let milliseconds = cycles.saturating_sub(TICK_LATE_MAX) / MS..=(cycles + TICK_LATE_MAX) / MS;
+        let (passed, cycles) =
+            (self.board.tick() - self.first, self.board.avr.cycles() - self.first_cycle);
+        let milliseconds =
+            cycles.saturating_sub(TICK_LATE_MAX) / MS..=(cycles + TICK_LATE_MAX) / MS;
         assert!(milliseconds.contains(&u64::from(passed)), "{passed} ms in {cycles} cycles");
     }
 
@@ -99,7 +119,8 @@ impl TimedBoard {
         let (after, outputs) = (board.tick(), board.outputs());
         // Where the millisecond changes under way either is right, for each output.
         self.starts.retain(|start| {
-            let [before, after] = [before, after].map(|tick| timed_outputs(tick.wrapping_sub(*start)));
+            let [before, after] =
+                [before, after].map(|tick| timed_outputs(tick.wrapping_sub(*start)));
             outputs.is_some_and(|outputs| (outputs ^ before) & (outputs ^ after) == 0)
         });
         assert!(!self.starts.is_empty(), "outputs {outputs:?} in ms {after}");
@@ -132,7 +153,7 @@ impl TimedBoard {
         assert!(self.kept_now() == self.kept, "{bytes:02X?} changes memory");
     }
 
-    /// A request right behind is heard and answered.
+    /// A request right after is heard and answered.
     fn assert_hears(&mut self) {
         let mut answer = self.say(&frame(UNIT, &[3, 0, 0, 0, 1]));
         self.scans_for(8 * CHARACTER);
@@ -142,7 +163,8 @@ impl TimedBoard {
         self.scans_for(PAUSE_MS * MS);
     }
 
-    /// After all: nothing is forced, nothing has changed, there is as much stack left as there must be.
+    /// After all: nothing is forced, nothing has changed, there is as much stack left as there must
+    /// be.
     fn assert_sound(&mut self, what: &str) {
         assert!(self.kept_now() == self.kept);
         assert_eq!(identify(&mut self.board).state, 0b11);
@@ -151,7 +173,11 @@ impl TimedBoard {
         println!("{what}: {seconds} s, {} scans, {unused} bytes of stack never used", self.scans);
         println!("{what}: longest scan {quiet} cycles quiet, {} cycles then", self.longest);
         assert!(unused >= STACK_SPARE_MIN, "{unused}");
-        assert!(self.longest <= quiet + LONGER_MAX, "the line takes {} cycles of a scan", self.longest - quiet);
+        assert!(
+            self.longest <= quiet + LONGER_MAX,
+            "the line takes {} cycles of a scan",
+            self.longest - quiet
+        );
     }
 }
 
@@ -225,7 +251,8 @@ fn noise_with_pauses_disturbs_nothing() {
     timed.assert_sound("noise with pauses");
 }
 
-/// Requests to be damaged: recorded ones of each function, random ones, and those that would do the most.
+/// Requests to be damaged: recorded ones of each function, random ones, and those that would do the
+/// most.
 struct Requests {
     recorded: Vec<Vec<u8>>,
 }
@@ -234,16 +261,23 @@ impl Requests {
     fn new() -> Requests {
         let text = read(&folder("link").join("exchanges.txt"));
         let bytes = |line: &str| -> Vec<u8> {
-            line.split_whitespace().map(|byte| u8::from_str_radix(byte, 16).expect("a byte")).collect()
+            line.split_whitespace()
+                .map(|byte| u8::from_str_radix(byte, 16).expect("a byte"))
+                .collect()
         };
-        Requests { recorded: text.lines().filter_map(|line| line.strip_prefix('>')).map(bytes).collect() }
+        Requests {
+            recorded: text.lines().filter_map(|line| line.strip_prefix('>')).map(bytes).collect(),
+        }
     }
 
     fn any(&self, rng: &mut Rng) -> Vec<u8> {
         match rng.u8(..4) {
             0 => requests::request(rng),
-            1 => [Command::Stop.pdu().to_vec(), vec![68, 1, 0x10, 0, 0, 0, 0, 0, 1], vec![5, 0, 0, 0xFF, 0]]
-                [rng.usize(..3)]
+            1 => [
+                Command::Stop.pdu().to_vec(),
+                vec![68, 1, 0x10, 0, 0, 0, 0, 0, 1],
+                vec![5, 0, 0, 0xFF, 0],
+            ][rng.usize(..3)]
             .clone(),
             _ => self.recorded[rng.usize(..self.recorded.len())].clone(),
         }
@@ -298,8 +332,11 @@ fn damaged_requests_change_nothing() {
         }
     }
     let of = |function: u8| functions[usize::from(function)];
-    let known: Vec<_> =
-        (1..=6).chain([15, 16, 23, 43]).chain(65..=72).map(|function| (function, of(function))).collect();
+    let known: Vec<_> = (1..=6)
+        .chain([15, 16, 23, 43])
+        .chain(65..=72)
+        .map(|function| (function, of(function)))
+        .collect();
     println!("{said} damaged requests, {bytes_said} bytes, by function {known:?}");
     assert!(known.iter().all(|(_, times)| *times > count / 1_000), "{known:?}");
     timed.assert_sound("damaged requests");

@@ -1,6 +1,7 @@
-//! Pulse and analog outputs on the board, as waves at pins D9 and D10: PLS with modulation and trains, AQW0 and AQW2. The
-//! edges are those that timer 1 makes of its registers by the data sheet, in cycles. simavr's own timer misses some of that,
-//! so the simulated chip has them from a model beside it (`sim/simavr`); no real chip has been measured.
+//! Pulse and analog outputs on the board, as waves at pins D9 and D10: PLS with modulation and
+//! trains, AQW0 and AQW2. The edges are those that timer 1 makes of its registers by the data
+//! sheet, in cycles. simavr's own timer misses some of that, so the simulated chip has them from a
+//! model beside it (`sim/simavr`); no real chip has been measured.
 #![cfg(feature = "uno")]
 
 use plc_isa::{AQW_START, M_START, SM_START};
@@ -30,9 +31,11 @@ type Part = (bool, u64);
 /// PLS 1 in the first scan, and again with other values when I0.0, I0.1 come on; SMB76 in MB0.
 fn program(settings: &[(u8, u16, u16, u32)]) -> String {
     let pulses = |(index, &(control, cycle, width, count)): (usize, &(u8, u16, u16, u32))| {
-        let condition = if index == 0 { "LD SM0.1".to_owned() } else { format!("LD I0.{}\nEU", index - 1) };
+        let condition =
+            if index == 0 { "LD SM0.1".to_owned() } else { format!("LD I0.{}\nEU", index - 1) };
         format!(
-            "{condition}\nMOVB {control}, SMB77\nMOVW 16#{cycle:X}, SMW78\nMOVW 16#{width:X}, SMW80\nMOVD {count}, SMD82\n\
+            "{condition}\nMOVB {control}, SMB77\nMOVW 16#{cycle:X}, SMW78\n\
+                MOVW 16#{width:X}, SMW80\nMOVD {count}, SMD82\n\
              PLS 1\nAENO\nS M1.{index}, 1\n"
         )
     };
@@ -59,7 +62,8 @@ fn run(board: &mut BenchBoard, cycles: u64) {
 
 /// What has been at a pin, from edge to edge.
 fn parts(board: &mut BenchBoard, pin: u8) -> Vec<Part> {
-    let edges: Vec<_> = board.avr.take_waves().into_iter().filter(|edge| edge.pin == Pin::of_uno(pin)).collect();
+    let edges: Vec<_> =
+        board.avr.take_waves().into_iter().filter(|edge| edge.pin == Pin::of_uno(pin)).collect();
     edges.windows(2).map(|pair| (pair[0].high, pair[1].cycle - pair[0].cycle)).collect()
 }
 
@@ -68,21 +72,29 @@ fn level(board: &BenchBoard, pin: u8) -> bool {
     board.avr.is_output(Pin::of_uno(pin)) && board.avr.level(Pin::of_uno(pin))
 }
 
-/// Whether every part has the length for its level, but those of the first period: the pin can be switched over within it.
+/// Whether every part has the length for its level, but those of the first period: the pin can be
+/// switched over within it.
 #[track_caller]
 fn assert_wave(parts: &[Part], on: u64, off: u64, count_min: usize) {
     assert!(parts.len() >= count_min, "only {} parts", parts.len());
     let parts = &parts[2..];
     let wrong = parts.iter().position(|&(high, cycles)| cycles != if high { on } else { off });
-    assert_eq!(wrong.map(|index| (index, parts[index])), None, "on for {on} and off for {off} cycles");
+    assert_eq!(
+        wrong.map(|index| (index, parts[index])),
+        None,
+        "on for {on} and off for {off} cycles"
+    );
 }
 
 #[test]
 fn modulation_in_microseconds() {
     // Exact up to 32767 us; above that to 2 us.
-    let exact = [(2, 1), (50, 25), (50, 49), (1_000, 1), (1_000, 300), (20_000, 1_500), (32_767, 32_766)];
+    let exact =
+        [(2, 1), (50, 25), (50, 49), (1_000, 1), (1_000, 300), (20_000, 1_500), (32_767, 32_766)];
     let rounded = [(32_768, 16_384, 0), (40_001, 20_002, 2), (65_535, 4, 1)];
-    for (cycle, width, tolerance) in exact.map(|(cycle, width)| (cycle, width, 0)).into_iter().chain(rounded) {
+    for (cycle, width, tolerance) in
+        exact.map(|(cycle, width)| (cycle, width, 0)).into_iter().chain(rounded)
+    {
         let mut board = watched(&program(&[(MODULATION, cycle, width, 0)]));
         run(&mut board, 12 * u64::from(cycle) * US + 2 * MS);
         let parts = parts(&mut board, PULSES);
@@ -90,7 +102,10 @@ fn modulation_in_microseconds() {
         assert!(parts.len() > 20, "{cycle}, {width}: {} parts", parts.len());
         for &(high, cycles) in &parts {
             let due = if high { on } else { off };
-            assert!(cycles.abs_diff(due) <= 2 * tolerance * US, "{cycle}, {width}: {high} for {cycles} cycles");
+            assert!(
+                cycles.abs_diff(due) <= 2 * tolerance * US,
+                "{cycle}, {width}: {high} for {cycles} cycles"
+            );
         }
         let period = (parts[2].1 + parts[3].1).abs_diff(on + off);
         assert!(period <= tolerance * US, "{cycle}: {period} cycles off");
@@ -112,9 +127,13 @@ fn modulation_in_milliseconds() {
 #[test]
 fn never_on_and_always_on_are_constant() {
     for unit in [MICROSECONDS, MILLISECONDS] {
-        for (cycle, width, high) in
-            [(20, 0, false), (20, 20, true), (20, 21, true), (40_001, 40_001, true), (50, 0xFFFF, true)]
-        {
+        for (cycle, width, high) in [
+            (20, 0, false),
+            (20, 20, true),
+            (20, 21, true),
+            (40_001, 40_001, true),
+            (50, 0xFFFF, true),
+        ] {
             let mut board = watched(&program(&[(MODULATION | unit, cycle, width, 0)]));
             // The process image says the contrary.
             board.drive_inputs(u8::from(!high) << 5);
@@ -129,11 +148,14 @@ fn never_on_and_always_on_are_constant() {
     }
 }
 
-/// A board on which a width of 1000 or 100 units of time has been followed by another one: what was from shortly before on.
+/// A board on which a width of 1000 or 100 units of time has been followed by another one: what was
+/// from shortly before on.
 fn after_change(unit: u8, old: u64, new: u64) -> (BenchBoard, Vec<Part>) {
     let (cycle, control) = (cycle_of(unit), MODULATION | unit);
-    let mut board =
-        watched(&program(&[(control, cycle as u16, old as u16, 0), (control, cycle as u16, new as u16, 0)]));
+    let mut board = watched(&program(&[
+        (control, cycle as u16, old as u16, 0),
+        (control, cycle as u16, new as u16, 0),
+    ]));
     run(&mut board, 3 * cycle * cycles_of(unit) + 2 * MS);
     board.drive_inputs(1);
     run(&mut board, 4 * cycle * cycles_of(unit) + 2 * MS);
@@ -153,8 +175,8 @@ fn cycles_of(unit: u8) -> u64 {
 fn a_new_width_comes_with_a_new_cycle() {
     for unit in [MICROSECONDS, MILLISECONDS] {
         let cycle = cycle_of(unit);
-        for (old, new) in
-            [(30, 70), (70, 1), (1, 99), (99, 50)].map(|(old, new)| (old * cycle / 100, new * cycle / 100))
+        for (old, new) in [(30, 70), (70, 1), (1, 99), (99, 50)]
+            .map(|(old, new)| (old * cycle / 100, new * cycle / 100))
         {
             let (_, parts) = after_change(unit, old, new);
             // Each part is as the old width has it or as the new one; and once new, always new.
@@ -163,8 +185,14 @@ fn a_new_width_comes_with_a_new_cycle() {
             };
             let changed = parts.iter().position(|part| is_of(part, new)).unwrap_or(parts.len());
             assert!(changed >= 4 && parts.len() >= changed + 4, "{old} to {new}: {parts:?}");
-            assert!(parts[..changed].iter().all(|part| is_of(part, old)), "{old} to {new}: {parts:?}");
-            assert!(parts[changed..].iter().all(|part| is_of(part, new)), "{old} to {new}: {parts:?}");
+            assert!(
+                parts[..changed].iter().all(|part| is_of(part, old)),
+                "{old} to {new}: {parts:?}"
+            );
+            assert!(
+                parts[changed..].iter().all(|part| is_of(part, new)),
+                "{old} to {new}: {parts:?}"
+            );
         }
     }
 }
@@ -214,10 +242,14 @@ fn trains_have_their_pulses() {
         (MILLISECONDS, 7, 70_000 / 1_000, 495),
     ] {
         let mut board = watched(&program(&[(TRAIN | unit, cycle, 0, count)]));
-        // The process image switches the output on behind the train.
+        // The process image switches the output on after the train.
         board.drive_inputs(1 << 5);
         run(&mut board, MS);
-        assert_eq!(board.byte(M_START) & 0x80, if cycle == 50 && count == 1 { 0x80 } else { 0 }, "{cycle}: idle");
+        assert_eq!(
+            board.byte(M_START) & 0x80,
+            if cycle == 50 && count == 1 { 0x80 } else { 0 },
+            "{cycle}: idle"
+        );
         run(&mut board, ms * MS);
         board.scans(2);
         let half = u64::from(cycle) * cycles_of(unit) / 2;
@@ -253,8 +285,14 @@ fn one_train_can_wait_for_another() {
     assert_train(&edges[..80], 250 * US, 40);
     assert_train(&edges[80..], 3 * MS / 2, 4);
     let pause = edges[80].0 - edges[79].0;
-    println!("from one train to the next {} cycles more than half a cycle", pause as i64 - 250 * 16);
-    assert!((250 * US..250 * US + NEXT_TRAIN).contains(&pause), "{pause} cycles between two trains");
+    println!(
+        "from one train to the next {} cycles more than half a cycle",
+        pause as i64 - 250 * 16
+    );
+    assert!(
+        (250 * US..250 * US + NEXT_TRAIN).contains(&pause),
+        "{pause} cycles between two trains"
+    );
 }
 
 #[test]
@@ -262,7 +300,8 @@ fn the_end_of_a_train_is_an_event() {
     let pulses = "MOVB 16#8D, SMB77\nMOVW 5, SMW78\nMOVD 4, SMD82\nPLS 1\n";
     let main = format!("LD SM0.1\nATCH I0, 20\nENI\n{pulses}{pulses}LD SM0.0\nMOVB SMB76, MB0\n");
     let mut board = watched(&format!(
-        "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\n{main}END_ORGANIZATION_BLOCK\nINTERRUPT_BLOCK I0:INT0\nBEGIN\nLD SM0.0\n\
+        "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\n{main}END_ORGANIZATION_BLOCK\n\
+            INTERRUPT_BLOCK I0:INT0\nBEGIN\nLD SM0.0\n\
          INCB MB1\nMOVB SMB76, MB2\nEND_INTERRUPT_BLOCK\n"
     ));
     let start = board.avr.cycles();
@@ -280,7 +319,8 @@ fn the_end_of_a_train_is_an_event() {
 
 #[test]
 fn what_is_under_way_can_be_broken_off() {
-    let settings = [(TRAIN, 500, 0, 4_000), (0, 0, 0, 0), (MODULATION, 100, 50, 0), (TRAIN, 100, 0, 20)];
+    let settings =
+        [(TRAIN, 500, 0, 4_000), (0, 0, 0, 0), (MODULATION, 100, 50, 0), (TRAIN, 100, 0, 20)];
     let mut board = watched(&program(&settings));
     run(&mut board, 5 * MS);
     board.drive_inputs(1);
@@ -300,7 +340,9 @@ fn what_is_under_way_can_be_broken_off() {
 
 #[test]
 fn what_cannot_be_done_is_an_error() {
-    for (control, cycle, is_done) in [(TRAIN, 49, false), (TRAIN, 50, true), (0xA5, 500, false), (0xE3, 500, true)] {
+    for (control, cycle, is_done) in
+        [(TRAIN, 49, false), (TRAIN, 50, true), (0xA5, 500, false), (0xE3, 500, true)]
+    {
         let mut board = watched(&program(&[(control, cycle, 20, 2)]));
         run(&mut board, 3 * MS);
         assert_eq!(board.byte(M_START + 1) & 1, u8::from(is_done), "{control:02X}: ENO");
@@ -311,7 +353,8 @@ fn what_cannot_be_done_is_an_error() {
 
 #[test]
 fn an_inverted_output_is_inverted() {
-    let mut board = watched(&format!("//# invert Q0.1\n{}", program(&[(MODULATION, 1_000, 300, 0)])));
+    let mut board =
+        watched(&format!("//# invert Q0.1\n{}", program(&[(MODULATION, 1_000, 300, 0)])));
     run(&mut board, 20 * MS);
     assert_wave(&parts(&mut board, PULSES)[1..], 700 * US, 300 * US, 30);
     let mut board = watched(&format!("//# invert Q0.1\n{}", program(&[(TRAIN, 1_000, 0, 3)])));
@@ -332,7 +375,10 @@ fn nothing_pulses_in_stop() {
         assert!(edges(&mut board).len() > 2);
         link::stop(&mut board);
         assert!(!board.runs() && board.is_released());
-        assert_eq!((board.avr.data()[TIMER_1_CONTROL], board.avr.data()[TIMER_1_INTERRUPTS]), (0, 0));
+        assert_eq!(
+            (board.avr.data()[TIMER_1_CONTROL], board.avr.data()[TIMER_1_INTERRUPTS]),
+            (0, 0)
+        );
         edges(&mut board);
         board.drive_inputs(0);
         link::run(&mut board);
@@ -350,19 +396,28 @@ fn the_first_pulses_come_in_the_first_scan() {
     let text = format!("{}LD SM0.1\nFOR MW2, 1, 2000\nNEXT\n", program(&[(TRAIN, 100, 0, 20)]));
     let mut board = watched(&text);
     run(&mut board, 2 * MS);
-    assert_eq!(board.avr.data()[DIRECTIONS_B], 2, "in the first scan only the pin of PLS is driven");
+    assert_eq!(
+        board.avr.data()[DIRECTIONS_B],
+        2,
+        "in the first scan only the pin of PLS is driven"
+    );
     assert!(edges(&mut board).len() >= 20);
 }
 
 #[test]
 fn a_fast_train_leaves_time_for_the_program() {
-    let text = |control: u8| format!("{}LD SM0.0\nFOR MW2, 1, 200\nNEXT\n", program(&[(control, 50, 0, 4_000_000)]));
+    let text = |control: u8| {
+        format!("{}LD SM0.0\nFOR MW2, 1, 200\nNEXT\n", program(&[(control, 50, 0, 4_000_000)]))
+    };
     let [without, with] = [0, TRAIN].map(|control| {
         let mut board = BenchBoard::running(&text(control));
         board.scans(5);
         board.scans(20).iter().map(|scan| scan.cycles()).sum::<u64>()
     });
-    println!("a scan takes {:.2} times as long with a train of 50 us", with as f64 / without as f64);
+    println!(
+        "a scan takes {:.2} times as long with a train of 50 us",
+        with as f64 / without as f64
+    );
     assert!(with < 2 * without);
 }
 
@@ -371,8 +426,10 @@ const ANALOG_CYCLE: u64 = 2_000;
 
 #[test]
 fn analog_outputs() {
-    let mut board =
-        watched("LD SM0.0\nMOVW MW2, AQW0\nMOVW MW4, AQW2\nLD I0.5\nMOVB 2#110, QB0\nLDN I0.5\nMOVB 0, QB0\n");
+    let mut board = watched(
+        "LD SM0.0\nMOVW MW2, AQW0\nMOVW MW4, AQW2\nLD I0.5\nMOVB 2#110, QB0\nLDN I0.5\n\
+            MOVB 0, QB0\n",
+    );
     for (value, on) in [
         (0_i16, 0),
         (-1, 0),
@@ -387,7 +444,9 @@ fn analog_outputs() {
         (32_000, 2_000),
         (32_767, 2_000),
     ] {
-        for (pin, address, other) in [(PULSES, M_START + 2, M_START + 4), (ANALOG_2, M_START + 4, M_START + 2)] {
+        for (pin, address, other) in
+            [(PULSES, M_START + 2, M_START + 4), (ANALOG_2, M_START + 4, M_START + 2)]
+        {
             board.write(address, &value.to_be_bytes());
             board.write(other, &12_800_i16.to_be_bytes());
             // The process image has no say.
@@ -397,8 +456,12 @@ fn analog_outputs() {
             run(&mut board, 20 * MS);
             let waves = board.avr.take_waves();
             let of = |pin: u8| {
-                let edges: Vec<_> = waves.iter().filter(|edge| edge.pin == Pin::of_uno(pin)).collect();
-                edges.windows(2).map(|pair| (pair[0].high, pair[1].cycle - pair[0].cycle)).collect::<Vec<Part>>()
+                let edges: Vec<_> =
+                    waves.iter().filter(|edge| edge.pin == Pin::of_uno(pin)).collect();
+                edges
+                    .windows(2)
+                    .map(|pair| (pair[0].high, pair[1].cycle - pair[0].cycle))
+                    .collect::<Vec<Part>>()
             };
             if on == 0 || on == ANALOG_CYCLE {
                 assert_eq!((of(pin).len(), level(&board, pin)), (0, on != 0), "{value} at D{pin}");
@@ -414,8 +477,9 @@ fn analog_outputs() {
 #[test]
 fn an_analog_output_leaves_the_others_digital() {
     for (analog, pin, other) in [("AQW0", PULSES, ANALOG_2), ("AQW2", ANALOG_2, PULSES)] {
-        let mut board =
-            watched(&format!("LD SM0.0\nMOVW 3200, {analog}\nLD I0.5\nMOVB 2#110, QB0\nLDN I0.5\nMOVB 0, QB0\n"));
+        let mut board = watched(&format!(
+            "LD SM0.0\nMOVW 3200, {analog}\nLD I0.5\nMOVB 2#110, QB0\nLDN I0.5\nMOVB 0, QB0\n"
+        ));
         for high in [true, false, true] {
             board.drive_inputs(u8::from(high) << 5);
             board.scans(3);

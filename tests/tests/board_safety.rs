@@ -1,6 +1,8 @@
-//! What the shipped firmware promises about safety, on a simulated Uno: whatever is wrong, the outputs are released.
+//! What the shipped firmware promises about safety, on a simulated Uno: whatever is wrong, the
+//! outputs are released.
 //!
-//! Serial line and settings have files of their own; what the program's instructions do is a matter of `lockstep`.
+//! Serial line and settings have files of their own; what the program's instructions do is a matter
+//! of `lockstep`.
 #![cfg(feature = "uno")]
 
 use awl_asm::assemble::assemble;
@@ -46,8 +48,8 @@ fn a_program_with_any_byte_changed_never_runs() {
     }
 }
 
-/// From the end of the watchdog time to the released outputs: whole ticks count, so up to one more, the program looks at
-/// the clock once a pass, the rest of the scan follows.
+/// From the end of the watchdog time to the released outputs: whole ticks count, so up to one more,
+/// the program looks at the clock once a pass, the rest of the scan follows.
 const WATCHDOG_TOLERANCE_MS: u64 = 2;
 
 /// Loops as long as I0.0 is on, and has all outputs on before.
@@ -120,7 +122,10 @@ fn a_run_command_does_not_hide_the_fault_that_comes_before_it() {
     assert!(board.runs(), "the RUN that was asked for begins when that has been answered");
     board.reset();
     let said = link::identify(&mut board);
-    assert!(said.fault.is_none() && matches!(said.fault_before_reset, Some(Fault::Watchdog { .. })), "{said:?}");
+    assert!(
+        said.fault.is_none() && matches!(said.fault_before_reset, Some(Fault::Watchdog { .. })),
+        "{said:?}"
+    );
 }
 
 #[test]
@@ -132,7 +137,11 @@ fn a_program_without_loops_can_be_too_slow_too() {
     board.drive_inputs(1);
     board.scan_within(1_000 * MS);
     let Some(Fault::Watchdog { at }) = board.fault() else { panic!("{:?}", board.fault()) };
-    assert_eq!(usize::from(at), image(&slow).len() - 5, "the end of the program, before its checksum");
+    assert_eq!(
+        usize::from(at),
+        image(&slow).len() - 5,
+        "the end of the program, before its checksum"
+    );
     assert!(!board.runs() && board.is_released());
 }
 
@@ -140,7 +149,10 @@ fn a_program_without_loops_can_be_too_slow_too() {
 #[test]
 fn a_program_without_loops_may_take_long_when_it_says_so() {
     let uses: String = (0..200).map(|number| format!("MOVW 0, C{number}\n")).collect();
-    let slow = format!("//# watchdog 2s\n{ALL_ON}LD SM0.1\n{uses}LD I0.0\n{}", "R C0, 255\n".repeat(1_900));
+    let slow = format!(
+        "//# watchdog 2s\n{ALL_ON}LD SM0.1\n{uses}LD I0.0\n{}",
+        "R C0, 255\n".repeat(1_900)
+    );
     let mut board = BenchBoard::new();
     board.insert(&image(&slow));
     board.power_up();
@@ -155,26 +167,33 @@ fn a_program_without_loops_may_take_long_when_it_says_so() {
 
 #[test]
 fn a_division_by_zero_is_told_and_the_program_goes_on() {
-    let program = "LD SM0.0\nMOVW 7, MW0\n/I MW2, MW0\n= Q0.1\nLD SM1.3\n= Q0.0\nLD SM0.0\nINCW MW4\n";
+    let program =
+        "LD SM0.0\nMOVW 7, MW0\n/I MW2, MW0\n= Q0.1\nLD SM1.3\n= Q0.0\nLD SM0.0\nINCW MW4\n";
     let mut board = BenchBoard::running(program);
     for scan in 1..100 {
         assert_eq!(board.byte(SM_START + 1) >> 3, 1, "SM1.3, which INCW leaves alone");
-        assert_eq!((board.outputs(), board.word(M_START), board.word(M_START + 4)), (Some(3), 7, scan));
+        assert_eq!(
+            (board.outputs(), board.word(M_START), board.word(M_START + 4)),
+            (Some(3), 7, scan)
+        );
         board.scan();
         assert!(board.runs());
     }
 }
 
-/// As long as the slot allows: loops eight deep with counters and timers inside, nine levels of the logic stack, and
-/// instructions of every chapter, retained values too.
+/// As long as the slot allows: loops eight deep with counters and timers inside, nine levels of the
+/// logic stack, and instructions of every chapter, retained values too.
 fn longest_program() -> String {
-    let mut program = "//# name longest-possible-program\n//# retain VB0-VB99, C0-C9\nLD SM0.0\n".to_string();
+    let mut program =
+        "//# name longest-possible-program\n//# retain VB0-VB99, C0-C9\nLD SM0.0\n".to_string();
     (0..8).for_each(|level| program += &format!("FOR VW{}, 1, 1\n", 2 * level));
-    program += "LD I0.0\nLD I0.1\nLD I0.2\nCTUD C0, 2\nLD SM0.0\nTON T32, 100\nTOF T33, 10\nTONR T5, VW20\n";
+    program += "LD I0.0\nLD I0.1\nLD I0.2\nCTUD C0, 2\nLD SM0.0\nTON T32, 100\nTOF T33, 10\n\
+        TONR T5, VW20\n";
     (0..9).for_each(|level| program += &format!("LD M0.{}\n", level % 8));
     program += "ALD\nOLD\n= Q0.0\n";
     program += &"NEXT\n".repeat(8);
-    let rest = "LD SM0.0\nMOVW AIW0, VW30\n/I 7, VW30\n*I VW30, VW32\nS M2.0, 9\nR C3, 2\nLDW>= VW30, VW32\nEU\n\
+    let rest = "LD SM0.0\nMOVW AIW0, VW30\n/I 7, VW30\n*I VW30, VW32\nS M2.0, 9\nR C3, 2\n\
+        LDW>= VW30, VW32\nEU\n\
         = Q0.1\nLD I0.3\nLD I0.4\nCTU C4, VW30\nLD I0.5\nTON T37, 20\n";
     // Each repetition takes the same place, but for what looks for status windows.
     let bytes = |program: &str| image(program).len();
@@ -202,7 +221,11 @@ const REQUESTS: [&[u8]; 8] = [
 #[test]
 fn the_stack_keeps_away_from_the_variables() {
     let (mut board, image) = (BenchBoard::new(), image(&longest_program()));
-    assert!(image.len() + 4 > usize::from(SLOT_LEN), "{} bytes are not the longest program", image.len());
+    assert!(
+        image.len() + 4 > usize::from(SLOT_LEN),
+        "{} bytes are not the longest program",
+        image.len()
+    );
     board.insert(&image);
     let start = board.avr.cycles();
     board.power_up();
@@ -217,14 +240,19 @@ fn the_stack_keeps_away_from_the_variables() {
         assert!(board.runs(), "{:?}", board.fault());
     }
     let (unused, said) = (board.unused_stack(), link::identify(&mut board));
-    println!("{} bytes of program: start {start_ms} ms, {unused} bytes of stack never used", image.len());
+    println!(
+        "{} bytes of program: start {start_ms} ms, {unused} bytes of stack never used",
+        image.len()
+    );
     assert_eq!(usize::from(said.free_stack), unused, "{said:?}");
     assert!(unused >= STACK_SPARE_MIN, "only {unused} bytes between stack and variables");
 }
 
 /// Counts first scans and scans, and fills memory.
-const COUNT_STARTS: &str = "//# name starts\nLD SM0.1\nINCW MW0\nLD SM0.3\nINCW MW4\nLD SM0.0\nINCW MW2\nMOVW -1, VW0\n\
-    MOVW -1, VW90\nS M10.0, 100\nTON T37, 1\nLD SM0.6\nLD SM0.0\nLD SM0.1\nCTUD C0, 5\nLD SM0.0\nS Q0.0, 6\n";
+const COUNT_STARTS: &str = "//# name starts\nLD SM0.1\nINCW MW0\nLD SM0.3\nINCW MW4\nLD SM0.0\n\
+    INCW MW2\nMOVW -1, VW0\n\
+    MOVW -1, VW90\nS M10.0, 100\nTON T37, 1\nLD SM0.6\nLD SM0.0\nLD SM0.1\nCTUD C0, 5\nLD SM0.0\n\
+    S Q0.0, 6\n";
 
 #[test]
 fn a_reset_at_any_time_releases_the_outputs_and_starts_anew() {
@@ -238,27 +266,36 @@ fn a_reset_at_any_time_releases_the_outputs_and_starts_anew() {
         let left = [rng.u8(..); (DATA_END - DATA_START) as usize];
         board.write(DATA_START, &left);
         board.avr.reset(Reset::External);
-        // Until the outputs are written at the end of the first scan, which is where a scan is called ended.
+        // Until the outputs are written at the end of the first scan, which is where a scan is
+        // called ended.
         while board.outputs().is_none() {
-            assert!(!board.drives(), "round {round}: outputs driven before the end of the first scan");
+            assert!(
+                !board.drives(),
+                "round {round}: outputs driven before the end of the first scan"
+            );
             board.run_on(8);
         }
         let found = &board.avr.data()[usize::from(DATA_START)..usize::from(DATA_END)];
         assert_eq!(found, after_power_up, "round {round}: something is left in memory");
-        assert_eq!([0, 2, 4].map(|byte| board.word(M_START + byte)), [1, 1, 1], "round {round}: no first scan");
+        assert_eq!(
+            [0, 2, 4].map(|byte| board.word(M_START + byte)),
+            [1, 1, 1],
+            "round {round}: no first scan"
+        );
         board.scan();
         assert_eq!((board.runs(), board.fault()), (true, None), "round {round}");
     }
 }
 
-/// Longest time from a hang to released outputs: the hardware watchdog counts 65,536 cycles of its 128 kHz, which are
-/// exact in simavr, and some of the firmware's.
+/// Longest time from a hang to released outputs: the hardware watchdog counts 65,536 cycles of its
+/// 128 kHz, which are exact in simavr, and some of the firmware's.
 const HANG_MS_MAX: u64 = 513;
-/// From there to the reset. The firmware asks for 2,048 cycles, 16 ms, which simavr takes for its next period only.
+/// From there to the reset. The firmware asks for 2,048 cycles, 16 ms, which simavr takes for its
+/// next period only.
 const HANG_TO_RESET_MS_MAX: u64 = 513;
 
-/// The board hangs from now on until `mend` has been called. It must release its outputs, reset itself, and stay in
-/// STOP until somebody says RUN.
+/// The board hangs from now on until `mend` has been called. It must release its outputs, reset
+/// itself, and stay in STOP until somebody says RUN.
 fn assert_hang_is_caught(board: &mut BenchBoard, mend: impl FnOnce(&mut BenchBoard)) {
     let released = board.run_until(100, HANG_MS_MAX * MS, |board| board.is_released());
     // What it does in there is wait for its reset.
@@ -282,7 +319,10 @@ fn assert_hang_is_caught(board: &mut BenchBoard, mend: impl FnOnce(&mut BenchBoa
     board.avr.reset(Reset::External);
     board.scans_for(30);
     let said = link::identify(board);
-    assert!(said.runs() && said.fault.is_none() && said.fault_before_reset == Some(Fault::Hang), "{said:?}");
+    assert!(
+        said.runs() && said.fault.is_none() && said.fault_before_reset == Some(Fault::Hang),
+        "{said:?}"
+    );
     assert_eq!((board.runs(), board.fault(), board.outputs()), (true, None, Some(0x3F)));
 }
 
@@ -308,11 +348,14 @@ fn a_firmware_that_hangs_is_caught() {
     let place = board.avr.pc() as usize..board.avr.pc() as usize + 2;
     let instruction = board.avr.flash()[place.clone()].to_vec();
     board.avr.flash_mut()[place.clone()].copy_from_slice(&[0xFF, 0xCF]);
-    assert_hang_is_caught(&mut board, |board| board.avr.flash_mut()[place].copy_from_slice(&instruction));
+    assert_hang_is_caught(&mut board, |board| {
+        board.avr.flash_mut()[place].copy_from_slice(&instruction)
+    });
 }
 
-/// Milliseconds until a changed byte has certainly been seen: the checksum takes a byte a tick and a tick for the
-/// comparison. The byte may have been passed just before, so that this pass and the next one are needed.
+/// Milliseconds until a changed byte has certainly been seen: the checksum takes a byte a tick and
+/// a tick for the comparison. The byte may have been passed just before, so that this pass and the
+/// next one are needed.
 fn ms_of_two_passes(len: usize) -> u64 {
     2 * (len as u64 + 1)
 }
@@ -360,7 +403,8 @@ fn a_program_erased_under_way_does_not_start_again() {
     assert!(!link::identify(&mut board).runs() && !board.runs() && board.is_released());
 }
 
-/// Whatever a changed instruction does until the checksum sees it, the PLC comes to STOP and the firmware lives on.
+/// Whatever a changed instruction does until the checksum sees it, the PLC comes to STOP and the
+/// firmware lives on.
 #[test]
 fn any_change_while_running_ends_in_stop() {
     let image = example("motor");
@@ -374,7 +418,8 @@ fn any_change_while_running_ends_in_stop() {
         board.scans_for(ms_of_two_passes(image.len()));
         assert!(!board.runs() && board.is_released(), "byte {at}");
         let fault = board.fault();
-        let is_seen = matches!(fault, Some(Fault::ProgramChanged | Fault::UndefinedInstruction { .. }));
+        let is_seen =
+            matches!(fault, Some(Fault::ProgramChanged | Fault::UndefinedInstruction { .. }));
         assert!(is_seen, "byte {at}: {fault:?}");
         assert!(!link::identify(&mut board).runs(), "byte {at}");
     }
@@ -389,7 +434,10 @@ fn a_stack_that_reaches_the_variables_stops_the_plc() {
         let canary = board.stack_limit() + offset;
         board.write(canary, &[0]);
         board.scan();
-        assert_eq!((board.runs(), board.fault(), board.is_released()), (false, Some(Fault::StackOverflow), true));
+        assert_eq!(
+            (board.runs(), board.fault(), board.is_released()),
+            (false, Some(Fault::StackOverflow), true)
+        );
         let _ = link::command(&mut board, Command::Run);
         for _ in 0..50 {
             board.scan();

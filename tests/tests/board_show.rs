@@ -1,6 +1,7 @@
-//! `uno200 show` with the shipped firmware at the other end of the line: what stands beside each line of a program is what
-//! plc-vm does in the same scan. The board runs by its own clock, its plant is the simulator's. How the view is laid out,
-//! and what its keys do, uno200's own tests say.
+//! `uno200 show` with the shipped firmware at the other end of the line: what is beside each
+//! line of a program is what plc-vm does in the same scan. The board runs by its own clock, its
+//! plant is the simulator's. How the view is laid out, and what its keys do, uno200's own tests
+//! say.
 #![cfg(feature = "uno")]
 
 use std::array::from_fn;
@@ -13,22 +14,28 @@ use awl_asm::Address;
 use awl_asm::source::Source;
 use awl_sim::machine::uno::Mark;
 use awl_sim::plant::{self, Plant, parse_spec};
+use client::line::rtu;
+use client::show::model::Flow;
+use client::show::state::State;
+use client::value::Form;
+use client::{Error, Operand, Program, Reference};
 use fastrand::Rng;
-use plc_isa::{AnalogInput, Area, Bit, DIGITAL_INPUTS, I_START, LogicStack, Plan, SM_START, counter_bit, timer_bit};
+use plc_isa::{
+    AnalogInput, Area, Bit, DIGITAL_INPUTS, I_START, LogicStack, Plan, SM_START, counter_bit,
+    timer_bit,
+};
 use plc_link::protocol::{STATUS, WATCH};
 use plc_vm::{Environment, Inputs, Memory, Plc};
 use tests::bench_board::{BenchBoard, MS, example_text};
 use tests::link::UNIT;
-use uno200::show::model::Flow;
+use uno200::Client;
 use uno200::show::poll::{Message, Poller};
-use uno200::show::state::State;
 use uno200::show::{Theme, picture};
-use uno200::transport::{Transport, rtu};
-use uno200::value::Form;
-use uno200::{Client, Error, Operand, Program, Reference};
+use uno200::transport::Transport;
 
 /// The platform begins between its ends. Pieces for both ramps.
-const PLANT: &str = "station1 pieces=normal,small,normal,large,normal,small,normal,large,normal,small start=middle";
+const PLANT: &str =
+    "station1 pieces=normal,small,normal,large,normal,small,normal,large,normal,small start=middle";
 
 /// A master waits so long for an answer.
 const PATIENCE: u64 = 1_000 * MS;
@@ -51,7 +58,7 @@ struct Scan {
     pins: u8,
 }
 
-/// A request that was answered with values, and the scan in or right behind which that was.
+/// A request that was answered with values, and the scan in or right after which that was.
 struct Asked {
     request: Vec<u8>,
     scan: usize,
@@ -109,7 +116,8 @@ impl Station {
     fn scan(&mut self) {
         let pins = self.board.output_levels(self.invert_outputs);
         self.plant.step(self.passed_ms(), pins, &mut self.signals);
-        let levels = (0..DIGITAL_INPUTS).fold(0, |bits, input| bits | u8::from(self.signals.digital(input)) << input);
+        let levels = (0..DIGITAL_INPUTS)
+            .fold(0, |bits, input| bits | u8::from(self.signals.digital(input)) << input);
         self.board.drive_inputs(levels);
         (0..6).for_each(|channel| self.board.avr.set_counts(channel, self.signals.analog(channel)));
         let tick = self.board.tick();
@@ -124,7 +132,11 @@ impl Station {
             raw: from_fn(|channel| word(AnalogInput::Raw(channel as u8))),
         };
         assert_eq!(inputs.digital[0], levels, "the inputs are those of the plant");
-        self.scans.push_back(Scan { now_ms: self.now_ms, inputs, pins: self.board.output_levels(self.invert_outputs) });
+        self.scans.push_back(Scan {
+            now_ms: self.now_ms,
+            inputs,
+            pins: self.board.output_levels(self.invert_outputs),
+        });
         self.count += 1;
     }
 
@@ -140,11 +152,15 @@ impl Station {
             scan = scan.or(sends.then(|| self.count - 1));
         }
         let answer = rtu::answer(UNIT, &heard).expect("an undamaged frame").to_vec();
-        if let (&[function @ (STATUS | WATCH), high, low, ..], Some(sent_in)) = (&answer[..], scan) {
-            // The first scan is told as 1. What instructions did is told at the end of the next one, or sooner if the next
-            // one is waited for.
+        if let (&[function @ (STATUS | WATCH), high, low, ..], Some(sent_in)) = (&answer[..], scan)
+        {
+            // The first scan is told as 1. What instructions did is told at the end of the next
+            // one, or sooner if the next one is waited for.
             let lag = (sent_in as u16 + 1).wrapping_sub(u16::from_be_bytes([high, low]));
-            assert!(lag == 0 || lag == 1 && function == STATUS, "{lag} scans before the answer: {answer:02X?}");
+            assert!(
+                lag == 0 || lag == 1 && function == STATUS,
+                "{lag} scans before the answer: {answer:02X?}"
+            );
             let scan = sent_in - usize::from(lag);
             self.asked.push(Asked { request: request.to_vec(), scan });
         }
@@ -168,16 +184,19 @@ impl Transport for Line {
     fn exchange(&mut self, request: &[u8], _: Duration) -> Result<Vec<u8>, Error> {
         let answer = with_station(|station| station.exchange(request));
         match answer[..] {
-            [first, exception] if first & 0x80 != 0 => Err(Error::Refused { function: first & 0x7F, exception }),
+            [first, exception] if first & 0x80 != 0 => {
+                Err(Error::Refused { function: first & 0x7F, exception })
+            }
             _ => Ok(answer),
         }
     }
 }
 
-/// The logic stack right behind an instruction, and all memory.
+/// The logic stack right after an instruction, and all memory.
 type Moment = (u16, Memory);
 
-/// What the host sees of a scan: of each instruction that was executed, by its offset, where that is wanted.
+/// What the host sees of a scan: of each instruction that was executed, by its offset, where that
+/// is wanted.
 struct Observer {
     now_ms: u32,
     moments: Option<HashMap<u16, Moment>>,
@@ -211,7 +230,8 @@ impl Host {
         let (mut plc, mut memory) = (Plc::new(), Memory::new());
         plc.load(&mut memory, image.to_vec()).expect("the image is valid");
         plc.run();
-        let invert_outputs = plc.program().expect("it is loaded").plan().header.settings.invert_outputs;
+        let invert_outputs =
+            plc.program().expect("it is loaded").plan().header.settings.invert_outputs;
         Host { plc, memory, invert_outputs, scans: 0 }
     }
 
@@ -220,7 +240,8 @@ impl Host {
     }
 
     fn scan(&mut self, scan: &Scan, is_observed: bool) -> HashMap<u16, Moment> {
-        let mut observer = Observer { now_ms: scan.now_ms, moments: is_observed.then(HashMap::new) };
+        let mut observer =
+            Observer { now_ms: scan.now_ms, moments: is_observed.then(HashMap::new) };
         self.plc.scan(&mut self.memory, &scan.inputs, &mut observer);
         let pins = self.plc.outputs(&self.memory, 0) ^ self.invert_outputs;
         assert_eq!(pins, scan.pins, "the outputs of scan {}", self.scans);
@@ -240,7 +261,9 @@ impl Host {
 
     /// The value of an operand in the host's memory of some moment, right-aligned.
     fn value(&self, operand: &Operand, memory: &Memory) -> u32 {
-        let byte = |area: Area, byte: u16| memory.byte(self.plan().byte_address(area, byte).expect("it is used"));
+        let byte = |area: Area, byte: u16| {
+            memory.byte(self.plan().byte_address(area, byte).expect("it is used"))
+        };
         let bit = |Bit { address, bit }| u32::from(memory.byte(address) >> bit & 1);
         let word = |address| u32::from(memory.word(address));
         match (operand.address, operand.form) {
@@ -250,15 +273,19 @@ impl Host {
             }
             (Address::Timer(number), Form::Bit) => bit(timer_bit(number)),
             (Address::Counter(number), Form::Bit) => bit(counter_bit(number)),
-            (Address::Timer(number), _) => word(self.plan().timer_slot(number).expect("it is used").address),
-            (Address::Counter(number), _) => word(self.plan().counter_slot(number).expect("it is used").address),
+            (Address::Timer(number), _) => {
+                word(self.plan().timer_slot(number).expect("it is used").address)
+            }
+            (Address::Counter(number), _) => {
+                word(self.plan().counter_slot(number).expect("it is used").address)
+            }
             (Address::Analog(input), _) => word(input.address()),
             (other, _) => panic!("no program here has {other:?}"),
         }
     }
 }
 
-/// What the power flow behind a line was like.
+/// What the power flow after a line was like.
 #[derive(Debug, Default)]
 struct LineSeen {
     /// How often it was seen: not executed, off, on.
@@ -284,7 +311,8 @@ struct Bench {
     host: Host,
     /// By their references.
     operands: HashMap<Reference, Operand>,
-    /// By offset what the host saw in the scan of the last window with it: `None`, it was not executed.
+    /// By offset what the host saw in the scan of the last window with it: `None`, it was not
+    /// executed.
     moments: HashMap<u16, Option<Moment>>,
     /// At the end of the scan of the last watch with it.
     values: HashMap<Reference, u32>,
@@ -293,7 +321,9 @@ struct Bench {
 
 impl Bench {
     fn new(text: &str, host_text: &str) -> Bench {
-        let assembled = |text: &str| Program::assembled(Source::new("program.awl", text).unwrap(), Vec::new()).unwrap();
+        let assembled = |text: &str| {
+            Program::assembled(Source::new("program.awl", text).unwrap(), Vec::new()).unwrap()
+        };
         let (program, host) = (assembled(text), Host::new(&assembled(host_text).image));
         let station = Station::new(&program.image, host.plan(), PLANT);
         STATION.set(Some(station));
@@ -301,7 +331,8 @@ impl Bench {
         let state = State::new(program, "the board".to_string());
         let instructions = state.model.rows.iter().filter_map(|row| row.instruction());
         let operands = instructions.flat_map(|instruction| &instruction.operands);
-        let operands = operands.map(|watched| (watched.operand.reference, watched.operand.clone())).collect();
+        let operands =
+            operands.map(|watched| (watched.operand.reference, watched.operand.clone())).collect();
         Bench {
             state,
             poller: Poller::new(Client::over(Box::new(Line)), messages),
@@ -329,7 +360,8 @@ impl Bench {
             // So that rounds do not always meet the same scans of what repeats.
             with_station(|station| (0..rng.u64(..PAUSE_MAX)).for_each(|_| station.go_on()));
         }
-        let instructions = self.state.model.rows.iter().filter(|row| row.instruction().is_some()).count();
+        let instructions =
+            self.state.model.rows.iter().filter(|row| row.instruction().is_some()).count();
         assert_eq!(self.compared.lines.len(), instructions, "every line was seen");
         self.compared
     }
@@ -338,7 +370,11 @@ impl Bench {
     fn draw(&mut self) -> HashMap<usize, char> {
         let height = self.state.model.rows.len() as u16 + OTHER_ROWS;
         let screen = picture::buffer(&mut self.state, SCREEN_WIDTH, height, Theme::new(false));
-        let line = |y| (0..SCREEN_WIDTH).filter_map(|x| Some(screen.cell((x, y))?.symbol())).collect::<String>();
+        let line = |y| {
+            (0..SCREEN_WIDTH)
+                .filter_map(|x| Some(screen.cell((x, y))?.symbol()))
+                .collect::<String>()
+        };
         let mark = |line: String| {
             let (number, rest) = line.trim_start().split_once(' ')?;
             Some((number.parse::<usize>().ok()? - 1, rest.chars().next()?))
@@ -348,22 +384,26 @@ impl Bench {
 
     /// The host does what the board has done, and notes what the view was told of.
     fn catch_up(&mut self) {
-        let (asked, mut scans) =
-            with_station(|station| (std::mem::take(&mut station.asked), std::mem::take(&mut station.scans)));
+        let (asked, mut scans) = with_station(|station| {
+            (std::mem::take(&mut station.asked), std::mem::take(&mut station.scans))
+        });
         for Asked { request, scan } in asked {
             let mut moments = self.host.go_to(scan, &mut scans);
             if request[0] == STATUS {
-                let offsets = request[2..].chunks(5).map(|entry| u16::from_be_bytes([entry[0], entry[1]]));
+                let offsets =
+                    request[2..].chunks(5).map(|entry| u16::from_be_bytes([entry[0], entry[1]]));
                 self.moments.extend(offsets.map(|offset| (offset, moments.remove(&offset))));
                 self.compared.scans.insert(scan);
             } else {
-                for reference in request[2..].chunks(3).map(|bytes| Reference([bytes[0], bytes[1], bytes[2]])) {
+                for reference in
+                    request[2..].chunks(3).map(|bytes| Reference([bytes[0], bytes[1], bytes[2]]))
+                {
                     let value = self.host.value(&self.operands[&reference], &self.host.memory);
                     self.values.insert(reference, value);
                 }
             }
         }
-        // Those behind the last scan that was told of are still to be done.
+        // Those after the last scan that was told of are still to be done.
         with_station(|station| station.scans = scans);
     }
 
@@ -379,15 +419,26 @@ impl Bench {
                 Some((stack, _)) if stack & 1 == 0 => (Flow::Off, '\u{25CB}'),
                 Some(_) => (Flow::On, '\u{25CF}'),
             };
-            assert_eq!((self.state.flow(instruction), marks.get(&row)), (Some(flow), Some(&mark)), "{place}");
+            assert_eq!(
+                (self.state.flow(instruction), marks.get(&row)),
+                (Some(flow), Some(&mark)),
+                "{place}"
+            );
             let stack = moment.as_ref().map_or(0, |(stack, _)| *stack);
             assert_eq!(self.state.executed[&offset].stack, stack, "{place}");
             for (index, watched) in instruction.operands.iter().enumerate() {
                 let value = match moment {
-                    Some((_, memory)) if index == instruction.result => self.host.value(&watched.operand, memory),
+                    Some((_, memory)) if index == instruction.result => {
+                        self.host.value(&watched.operand, memory)
+                    }
                     _ => self.values[&watched.operand.reference],
                 };
-                assert_eq!(self.state.value(instruction, index), Some(value), "{}, {place}", watched.operand.name);
+                assert_eq!(
+                    self.state.value(instruction, index),
+                    Some(value),
+                    "{}, {place}",
+                    watched.operand.name
+                );
                 self.compared.values += 1;
             }
             let seen = self.compared.lines.entry(row).or_default();
@@ -398,18 +449,31 @@ impl Bench {
     }
 }
 
-/// Compares station1 for so many milliseconds, in which its plant sorts so many good pieces and so many others. Returns
-/// of how many lines the power flow has changed.
+/// Compares station1 for so many milliseconds, in which its plant sorts so many good pieces and so
+/// many others. Returns of how many lines the power flow has changed.
 fn station1(directives: &str, milliseconds: u64, good: i64, rejected: i64) -> usize {
     let text = format!("{directives}{}", example_text("station1"));
     let Compared { scans, lines, values } = Bench::new(&text, &text).run(milliseconds);
     let report = with_station(|station| station.plant.report());
-    let sorted = ["good", "rejected"].map(|name| report.summary.iter().find(|(key, _)| *key == name));
-    assert_eq!(sorted.map(|entry| entry.map(|(_, count)| *count)), [Some(good), Some(rejected)], "{report:?}");
+    let sorted =
+        ["good", "rejected"].map(|name| report.summary.iter().find(|(key, _)| *key == name));
+    assert_eq!(
+        sorted.map(|entry| entry.map(|(_, count)| *count)),
+        [Some(good), Some(rejected)],
+        "{report:?}"
+    );
     let looks = lines.values().map(|seen| seen.flows.iter().sum::<usize>()).min().unwrap_or(0);
     let changing = lines.values().filter(|seen| seen.changes > 0).count();
-    println!("{} scans of {}, each of {} lines at least {looks} times", scans.len(), last(&scans), lines.len());
-    println!("{:?} times not executed, without and with power flow; {values} values", flows(&lines));
+    println!(
+        "{} scans of {}, each of {} lines at least {looks} times",
+        scans.len(),
+        last(&scans),
+        lines.len()
+    );
+    println!(
+        "{:?} times not executed, without and with power flow; {values} values",
+        flows(&lines)
+    );
     println!("the power flow of {changing} lines has changed");
     assert!(scans.len() >= SCANS_MIN && looks >= LOOKS_MIN, "{} scans, {looks}", scans.len());
     changing
@@ -460,8 +524,16 @@ O      M0.0
 fn it_is_the_scan_that_the_answer_tells() {
     let Compared { scans, lines, .. } = Bench::new(COUNTING, COUNTING).run(5_000);
     let seen = flows(&lines);
-    println!("{} scans of {}, lines not executed, without and with power flow: {seen:?}", scans.len(), last(&scans));
-    assert!(scans.len() >= 100 && seen.iter().all(|&count| count >= 100), "{} scans, {seen:?}", scans.len());
+    println!(
+        "{} scans of {}, lines not executed, without and with power flow: {seen:?}",
+        scans.len(),
+        last(&scans)
+    );
+    assert!(
+        scans.len() >= 100 && seen.iter().all(|&count| count >= 100),
+        "{} scans, {seen:?}",
+        scans.len()
+    );
 }
 
 #[test]

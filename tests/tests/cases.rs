@@ -38,7 +38,10 @@ fn a_wrong_case_fails() {
     assert_eq!(failures("LD I0.0\n= Q0.0\n//$ at 1ms expect Q0.0 = 0"), [""; 0]);
     assert_eq!(failures(&format!("{endless}//$ fault watchdog")), [""; 0]);
     let wrong = [
-        ("LD I0.0\n= Q0.0\n//$ at 1ms expect Q0.0 = 1", "x/y.awl:3: at 1ms expected Q0.0 = 1, got 0"),
+        (
+            "LD I0.0\n= Q0.0\n//$ at 1ms expect Q0.0 = 1",
+            "x/y.awl:3: at 1ms expected Q0.0 = 1, got 0",
+        ),
         ("LD I0.0\n= Q0.0\n//$ at 1ms I0.0 = 1", "nothing is expected"),
         ("LD I0.0\n= Q0.9\n//$ at 1ms expect Q0.0 = 0", "E0005"),
         ("LD I0.0\n= Q0.0\n//$ at 1ms expcet Q0.0 = 0", "x/y.awl:3:12"),

@@ -16,8 +16,12 @@ fn every_form_has_a_case() {
     for case in Prepared::all() {
         seen.extend(places(&case.image).iter().map(|place| name(place.row.name(), place.relation)));
     }
-    let forms = rows().into_iter().flat_map(|row| row.relations().into_iter().map(move |found| (row, found)));
-    let missing: Vec<String> =
-        forms.map(|(row, relation)| name(row.name(), relation)).filter(|form| !seen.contains(form)).collect();
+    let forms = rows()
+        .into_iter()
+        .flat_map(|row| row.relations().into_iter().map(move |found| (row, found)));
+    let missing: Vec<String> = forms
+        .map(|(row, relation)| name(row.name(), relation))
+        .filter(|form| !seen.contains(form))
+        .collect();
     assert!(missing.is_empty(), "no case for\n{}", missing.join("\n"));
 }

@@ -1,5 +1,6 @@
-//! Programs as STEP 7-Micro/WIN exports them: they assemble, do what their scenarios expect, and keep their layout. On
-//! the host; with the feature `uno` those that fit the board's pins run there too.
+//! Programs as STEP 7-Micro/WIN exports them: they assemble, do what their scenarios expect, and
+//! keep their layout. On the host; with the feature `uno` those that fit the board's pins run there
+//! too.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -24,7 +25,8 @@ fn folder() -> PathBuf {
 /// The names of the programs, without their endings.
 fn names() -> Vec<String> {
     let entries = fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().path());
-    let programs = entries.filter(|path| path.extension().is_some_and(|extension| extension == "awl"));
+    let programs =
+        entries.filter(|path| path.extension().is_some_and(|extension| extension == "awl"));
     let mut names: Vec<String> =
         programs.map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()).collect();
     names.sort();
@@ -53,8 +55,8 @@ fn run_scenario(name: &str, target: Target) -> Outcome {
     let text = fs::read_to_string(folder().join(name).with_extension("scn")).unwrap();
     let mut has_operand = |operand| machine.read(operand).map(|_| ());
     let context = Context { symbols: &symbols, plant: None, has_operand: &mut has_operand };
-    let scenario =
-        Scenario::parse(&format!("{name}.scn"), &text, context).unwrap_or_else(|problems| panic!("{problems}"));
+    let scenario = Scenario::parse(&format!("{name}.scn"), &text, context)
+        .unwrap_or_else(|problems| panic!("{problems}"));
     let plant = scenario.plant.as_ref().map(|spec| spec.build().unwrap());
     let scan_ms = scenario.scan_ms.or(period_ms).unwrap_or(1);
     let job = Job { scan_ms, length: Length::Scenario, signals: Vec::new(), plant, progress: None };
@@ -64,19 +66,26 @@ fn run_scenario(name: &str, target: Target) -> Outcome {
 /// What is wrong with a run; empty if nothing is.
 fn complaints(name: &str, target: Target) -> Vec<String> {
     let outcome = run_scenario(name, target);
-    let mut complaints: Vec<String> =
-        outcome.failures.iter().map(|failure| format!("{name}.scn:{}: {failure}", failure.line)).collect();
+    let mut complaints: Vec<String> = outcome
+        .failures
+        .iter()
+        .map(|failure| format!("{name}.scn:{}: {failure}", failure.line))
+        .collect();
     complaints.extend(outcome.fault.map(|fault| format!("{name}: {}", fault.text)));
     let unreached = outcome.unreached_expectations + outcome.unreached_settings;
-    complaints.extend((unreached > 0).then(|| format!("{name}: {unreached} statements behind the end of the run")));
+    complaints.extend(
+        (unreached > 0).then(|| format!("{name}: {unreached} statements after the end of the run")),
+    );
     let met = outcome.met;
-    complaints.extend((met < EXPECTATIONS_MIN).then(|| format!("{name}: only {met} expectations met")));
+    complaints
+        .extend((met < EXPECTATIONS_MIN).then(|| format!("{name}: only {met} expectations met")));
     complaints
 }
 
 /// Whether a line of an export is an instruction, by its layout alone.
 fn is_instruction(line: &str) -> bool {
-    const OTHERS: [&str; 9] = ["//", "TITLE=", "VAR", "END_", "BEGIN", "Network ", "DATA_BLOCK", "VB", "VW"];
+    const OTHERS: [&str; 9] =
+        ["//", "TITLE=", "VAR", "END_", "BEGIN", "Network ", "DATA_BLOCK", "VB", "VW"];
     let is_other = OTHERS.iter().any(|other| line.starts_with(other));
     !is_other && !line.starts_with(' ') && !line.is_empty() && !line.contains([':', ';'])
 }
@@ -85,8 +94,14 @@ fn is_instruction(line: &str) -> bool {
 fn they_look_as_micro_win_exports_them() {
     for name in names() {
         let bytes = bytes(&name);
-        assert!(bytes.windows(2).all(|pair| pair[1] != b'\n' || pair[0] == b'\r'), "{name}: a line end without CR");
-        assert!(bytes.starts_with(b"ORGANIZATION_BLOCK ") && bytes.ends_with(b"_BLOCK\r\n"), "{name}");
+        assert!(
+            bytes.windows(2).all(|pair| pair[1] != b'\n' || pair[0] == b'\r'),
+            "{name}: a line end without CR"
+        );
+        assert!(
+            bytes.starts_with(b"ORGANIZATION_BLOCK ") && bytes.ends_with(b"_BLOCK\r\n"),
+            "{name}"
+        );
         let source = source(&name);
         let titles = source.text.lines().filter(|line| line.starts_with("TITLE=")).count();
         let blocks = source.text.lines().filter(|line| line.contains("_BLOCK ")).count();
@@ -97,22 +112,28 @@ fn they_look_as_micro_win_exports_them() {
     let not_ascii = names().into_iter().filter(|name| !bytes(name).is_ascii()).collect::<Vec<_>>();
     assert!(not_ascii.len() >= 5, "umlauts and accents only in {not_ascii:?}");
     for name in not_ascii {
-        assert!(std::str::from_utf8(&bytes(&name)).is_err(), "{name} is UTF-8, and not of a Windows code page");
+        assert!(
+            std::str::from_utf8(&bytes(&name)).is_err(),
+            "{name} is UTF-8, and not of a Windows code page"
+        );
     }
 }
 
 #[test]
 fn they_do_what_their_scenarios_expect() {
-    let complaints: Vec<String> = names().iter().flat_map(|name| complaints(name, Target::Host)).collect();
+    let complaints: Vec<String> =
+        names().iter().flat_map(|name| complaints(name, Target::Host)).collect();
     assert!(complaints.is_empty(), "{}", complaints.join("\n"));
 }
 
 #[cfg(feature = "uno")]
 #[test]
 fn the_board_does_the_same() {
-    // The scenario of `messung` expects analog values to the unit; the board's converter has steps of 31.
+    // The scenario of `messung` expects analog values to the unit; the board's converter has steps
+    // of 31.
     let on_board: Vec<String> = names().into_iter().filter(|name| name != "messung").collect();
-    let complaints: Vec<String> = on_board.iter().flat_map(|name| complaints(name, Target::Uno)).collect();
+    let complaints: Vec<String> =
+        on_board.iter().flat_map(|name| complaints(name, Target::Uno)).collect();
     assert!(complaints.is_empty(), "{}", complaints.join("\n"));
 }
 
@@ -122,9 +143,13 @@ fn their_layout_is_the_canonical_one() {
         let source = source(&name);
         let text = format(&source).unwrap_or_else(|errors| panic!("{name}: {errors:?}"));
         if let Some(line) = first_difference(&source.text, &text) {
-            let [is, becomes] = [&source.text, &text].map(|text| text.split('\n').nth(line - 1).unwrap_or(""));
+            let [is, becomes] =
+                [&source.text, &text].map(|text| text.split('\n').nth(line - 1).unwrap_or(""));
             panic!("{name}.awl:{line}: {is:?} becomes {becomes:?}");
         }
-        assert!(source.encoding.encode(&text).is_some_and(|again| again == bytes(&name)), "{name}: other bytes");
+        assert!(
+            source.encoding.encode(&text).is_some_and(|again| again == bytes(&name)),
+            "{name}: other bytes"
+        );
     }
 }

@@ -1,4 +1,5 @@
-//! The way to the board with the real avrdude: to an Uno with its bootloader, and to boards that are none.
+//! The way to the board with the real avrdude: to an Uno with its bootloader, and to boards that
+//! are none.
 
 #![cfg(feature = "uno")]
 
@@ -31,7 +32,8 @@ const INVERT: &str = "//# name invert\nLD SM0.0\nMOVW 17, VW0\nMOVW VW0, VW2\nLD
 const INPUT: u8 = 2;
 const OUTPUT: u8 = 8;
 
-/// From the end of avrdude to the first scan: the bootloader's 16 ms watchdog, and the firmware's check of the program.
+/// From the end of avrdude to the first scan: the bootloader's 16 ms watchdog, and the firmware's
+/// check of the program.
 const START_MS: u32 = 300;
 /// The same for a program that fills the slot.
 const START_LONGEST_MS: u32 = 2_000;
@@ -39,12 +41,14 @@ const START_LONGEST_MS: u32 = 2_000;
 const SCANS_MS: u32 = 20;
 /// The same for a program that fills the slot.
 const SCANS_LONGEST_MS: u32 = 600;
-/// The bootloader waits a second for avrdude before it starts the firmware, and flashes its lamp before that.
+/// The bootloader waits a second for avrdude before it starts the firmware, and flashes its lamp
+/// before that.
 const BOOTLOADER_MS: u32 = 1_800;
-/// A short request, its answer and the pauses behind them.
+/// A short request, its answer and the pauses after them.
 const ANSWER_MS: u32 = 20;
 
 static AWL_ASM: LazyLock<PathBuf> = LazyLock::new(|| commands::built("awl-asm"));
+static UNO200: LazyLock<PathBuf> = LazyLock::new(|| commands::built("uno200"));
 
 /// A folder with the two programs.
 fn folder() -> TempDir {
@@ -56,12 +60,19 @@ fn folder() -> TempDir {
 
 fn awl_asm(folder: &TempDir, arguments: &[&str]) -> Command {
     let mut command = Command::new(&*AWL_ASM);
-    command.current_dir(folder).args(arguments).env(firmware::VARIABLE, firmware_file());
+    command.current_dir(folder).args(arguments).env_remove(firmware::VARIABLE);
     command
 }
 
+fn uno200(folder: &TempDir, arguments: &[&str]) -> Command {
+    let mut command = Command::new(&*UNO200);
+    command.current_dir(folder).args(arguments).env_remove(firmware::VARIABLE);
+    command
+}
+
+/// The firmware that is part of the tools.
 fn firmware_file() -> PathBuf {
-    firmware::find("hex").expect("`cargo xtask test` builds the firmware first")
+    commands::kept_firmware()
 }
 
 /// Runs a command while the board does `step` over and over. Returns exit code and standard error.
@@ -128,7 +139,12 @@ fn said(runs: bool, program: &str) -> Said {
 /// Asks a board by a terminal that is opened, which resets it.
 fn asked(uno: &mut VirtualUno) -> Said {
     let nonblocking = rustix::fs::OFlags::NONBLOCK.bits().cast_signed();
-    let mut terminal = OpenOptions::new().read(true).write(true).custom_flags(nonblocking).open(uno.port()).unwrap();
+    let mut terminal = OpenOptions::new()
+        .read(true)
+        .write(true)
+        .custom_flags(nonblocking)
+        .open(uno.port())
+        .unwrap();
     pass(uno, BOOTLOADER_MS);
     let mut exchange = |pdu: &[u8]| {
         terminal.write_all(&frame(UNIT, pdu)).unwrap();
@@ -149,7 +165,9 @@ fn asked(uno: &mut VirtualUno) -> Said {
 }
 
 fn image(program: &str) -> Vec<u8> {
-    assemble(&Source::new("p.awl", program).unwrap(), Vec::new()).image.expect("a program without errors")
+    assemble(&Source::new("p.awl", program).unwrap(), Vec::new())
+        .image
+        .expect("a program without errors")
 }
 
 /// The program slot up to the end of this program.
@@ -176,7 +194,11 @@ fn one_step_for_a_new_board_and_then_for_another_program() {
 
     let first = awl_asm(&folder, &["follow.awl", "--flash", &port, "--with-firmware"]);
     let (code, errors) = run_beside(&mut uno, first);
-    assert_eq!((code, errors.starts_with(&format!("{port}: 2 instructions"))), (Some(0), true), "{errors}");
+    assert_eq!(
+        (code, errors.starts_with(&format!("{port}: 2 instructions"))),
+        (Some(0), true),
+        "{errors}"
+    );
     let firmware = firmware_flash(uno.avr());
     assert!(firmware == expected_firmware_flash() && slot_has(uno.avr(), FOLLOW));
     pass(&mut uno, START_MS);
@@ -199,13 +221,59 @@ fn one_step_for_a_new_board_and_then_for_another_program() {
     assert!(written.is_empty(), "files beside the programs: {written:?}");
 }
 
+#[test]
+fn a_board_without_the_firmware_is_left_as_it_is() {
+    let (folder, mut uno) = (folder(), board());
+    let port = uno.port().display().to_string();
+    let before = uno.avr().flash().to_vec();
+    for command in [
+        awl_asm(&folder, &["follow.awl", "--flash", &port]),
+        uno200(&folder, &["flash", "follow.awl", "--port", &port]),
+    ] {
+        let (code, errors) = run_beside(&mut uno, command);
+        assert_eq!(code, Some(2), "{errors}");
+        assert!(errors.contains("does not hold the uno200 firmware"), "{errors}");
+        assert!(errors.contains("--with-firmware"), "{errors}");
+        assert!(uno.avr().flash() == before, "something was written");
+    }
+}
+
+#[test]
+fn the_board_is_asked_whether_the_program_is_in_force() {
+    let (folder, mut uno) = (folder(), board());
+    let port = uno.port().display().to_string();
+    for (arguments, program) in [
+        (&["flash", "follow.awl", "--with-firmware", "--port"][..], FOLLOW),
+        (&["flash", "invert.awl", "--port"], INVERT),
+    ] {
+        let command = uno200(&folder, &[arguments, &[&port]].concat());
+        let (code, errors) = run_beside(&mut uno, command);
+        assert_eq!(code, Some(0), "{errors}");
+        assert!(errors.ends_with("the program runs\n"), "{errors}");
+        assert!(slot_has(uno.avr(), program), "{errors}");
+    }
+    let native = uno200(&folder, &["flash", "follow.awl", "--native", "--port", &port]);
+    let (code, errors) = run_beside(&mut uno, native);
+    assert_eq!((code, errors.ends_with("the program runs\n")), (Some(0), true), "{errors}");
+    assert!(!slot_has(uno.avr(), FOLLOW));
+
+    // Firmware that never was: what avrdude has written and verified does not answer.
+    fs::write(folder.path().join("none.hex"), ":02000000FFCF30\n:00000001FF\n").unwrap();
+    let arguments = ["flash", "follow.awl", "--with-firmware", "none.hex", "--port", &port];
+    let (code, errors) = run_beside(&mut uno, uno200(&folder, &arguments));
+    assert_eq!(code, Some(2), "{errors}");
+    assert!(errors.contains("nothing on the board answers"), "{errors}");
+}
+
 /// The commands for avrdude that the documentation names, each once.
 fn documented_commands() -> Vec<&'static str> {
     let pages = [include_str!("../../docs/flashing.md"), include_str!("../../README.md")];
     let lines = pages.iter().flat_map(|page| page.lines());
     let mut commands = Vec::new();
-    for line in lines.filter(|line| line.starts_with("avrdude -c arduino -p m328p -P /dev/ttyACM0 -b 115200")) {
-        // A remark behind the command.
+    for line in lines
+        .filter(|line| line.starts_with("avrdude -c arduino -p m328p -P /dev/ttyACM0 -b 115200"))
+    {
+        // A remark after the command.
         let command = line.split('#').next().unwrap_or(line).trim();
         if !commands.contains(&command) {
             commands.push(command);
@@ -247,7 +315,10 @@ fn a_program_with_errors_never_resets_the_board() {
     assert_eq!(behaviour(&mut uno), [true, false, true]);
     let before = uno.avr().flash().to_vec();
     fs::write(folder.path().join("bad.awl"), "LD I0.9\n= Q0.0\n").unwrap();
-    let bad = awl_asm(&folder, &["bad.awl", "--flash", &uno.port().display().to_string(), "--with-firmware"]);
+    let bad = awl_asm(
+        &folder,
+        &["bad.awl", "--flash", &uno.port().display().to_string(), "--with-firmware"],
+    );
     let mut was_always_on = true;
     let (code, errors) = run(bad, || {
         uno.step().unwrap();
@@ -292,10 +363,15 @@ fn boards_that_are_none_get_their_explanation() {
     for (flaw, words, help) in [
         (Flaw::NoBootloader, "no bootloader answers at", "press the reset button"),
         (Flaw::OtherChip, "has another chip than an Uno: ATmega168", "ATmega328P at 16 MHz"),
-        (Flaw::WrongBytes, "holds something else than was written, first at 0x6000", "another cable"),
+        (
+            Flaw::WrongBytes,
+            "holds something else than was written, first at 0x6000",
+            "another cable",
+        ),
     ] {
         let (code, errors) = flash_to(flaw);
-        let is_explained = errors.starts_with("error: ") && errors.contains(words) && errors.contains(help);
+        let is_explained =
+            errors.starts_with("error: ") && errors.contains(words) && errors.contains(help);
         assert_eq!((code, is_explained), (Some(2), true), "{flaw:?}: {errors}");
         assert!(errors.contains("avrdude's last lines:\n  "), "{flaw:?}: {errors}");
     }
@@ -304,8 +380,17 @@ fn boards_that_are_none_get_their_explanation() {
 #[test]
 fn a_port_that_is_none_gets_its_explanation() {
     let folder = folder();
-    let (code, errors) = run(awl_asm(&folder, &["follow.awl", "--flash", "/dev/no-such-port"]), wait);
-    assert_eq!((code, errors.starts_with("error: there is no port /dev/no-such-port")), (Some(2), true), "{errors}");
+    let (code, errors) =
+        run(awl_asm(&folder, &["follow.awl", "--flash", "/dev/no-such-port"]), wait);
+    assert_eq!(
+        (code, errors.starts_with("error: there is no port /dev/no-such-port")),
+        (Some(2), true),
+        "{errors}"
+    );
     let (code, errors) = run(awl_asm(&folder, &["follow.awl", "--flash", "follow.awl"]), wait);
-    assert_eq!((code, errors.starts_with("error: follow.awl is no serial port")), (Some(2), true), "{errors}");
+    assert_eq!(
+        (code, errors.starts_with("error: follow.awl is no serial port")),
+        (Some(2), true),
+        "{errors}"
+    );
 }

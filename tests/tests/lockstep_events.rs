@@ -1,8 +1,9 @@
-//! Random programs with interrupt routines, host and board side by side: what each scan executes for the events since the
-//! last one, in which order, and what the routines leave as it was. Many events at a time, more than queues hold.
+//! Random programs with interrupt routines, host and board side by side: what each scan executes
+//! for the events since the last one, in which order, and what the routines leave as it was. Many
+//! events at a time, more than queues hold.
 //!
-//! `RANDOM_PROGRAMS=10000 cargo test --release --package tests --features uno --test lockstep_events` runs longer,
-//! `RANDOM_SEED` starts elsewhere. A failure names its seed.
+//! `RANDOM_PROGRAMS=10000 cargo test --release --package tests --features uno --test
+//! lockstep_events` runs longer, `RANDOM_SEED` starts elsewhere. A failure names its seed.
 #![cfg(feature = "uno")]
 
 use awl_asm::Address;
@@ -44,7 +45,8 @@ fn assert_interrupts_are_the_same(code: Code) {
         let mut now_ms = 0;
         for scan in 1..=rng.u32(10..60) {
             for (byte, levels) in (0..).zip(random_levels(&mut rng)) {
-                pair.write(Operand::At(Address::Byte { area: Area::I, byte }), levels.into()).unwrap();
+                pair.write(Operand::At(Address::Byte { area: Area::I, byte }), levels.into())
+                    .unwrap();
             }
             pair.scan(now_ms);
             assert_eq!(pair.difference(), None, "seed {seed}, scan {scan}\n{text}");
@@ -54,7 +56,9 @@ fn assert_interrupts_are_the_same(code: Code) {
         }
         executed += pair.read(Operand::At(Address::Word { area: Area::M, byte: 8 })).unwrap();
     }
-    println!("{count} programs, {executed} routines, scans with queues that were too short: {lost:?}");
+    println!(
+        "{count} programs, {executed} routines, scans with queues that were too short: {lost:?}"
+    );
     assert!(executed as u64 > 10 * count && lost[1] > 0 && lost[2] > 0, "too little happened");
 }
 
@@ -68,7 +72,8 @@ fn random_step_ms(rng: &mut Rng) -> u64 {
     }
 }
 
-/// Each time T32 comes twice between two looks of the board, which sees nothing; the host sees an event that causes itself.
+/// Each time T32 comes twice between two looks of the board, which sees nothing; the host sees an
+/// event that causes itself.
 #[test]
 fn endless_routines_end_on_the_host() {
     let main = "LD SM0.1\nATCH I0, 21\nENI\nLD I0.0\nTON T32, 0";

@@ -1,5 +1,5 @@
-//! The board with translated programs against the host, scan by scan: all cases, the examples with their plants, random
-//! programs, bad images. `lockstep.rs` says how to run more of it.
+//! The board with translated programs against the host, scan by scan: all cases, the examples with
+//! their plants, random programs, bad images. `lockstep.rs` says how to run more of it.
 #![cfg(feature = "uno")]
 
 use awl_asm::native::translate;
@@ -10,7 +10,9 @@ use plc_vm::Fault;
 use tests::case::Case;
 use tests::effort::effort;
 use tests::image::{OnBoard, damaged, image, signed};
-use tests::lockstep::{Programs, assert_cases_are_the_same, assert_random_programs_are_the_same, board, random_image};
+use tests::lockstep::{
+    Programs, assert_cases_are_the_same, assert_random_programs_are_the_same, board, random_image,
+};
 
 #[test]
 fn all_cases_are_the_same_translated() {
@@ -33,8 +35,9 @@ fn random_modules_and_units_are_the_same_translated() {
     assert_random_programs_are_the_same(Code::Native, Programs::Short);
 }
 
-/// Translated images with a few bytes changed and the checksum right again, in what the loader can check: header, tables,
-/// entry. The board says what the loader's check says on the host to a memory that takes machine code.
+/// Translated images with a few bytes changed and the checksum right again, in what the loader can
+/// check: header, tables, entry. The board says what the loader's check says on the host to a
+/// memory that takes machine code.
 #[test]
 fn damaged_machine_code_is_refused_with_the_same_words() {
     // To this board images are given as they are.
@@ -51,7 +54,11 @@ fn damaged_machine_code_is_refused_with_the_same_words() {
         refused += 1;
         uno.load(image).unwrap();
         uno.scan(0);
-        assert_eq!((uno.fault_kind(), uno.broken()), (Some(Fault::BadImage(error)), None), "seed {seed}");
+        assert_eq!(
+            (uno.fault_kind(), uno.broken()),
+            (Some(Fault::BadImage(error)), None),
+            "seed {seed}"
+        );
     }
     println!("{refused} of {tried} images refused");
     assert!(refused > tried / 2, "only {refused} of {tried} images were bad");
@@ -72,7 +79,11 @@ fn machine_code_for_another_interface_and_without_an_entry_is_refused() {
     let fault_at = |at| Some(Fault::BadImage(ImageError { fault: ImageFault::Interface, at }));
     assert_eq!(fault_with(5, NATIVE_INTERFACE), None, "as it is");
     assert_eq!(fault_with(5, NATIVE_INTERFACE + 1), fault_at(5));
-    assert_eq!(fault_with(code_at, translated[usize::from(code_at)] + 1), fault_at(code_at), "an odd entry");
+    assert_eq!(
+        fault_with(code_at, translated[usize::from(code_at)] + 1),
+        fault_at(code_at),
+        "an odd entry"
+    );
     assert_eq!(fault_with(code_at, 0), fault_at(code_at), "an entry in the header");
-    assert_eq!(fault_with(code_at + 1, 0x1E), fault_at(code_at), "an entry behind the slot");
+    assert_eq!(fault_with(code_at + 1, 0x1E), fault_at(code_at), "an entry after the slot");
 }

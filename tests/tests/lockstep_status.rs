@@ -1,5 +1,6 @@
-//! Status windows (service function 69) on the board: what its engine writes down of the instructions of one scan is what
-//! plc-vm saw. How a window is asked for, the answer made of it, and what that costs is for others.
+//! Status windows (service function 69) on the board: what its engine writes down of the
+//! instructions of one scan is what plc-vm saw. How a window is asked for, the answer made of it,
+//! and what that costs is for others.
 #![cfg(feature = "uno")]
 
 use std::collections::BTreeMap;
@@ -11,7 +12,8 @@ use awl_sim::machine::uno::{Code, Uno};
 use awl_sim::operand::Operand;
 use fastrand::Rng;
 use plc_isa::{
-    AQW_START, ARENA_START, AnalogInput, Area, DATA_START, LogicStack, Op, Program, SLOT_START, WINDOW_LEN, verify,
+    AQW_START, ARENA_START, AnalogInput, Area, DATA_START, LogicStack, Op, Program, SLOT_START,
+    WINDOW_LEN, verify,
 };
 use plc_vm::{Environment, Memory, Mode, Plc};
 use tests::bench_board::firmware;
@@ -21,11 +23,13 @@ use tests::lockstep::{Programs, board, random_image};
 use tests::naive::Inputs;
 use tests::random::{random_inputs, random_interrupts, random_step_ms};
 
-/// An entry: the address in flash two bytes behind the instruction's first, place, logic stack, four bytes from the place on.
+/// An entry: the address in flash two bytes after the instruction's first, place, logic stack,
+/// four bytes from the place on.
 const ENTRY_LEN: u16 = 10;
 const ENTRIES_MAX: usize = 24;
 const ADDRESS: u16 = SLOT_START + 2;
-/// Bytes of the frame before the first entry, with the address of the last one in them, and behind the last.
+/// Bytes of the frame before the first entry, with the address of the last one in them, and after
+/// the last.
 const FIRST: u16 = 3;
 const LAST: u16 = 1;
 const END: [u8; 2] = [0xFF; 2];
@@ -64,7 +68,8 @@ impl Environment for Seen {
     fn retrigger_watchdog(&mut self) {}
     fn executed(&mut self, at: u16, stack: LogicStack, memory: &mut Memory) {
         if let Some((place, bits, value)) = self.window.get_mut(&at) {
-            *bits = (0..9).fold(EXECUTED, |bits, level| bits | u16::from(stack.level(level)) << level);
+            *bits =
+                (0..9).fold(EXECUTED, |bits, level| bits | u16::from(stack.level(level)) << level);
             *value = [0, 1, 2, 3].map(|offset| memory.byte(*place + offset));
         }
     }
@@ -132,15 +137,18 @@ impl Stepped {
 }
 
 fn set_inputs(machine: &mut impl Machine, inputs: &Inputs) {
-    let bytes = (0..).zip(&inputs.digital).map(|(byte, &value)| (Address::Byte { area: Area::I, byte }, value.into()));
+    let bytes = (0..)
+        .zip(&inputs.digital)
+        .map(|(byte, &value)| (Address::Byte { area: Area::I, byte }, value.into()));
     let analog = (0..).zip(&inputs.ain);
-    let analog = analog.map(|(channel, &counts)| (Address::Analog(AnalogInput::Raw(channel)), counts.into()));
+    let analog = analog
+        .map(|(channel, &counts)| (Address::Analog(AnalogInput::Raw(channel)), counts.into()));
     for (address, value) in bytes.chain(analog) {
         assert_eq!(machine.write(Operand::At(address), value), Ok(()), "inputs can be set");
     }
 }
 
-/// Some instructions that stand near each other, and bytes that a program can see.
+/// Some instructions that are near each other, and bytes that a program can see.
 fn random_window(rng: &mut Rng, offsets: &[u16], entries_max: usize, plan_end: u16) -> Window {
     let first = rng.usize(..offsets.len());
     let near = offsets[first..].iter().take(rng.usize(1..=entries_max));
@@ -149,8 +157,11 @@ fn random_window(rng: &mut Rng, offsets: &[u16], entries_max: usize, plan_end: u
     let mut window = Window::new();
     for &at in near {
         let in_arena = ARENA_START..plan_end.saturating_sub(4).max(ARENA_START + 1);
-        let place =
-            if rng.bool() && plan_end >= ARENA_START + 4 { rng.u16(in_arena) } else { rng.u16(DATA_START..AQW_START) };
+        let place = if rng.bool() && plan_end >= ARENA_START + 4 {
+            rng.u16(in_arena)
+        } else {
+            rng.u16(DATA_START..AQW_START)
+        };
         if window.is_empty() || rng.u8(..is_left_out) != 0 {
             window.insert(at, (place, 0, [0; 4]));
         }
@@ -158,12 +169,16 @@ fn random_window(rng: &mut Rng, offsets: &[u16], entries_max: usize, plan_end: u
     window
 }
 
-/// Every instruction, hidden ones too, but for those that lead back from an interrupt routine: on the board the top of the
-/// stack becomes that of the interrupted program a moment later.
+/// Every instruction, hidden ones too, but for those that lead back from an interrupt routine: on
+/// the board the top of the stack becomes that of the interrupted program a moment later.
 fn offsets(program: &Program<Vec<u8>>) -> Vec<u16> {
     let has_events = program.plan().header.events > 0;
     let leads_back = |op: Op| has_events && matches!(op, Op::Creti | Op::Ret);
-    instructions(program).iter().filter(|line| !leads_back(line.decoded.op)).map(|line| line.at).collect()
+    instructions(program)
+        .iter()
+        .filter(|line| !leads_back(line.decoded.op))
+        .map(|line| line.at)
+        .collect()
 }
 
 /// A random program: of the core, of everything that is executed in its place, or with interrupts.
@@ -179,7 +194,8 @@ fn random_text(seed: u64) -> (Vec<u8>, String, Rng) {
     }
 }
 
-/// Scans of a random program, each with another window. Returns how many instructions were executed in windows, and not.
+/// Scans of a random program, each with another window. Returns how many instructions were executed
+/// in windows, and not.
 fn compare(stepped: &mut Stepped, seed: u64) -> (usize, usize) {
     let (image, text, mut rng) = random_text(seed);
     let program = verify(image.clone()).expect("the assembler makes valid images");
@@ -203,7 +219,8 @@ fn compare(stepped: &mut Stepped, seed: u64) -> (usize, usize) {
         }
         let mut seen = Seen { now_ms, looped_bytes: 0, window: window.clone() };
         plc.see_inputs(&mut memory, inputs.digital[0]);
-        let vm_inputs = plc_vm::Inputs { digital: inputs.digital, scaled: inputs.aiw, raw: inputs.ain };
+        let vm_inputs =
+            plc_vm::Inputs { digital: inputs.digital, scaled: inputs.aiw, raw: inputs.ain };
         plc.scan(&mut memory, &vm_inputs, &mut seen);
         stepped.uno.scan(now_ms.into());
         assert_eq!(stepped.uno.broken(), None, "seed {seed}, scan {scan}\n{text}");
@@ -230,6 +247,11 @@ fn the_engine_writes_down_what_plc_vm_saw() {
         let (more_executed, more_passed) = compare(&mut stepped, seed);
         (executed, passed) = (executed + more_executed, passed + more_passed);
     }
-    println!("{count} programs, {executed} instructions executed in windows, {passed} not, all equal");
-    assert!(executed as u64 > 10 * count && passed as u64 > count, "the windows saw hardly anything");
+    println!(
+        "{count} programs, {executed} instructions executed in windows, {passed} not, all equal"
+    );
+    assert!(
+        executed as u64 > 10 * count && passed as u64 > count,
+        "the windows saw hardly anything"
+    );
 }

@@ -1,5 +1,5 @@
-//! Traces of the board and of the host are the same: random ones, over the same single scans, byte by byte as they lie in
-//! memory. What they mean, the tests of plc-link say.
+//! Traces of the board and of the host are the same: random ones, over the same single scans, byte
+//! by byte as they lie in memory. What they mean, the tests of plc-link say.
 #![cfg(feature = "uno")]
 
 use awl_sim::machine::Machine;
@@ -13,9 +13,10 @@ use tests::effort::effort;
 use tests::image::image;
 use tests::link::{Command, UNIT, exchange, exchange_on_host, identify, stop};
 
-/// Values that are others in every scan, of every size: MW0 and VW0 count, QB0 is the low byte, C5 counts every other scan,
-/// AC0 takes larger steps.
-const TEXT: &str = "//# name traced\n//# memory VB0-VB9\nLD SM0.0\nINCW MW0\nMOVW MW0, VW0\nMOVB MB1, QB0\n\
+/// Values that are others in every scan, of every size: MW0 and VW0 count, QB0 is the low byte, C5
+/// counts every other scan, AC0 takes larger steps.
+const TEXT: &str = "//# name traced\n//# memory VB0-VB9\nLD SM0.0\nINCW MW0\nMOVW MW0, VW0\n\
+    MOVB MB1, QB0\n\
                     LD M1.0\nLDN SM0.0\nCTU C5, 30000\nLD SM0.0\n+D 12345678, AC0\n";
 
 /// References of what changes, of each size.
@@ -74,10 +75,15 @@ struct Pair {
 impl Pair {
     fn new() -> Pair {
         let image = image(TEXT);
-        let mut pair =
-            Pair { board: BenchBoard::running(TEXT), host: host(&image), now_ms: 0, trace_start: 0, ahead: 0 };
+        let mut pair = Pair {
+            board: BenchBoard::running(TEXT),
+            host: host(&image),
+            now_ms: 0,
+            trace_start: 0,
+            ahead: 0,
+        };
         let verified = plc_isa::verify(image).expect("it is a program");
-        // Behind the longest frame and its checksum.
+        // After the longest frame and its checksum.
         pair.trace_start = verified.plan().end() + verified.plan().retained_len() + 254;
         stop(&mut pair.board);
         pair.scan_host();
@@ -86,6 +92,10 @@ impl Pair {
         let zero = [72, 3, 0x29, 0, 0, 0, 0, 0x69, 0, 5, 0, 0, 0x9A, 0, 24, 0, 0, 0, 0];
         assert_eq!(pair.ask(&zero), [72, 3]);
         pair.ahead = identify(&mut pair.board).scans as u16 - 1;
+        // What the counter saw last is the same after a one and a zero; what it has counted by then
+        // is not.
+        pair.scans(2);
+        assert_eq!(pair.ask(&zero), [72, 3]);
         pair
     }
 
@@ -101,7 +111,11 @@ impl Pair {
     /// The answer of both.
     fn ask(&mut self, request: &[u8]) -> Vec<u8> {
         let expected = self.ask_host(request);
-        assert_eq!(exchange(&mut self.board, UNIT, request), Some(expected.clone()), "{request:02X?}");
+        assert_eq!(
+            exchange(&mut self.board, UNIT, request),
+            Some(expected.clone()),
+            "{request:02X?}"
+        );
         expected
     }
 

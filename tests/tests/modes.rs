@@ -1,4 +1,5 @@
-//! Changes between STOP and RUN, which no scenario can make: what is kept, what starts anew, when outputs are on.
+//! Changes between STOP and RUN, which no scenario can make: what is kept, what starts anew, when
+//! outputs are on.
 
 use plc_isa::{M_START, SM_START};
 use plc_vm::{Inputs, Memory, Mode, Plc};
@@ -14,7 +15,12 @@ struct Bench {
 
 impl Bench {
     fn stopped(text: &str) -> Bench {
-        let mut bench = Bench { plc: Plc::new(), memory: Memory::new(), inputs: Inputs::default(), now_ms: 1_000 };
+        let mut bench = Bench {
+            plc: Plc::new(),
+            memory: Memory::new(),
+            inputs: Inputs::default(),
+            now_ms: 1_000,
+        };
         bench.plc.load(&mut bench.memory, image(text)).unwrap();
         bench
     }
@@ -106,7 +112,11 @@ fn clocks_start_anew_with_run() {
     bench.scan(100, 0);
     bench.plc.run();
     bench.scan(100, 0);
-    assert_eq!((half_second(&bench), scan_clock(&bench)), (0, 1), "off half first, scan clock on first");
+    assert_eq!(
+        (half_second(&bench), scan_clock(&bench)),
+        (0, 1),
+        "off half first, scan clock on first"
+    );
     bench.scan(499, 0);
     assert_eq!(half_second(&bench), 0);
     bench.scan(1, 0);
@@ -115,7 +125,8 @@ fn clocks_start_anew_with_run() {
 
 #[test]
 fn memory_is_kept_and_edges_are_forgotten() {
-    let text = "NETWORK 1\nLD I0.0\nEU\nINCW MW0\nNETWORK 2\nLD I0.0\nLD I0.7\nCTU C1, 10\nNETWORK 3\nLD SM0.0\nMOVW C1, MW2\n";
+    let text = "NETWORK 1\nLD I0.0\nEU\nINCW MW0\nNETWORK 2\nLD I0.0\nLD I0.7\nCTU C1, 10\n\
+        NETWORK 3\nLD SM0.0\nMOVW C1, MW2\n";
     let mut bench = Bench::running(text);
     for ib0 in [0, 1, 0, 1, 0] {
         bench.scan(1, ib0);
@@ -135,13 +146,15 @@ fn memory_is_kept_and_edges_are_forgotten() {
 
 #[test]
 fn timers_are_at_rest_after_stop_and_only_tonr_remembers() {
-    let text = "NETWORK 1\nLD I0.0\nTON T37, 2\nTONR T5, 2\nTOF T38, 2\nNETWORK 2\nLD SM0.0\nMOVW T37, MW0\nMOVW T5, MW2\n\
+    let text = "NETWORK 1\nLD I0.0\nTON T37, 2\nTONR T5, 2\nTOF T38, 2\nNETWORK 2\nLD SM0.0\n\
+        MOVW T37, MW0\nMOVW T5, MW2\n\
                 NETWORK 3\nLD T37\n= M8.0\nLD T5\n= M8.1\nLD T38\n= M8.2\n";
     let mut bench = Bench::running(text);
     bench.scan(0, 1);
     bench.scan(300, 1);
-    let seen =
-        |bench: &Bench| (bench.memory.int(M_START), bench.memory.int(M_START + 2), bench.memory.byte(M_START + 8));
+    let seen = |bench: &Bench| {
+        (bench.memory.int(M_START), bench.memory.int(M_START + 2), bench.memory.byte(M_START + 8))
+    };
     assert_eq!(seen(&bench), (3, 3, 0b111));
     bench.plc.stop();
     bench.scan(5_000, 0);
@@ -157,9 +170,13 @@ fn scan_times() {
     let mut bench = Bench::running("LD SM0.0\n= M0.0\n");
     bench.scan(77, 0);
     assert_eq!(bench.scan_times(), [0, 0, 0], "there is none before the second scan");
-    for (after_ms, expected) in
-        [(5, [5, 5, 5]), (3, [3, 3, 5]), (9, [9, 3, 9]), (4, [4, 3, 9]), (40_000, [32767, 3, 32767])]
-    {
+    for (after_ms, expected) in [
+        (5, [5, 5, 5]),
+        (3, [3, 3, 5]),
+        (9, [9, 3, 9]),
+        (4, [4, 3, 9]),
+        (40_000, [32767, 3, 32767]),
+    ] {
         bench.scan(after_ms, 0);
         assert_eq!(bench.scan_times(), expected);
     }

@@ -1,18 +1,21 @@
-//! Translated programs on the bare chip: machine code of the translator in simavr, the firmware's routines played by
-//! the interpreter, and after every scan the memory that the interpreter alone comes to.
+//! Translated programs on the bare chip: machine code of the translator in simavr, the firmware's
+//! routines played by the interpreter, and after every scan the memory that the interpreter alone
+//! comes to.
 //!
-//! `RANDOM_PROGRAMS=100000 cargo test --release -p tests --features uno --test native` runs longer, `RANDOM_SEED` starts
-//! elsewhere.
+//! `RANDOM_PROGRAMS=100000 cargo test --release -p tests --features uno --test native` runs longer,
+//! `RANDOM_SEED` starts elsewhere.
 #![cfg(feature = "uno")]
+
+use std::ops::Range;
 
 use awl_asm::assemble::assemble;
 use awl_asm::native::{Cycles, Options, TranslateError, Translated, Vector, translate_with};
 use awl_asm::source::Source;
 use fastrand::Rng;
 use plc_isa::{
-    ARENA_START, AnalogInput, Bit, ByteSource, DATA_END, DATA_START, Execute, Group, I_START, NATIVE_VECTORS, Op,
-    Program, ProgramMemory, SLOT_START, SM_START, TimerResolution, WordSource, counter_bit, decode, execute, timer_bit,
-    timer_resolution, verify,
+    ARENA_START, AnalogInput, Bit, DATA_END, DATA_START, Execute, Group, I_START, NATIVE_VECTORS,
+    Op, Program, ProgramMemory, SLOT_START, SM_START, TimerResolution, WordSource, counter_bit,
+    decode, execute, timer_bit, timer_resolution, verify,
 };
 use plc_vm::{Environment, Exit, Fault, Inputs, Interpreter, Memory, Mode, Plc};
 use simavr::{Avr, Elf, Reset, Stopped};
@@ -43,11 +46,13 @@ impl Environment for Time {
     fn retrigger_watchdog(&mut self) {}
 }
 
+/// Data memory of the controller in that of the chip.
+const DATA: Range<usize> = DATA_START as usize..DATA_END as usize;
 const ALWAYS_ON: Bit = Bit { address: SM_START, bit: 0 };
 
 /// Calls the code at Z as the firmware does, marks the end, and stands still.
 const DRIVER: [u16; 7] = [0x94E8, 0xE0C0, 0xE0D1, 0x2411, 0x9509, 0xBA1E, 0xCFFF];
-/// The call, and the mark behind it.
+/// The call, and the mark after it.
 const CALL_CYCLES: u32 = 3 + 1;
 /// A routine: T in bit 0 of r0, marked; then T is 0 for those that lose it.
 const ROUTINE_AT: u32 = 0x100;
@@ -66,7 +71,8 @@ struct Board {
 impl Board {
     fn new() -> Board {
         let mut avr = Avr::new();
-        let bytes = |words: &[u16]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<_>>();
+        let bytes =
+            |words: &[u16]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<_>>();
         avr.write_flash(0, &bytes(&DRIVER)).unwrap();
         for number in 0..10u32 {
             let at = u32::from(NATIVE_VECTORS) + 2 * number;
@@ -94,7 +100,8 @@ impl Board {
         }
     }
 
-    /// Executes the program. Returns why it was left, where, and the cycles from the call to behind the return.
+    /// Executes the program. Returns why it was left, where, and the cycles from the call to after
+    /// the return.
     fn run<P: ProgramMemory, E: Environment>(
         &mut self,
         entry: u16,
@@ -105,8 +112,8 @@ impl Board {
         self.lose(0..32);
         let [low, high] = ((SLOT_START + entry) / 2).to_le_bytes();
         (self.avr.data_mut()[30], self.avr.data_mut()[31]) = (low, high);
-        read(engine, &mut self.avr.data_mut()[usize::from(DATA_START)..usize::from(DATA_END)]);
-        // Behind the first four instructions of the driver comes the call.
+        self.take_memory(engine);
+        // After the first four instructions of the driver comes the call.
         (0..4).for_each(|_| _ = self.avr.step());
         let start = self.avr.cycles();
         loop {
@@ -116,21 +123,38 @@ impl Board {
             }
             let pc = self.avr.pc();
             if pc < u32::from(NATIVE_VECTORS) {
-                assert_eq!((self.avr.data()[1], self.word(28, 29)), (0, DATA_START), "r1 and Y are kept");
+                assert_eq!(
+                    (self.avr.data()[1], self.word(28, 29)),
+                    (0, DATA_START),
+                    "r1 and Y are kept"
+                );
                 assert_eq!(self.word(0x5D, 0x5E), 0x08FF, "the hardware stack is balanced");
-                write(engine, &self.avr.data()[usize::from(DATA_START)..usize::from(DATA_END)]);
+                self.give_memory(engine);
                 return Ok((Exit::End, 0, (self.avr.cycles() - start) as u32 - CALL_CYCLES));
             }
             self.calls += 1;
             let vector = ((pc - ROUTINE_AT) / ROUTINE_LEN) as usize;
-            write(engine, &self.avr.data()[usize::from(DATA_START)..usize::from(DATA_END)]);
+            self.give_memory(engine);
             match vector {
                 1 => return Ok((Exit::Stop, 0, 0)),
                 3 => return Ok((Exit::Watchdog, self.word(24, 25), 0)),
                 _ => self.routine(vector, engine, program),
             }
-            read(engine, &mut self.avr.data_mut()[usize::from(DATA_START)..usize::from(DATA_END)]);
+            self.take_memory(engine);
         }
+    }
+
+    /// The chip's data memory becomes the interpreter's.
+    fn take_memory<P: ProgramMemory, E: Environment>(
+        &mut self,
+        engine: &mut Interpreter<'_, P, E>,
+    ) {
+        self.avr.data_mut()[DATA].copy_from_slice(&engine.memory().bytes()[..DATA.len()]);
+    }
+
+    /// The other way.
+    fn give_memory<P: ProgramMemory, E: Environment>(&self, engine: &mut Interpreter<'_, P, E>) {
+        engine.memory().bytes_mut()[..DATA.len()].copy_from_slice(&self.avr.data()[DATA]);
     }
 
     /// What the firmware's routine does, done by the interpreter.
@@ -141,7 +165,8 @@ impl Board {
         program: &Program<&[u8]>,
     ) {
         let data = self.avr.data();
-        let (top, x, z, detail) = (data[0] & 1 != 0, self.word(26, 27), self.word(30, 31), data[19]);
+        let (top, x, z, detail) =
+            (data[0] & 1 != 0, self.word(26, 27), self.word(30, 31), data[19]);
         let (preset, mask) = (WordSource::Constant(self.word(24, 25)), data[18]);
         let plan = program.plan();
         for level in [detail & 4 != 0, detail & 2 != 0, top] {
@@ -154,7 +179,9 @@ impl Board {
             }
             LOOP => None,
             4..=6 => {
-                let slot = plan.timers().position(|slot| slot.address == x).expect("X is a timer's slot") as u8;
+                let slot =
+                    plan.timers().position(|slot| slot.address == x).expect("X is a timer's slot")
+                        as u8;
                 let _ = match vector {
                     4 => engine.on_delay(slot, preset),
                     5 => engine.off_delay(slot, preset),
@@ -165,7 +192,10 @@ impl Board {
                 Some(timer_bit(number))
             }
             _ => {
-                let slot = plan.counters().position(|slot| slot.address == x).expect("X is a counter's slot") as u8;
+                let slot = plan
+                    .counters()
+                    .position(|slot| slot.address == x)
+                    .expect("X is a counter's slot") as u8;
                 let _ = match vector {
                     7 => engine.count_up(slot, preset),
                     8 => engine.count_down(slot, preset),
@@ -181,24 +211,6 @@ impl Board {
         if vector == LOOP {
             self.looped += 1;
             self.avr.data_mut()[24] = u8::from(self.looped > LOOPED_MAX);
-        }
-    }
-}
-
-/// The engine's memory, byte by byte.
-fn read<E: Execute>(engine: &E, bytes: &mut [u8]) {
-    for (address, byte) in (DATA_START..).zip(bytes) {
-        *byte = engine.byte_at(address);
-    }
-}
-
-/// Writes the engine's memory.
-fn write<E: Execute>(engine: &mut E, bytes: &[u8]) {
-    let _ = engine.load(ALWAYS_ON);
-    // Always on: but only once memory says so, which it does for a scan.
-    for (address, &byte) in (DATA_START..).zip(bytes) {
-        if engine.byte_at(address) != byte {
-            let _ = engine.move_byte(ByteSource::Constant(byte), address);
         }
     }
 }
@@ -231,7 +243,15 @@ impl<'a> Pair<'a> {
             plc.run();
             (plc, memory)
         };
-        Pair { board, image, entry: program.entry().unwrap(), host: plc(), native: plc(), cycles: 0, calls: 0 }
+        Pair {
+            board,
+            image,
+            entry: program.entry().unwrap(),
+            host: plc(),
+            native: plc(),
+            cycles: 0,
+            calls: 0,
+        }
     }
 
     fn is_running(&self) -> bool {
@@ -250,7 +270,10 @@ impl<'a> Pair<'a> {
         }
         let program = verify(self.image).unwrap();
         let mut time = Time { now_ms, looped: 0 };
-        let mut engine = plc.begin(memory, &mut time)?;
+        if now_ms != plc.time() {
+            plc.set_time(now_ms);
+        }
+        let mut engine = Interpreter::new(plc.begin(memory, &mut time)?);
         (self.board.looped, self.board.calls) = (0, 0);
         let (exit, at, cycles) = match self.board.run(self.entry, &mut engine, &program) {
             Ok(ran) => ran,
@@ -269,7 +292,9 @@ impl<'a> Pair<'a> {
         }
         let bytes = (DATA_START..).zip(host.1.bytes().iter().zip(native.1.bytes()));
         let different = bytes.into_iter().find(|(_, (host, native))| host != native);
-        different.map(|(address, (host, native))| format!("{address:#06x} is {native:#04x}, should be {host:#04x}"))
+        different.map(|(address, (host, native))| {
+            format!("{address:#06x} is {native:#04x}, should be {host:#04x}")
+        })
     }
 }
 
@@ -325,7 +350,10 @@ fn is_straight(op: Op) -> bool {
 
 /// The instructions of a bytecode image, without the end.
 fn ops(image: &[u8], translated: &Translated) -> Vec<Op> {
-    let ops = translated.instructions.iter().map(|instruction| decode(&image, instruction.at).unwrap().op);
+    let ops = translated
+        .instructions
+        .iter()
+        .map(|instruction| decode(&image, instruction.at).unwrap().op);
     ops.filter(|&op| op != Op::MainEnd).collect()
 }
 
@@ -355,7 +383,11 @@ fn predicted_cycles_are_never_left() {
             inputs = random_inputs(&mut rng, &inputs);
             assert_eq!(pair.scan(&inputs_of(&inputs), scan), None, "seed {seed}");
             if pair.calls == 0 {
-                assert!((cycles.min..=cycles.max).contains(&pair.cycles), "seed {seed}: {} {cycles:?}", pair.cycles);
+                assert!(
+                    (cycles.min..=cycles.max).contains(&pair.cycles),
+                    "seed {seed}: {} {cycles:?}",
+                    pair.cycles
+                );
                 scans += 1;
             }
         }
@@ -364,17 +396,20 @@ fn predicted_cycles_are_never_left() {
     assert!(programs >= 10 && scans > 10 * programs);
 }
 
-/// Steady cycles of a scan of one of the benchmark programs, measured and predicted; and its instructions.
+/// Steady cycles of a scan of one of the benchmark programs, measured and predicted; and its
+/// instructions.
 fn speed(board: &mut Board, name: &str, text: &str, pins: bool) -> (u32, usize) {
     let image = image_of(name, text);
-    let translated = translate_with(&image, Options { pins }).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let translated =
+        translate_with(&image, Options { pins }).unwrap_or_else(|error| panic!("{name}: {error}"));
     let mut pair = Pair::new(board, &image, &translated);
     for scan in 0..4 {
         assert_eq!(pair.scan(&Inputs::default(), scan), None, "{name}");
     }
     let instructions = translated.instructions.len() - 1;
     println!(
-        "{name}, pins {pins}: {} cycles, {:?} predicted, {:.2} an instruction; {} bytes, {:.2} an instruction",
+        "{name}, pins {pins}: {} cycles, {:?} predicted, {:.2} an instruction; {} bytes, {:.2} an \
+            instruction",
         pair.cycles,
         predicted(&translated),
         f64::from(pair.cycles) / instructions as f64,
@@ -390,19 +425,25 @@ fn the_benchmark_programs_are_as_fast_as_they_must_be() {
     let boolean = programs::boolean();
     for (pins, tenths_max) in [(false, 36), (true, 20)] {
         let (cycles, instructions) = speed(&mut board, "boolean", &boolean, pins);
-        assert!(10 * cycles as usize <= tenths_max * instructions, "cycles of a bit instruction, pins {pins}");
+        assert!(
+            10 * cycles as usize <= tenths_max * instructions,
+            "cycles of a bit instruction, pins {pins}"
+        );
         speed(&mut board, "mix", &programs::mix(), pins);
         let (cycles, _) = speed(&mut board, "80/20", &programs::eighty_twenty(), pins);
         assert!(cycles <= 4_800, "0.30 ms");
     }
 }
 
-/// A program so long that its jumps do not reach with two bytes: over all of it, out of it, and back.
+/// A program so long that its jumps do not reach with two bytes: over all of it, out of it, and
+/// back.
 #[test]
 fn far_jumps_arrive() {
-    let lines: String = (0..760).map(|line| format!("LD I0.{}\nAN M1.0\n= V0.0\n", line % 6)).collect();
+    let lines: String =
+        (0..760).map(|line| format!("LD I0.{}\nAN M1.0\n= V0.0\n", line % 6)).collect();
     let text = format!(
-        "LD I1.0\nJMP 1\nLD I1.1\nEND\nLD I1.2\nSTOP\nLBL 2\nLD I0.7\nFOR MW4, 1, VW10\n{lines}NEXT\nLD SM0.0\n\
+        "LD I1.0\nJMP 1\nLD I1.1\nEND\nLD I1.2\nSTOP\nLBL 2\nLD I0.7\nFOR MW4, 1, VW10\n\
+            {lines}NEXT\nLD SM0.0\n\
          INCW MW6\nLDW< MW6, 3\nJMP 2\nLBL 1\nLD I0.0\nINCW MW8\n"
     );
     let image = image_of("far jumps", &text);
@@ -410,7 +451,8 @@ fn far_jumps_arrive() {
     assert!(translated.image.len() > 6_000, "{} bytes", translated.image.len());
     let mut board = Board::new();
     let mut pair = Pair::new(&mut board, &image, &translated);
-    for (scan, (first, second)) in [(0x81, 0), (0x80, 1), (0x05, 2), (0, 0), (1, 3), (0x81, 4)].into_iter().enumerate()
+    for (scan, (first, second)) in
+        [(0x81, 0), (0x80, 1), (0x05, 2), (0, 0), (1, 3), (0x81, 4)].into_iter().enumerate()
     {
         let mut inputs = Inputs::default();
         (inputs.digital[0], inputs.digital[1]) = (first, second);
@@ -419,12 +461,14 @@ fn far_jumps_arrive() {
     assert!(!pair.is_running(), "STOP at last");
 }
 
-/// A loop without end: the watchdog leaves it at the jump that goes back, and what was written stands in memory.
+/// A loop without end: the watchdog leaves it at the jump that goes back, and what was written
+/// is in memory.
 #[test]
 fn the_watchdog_leaves_at_the_jump_of_the_bytecode() {
     let programs = [
         "LD I0.0\n= M0.0\nLBL 1\nLD SM0.0\nS M0.1, 1\nINCW MW2\nJMP 1\n",
-        "LBL 1\nLD SM0.0\nLPS\nFOR MW4, 1, MW4\nINCW MW2\nLDN M0.0\n= M0.0\nNEXT\nLD SM0.0\nJMP 1\n",
+        "LBL 1\nLD SM0.0\nLPS\nFOR MW4, 1, MW4\nINCW MW2\nLDN M0.0\n= M0.0\nNEXT\nLD SM0.0\n\
+            JMP 1\n",
     ];
     let mut board = Board::new();
     for (text, pins) in programs.into_iter().flat_map(|text| [(text, false), (text, true)]) {
@@ -439,11 +483,16 @@ fn the_watchdog_leaves_at_the_jump_of_the_bytecode() {
 /// Where a routine is called from: in the slot.
 const CALLER: u32 = 0x7D00;
 
-/// Cycles of a routine of the firmware, from the vector to behind the return, with these registers and all else random.
+/// Cycles of a routine of the firmware, from the vector to after the return, with these registers
+/// and all else random.
 fn routine_cycles(avr: &mut Avr, rng: &mut Rng, vector: Vector, top: bool) -> u32 {
     let set_top = if top { 0x9468 } else { 0x94E8 };
     let caller = [set_top, 0x940E, vector.address() / 2, 0xBA1E, 0xCFFF];
-    avr.write_flash(CALLER, &caller.iter().flat_map(|word: &u16| word.to_le_bytes()).collect::<Vec<_>>()).unwrap();
+    avr.write_flash(
+        CALLER,
+        &caller.iter().flat_map(|word: &u16| word.to_le_bytes()).collect::<Vec<_>>(),
+    )
+    .unwrap();
     avr.reset(Reset::PowerOn);
     avr.data_mut()[usize::from(DATA_START)..0x08E0].iter_mut().for_each(|byte| *byte = rng.u8(..));
     // A slot, and what decides in it, as often as not: small values, and each state.
@@ -469,7 +518,9 @@ fn routine_cycles(avr: &mut Avr, rng: &mut Rng, vector: Vector, top: bool) -> u3
 
 #[test]
 fn the_routines_of_the_firmware_take_what_the_translator_says() {
-    let elf = std::fs::read(awl_asm::firmware::find("elf").unwrap_or_else(|error| panic!("{error:#}"))).unwrap();
+    let elf =
+        std::fs::read(awl_asm::firmware::find_elf().unwrap_or_else(|error| panic!("{error:#}")))
+            .unwrap();
     let (mut avr, mut rng) = (Avr::new(), Rng::with_seed(1));
     avr.load_elf(&Elf::parse(&elf).unwrap()).unwrap();
     // Timers whose input says at once what becomes of them are not left to the firmware.
@@ -488,6 +539,9 @@ fn the_routines_of_the_firmware_take_what_the_translator_says() {
         });
         let measured = measured.reduce(Cycles::or).unwrap_or_default();
         println!("{vector:?}: {measured:?}, said {:?}", vector.cycles());
-        assert!(vector.cycles().min <= measured.min && measured.max <= vector.cycles().max, "{vector:?}: {measured:?}");
+        assert!(
+            vector.cycles().min <= measured.min && measured.max <= vector.cycles().max,
+            "{vector:?}: {measured:?}"
+        );
     }
 }

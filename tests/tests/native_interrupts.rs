@@ -1,8 +1,8 @@
-//! The interrupt of the millisecond clock may come between any two instructions of the board that a program is made of:
-//! what the program does stays the same, interpreted and translated.
+//! The interrupt of the millisecond clock may come between any two instructions of the board that a
+//! program is made of: what the program does stays the same, interpreted and translated.
 //!
-//! The program's part of one scan is run again and again, each time with the interrupt, which nothing else than the
-//! real timer raises, one instruction later.
+//! The program's part of one scan is run again and again, each time with the interrupt, which
+//! nothing else than the real timer raises, one instruction later.
 #![cfg(feature = "uno")]
 
 use std::collections::BTreeSet;
@@ -15,7 +15,8 @@ use simavr::Stopped;
 use tests::bench_board::{BenchBoard, example, firmware, image};
 use tests::forms::places;
 
-/// Where the interrupt of the millisecond clock begins: TIMER0_COMPA; and all vectors but that of the reset.
+/// Where the interrupt of the millisecond clock begins: TIMER0_COMPA; and all vectors but that of
+/// the reset.
 const TICK_VECTOR: u32 = 0x38;
 const VECTORS: Range<u32> = 0x04..0x68;
 /// The registers, and the stack pointer, in data memory.
@@ -23,24 +24,26 @@ const REGISTERS: Range<usize> = 0..32;
 const STACK_POINTER: usize = 0x5D;
 /// Register in which the engine tells why the program was left.
 const REASON: usize = 24;
-/// A place in the slot, behind every program: `nop`, and a jump to itself in two cycles; `set` and `reti`.
+/// A place in the slot, after every program: `nop`, and a jump to itself in two cycles; `set` and
+/// `reti`.
 const IDLE: u32 = SLOT_END as u32 - 8;
 const JUMP: u32 = IDLE + 2;
 const LOSE_TOP: u32 = IDLE + 4;
 const IDLE_CODE: [u8; 8] = [0x00, 0x00, 0xFF, 0xCF, 0x68, 0x94, 0x18, 0x95];
-/// `sei`, and `out SREG, r`, whatever the register. Behind them simavr executes two more instructions before an interrupt
-/// comes, the chip one.
+/// `sei`, and `out SREG, r`, whatever the register. After them simavr executes two more
+/// instructions before an interrupt comes, the chip one.
 const SEI: u16 = 0x9478;
 const OUT_SREG: (u16, u16) = (0xBE0F, 0xFE0F);
 const ENABLE_DELAY: usize = 2;
 /// Longer than the board talks when it is switched on.
 const BANNER_MS: u64 = 50;
-/// The clock at the start of a scan, and how it goes on from scan to scan: to where no clock bit differs, no
-/// interval ends a millisecond later, and every timer is at its end.
+/// The clock at the start of a scan, and how it goes on from scan to scan: to where no clock bit
+/// differs, no interval ends a millisecond later, and every timer is at its end.
 const FIRST_MS: u32 = 1_000;
 const PASSED_MS: u32 = 60_000;
 const INTO_INTERVAL_MS: u32 = 5;
-/// Cycles before an interrupt is due from which on every instruction is watched: more than the longest takes.
+/// Cycles before an interrupt is due from which on every instruction is watched: more than the
+/// longest takes.
 const WATCHED: u64 = 10;
 /// Longest time that an interrupt takes.
 const INTERRUPT_MAX: u64 = 500;
@@ -49,7 +52,8 @@ const LATE_RARITY: usize = 20;
 /// No program here has more instructions of the board.
 const STEPS_MAX: usize = 20_000;
 
-/// A place between two instructions of the board: its address, and the cycles since the program was begun.
+/// A place between two instructions of the board: its address, and the cycles since the program was
+/// begun.
 type Boundary = (u32, u64);
 
 /// What the program has done.
@@ -75,19 +79,22 @@ struct Repeater {
 }
 
 impl Repeater {
-    /// Runs the program for a few scans with different inputs, and stands where it begins in the next.
+    /// Runs the program for a few scans with different inputs, and is where it begins in the
+    /// next.
     fn new(code: Code, image: &[u8]) -> Repeater {
         let (firmware, mut board) = (firmware(), BenchBoard::new());
-        let symbol = |name| firmware.elf.flash_symbol(name).unwrap_or_else(|| panic!("the firmware has no {name}"));
+        let symbol = |name| {
+            firmware.elf.flash_symbol(name).unwrap_or_else(|| panic!("the firmware has no {name}"))
+        };
         let (enter, leave) = match code {
             Code::Bytecode => (symbol("uno200_run"), symbol("uno200_run_end")),
             Code::Native => (symbol("uno200_run_native"), symbol("uno200_run_native_end")),
         };
-        let translated =
-            (code == Code::Native).then(|| translate(image).unwrap_or_else(|error| panic!("{error}")).image);
+        let translated = (code == Code::Native)
+            .then(|| translate(image).unwrap_or_else(|error| panic!("{error}")).image);
         board.insert(translated.as_deref().unwrap_or(image));
         board.power_up();
-        // Behind the check of the slot's content.
+        // After the check of the slot's content.
         let idle = &mut board.slot()[(IDLE - u32::from(SLOT_START)) as usize..];
         assert!(idle.iter().all(|&byte| byte == 0xFF), "the program reaches the end of the slot");
         idle.copy_from_slice(&IDLE_CODE);
@@ -114,7 +121,8 @@ impl Repeater {
         repeater
     }
 
-    /// Executes instructions until this one is the next. Returns the places on the way, the first one included.
+    /// Executes instructions until this one is the next. Returns the places on the way, the first
+    /// one included.
     fn step_to(&mut self, address: u32) -> Vec<Boundary> {
         let (start, mut places) = (self.board.avr.cycles(), Vec::new());
         while self.board.avr.pc() != address {
@@ -125,7 +133,8 @@ impl Repeater {
         places
     }
 
-    /// Finds out when the interrupt comes, to the cycle: jumps end in every second, so it is waited for twice.
+    /// Finds out when the interrupt comes, to the cycle: jumps end in every second, so it is waited
+    /// for twice.
     fn find_tick(&mut self) {
         let first = self.tick_from(JUMP);
         let is_even = (self.board.avr.cycles() - first).is_multiple_of(2);
@@ -169,14 +178,21 @@ impl Repeater {
     fn done(&self) -> Done {
         let data = self.board.avr.data();
         let kept = [&data[2..18], &data[28..30], &data[STACK_POINTER..STACK_POINTER + 2]].concat();
-        Done { memory: data[DATA_START.into()..DATA_END.into()].to_vec(), kept, reason: data[REASON] }
+        Done {
+            memory: data[DATA_START.into()..DATA_END.into()].to_vec(),
+            kept,
+            reason: data[REASON],
+        }
     }
 
     /// The program without an interrupt, and all places between its instructions.
     fn undisturbed(&mut self) -> (Done, Vec<Boundary>) {
         self.begin(MS - INTERRUPT_MAX);
         let places = self.step_to(self.leave);
-        assert!(places.iter().all(|(place, _)| !VECTORS.contains(place)), "the program is too long for this test");
+        assert!(
+            places.iter().all(|(place, _)| !VECTORS.contains(place)),
+            "the program is too long for this test"
+        );
         (self.done(), places)
     }
 
@@ -349,10 +365,12 @@ END_SUBROUTINE_BLOCK
 
 #[test]
 fn the_program_has_every_instruction() {
-    let found: BTreeSet<Op> = places(&image(EVERYTHING)).iter().map(|place| place.row.instruction.op).collect();
+    let found: BTreeSet<Op> =
+        places(&image(EVERYTHING)).iter().map(|place| place.row.instruction.op).collect();
     // Modules are called like the bytecode of others, and events would come at other times.
-    let is_translated =
-        |row: &&Instruction| row.module().is_none() && ![Group::Hidden, Group::Interrupt].contains(&row.group);
+    let is_translated = |row: &&Instruction| {
+        row.module().is_none() && ![Group::Hidden, Group::Interrupt].contains(&row.group)
+    };
     let missing = INSTRUCTIONS.iter().filter(is_translated).filter(|row| !found.contains(&row.op));
     assert_eq!(missing.map(|row| row.mnemonics[0]).collect::<Vec<_>>(), [""; 0]);
 }
@@ -376,8 +394,10 @@ fn interrupt_everywhere(repeater: &mut Repeater) -> Found {
         let (done, place) = repeater.interrupted(places[index].1);
         if place != places[index] {
             let came = places.iter().position(|&other| other == place);
-            let came = came.unwrap_or_else(|| panic!("it came at {:#06x}, {} cycles", place.0, place.1));
-            let is_late = came > index && repeater.enables_interrupts(places[came - 1 - ENABLE_DELAY].0);
+            let came =
+                came.unwrap_or_else(|| panic!("it came at {:#06x}, {} cycles", place.0, place.1));
+            let is_late =
+                came > index && repeater.enables_interrupts(places[came - 1 - ENABLE_DELAY].0);
             assert!(is_late, "due at {:#06x?}, it came at {place:#06x?}", places[index]);
             found.late += 1;
         }
@@ -392,16 +412,23 @@ fn interrupt_everywhere(repeater: &mut Repeater) -> Found {
 #[test]
 fn an_interrupt_anywhere_changes_nothing() {
     for code in [Code::Bytecode, Code::Native] {
-        for (name, image) in [("everything", image(EVERYTHING)), ("station1", example("station1"))] {
+        for (name, image) in [("everything", image(EVERYTHING)), ("station1", example("station1"))]
+        {
             println!("{name}, {code:?}");
             let found = interrupt_everywhere(&mut Repeater::new(code, &image));
-            assert_eq!(found.changed, [0; 0], "{name}, {code:?}: changed by an interrupt at these places");
-            assert!(found.late * LATE_RARITY < found.places, "{name}, {code:?}: interrupts are off at too many places");
+            assert_eq!(
+                found.changed, [0; 0],
+                "{name}, {code:?}: changed by an interrupt at these places"
+            );
+            assert!(
+                found.late * LATE_RARITY < found.places,
+                "{name}, {code:?}: interrupts are off at too many places"
+            );
         }
     }
 }
 
-/// The test itself: it must see an interrupt that leaves something behind.
+/// The test itself: it must see an interrupt that leaves something after.
 #[test]
 fn an_interrupt_that_loses_the_t_flag_is_seen() {
     for code in [Code::Bytecode, Code::Native] {

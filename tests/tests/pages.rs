@@ -1,4 +1,5 @@
-//! The pages of the error codes: the wrong example of a page gets its code, the right one no diagnostic at all.
+//! The pages of the error codes: the wrong example of a page gets its code, the right one no
+//! diagnostic at all.
 
 use awl_asm::assemble::assemble;
 use awl_asm::diagnostic::Code;
@@ -7,7 +8,7 @@ use awl_asm::source::Source;
 /// Codes without a wrong example: it would be thousands of lines long, and `messages.rs` makes one.
 const NOT_SHOWN: [Code; 1] = [Code::ProgramTooLarge];
 
-/// The program in the block behind a line.
+/// The program in the block after a line.
 fn example<'p>(page: &'p str, line: &str) -> Option<&'p str> {
     let (_, behind) = page.split_once(&format!("\n{line}\n\n```awl\n"))?;
     behind.split_once("```").map(|(program, _)| program)
@@ -16,7 +17,11 @@ fn example<'p>(page: &'p str, line: &str) -> Option<&'p str> {
 /// The codes of a program's diagnostics.
 fn codes(program: &str) -> Vec<&'static str> {
     let source = Source::new("page.awl", program).expect("a short text");
-    assemble(&source, Vec::new()).diagnostics.iter().map(|diagnostic| diagnostic.code.text()).collect()
+    assemble(&source, Vec::new())
+        .diagnostics
+        .iter()
+        .map(|diagnostic| diagnostic.code.text())
+        .collect()
 }
 
 /// What is wrong with the page of a code.
@@ -30,7 +35,9 @@ fn check(code: Code) -> Vec<String> {
         Some(program) if codes(program) != [text] => {
             wrong.push(format!("{text}: the wrong example gets {:?}", codes(program)));
         }
-        None if !NOT_SHOWN.contains(&code) => wrong.push(format!("{text}: there is no wrong example")),
+        None if !NOT_SHOWN.contains(&code) => {
+            wrong.push(format!("{text}: there is no wrong example"))
+        }
         _ => {}
     }
     match example(page, "Right:") {

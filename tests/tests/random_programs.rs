@@ -1,30 +1,31 @@
-//! Random valid programs: both ways of the interpreter against the naive evaluator, after every scan; and the way
-//! there and back.
+//! Random valid programs: the interpreter against the naive evaluator, after every scan; and the
+//! way there and back.
 //!
-//! `RANDOM_PROGRAMS=100000 cargo test --release --package tests --test random_programs` runs longer,
-//! `RANDOM_SEED` starts elsewhere. A failure names its seed.
+//! `RANDOM_PROGRAMS=100000 cargo test --release --package tests --test random_programs` runs
+//! longer, `RANDOM_SEED` starts elsewhere. A failure names its seed.
 
 use awl_asm::assemble::assemble;
 use awl_asm::diagnostic::Severity;
 use awl_asm::disassemble::disassemble;
 use awl_asm::source::Source;
 use fastrand::Rng;
-use plc_isa::{AC_START, ACCUMULATORS, Area, C_BITS_START, LogicStack, Plan, ProgramMemory, SM_IN_V, T_BITS_START};
+use plc_isa::{
+    AC_START, ACCUMULATORS, Area, C_BITS_START, LogicStack, Plan, ProgramMemory, SM_IN_V,
+    T_BITS_START,
+};
 use plc_vm::{Environment, Memory, Mode, Plc};
 use tests::effort::effort;
 use tests::naive::{self, Extents, Naive};
 use tests::random::{Offer, random_inputs, random_program_of, random_step_ms};
 
 /// Time stands still within a scan. A program that loops for longer than this has no end.
-struct Time<const COMPACT: bool> {
+struct Time {
     now_ms: u32,
     looped_bytes: u64,
     executed: u64,
 }
 
-impl<const COMPACT: bool> Environment for Time<COMPACT> {
-    const COMPACT: bool = COMPACT;
-
+impl Environment for Time {
     fn now_ms(&mut self) -> u32 {
         self.now_ms
     }
@@ -57,7 +58,8 @@ fn assembled(seed: u64, text: &str) -> (Vec<u8>, awl_asm::ast::Program) {
     match assembly.image {
         Some(image) => (image, assembly.program),
         None => {
-            let errors = assembly.diagnostics.iter().filter(|message| message.severity() == Severity::Error);
+            let errors =
+                assembly.diagnostics.iter().filter(|message| message.severity() == Severity::Error);
             for diagnostic in errors {
                 eprintln!("{}", awl_asm::render::human(&source, diagnostic, false));
             }
@@ -91,7 +93,13 @@ fn agrees(offers: Offers, programs: u64) {
 }
 
 /// Runs a program on both for a number of scans. Returns scans and instructions executed.
-fn compare(seed: u64, text: &str, image: &[u8], program: awl_asm::ast::Program, rng: &mut Rng) -> (u64, u64) {
+fn compare(
+    seed: u64,
+    text: &str,
+    image: &[u8],
+    program: awl_asm::ast::Program,
+    rng: &mut Rng,
+) -> (u64, u64) {
     let (mut plc, mut memory) = (Plc::new(), Memory::new());
     plc.load(&mut memory, image).unwrap_or_else(|error| panic!("seed {seed}: {error:?}\n{text}"));
     plc.run();
@@ -99,29 +107,28 @@ fn compare(seed: u64, text: &str, image: &[u8], program: awl_asm::ast::Program, 
     naive.set_extents(extents(plc.program().expect("a program is loaded").plan()));
     // Near the wrap of the clock as often as not.
     let start_ms = if rng.bool() { u32::MAX - rng.u32(..2_000) } else { rng.u32(..) };
-    let mut time = Time::<false> { now_ms: start_ms, looped_bytes: 0, executed: 0 };
-    let (mut compact, mut compact_memory) = (plc.clone(), memory.clone());
+    let mut time = Time { now_ms: start_ms, looped_bytes: 0, executed: 0 };
     let mut inputs = naive::Inputs::default();
     let scans = rng.u64(3..40);
     for scan in 0..scans {
         inputs = random_inputs(rng, &inputs);
         time.looped_bytes = 0;
-        let vm_inputs = plc_vm::Inputs { digital: inputs.digital, scaled: inputs.aiw, raw: inputs.ain };
+        let vm_inputs =
+            plc_vm::Inputs { digital: inputs.digital, scaled: inputs.aiw, raw: inputs.ain };
         if plc.mode() == Mode::Stop && rng.bool() {
             plc.run();
-            compact.run();
             naive.start();
         }
         let ran = plc.mode() == Mode::Run;
         plc.scan(&mut memory, &vm_inputs, &mut time);
-        let mut compact_time = Time::<true> { now_ms: time.now_ms, looped_bytes: 0, executed: 0 };
-        compact.scan(&mut compact_memory, &vm_inputs, &mut compact_time);
-        let same = memory == compact_memory && (plc.mode(), plc.fault()) == (compact.mode(), compact.fault());
-        assert!(same, "seed {seed}, scan {scan}: the compact way differs\n{text}");
         naive.scan(time.now_ms, &inputs);
         let plan = plc.program().expect("a program is loaded").plan();
         let differences = if ran { differences(&plc, &memory, plan, &naive) } else { Vec::new() };
-        assert!(differences.is_empty(), "seed {seed}, scan {scan}: {}\n{text}", differences.join(", "));
+        assert!(
+            differences.is_empty(),
+            "seed {seed}, scan {scan}: {}\n{text}",
+            differences.join(", ")
+        );
         time.now_ms = time.now_ms.wrapping_add(random_step_ms(rng));
     }
     (scans, time.executed)
@@ -129,7 +136,8 @@ fn compare(seed: u64, text: &str, image: &[u8], program: awl_asm::ast::Program, 
 
 /// What there is of memory, by the plan.
 fn extents<P: ProgramMemory>(plan: &Plan<P>) -> Extents {
-    let ranges: Vec<(u16, u16)> = plan.v_ranges().map(|(first, len)| (first, first + len)).collect();
+    let ranges: Vec<(u16, u16)> =
+        plan.v_ranges().map(|(first, len)| (first, first + len)).collect();
     let (sm, v): (Vec<_>, Vec<_>) = ranges.into_iter().partition(|&(first, _)| first >= SM_IN_V);
     Extents {
         v: v.into_iter().map(|(first, end)| first..end).collect(),
@@ -140,23 +148,37 @@ fn extents<P: ProgramMemory>(plan: &Plan<P>) -> Extents {
 }
 
 /// Everything a program can see, and the mode.
-fn differences<P: ProgramMemory>(plc: &Plc<P>, memory: &Memory, plan: &Plan<P>, naive: &Naive) -> Vec<String> {
+fn differences<P: ProgramMemory>(
+    plc: &Plc<P>,
+    memory: &Memory,
+    plan: &Plan<P>,
+    naive: &Naive,
+) -> Vec<String> {
     let mut found = Vec::new();
     let mut equal = |what: String, vm: i32, naive: i32| {
         if vm != naive {
             found.push(format!("{what} is {vm}, should be {naive}"));
         }
     };
-    equal("RUN".into(), i32::from(plc.mode() == Mode::Run), i32::from(naive.mode() == naive::Mode::Run));
+    equal(
+        "RUN".into(),
+        i32::from(plc.mode() == Mode::Run),
+        i32::from(naive.mode() == naive::Mode::Run),
+    );
     for area in [Area::I, Area::Q, Area::M, Area::Sm, Area::S] {
         for byte in 0..area.page_len() {
             let address = area.page_start().unwrap_or(0) + byte;
-            equal(format!("{}B{byte}", area.name()), memory.byte(address).into(), naive.byte(area, byte).into());
+            equal(
+                format!("{}B{byte}", area.name()),
+                memory.byte(address).into(),
+                naive.byte(area, byte).into(),
+            );
         }
     }
     for number in 0..ACCUMULATORS {
         let address = AC_START + 4 * u16::from(number);
-        let words = [memory.int(address), memory.int(address + 2)].map(|word| u32::from(word as u16));
+        let words =
+            [memory.int(address), memory.int(address + 2)].map(|word| u32::from(word as u16));
         let value = words[0] << 16 | words[1];
         equal(format!("AC{number}"), value as i32, naive.accumulator(number) as i32);
     }
@@ -166,12 +188,17 @@ fn differences<P: ProgramMemory>(plc: &Plc<P>, memory: &Memory, plan: &Plan<P>, 
         equal(format!("VB{byte}"), memory.byte(address).into(), naive.byte(Area::V, byte).into());
     }
     for number in 0..=255u8 {
-        let bit = |start: u16| i32::from(memory.byte(start + u16::from(number / 8)) >> (number % 8) & 1);
+        let bit =
+            |start: u16| i32::from(memory.byte(start + u16::from(number / 8)) >> (number % 8) & 1);
         equal(format!("T{number}"), bit(T_BITS_START), naive.timer(number).bit.into());
         equal(format!("C{number}"), bit(C_BITS_START), naive.counter(number).bit.into());
     }
     for slot in plan.timers() {
-        equal(format!("T{}.cv", slot.number), memory.int(slot.address).into(), naive.timer(slot.number).current.into());
+        equal(
+            format!("T{}.cv", slot.number),
+            memory.int(slot.address).into(),
+            naive.timer(slot.number).current.into(),
+        );
     }
     for slot in plan.counters() {
         equal(

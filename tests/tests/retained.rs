@@ -33,7 +33,8 @@ fn random_range(rng: &mut Rng) -> String {
     }
 }
 
-/// A program that uses some V bytes, timers and counters, and retains ranges of anything, also of what it uses not.
+/// A program that uses some V bytes, timers and counters, and retains ranges of anything, also of
+/// what it uses not.
 fn random_program(rng: &mut Rng) -> String {
     let ranges: Vec<String> = (0..rng.usize(1..=16)).map(|_| random_range(rng)).collect();
     let mut text = format!("//# retain {}\nLD SM0.0\n", ranges.join(", "));
@@ -73,7 +74,11 @@ fn walks_of_random_programs() {
         let plan = plan(&text);
         let expected = retained_addresses(&plan);
         for len_max in [u16::MAX, 4, 2, rng.u16(2..40)] {
-            assert_eq!(walked(&plan, len_max), expected, "seed {seed}, pieces of {len_max}\n{text}");
+            assert_eq!(
+                walked(&plan, len_max),
+                expected,
+                "seed {seed}, pieces of {len_max}\n{text}"
+            );
         }
         assert_eq!(usize::from(plan.retained_len()), expected.len(), "seed {seed}\n{text}");
         kinds.extend(plan.retained().filter(|_| !expected.is_empty()).map(|range| range.area));
@@ -87,8 +92,8 @@ fn identity(text: &str) -> u32 {
     plan(text).retained_identity().value()
 }
 
-/// The ranges as the image holds them, then the numbers of timers and counters: values saved by one version of the
-/// firmware are found by the next.
+/// The ranges as the image holds them, then the numbers of timers and counters: values saved by one
+/// version of the firmware are found by the next.
 #[test]
 fn the_identity_is_pinned() {
     let mut expected = Crc32::new();
@@ -100,9 +105,15 @@ fn the_identity_is_pinned() {
 
 #[test]
 fn the_identity_is_that_of_the_values_alone() {
-    let program = |ranges: &str, uses: &str| format!("//# retain {ranges}\nLD SM0.0\nMOVW C1, C3\n{uses}");
+    let program =
+        |ranges: &str, uses: &str| format!("//# retain {ranges}\nLD SM0.0\nMOVW C1, C3\n{uses}");
     let one = identity(&program("VB4-VB5, C0-C9", ""));
-    let same = ["MOVW 1, VW0\n", "MOVW 1, C10\n", "MOVW 1, T3\nLD I0.0\nTON T37, 1\n", "LD I0.0\nEU\n= Q0.0\n"];
+    let same = [
+        "MOVW 1, VW0\n",
+        "MOVW 1, C10\n",
+        "MOVW 1, T3\nLD I0.0\nTON T37, 1\n",
+        "LD I0.0\nEU\n= Q0.0\n",
+    ];
     for uses in same {
         assert_eq!(identity(&program("VB4-VB5, C0-C9", uses)), one, "{uses}");
     }
@@ -115,11 +126,15 @@ fn the_identity_is_that_of_the_values_alone() {
     ];
     let all: BTreeSet<u32> = other.iter().map(|text| identity(text)).chain([one]).collect();
     assert_eq!(all.len(), 1 + other.len());
-    assert_eq!(plan(&program("C200-C209", "")).retained().map(|range| range.area).collect::<Vec<_>>(), [Area::C]);
+    assert_eq!(
+        plan(&program("C200-C209", "")).retained().map(|range| range.area).collect::<Vec<_>>(),
+        [Area::C]
+    );
     assert_eq!(plan(&program("C200-C209", "")).retained_len(), 0, "none of them is used");
 }
 
-/// Near the limits the assembler either makes an image that the loader's check accepts, or says that there is no room.
+/// Near the limits the assembler either makes an image that the loader's check accepts, or says
+/// that there is no room.
 #[test]
 fn what_does_not_fit_is_refused_by_the_assembler() {
     let (mut accepted, mut refused) = (0, 0);
@@ -128,17 +143,27 @@ fn what_does_not_fit_is_refused_by_the_assembler() {
         let (v, counters) = (rng.u16(1..520), rng.u8(..=190));
         let marks: String = (0..rng.u8(..15)).map(|_| ", MB0-MB31").collect();
         let uses: String = (0..counters).map(|number| format!("MOVW 0, C{number}\n")).collect();
-        let text = format!("//# retain VB0-VB{v}, C{}-C255{marks}\nLD SM0.0\n{uses}", rng.u8(..));
+        let text = format!(
+            "//# board uno\n//# retain VB0-VB{v}, C{}-C255{marks}\nLD SM0.0\n{uses}",
+            rng.u8(..)
+        );
         let assembly = assemble(&Source::new("retained", &*text).unwrap(), Vec::new());
         let Some(image) = assembly.image else {
-            let codes: Vec<Code> = assembly.diagnostics.iter().map(|diagnostic| diagnostic.code).collect();
-            let errors: Vec<&Code> = codes.iter().filter(|code| code.severity() == Severity::Error).collect();
+            let codes: Vec<Code> =
+                assembly.diagnostics.iter().map(|diagnostic| diagnostic.code).collect();
+            let errors: Vec<&Code> =
+                codes.iter().filter(|code| code.severity() == Severity::Error).collect();
             assert_eq!(errors, [&Code::DataTooLarge], "seed {seed}\n{text}");
             refused += 1;
             continue;
         };
-        let program = verify(image).unwrap_or_else(|error| panic!("seed {seed}: {error:?}\n{text}"));
-        assert_eq!(usize::from(program.plan().retained_len()), assembly.demand.retained_len, "seed {seed}\n{text}");
+        let program =
+            verify(image).unwrap_or_else(|error| panic!("seed {seed}: {error:?}\n{text}"));
+        assert_eq!(
+            usize::from(program.plan().retained_len()),
+            assembly.demand.retained_len,
+            "seed {seed}\n{text}"
+        );
         accepted += 1;
     }
     assert!(accepted > 100 && refused > 100, "{accepted} accepted, {refused} refused");

@@ -1,4 +1,5 @@
-//! Retained values on the board: what comes back after the power was off, when values are lost, when they are saved.
+//! Retained values on the board: what comes back after the power was off, when values are lost,
+//! when they are saved.
 #![cfg(feature = "uno")]
 
 use fastrand::Rng;
@@ -29,8 +30,11 @@ MOVW 99, VW2
 fn values_come_back_and_bits_do_not() {
     let bench = Bench::new(VALUES);
     let (vw0, vw2, plan) = (v(&bench, 0), v(&bench, 2), bench.plan());
-    let (m, c3, t5) =
-        (plan.byte_address(Area::M, 0).unwrap(), plan.counter_slot(3).unwrap(), plan.timer_slot(5).unwrap());
+    let (m, c3, t5) = (
+        plan.byte_address(Area::M, 0).unwrap(),
+        plan.counter_slot(3).unwrap(),
+        plan.timer_slot(5).unwrap(),
+    );
     let (c3_bit, t5_bit) = (counter_bit(3), timer_bit(5));
 
     let mut board = bench.start(&ERASED);
@@ -66,9 +70,16 @@ fn values_come_back_and_bits_do_not() {
 
     let mut board = bench.start(&eeprom);
     assert_eq!([board.word(vw0), board.word(vw2)], [1235, 0], "what is not retained is 0");
-    assert_eq!([board.byte(m), board.byte(m + 1), board.byte(m + 2), board.byte(m + 3)], [1, 0, 0x16, 0x2E]);
+    assert_eq!(
+        [board.byte(m), board.byte(m + 1), board.byte(m + 2), board.byte(m + 3)],
+        [1, 0, 0x16, 0x2E]
+    );
     assert_eq!([board.word(c3.address), board.word(t5.address)], [4, timer]);
-    assert_eq!([board.byte(c3_bit.address), board.byte(t5_bit.address)], [0, 0], "bits are not retained");
+    assert_eq!(
+        [board.byte(c3_bit.address), board.byte(t5_bit.address)],
+        [0, 0],
+        "bits are not retained"
+    );
     board.inputs(0);
     board.scan();
     assert!(!board.says_lost());
@@ -119,17 +130,23 @@ fn another_program_with_the_same_ranges_keeps_the_values() {
     assert!(value > 100);
     assert_eq!(found(SCANS, &eeprom), (value, false));
     assert_eq!(found(SCANS_CHANGED, &eeprom), (value, false));
-    let timers = "//# retain VB0-VB1, C0-C9, T0-T3\nLD SM0.0\nINCW VW0\nMOVW VW0, C5\nMOVW VW0, T2\n";
+    let timers =
+        "//# retain VB0-VB1, C0-C9, T0-T3\nLD SM0.0\nINCW VW0\nMOVW VW0, C5\nMOVW VW0, T2\n";
     let (eeprom, value) = saved(timers, &ERASED);
     let others = format!("{timers}MOVW 3, C10\nMOVW 4, T4\nLD I0.0\nTON T37, 5\n");
-    assert_eq!(found(&others, &eeprom), (value, false), "timers and counters that are not retained do not matter");
+    assert_eq!(
+        found(&others, &eeprom),
+        (value, false),
+        "timers and counters that are not retained do not matter"
+    );
 }
 
 /// An EEPROM full of copies of the counter of scans. The last has the value 1000.
 fn full_ring() -> Vec<u8> {
     let bench = Bench::new(SCANS);
     let places = RETENTION_LEN / (2 + RETENTION_OVERHEAD);
-    let copies = (0..places).flat_map(|place| copy(bench.plan(), place, &(1001 - places + place).to_be_bytes()));
+    let copies = (0..places)
+        .flat_map(|place| copy(bench.plan(), place, &(1001 - places + place).to_be_bytes()));
     let mut eeprom: Vec<u8> = copies.collect();
     eeprom.resize(EEPROM_LEN, 0xFF);
     eeprom
@@ -140,9 +157,13 @@ fn other_ranges_lose_the_values_for_good() {
     let (eeprom, value) = (full_ring(), 1000);
     assert_eq!(found(SCANS, &eeprom), (value, false));
     let counters = "//# retain VB0-VB1, C0-C9\nLD SM0.0\nINCW VW0\n";
-    let (with_c5, with_c6) = (format!("{counters}MOVW VW0, C5\n"), format!("{counters}MOVW VW0, C6\n"));
-    for text in ["//# retain VB0-VB2\nLD SM0.0\nINCW VW0\n", "//# retain VB0-VB1, MB0\nLD SM0.0\nINCW VW0\n", &with_c5]
-    {
+    let (with_c5, with_c6) =
+        (format!("{counters}MOVW VW0, C5\n"), format!("{counters}MOVW VW0, C6\n"));
+    for text in [
+        "//# retain VB0-VB2\nLD SM0.0\nINCW VW0\n",
+        "//# retain VB0-VB1, MB0\nLD SM0.0\nINCW VW0\n",
+        &with_c5,
+    ] {
         assert_eq!(found(text, &eeprom), (0, true), "{text}");
         let (others, other_value) = saved(text, &eeprom);
         assert_eq!(found(text, &others), (other_value, false), "{text}");
@@ -167,7 +188,8 @@ fn other_ranges_lose_the_values_for_good() {
 #[test]
 fn anything_in_the_eeprom_is_no_copy() {
     let mut rng = Rng::with_seed(1);
-    let random = (0..effort("RANDOM_EEPROMS", 30)).map(|_| (0..EEPROM_LEN).map(|_| rng.u8(..)).collect::<Vec<u8>>());
+    let random = (0..effort("RANDOM_EEPROMS", 30))
+        .map(|_| (0..EEPROM_LEN).map(|_| rng.u8(..)).collect::<Vec<u8>>());
     let uniform = [0x00, 0xFF, 0xA5].map(|byte| vec![byte; EEPROM_LEN]);
     let [small, mixed, large] = generation_programs();
     let benches = [small, mixed, large].map(|text| Bench::new(&text));
@@ -188,10 +210,15 @@ fn the_first_copy_holds_what_the_first_scans_made_of_the_loss() {
     assert_eq!(value, 500);
     assert_eq!(found(text, &eeprom), (500, false));
     let reserved = usize::from(RETENTION_LEN);
-    assert_eq!(eeprom[reserved..], [0x3C; EEPROM_LEN][reserved..], "what is reserved for others stays");
+    assert_eq!(
+        eeprom[reserved..],
+        [0x3C; EEPROM_LEN][reserved..],
+        "what is reserved for others stays"
+    );
 }
 
-/// After a hang the board waits in STOP. What it has lost is told when a scan is executed at last, and saved no sooner.
+/// After a hang the board waits in STOP. What it has lost is told when a scan is executed at last,
+/// and saved no sooner.
 #[test]
 fn a_loss_is_told_before_anything_is_saved() {
     let bench = Bench::new("//# retain VB0-VB1\nLD SM0.2\nS M0.0, 1\nLD SM0.0\nINCW VW0\n");
@@ -203,7 +230,11 @@ fn a_loss_is_told_before_anything_is_saved() {
     board.avr_mut().write_eeprom(0, &ERASED).unwrap();
     board.run_for(1_000 * MS);
     board.settle();
-    assert_eq!([board.word(v(&bench, 0)), board.byte(marks).into()], [0, 0], "no scan was executed");
+    assert_eq!(
+        [board.word(v(&bench, 0)), board.byte(marks).into()],
+        [0, 0],
+        "no scan was executed"
+    );
     assert_eq!(board.avr().eeprom(), ERASED);
     board.command(Command::Run);
     assert_eq!(board.byte(marks), 1, "the first scan is told");
@@ -221,14 +252,19 @@ fn sequence_numbers_wrap() {
     // Three copies up to the last number, in the middle of the ring; values that tell them apart.
     for (slot, sequence) in (40..).zip([0xFFFD, 0xFFFE, 0xFFFF]) {
         let at = slot * copy_len;
-        eeprom[at..at + copy_len].copy_from_slice(&copy(bench.plan(), sequence, &sequence.to_be_bytes()));
+        eeprom[at..at + copy_len].copy_from_slice(&copy(
+            bench.plan(),
+            sequence,
+            &sequence.to_be_bytes(),
+        ));
     }
     assert_eq!(found(SCANS, &eeprom), (0xFFFF, false));
     for _ in 0..3 {
         let (next, value) = saved(SCANS, &eeprom);
         let copies: Vec<&[u8]> = next[43 * copy_len..].chunks_exact(copy_len).collect();
-        let is_there = (0..10).any(|sequence| copies.contains(&&*copy(bench.plan(), sequence, &value.to_be_bytes())));
-        assert!(is_there, "no copy of {value} behind the wrap");
+        let is_there = (0..10)
+            .any(|sequence| copies.contains(&&*copy(bench.plan(), sequence, &value.to_be_bytes())));
+        assert!(is_there, "no copy of {value} after the wrap");
         assert_eq!(found(SCANS, &next), (value, false));
         eeprom = next;
     }

@@ -5,7 +5,8 @@ use plc_isa::{RETENTION_LEN, RETENTION_OVERHEAD};
 use tests::power::{Bench, Board, ERASED};
 use tests::retained::{generation_programs, retained_addresses};
 
-/// Writes of each byte of the EEPROM while the values of a program change in every scan and hours pass.
+/// Writes of each byte of the EEPROM while the values of a program change in every scan and hours
+/// pass.
 fn writes_in(hours: u32, text: &str) -> Vec<u32> {
     const STEP_S: u32 = 20;
     let mut board = Bench::new(text).start(&ERASED);
@@ -29,10 +30,12 @@ fn writes_in(hours: u32, text: &str) -> Vec<u32> {
 fn changes_in_every_scan_wear_all_bytes_alike_and_slowly() {
     let [small, mixed, large] = generation_programs();
     for (text, hours) in [(small, 4), (mixed, 8), (large, 8)] {
-        let copy_len = retained_addresses(Bench::new(&text).plan()).len() + usize::from(RETENTION_OVERHEAD);
+        let copy_len =
+            retained_addresses(Bench::new(&text).plan()).len() + usize::from(RETENTION_OVERHEAD);
         let copies = usize::from(RETENTION_LEN) / copy_len;
         let writes = writes_in(hours, &text);
-        // The low byte of the sequence number is written in every copy, so it counts the saves of its place.
+        // The low byte of the sequence number is written in every copy, so it counts the saves of
+        // its place.
         let saves: Vec<u32> = (0..copies).map(|copy| writes[copy * copy_len]).collect();
         let (least, most) = (saves.iter().min().unwrap(), saves.iter().max().unwrap());
         let sum: u32 = saves.iter().sum();
@@ -97,7 +100,8 @@ fn longest_scan(board: &mut Board, scans: u32) -> u64 {
     (0..scans).map(|_| scan(board)).max().unwrap_or(0)
 }
 
-/// Cycles that a scan may take longer: always, while values are compared, and while the EEPROM is written.
+/// Cycles that a scan may take longer: always, while values are compared, and while the EEPROM is
+/// written.
 const WAITING_MAX: u64 = 100;
 const COMPARING_MAX: u64 = 850;
 const WRITING_MAX: u64 = 1_500;
@@ -111,7 +115,9 @@ const SNAPSHOT_COUNTER_MAX: u64 = 310;
 #[test]
 fn no_scan_takes_much_longer() {
     let program = |ranges: &str, uses: &str| format!("{ranges}LD SM0.2\n{uses}LD I0.0\nINCW VW0\n");
-    let uses = |counters: u64| -> String { (0..counters).map(|number| format!("MOVW 0, C{number}\n")).collect() };
+    let uses = |counters: u64| -> String {
+        (0..counters).map(|number| format!("MOVW 0, C{number}\n")).collect()
+    };
     println!("bytes  waiting  comparing  snapshot  writing: more cycles than without retention");
     for (ranges, counters) in [
         ("VB0-VB1", 0),
@@ -131,6 +137,9 @@ fn no_scan_takes_much_longer() {
         assert!(waiting <= WAITING_MAX && writing <= WRITING_MAX);
         assert!(comparing <= COMPARING_MAX + COMPARING_COUNTER_MAX * counters);
         assert!(snapshot > 0, "no copy was begun");
-        assert!(snapshot <= SNAPSHOT_MAX + SNAPSHOT_BYTE_MAX * len as u64 + SNAPSHOT_COUNTER_MAX * counters);
+        assert!(
+            snapshot
+                <= SNAPSHOT_MAX + SNAPSHOT_BYTE_MAX * len as u64 + SNAPSHOT_COUNTER_MAX * counters
+        );
     }
 }

@@ -1,7 +1,8 @@
-//! Power cuts: at any cycle, also while the board starts, again and again. What comes back is always of one scan.
+//! Power cuts: at any cycle, also while the board starts, again and again. What comes back is
+//! always of one scan.
 //!
-//! `POWER_CUTS=2000 cargo test --package tests --features uno --test retention_cuts` cuts more often, `RANDOM_SEED`
-//! starts elsewhere. A failure names its seed.
+//! `POWER_CUTS=2000 cargo test --package tests --features uno --test retention_cuts` cuts more
+//! often, `RANDOM_SEED` starts elsewhere. A failure names its seed.
 #![cfg(feature = "uno")]
 
 use std::ops::AddAssign;
@@ -32,8 +33,8 @@ impl Saved {
         found == self.complete || (found.is_some() && found == self.next.map(|(next, _)| next))
     }
 
-    /// Takes note of the snapshot there is, 0 before the first. One that is older than `saving_max`, or not the last, has
-    /// been saved.
+    /// Takes note of the snapshot there is, 0 before the first. One that is older than
+    /// `saving_max`, or not the last, has been saved.
     fn observe(&mut self, snapshot: u16, now: u64, saving_max: u64) {
         if let Some((next, since)) = self.next
             && (next != snapshot || now - since > saving_max)
@@ -73,7 +74,8 @@ struct Victim {
     retained: Vec<u16>,
     /// Where the snapshot is.
     copies: Vec<u16>,
-    /// Longest time from one byte in the EEPROM to the next, and from a snapshot to its complete copy.
+    /// Longest time from one byte in the EEPROM to the next, and from a snapshot to its complete
+    /// copy.
     byte_max: u64,
     saving_max: u64,
     eeprom: Vec<u8>,
@@ -131,7 +133,10 @@ impl Victim {
         let found = generation(&bytes).unwrap_or_else(|| panic!("{place}: a mixture {bytes:?}"));
         board.scan();
         let found = (!board.says_lost()).then_some(found);
-        assert!(found.is_some() || bytes.iter().all(|&byte| byte == 0), "{place}: lost, but {bytes:?}");
+        assert!(
+            found.is_some() || bytes.iter().all(|&byte| byte == 0),
+            "{place}: lost, but {bytes:?}"
+        );
         assert!(self.saved.allows(found), "{place}: {found:?} after {:?}", self.saved);
         match found {
             Some(_) => self.counts.back += 1,
@@ -143,7 +148,11 @@ impl Victim {
     /// Runs about as long as what is to be saved takes, and to any cycle.
     fn run(&mut self, board: &mut Board) {
         // What others have left is erased before the first copy.
-        let erasing_max = if self.saved.complete.is_none() { self.byte_max * u64::from(RETENTION_LEN) } else { 0 };
+        let erasing_max = if self.saved.complete.is_none() {
+            self.byte_max * u64::from(RETENTION_LEN)
+        } else {
+            0
+        };
         let len = self.rng.u64(..(self.saving_max + erasing_max) * 5 / 4);
         let end = board.avr().cycles() + len;
         let mut jump = Some(board.avr().cycles() + self.rng.u64(..2 * self.saving_max));
@@ -156,7 +165,8 @@ impl Victim {
                 jump = None;
             }
         }
-        // In the last scans a snapshot may be half taken; what is written then is still the one before.
+        // In the last scans a snapshot may be half taken; what is written then is still the one
+        // before.
         board.run_for(self.rng.u64(..2 * self.byte_max));
         self.observe(board);
     }
@@ -182,6 +192,7 @@ fn a_cut_at_any_cycle_leaves_old_or_new_values() {
         println!("seed {seed}: {cuts} cuts, {:?}", victim.counts);
         sum += victim.counts;
     }
-    let has_tested = sum.back > cuts / 3 && sum.lost > 3 && sum.in_start > cuts / 20 && sum.torn > cuts / 5;
+    let has_tested =
+        sum.back > cuts / 3 && sum.lost > 3 && sum.in_start > cuts / 20 && sum.torn > cuts / 5;
     assert!(has_tested, "{sum:?}: hardly anything was tested");
 }

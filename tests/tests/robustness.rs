@@ -1,47 +1,35 @@
-//! Bad input of every kind: images and texts that nobody meant. Never a panic, a hang or a write outside the plan.
+//! Bad input of every kind: images and texts that nobody meant. Never a panic, a hang or a write
+//! outside the plan.
 //!
-//! `RANDOM_IMAGES`, `RANDOM_TEXTS` and `RANDOM_SEED` in the environment make the runs longer or different.
+//! `RANDOM_IMAGES`, `RANDOM_TEXTS` and `RANDOM_SEED` in the environment make the runs longer or
+//! different.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use awl_asm::assemble::assemble;
+use awl_asm::assemble::assemble_for;
 use awl_asm::disassemble::disassemble;
 use awl_asm::source::Source;
-use awl_asm::{render, symbols};
 use fastrand::Rng;
-use plc_isa::{ARENA_START, C_BITS_START, CRC_LEN, DATA_START, ENO, Header, SLOT_LEN};
-use plc_vm::{Environment, Inputs, Memory, Plc};
+use plc_isa::{C_BITS_START, CRC_LEN, FORMAT_AT, HOST, Header, UNO};
+use plc_vm::{Inputs, Memory, Plc};
 use tests::effort::effort;
+use tests::fuzz::{TARGETS, read_text, run_image};
 use tests::image::sign;
 use tests::mutate::mutate;
 use tests::random::random_program;
 
-/// Loops end soon: a hang would be a loop that never asks.
-struct Impatient {
-    now_ms: u32,
-    looped_bytes: u32,
-}
-
-impl Environment for Impatient {
-    fn now_ms(&mut self) -> u32 {
-        self.now_ms
-    }
-    fn is_overdue(&mut self, bytes: u16) -> bool {
-        self.looped_bytes += u32::from(bytes) + 1;
-        self.looped_bytes > 5_000
-    }
-    fn retrigger_watchdog(&mut self) {}
-}
-
-/// Images of random programs to start from.
+/// Images of random programs to start from, every other one in the wide format.
 fn images(rng: &mut Rng, count: usize) -> Vec<Vec<u8>> {
-    let text = |rng: &mut Rng| {
+    let image = |number: usize| {
         let size = rng.usize(3..60);
-        random_program(rng, size)
+        let source = Source::new("corpus", random_program(rng, size)).unwrap();
+        let profile = if number.is_multiple_of(2) { &UNO } else { &HOST };
+        let image = assemble_for(&source, Vec::new(), &[], profile).image?;
+        assert_eq!(image[usize::from(FORMAT_AT)], profile.format(), "the image of its profile");
+        Some(image)
     };
-    let image = |rng: &mut Rng| assemble(&Source::new("corpus", text(rng)).unwrap(), Vec::new()).image;
-    (0..count).filter_map(|_| image(rng)).collect()
+    (0..count).filter_map(image).collect()
 }
 
 fn change_bytes(rng: &mut Rng, image: &mut [u8], from: usize) {
@@ -69,7 +57,7 @@ fn random_image(rng: &mut Rng, corpus: &[Vec<u8>]) -> Vec<u8> {
         1 => change_bytes(rng, &mut image, 0),
         // Cut off.
         2 => image.truncate(rng.usize(..image.len())),
-        // Noise behind a sound header.
+        // Noise after a sound header.
         3 => {
             let end = image.len() - usize::from(CRC_LEN) - 1;
             image[code_at..end].iter_mut().for_each(|byte| *byte = rng.u8(..));
@@ -87,35 +75,6 @@ fn random_image(rng: &mut Rng, corpus: &[Vec<u8>]) -> Vec<u8> {
         }
     }
     image
-}
-
-const UNTOUCHED: u8 = 0xA5;
-
-/// Loads and runs an image. Returns whether it was accepted.
-fn run_image(image: &[u8], inputs: &Inputs) -> bool {
-    let (mut plc, mut memory) = (Plc::new(), Memory::new());
-    if plc.load(&mut memory, image).is_err() {
-        assert!(plc.program().is_none() && !plc.run(), "a refused image must not run");
-        return false;
-    }
-    let plan_end = plc.program().map_or(0, |program| program.plan().end());
-    let outside = (0..memory.bytes().len() as u16)
-        .map(|offset| DATA_START + offset)
-        .filter(|&address| (ENO + 1..ARENA_START).contains(&address) || address >= plan_end);
-    for address in outside.clone() {
-        memory.set_byte(address, UNTOUCHED);
-    }
-    plc.run();
-    let mut environment = Impatient { now_ms: u32::MAX - 20, looped_bytes: 0 };
-    for _ in 0..3 {
-        environment.looped_bytes = 0;
-        plc.scan(&mut memory, inputs, &mut environment);
-        environment.now_ms = environment.now_ms.wrapping_add(17);
-    }
-    for address in outside {
-        assert_eq!(memory.byte(address), UNTOUCHED, "{address:#06x} was written");
-    }
-    true
 }
 
 #[test]
@@ -182,7 +141,10 @@ fn corpus() -> Vec<String> {
         for entry in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
             if entry.is_dir() {
                 folders.push(entry);
-            } else if entry.extension().is_some_and(|extension| extension == "awl" || extension == "scn") {
+            } else if entry
+                .extension()
+                .is_some_and(|extension| extension == "awl" || extension == "scn")
+            {
                 texts.push(String::from_utf8_lossy(&fs::read(entry).unwrap()).into_owned());
             }
         }
@@ -206,26 +168,42 @@ fn random_texts_never_panic() {
             _ => corpus[rng.usize(..corpus.len())].clone(),
         };
         let bytes = mutate(&mut rng, &text);
-        let source = Source::from_bytes("random", &bytes).unwrap();
-        let assembly = assemble(&source, Vec::new());
-        if let Some(image) = &assembly.image {
-            good += 1;
-            assert!(image.len() <= usize::from(SLOT_LEN));
-            assert!(
-                run_image(image, &Inputs::default()),
-                "the loader refuses what the assembler made\n{}",
-                source.text
-            );
-        }
-        diagnostics += assembly.diagnostics.len();
-        for diagnostic in assembly.diagnostics.iter().take(5) {
-            let _ = (render::human(&source, diagnostic, false), render::json(&source, diagnostic));
-        }
-        let _ = symbols::load(&source);
-        let mut has_operand = |_| Ok(());
-        let context = awl_sim::scenario::Context { symbols: &[], plant: None, has_operand: &mut has_operand };
-        let _ = awl_sim::scenario::Scenario::parse("random", &source.text, context);
+        let (is_good, messages) = read_text(&bytes);
+        good += u64::from(is_good);
+        diagnostics += messages;
     }
     println!("{count} texts, {good} good ones, {diagnostics} diagnostics");
-    assert!(good > count / 100 && diagnostics as u64 > count, "the texts are not what they should be");
+    assert!(
+        good > count / 100 && diagnostics as u64 > count,
+        "the texts are not what they should be"
+    );
+}
+
+/// The corpus that fuzzing is kept in, and a bounded number of mutations of each file.
+/// `RANDOM_FUZZ` makes it more.
+#[test]
+fn the_corpus_of_fuzzing_never_does_harm() {
+    let (seed, mutations) = (effort("RANDOM_SEED", 1), effort("RANDOM_FUZZ", 200));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus");
+    let mut rng = Rng::with_seed(seed);
+    for (name, body) in TARGETS {
+        let folder = root.join(name);
+        let mut files: Vec<PathBuf> =
+            fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+        files.sort();
+        assert!(!files.is_empty(), "{} is empty", folder.display());
+        for bytes in files.iter().map(|file| fs::read(file).unwrap()) {
+            body(&bytes);
+            for _ in 0..mutations {
+                let mut mutated = bytes.clone();
+                match name {
+                    "text" | "scenario" => {
+                        mutated = mutate(&mut rng, &String::from_utf8_lossy(&bytes));
+                    }
+                    _ => change_bytes(&mut rng, &mut mutated, 0),
+                }
+                body(&mutated);
+            }
+        }
+    }
 }

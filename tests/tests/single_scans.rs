@@ -1,11 +1,12 @@
-//! Single scans: STOP and on from where the program stood.
+//! Single scans: STOP and on from where the program was.
 
 use plc_isa::{M_START, SM_START};
 use plc_vm::{Fault, Inputs, Memory, Mode, Plc};
 use tests::image::image;
 use tests::still_time::StillTime;
 
-/// Counts first scans in MW0, scans in MW2 and rising edges of I0.0 in MW4; timers of each resolution run.
+/// Counts first scans in MW0, scans in MW2 and rising edges of I0.0 in MW4; timers of each
+/// resolution run.
 const TEXT: &str = "NETWORK 1\nLD SM0.1\nINCW MW0\nLD SM0.0\nINCW MW2\nLD I0.0\nEU\nINCW MW4\n\
                     NETWORK 2\nLD SM0.0\nTON T32, 30000\nTON T33, 3000\nTON T37, 300\n";
 

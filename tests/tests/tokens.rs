@@ -1,4 +1,7 @@
-//! The token table against its copy kept by hand: a token whose meaning changes would break every stored image.
+//! The token table against its copy kept by hand: a token whose meaning changes would break every
+//! stored image.
+
+use std::collections::BTreeSet;
 
 use plc_isa::{INSTRUCTIONS, MODULE_PREFIX, MODULES, WIDE_PREFIX};
 
@@ -26,9 +29,21 @@ fn table() -> Vec<String> {
 #[test]
 fn tokens_are_the_pinned_ones() {
     let pinned = include_str!("../tokens.txt");
-    let mut pinned: Vec<&str> = pinned.lines().filter(|line| !line.is_empty() && !line.starts_with('#')).collect();
-    pinned.sort_unstable();
-    assert_eq!(table(), pinned, "a token may be added, never changed");
+    let pinned: BTreeSet<String> = pinned
+        .lines()
+        .filter(|line| !line.is_empty() && !line.starts_with('#'))
+        .map(str::to_owned)
+        .collect();
+    let table: BTreeSet<String> = table().into_iter().collect();
+    let only = |one: &BTreeSet<String>, other: &BTreeSet<String>| {
+        one.difference(other).cloned().collect::<Vec<_>>().join("\n")
+    };
+    assert!(
+        table == pinned,
+        "a token may be added, never changed\nonly in the table:\n{}\nonly in tokens.txt:\n{}",
+        only(&table, &pinned),
+        only(&pinned, &table)
+    );
 }
 
 #[test]
@@ -37,7 +52,9 @@ fn tokens_do_not_overlap_and_leave_the_erased_byte_undefined() {
     let prefixes: Vec<u8> = modules.chain([WIDE_PREFIX]).collect();
     for prefix in [None].into_iter().chain(prefixes.iter().copied().map(Some)) {
         let mut used = [false; 256];
-        for form in INSTRUCTIONS.iter().flat_map(|row| row.forms).filter(|form| form.prefix == prefix) {
+        for form in
+            INSTRUCTIONS.iter().flat_map(|row| row.forms).filter(|form| form.prefix == prefix)
+        {
             for token in form.first_token..=form.last_token {
                 assert!(!used[usize::from(token)], "token {token:02X} is used twice");
                 used[usize::from(token)] = true;
@@ -47,7 +64,8 @@ fn tokens_do_not_overlap_and_leave_the_erased_byte_undefined() {
         let is_free = |&prefix: &u8| !used[usize::from(prefix)];
         assert!(prefix.is_some() || prefixes.iter().all(is_free), "a prefix is a token");
     }
-    let known =
-        |row: &plc_isa::Instruction| row.forms.iter().all(|form| form.prefix.is_none_or(|p| prefixes.contains(&p)));
+    let known = |row: &plc_isa::Instruction| {
+        row.forms.iter().all(|form| form.prefix.is_none_or(|p| prefixes.contains(&p)))
+    };
     assert!(INSTRUCTIONS.iter().all(known), "a prefix that nobody decodes");
 }

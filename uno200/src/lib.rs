@@ -1,22 +1,14 @@
-//! Talking to a running PLC as a library: client, operands, programs, the terminal view. Arguments and exit codes are
-//! the binary's.
+//! Talking to a running PLC from this computer: ports and sockets, files, the terminal view; and
+//! to editors, as a language server. What a PLC is asked and how it is understood is in [`client`];
+//! exit codes are the binary's.
 
-pub mod client;
-pub mod compare;
-pub mod error;
-pub mod fault;
-pub mod image;
-pub mod operand;
+pub mod args;
+mod connection;
+pub mod ide;
+pub mod lsp;
 pub mod program;
-pub mod reference;
-pub mod service;
+mod service;
 pub mod show;
-pub mod trace;
 pub mod transport;
-pub mod value;
 
-pub use client::Client;
-pub use error::Error;
-pub use operand::Operand;
-pub use program::Program;
-pub use reference::Reference;
+pub use connection::Client;

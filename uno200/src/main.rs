@@ -1,4 +1,5 @@
-//! The command `uno200`. What it does is in the library; here are arguments, messages and exit codes.
+//! The command `uno200`. What it does is in the library; here are arguments, messages and exit
+//! codes.
 
 mod cli;
 

@@ -1,153 +1,117 @@
-//! A program beside the running PLC: its source with lines, symbols and image. It asks the PLC nothing.
+//! Programs and symbol tables from files, with errors as the assembler shows them.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use anyhow::{Context, Result, bail};
-use awl_asm::assemble::{Assembly, assemble};
-use awl_asm::ast::{Statement, Symbol};
-use awl_asm::diagnostic::Severity;
-use awl_asm::disassemble::disassemble;
-use awl_asm::files::{read, read_source};
-use awl_asm::native::translate;
+use anyhow::{Error, Result, bail};
+use awl_asm::ast::{DataLine, Symbol};
+use awl_asm::files::{read, read_program, read_source};
 use awl_asm::render::human;
-use awl_asm::source::Source;
-use plc_isa::MAGIC;
+use awl_asm::report::ProgramErrors;
+use client::program::{Program, ProgramError, data_of, is_image, symbols_of};
+use project::{Findings, Language, join};
 
-/// A program with its source.
-#[derive(Debug)]
-pub struct Program {
-    /// The text; of an image its disassembly.
-    pub source: Source,
-    /// All that the assembler knows.
-    pub assembly: Assembly,
-    /// The image.
-    pub image: Vec<u8>,
+/// Files that belong to a program.
+#[derive(Debug, Clone, Default)]
+pub struct Files {
+    /// Tables of further symbols.
+    pub symbols: Vec<PathBuf>,
+    /// Its data block, if that is a file of its own.
+    pub data: Option<PathBuf>,
 }
 
-/// An instruction of the image and where it stands in the source.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Place {
-    /// Offset of its first byte in the image, hidden instructions before it left out.
-    pub offset: u16,
-    /// One past its last byte, hidden instructions behind it included.
-    pub end: u16,
-    /// Its line in the source, from 1.
-    pub line: usize,
-    /// Its index in the assembly's code.
-    pub index: usize,
-}
-
-impl Program {
-    /// Reads AWL text or an image. `symbol_files`: further symbols. Errors in the program come all at once, as the
-    /// assembler shows them.
-    pub fn open(path: &Path, symbol_files: &[PathBuf]) -> Result<Program> {
-        let symbols = load_symbols(symbol_files)?;
+impl Files {
+    /// Reads AWL text, in one file or several, or an image. Errors in the program come all at once,
+    /// as the assembler shows them.
+    pub fn open(&self, paths: &[PathBuf]) -> Result<Program> {
+        let symbols = self.symbols()?;
+        let is_awl = |path: &PathBuf| Language::of(&path.to_string_lossy()) == Language::Awl;
+        if !paths.iter().all(is_awl) {
+            let sources = paths.iter().map(|path| read_source(path)).collect::<Result<_>>()?;
+            let joined = join(sources).map_err(told)?;
+            return Program::assembled(joined.awl, symbols).map_err(shown);
+        }
+        let [path] = paths else {
+            let data = self.data_lines(&symbols)?;
+            return Program::assembled_with_data(read_program(paths)?, symbols, &data)
+                .map_err(shown);
+        };
         let bytes = read(path)?;
-        let name = path.display().to_string();
-        if bytes.starts_with(&MAGIC) {
-            let text = disassemble(&bytes)
-                .map_err(|error| anyhow::anyhow!("{name}: {} (offset {:#06x})", error.fault.message(), error.at))?;
-            return Program::assembled(Source::new(name, text)?, symbols);
+        if let Some(block) = self.data.as_ref().filter(|_| is_image(&bytes)) {
+            bail!(
+                "{}: a data block goes with AWL text; in an image such as {} there is one already",
+                block.display(),
+                path.display()
+            );
         }
-        Program::assembled(Source::from_bytes(name, &bytes)?, symbols)
+        let data = self.data_lines(&symbols)?;
+        Program::with_data(&path.display().to_string(), &bytes, symbols, &data).map_err(shown)
     }
 
-    /// Assembles a source.
-    pub fn assembled(source: Source, symbols: Vec<Symbol>) -> Result<Program> {
-        let mut assembly = assemble(&source, symbols);
-        match assembly.image.take() {
-            Some(image) => Ok(Program { source, assembly, image }),
-            None => {
-                let errors = assembly.diagnostics.iter().filter(|error| error.severity() == Severity::Error);
-                let text: String = errors.map(|error| human(&source, error, true) + "\n").collect();
-                bail!("{} has errors\n{}", source.name, text.trim_end())
-            }
+    /// The lines of the data block, if there is one.
+    fn data_lines(&self, symbols: &[Symbol]) -> Result<Vec<DataLine>> {
+        match &self.data {
+            Some(block) => data_of(read_source(block)?, symbols).map_err(shown),
+            None => Ok(Vec::new()),
         }
     }
 
-    /// The symbols that the program declares or was given.
-    pub fn symbols(&self) -> &[Symbol] {
-        &self.assembly.program.symbols
-    }
-
-    /// The checksum of the image, as a PLC tells it.
-    pub fn crc(&self) -> u32 {
-        self.image.last_chunk().map_or(0, |bytes| u32::from_le_bytes(*bytes))
-    }
-
-    /// The program as machine code, as a board runs it after `awl-asm --native`.
-    pub fn native_image(&self) -> Result<Vec<u8>> {
-        Ok(translate(&self.image).context("the program cannot be translated")?.image)
-    }
-
-    /// The instructions in the order of the source.
-    pub fn places(&self) -> impl Iterator<Item = Place> + '_ {
-        let code = self.assembly.lines.iter().zip(&self.assembly.code).enumerate();
-        code.map(|(index, (line, selected))| Place {
-            offset: (line.at + u32::from(line.hidden_len)) as u16,
-            end: (line.at + u32::from(line.len)) as u16,
-            line: self.source.position(self.assembly.span_of(selected).start as usize).0,
-            index,
-        })
-    }
-
-    /// `file:line` of the instruction at an offset of the image.
-    pub fn place_of(&self, offset: u16) -> Option<String> {
-        let line = self.assembly.line_at(&self.source, offset)?;
-        Some(format!("{}:{line}", self.source.name))
-    }
-
-    /// The network that a line belongs to; `None` before the first one.
-    pub fn network_of(&self, line: usize) -> Option<u32> {
-        let networks = self.assembly.program.statements.iter().filter_map(|statement| match statement {
-            Statement::Network(network) => Some(network),
-            _ => None,
-        });
-        let begins = |span: awl_asm::ast::Span| self.source.position(span.start as usize).0;
-        networks.take_while(|network| begins(network.span) <= line).last().map(|network| network.number)
+    /// Reads the tables. Errors in them come all at once.
+    pub fn symbols(&self) -> Result<Vec<Symbol>> {
+        let mut symbols = Vec::new();
+        for path in &self.symbols {
+            symbols.extend(symbols_of(read_source(path)?).map_err(shown)?);
+        }
+        Ok(symbols)
     }
 }
 
-/// Reads symbol files. Errors in them come all at once.
-pub fn load_symbols(files: &[PathBuf]) -> Result<Vec<Symbol>> {
-    let mut symbols = Vec::new();
-    for path in files {
-        let table = read_source(path)?;
-        let (list, diagnostics) = awl_asm::symbols::load(&table);
-        let errors = diagnostics.iter().filter(|error| error.severity() == Severity::Error);
-        let text: String = errors.map(|error| human(&table, error, true) + "\n").collect();
-        if !text.is_empty() {
-            bail!("{} has errors\n{}", path.display(), text.trim_end());
-        }
-        symbols.extend(list);
-    }
-    Ok(symbols)
+/// What is wrong with texts in other languages.
+fn told(findings: Vec<Findings>) -> Error {
+    let all = findings.iter().flat_map(|Findings { source, diagnostics }| {
+        diagnostics.iter().map(move |found| human(source, found, true) + "\n")
+    });
+    ProgramErrors(format!("the program has errors\n{}", all.collect::<String>().trim_end())).into()
+}
+
+/// Why it is no program, as the assembler shows it.
+pub fn shown(error: ProgramError) -> Error {
+    let ProgramError::Errors { source, diagnostics } = &error else { return error.into() };
+    let text: String = diagnostics.iter().map(|found| human(source, found, true) + "\n").collect();
+    ProgramErrors(format!("{} has errors\n{}", source.name, text.trim_end())).into()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn program(text: &str) -> Program {
-        Program::assembled(Source::new("p.awl", text).unwrap(), Vec::new()).unwrap()
-    }
+    use awl_asm::source::Source;
 
     #[test]
-    fn offsets_lead_to_lines_and_networks() {
-        let program =
-            program("//# symbol Lamp Q0.0\nNETWORK 1\nLD I0.0\n= Lamp\nNETWORK 7 // second\nLD I0.1\nS Q0.1, 1\n");
-        let places: Vec<Place> = program.places().collect();
-        assert_eq!(places.iter().map(|place| place.line).collect::<Vec<_>>(), [3, 4, 6, 7]);
-        assert!(places.windows(2).all(|pair| pair[0].offset < pair[1].offset));
-        assert_eq!(program.place_of(places[2].offset).as_deref(), Some("p.awl:6"));
-        assert_eq!(program.place_of(0), None);
-        assert_eq!([1, 2, 4, 5, 7].map(|line| program.network_of(line)), [None, Some(1), Some(1), Some(7), Some(7)]);
-        assert_eq!(program.symbols()[0].name, "Lamp");
+    fn several_files_are_one_program() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let routine = "SUBROUTINE_BLOCK Lamp:SBR0\nBEGIN\nLD I0.0\n= Q0.0\nEND_SUBROUTINE_BLOCK\n";
+        std::fs::write(path("main.awl"), "LD SM0.0\nCALL Lamp:SBR0\n").unwrap();
+        std::fs::write(path("sbr0.awl"), routine).unwrap();
+        let paths = [path("main.awl"), path("sbr0.awl")];
+        let program = Files::default().open(&paths).unwrap();
+        let places = program.places().filter_map(|place| program.place_of(place.offset));
+        assert!(places.last().unwrap().ends_with("sbr0.awl:4"));
+        std::fs::write(path("sbr0.awl"), routine.replace("I0.0", "I0.9")).unwrap();
+        let error = Files::default().open(&paths).unwrap_err().to_string();
+        assert!(error.contains("sbr0.awl:3:4"), "{error}");
+        std::fs::write(path("sbr0.awl"), b"GJK\0R04.00").unwrap();
+        for paths in [&paths[..], &paths[1..]] {
+            let error = Files::default().open(paths).unwrap_err().to_string();
+            assert!(error.contains("this is a project of STEP 7-Micro/WIN"), "{error}");
+        }
     }
 
     #[test]
     fn errors_come_as_the_assembler_shows_them() {
-        let error = Program::assembled(Source::new("p.awl", "LD I0.0\nJMP 7\n").unwrap(), Vec::new()).unwrap_err();
-        assert!(error.to_string().contains("p.awl:2:5"), "{error}");
+        let source = Source::new("p.awl", "LD I0.0\nJMP 7\n").unwrap();
+        let error = shown(Program::assembled(source, Vec::new()).unwrap_err());
+        let text = error.to_string();
+        assert!(text.starts_with("p.awl has errors\n") && text.contains("p.awl:2:5"), "{text}");
+        assert!(text.contains("\u{1b}["), "with colours: {text}");
     }
 }

@@ -4,29 +4,32 @@
 /// instructions is 3.6 billion of them: it should take seconds.
 pub const HOST_BITS_PER_SECOND_MIN: f64 = 200e6;
 
-/// Lines a second through the whole assembler: parse, check, plan, encode. An editor can then assemble at
-/// every keystroke.
+/// Lines a second through the whole assembler: parse, check, plan, encode. An editor can then
+/// assemble at every keystroke.
 pub const ASSEMBLER_LINES_PER_SECOND_MIN: f64 = 1e6;
 
 /// A file of 100,000 lines, in seconds: nobody's program is longer, and nothing may be quadratic.
 pub const LARGE_FILE_SECONDS_MAX: f64 = 0.5;
 
-/// Bytes of code an instruction on average, in the examples: 7,680 bytes of slot must hold about 3,000.
+/// Bytes of code an instruction on average, in the examples: 7,680 bytes of slot must hold about
+/// 3,000.
 pub const CODE_BYTES_PER_INSTRUCTION_MAX: f64 = 2.6;
 
-/// Bytes of flash for the firmware, initial values of variables included: what lies below the program slot.
+/// Bytes of flash for the firmware, initial values of variables included: what lies below the
+/// program slot.
 pub const FIRMWARE_FLASH_MAX: u64 = plc_isa::SLOT_START as u64;
 
-/// Bytes of constants and initial values in SRAM. Every table and every text that the compiler puts there by itself
-/// costs twice; what is there now are a few initial values.
+/// Bytes of constants and initial values in SRAM. Every table and every text that the compiler puts
+/// there by itself costs twice; what is there now are a few initial values.
 pub const FIRMWARE_DATA_MAX: u64 = 32;
 
-/// Bytes of SRAM for the firmware's own variables: what data memory and the deepest stack leave. The plan of a program is
-/// in them; since it is placed there at once, the stack is a hundred bytes less deep. So are 16 forced operands.
+/// Bytes of SRAM for the firmware's own variables: what data memory and the deepest stack leave.
+/// The plan of a program is in them; since it is placed there at once, the stack is a hundred bytes
+/// less deep. So are 16 forced operands.
 pub const FIRMWARE_VARIABLES_MAX: u64 = 450;
 
-/// Cycles of a bit instruction in the interpreter, on average over a realistic mix. The S7-200 takes 3.5 and has
-/// hardware for it; the best interpreters known for this chip take over 30.
+/// Cycles of a bit instruction in the interpreter, on average over a realistic mix. The S7-200
+/// takes 3.5 and has hardware for it; the best interpreters known for this chip take over 30.
 pub const INTERPRETER_BIT_CYCLES_MAX: f64 = 20.0;
 
 /// Cycles of a word instruction in the interpreter, on average over the same mix.
@@ -38,14 +41,16 @@ pub const INTERPRETER_STEPS_CYCLES_MAX: f64 = 21_600.0;
 /// Cycles of the station's program in the interpreter. The PLC of 2015 takes 5,518.
 pub const INTERPRETER_STATION_CYCLES_MAX: f64 = 2_000.0;
 
-/// Cycles of the station's whole scan with it, unless a millisecond passes in it. The PLC of 2015 takes 15,873.
+/// Cycles of the station's whole scan with it, unless a millisecond passes in it. The PLC of 2015
+/// takes 15,873.
 pub const INTERPRETER_STATION_SCAN_CYCLES_MAX: f64 = 2_600.0;
 
-/// Cycles that a scan takes beside its program, unless a millisecond has passed: then clock, timers and self-test are
-/// due.
+/// Cycles that a scan takes beside its program, unless a millisecond has passed: then clock, timers
+/// and self-test are due.
 pub const SCAN_OVERHEAD_CYCLES_MAX: f64 = 400.0;
 
-/// Cycles of a bit instruction in machine code with the process image in SRAM. The S7-200 takes 3.5.
+/// Cycles of a bit instruction in machine code with the process image in SRAM. The S7-200 takes
+/// 3.5.
 pub const NATIVE_BIT_CYCLES_MAX: f64 = 3.6;
 
 /// The same with the most used bytes of the process image in registers.

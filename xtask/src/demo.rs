@@ -39,9 +39,11 @@ const SIGNALS: [&str; 12] = [
 
 /// Runs the station against its model.
 fn simulate() -> Result<Outcome> {
-    let Opened { mut machine, symbols, .. } = open_machine(&root().join(PROGRAM), &[], Target::Host)?;
+    let Opened { mut machine, symbols, .. } =
+        open_machine(&root().join(PROGRAM), &[], Target::Host)?;
     let spec = parse_spec(PLANT).map_err(|problems| Error::msg(format!("{problems:?}")))?;
-    let signals: Result<Vec<Signal>, _> = SIGNALS.iter().map(|name| Signal::parse(name, &symbols)).collect();
+    let signals: Result<Vec<Signal>, _> =
+        SIGNALS.iter().map(|name| Signal::parse(name, &symbols)).collect();
     let job = Job {
         scan_ms: 1,
         length: Length::For(RUN_MS),
@@ -75,13 +77,17 @@ pub fn run() -> Result<()> {
 
     let count = |name: &str| report.count(name).unwrap_or(-1);
     let (good, rejected, collisions) = (count("good"), count("rejected"), count("collisions"));
-    println!("\n{} pieces: {good} good, {rejected} rejected, {collisions} collisions", count("pieces"));
+    println!(
+        "\n{} pieces: {good} good, {rejected} rejected, {collisions} collisions",
+        count("pieces")
+    );
     println!("{} scans; the timing diagram is in {DIAGRAM}, open it in a browser", outcome.scans);
     println!("\nThe same by hand, and more:");
     println!("  cargo run -q -p awl-sim -- {PROGRAM} --plant station1 --for 60s --format table");
     ensure!(
         (good, rejected, collisions) == (GOOD, REJECTED, 0),
-        "the station should have sorted {GOOD} good and {REJECTED} rejected pieces without a collision"
+        "the station should have sorted {GOOD} good and {REJECTED} rejected pieces without a \
+            collision"
     );
     Ok(())
 }

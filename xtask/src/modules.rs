@@ -1,9 +1,11 @@
-//! `cargo xtask modules`: from the sources in firmware/modules to the blobs in awl-asm/modules, which the assembler puts
-//! into images. They are committed: hosts without the AVR toolchain assemble programs, too.
+//! `cargo xtask modules`: from the sources in firmware/modules to the blobs in awl-asm/modules,
+//! which the assembler puts into images. They are committed: hosts without the AVR toolchain
+//! assemble programs, too.
 //!
-//! A blob: u16 offset of the jump table; for each of N routines its effect on the stack and the offset of its operands' kinds; lists of kinds; for each
-//! routine the length of its operands, the last routine's first; u16 length of the blob, u16 offset of the jump table,
-//! u8 bytes at the end of data memory that it takes, u8 N; jump table; code.
+//! A blob: u16 offset of the jump table; for each of N routines its effect on the stack and the
+//! offset of its operands' kinds; lists of kinds; for each routine the length of its operands, the
+//! last routine's first; u16 length of the blob, u16 offset of the jump table, u8 bytes at the end
+//! of data memory that it takes, u8 N; jump table; code.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -12,10 +14,11 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail, ensure};
 use plc_isa::{
-    AC_START, AIW_START, AQW_START, ARENA_START, COUNTER_SLOT_LEN, COUNTERS_MODULE, DATA_END, DATA_START, DIRECTORY_AT,
-    ENO, EVENTS_MODULE, EVENTS_SEEN, FORCED, FREEPORT_MODULE, HC0, HC3, HEADER_LEN, Instruction, JUMP_TABLE,
-    MODULE_NAMES, OPERANDS_MODULE, PULSES_MODULE, PowerFlow, REAL_MODULE, SLOT_START, SM_IN_V, SM_START,
-    TIMER_SLOT_LEN, kind_numbers, module_instructions, packed_stack, state_at,
+    AC_START, AIW_START, AQW_START, ARENA_START, COUNTER_SLOT_LEN, COUNTERS_MODULE, DATA_END,
+    DATA_START, DIRECTORY_AT, ENO, EVENTS_MODULE, EVENTS_SEEN, FORCED, FREEPORT_MODULE, HC0, HC3,
+    HEADER_LEN, Instruction, JUMP_TABLE, MODULE_NAMES, OPERANDS_MODULE, PULSES_MODULE, PowerFlow,
+    REAL_MODULE, SLOT_START, SM_IN_V, SM_START, TIMER_SLOT_LEN, kind_numbers, module_instructions,
+    packed_stack, state_at,
 };
 
 use crate::packages;
@@ -26,7 +29,7 @@ const OFFSET_LEN: usize = 2;
 /// Bit in the length of a routine's operands: executed without power flow, too.
 const ALWAYS: u8 = 0x80;
 
-/// What others enter a module by, in the order of its jump table, behind the routines.
+/// What others enter a module by, in the order of its jump table, after the routines.
 fn entries_behind(number: u8) -> &'static [&'static str] {
     match number {
         REAL_MODULE => &[
@@ -73,7 +76,11 @@ fn keep(name: &str, blob: &[u8], check: bool) -> Result<()> {
     let path = root().join("awl-asm/modules").join(name).with_extension("bin");
     if check {
         let kept = fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
-        ensure!(kept == blob, "{} is not what its source says: run `cargo xtask modules`", path.display());
+        ensure!(
+            kept == blob,
+            "{} is not what its source says: run `cargo xtask modules`",
+            path.display()
+        );
         return Ok(());
     }
     println!("{name}: {} bytes", blob.len());
@@ -84,7 +91,7 @@ fn keep(name: &str, blob: &[u8], check: bool) -> Result<()> {
 fn build(number: u8, source: &Path) -> Result<Vec<u8>> {
     let text = text(number, source)?;
     let blob = assemble(&text, 0)?;
-    // Programs differ in what stands before a module.
+    // Programs differ in what is before a module.
     ensure!(blob == assemble(&text, 0x1000)?, "the code is not position independent");
     Ok(blob)
 }
@@ -116,7 +123,10 @@ fn text(number: u8, source: &Path) -> Result<String> {
     }
     let _ = writeln!(text, ".include {:?}\n.balign 2, 0\nmodule_end:", source);
     for (name, value) in shared() {
-        let _ = writeln!(text, ".if {name} != {value}\n.error \"{name} is not {value}, as plc-isa has it\"\n.endif");
+        let _ = writeln!(
+            text,
+            ".if {name} != {value}\n.error \"{name} is not {value}, as plc-isa has it\"\n.endif"
+        );
     }
     Ok(text)
 }
@@ -153,25 +163,32 @@ fn shared() -> [(&'static str, u16); 26] {
     ]
 }
 
-/// The entries of the routines and the lists of kinds behind them, which many routines share.
+/// The entries of the routines and the lists of kinds after them, which many routines share.
 fn entries(instructions: &[&Instruction]) -> Result<(Vec<u8>, Vec<u8>)> {
     let kinds_at = OFFSET_LEN + 2 * instructions.len();
     let (mut entries, mut kinds) = (Vec::new(), Vec::new());
     for (routine, instruction) in instructions.iter().enumerate() {
         let form = instruction.forms.first().context("an instruction without a form")?;
-        ensure!(usize::from(form.first_token) == routine, "the routines are not numbered from 0 on");
+        ensure!(
+            usize::from(form.first_token) == routine,
+            "the routines are not numbered from 0 on"
+        );
         let list: Vec<u8> = kind_numbers(instruction).collect();
         let at = kinds.windows(list.len()).position(|window| window == list).unwrap_or_else(|| {
             kinds.extend_from_slice(&list);
             kinds.len() - list.len()
         });
-        entries.extend([packed_stack(instruction), u8::try_from(kinds_at + at).context("too many kinds")?]);
+        entries.extend([
+            packed_stack(instruction),
+            u8::try_from(kinds_at + at).context("too many kinds")?,
+        ]);
     }
     Ok((entries, kinds))
 }
 
 fn operands_len(instruction: &Instruction) -> u8 {
-    let len: u8 = instruction.forms.iter().flat_map(|form| form.kinds).map(|kind| kind.stored_len()).sum();
+    let len: u8 =
+        instruction.forms.iter().flat_map(|form| form.kinds).map(|kind| kind.stored_len()).sum();
     if instruction.power_flow == PowerFlow::Always { len | ALWAYS } else { len }
 }
 
@@ -179,14 +196,17 @@ fn operands_len(instruction: &Instruction) -> u8 {
 fn assemble(text: &str, start: u16) -> Result<Vec<u8>> {
     let folder = root().join("target/modules");
     fs::create_dir_all(&folder)?;
-    let [text_file, elf, bytes] = ["module.s", "module.elf", "module.bin"].map(|name| folder.join(name));
+    let [text_file, elf, bytes] =
+        ["module.s", "module.elf", "module.bin"].map(|name| folder.join(name));
     fs::write(&text_file, text)?;
     let mut gcc = Command::new("avr-gcc");
     gcc.args(["-mmcu=atmega328p", "-nostartfiles", "-nostdlib", "-x", "assembler"]);
     gcc.arg(format!("-Wl,-Ttext={start:#x},--entry={start:#x}"));
     gcc.arg(format!("-Wa,-I{}", sources().display())).arg(&text_file).arg("-o").arg(&elf);
     run_command(&mut gcc)?;
-    run_command(Command::new("avr-objcopy").args(["-O", "binary", "-j", ".text"]).args([&elf, &bytes]))?;
+    run_command(
+        Command::new("avr-objcopy").args(["-O", "binary", "-j", ".text"]).args([&elf, &bytes]),
+    )?;
     let bytes = fs::read(&bytes)?;
     if bytes.is_empty() {
         bail!("nothing was assembled");

@@ -1,4 +1,5 @@
-//! Packages that a task needs: those of Debian are installed as root on Debian, and named with the exact command elsewhere.
+//! Packages that a task needs: those of Debian are installed as root on Debian, and named with the
+//! exact command elsewhere.
 
 use std::path::Path;
 use std::process::Command;
@@ -7,12 +8,21 @@ use anyhow::{Result, bail};
 
 use crate::process::{root, run};
 
-/// The compiler for the board: core for avr-none is built from source.
-pub const AVR_COMPILER: &[&str] = &["rustc-web", "cargo-web", "rust-web-src"];
+/// The compiler for the board and its lints: core for avr-none is built from source.
+pub const AVR_COMPILER: &[&str] = &["rustc-web", "cargo-web", "rust-web-src", "rust-web-clippy"];
 /// What links the firmware and makes its hex file.
 pub const AVR_LINKER: &[&str] = &["gcc-avr", "avr-libc", "binutils-avr"];
+/// What links WebAssembly with Debian's compiler.
+pub const WASM_LINKER: &[&str] = &["lld-19"];
+/// What runs WebAssembly.
+pub const NODE: &[&str] = &["nodejs"];
+/// What shows the page of the IDE in a test.
+pub const BROWSER: &[&str] = &["chromium"];
 /// The virtual board, the bootloader of the real one, and the program that flashes both.
-pub const VIRTUAL_BOARD: &[&str] = &["simavr", "libsimavr-dev", "libelf-dev", "arduino-core-avr", "avrdude"];
+pub const VIRTUAL_BOARD: &[&str] =
+    &["simavr", "libsimavr-dev", "libelf-dev", "arduino-core-avr", "avrdude"];
+/// An editor that talks to the language server.
+pub const EDITOR: &[&str] = &["neovim"];
 /// A Modbus client that people use, and what installs another.
 pub const MODBUS_CLIENTS: &[&str] = &["mbpoll", "python3"];
 
@@ -20,19 +30,43 @@ pub const MODBUS_CLIENTS: &[&str] = &["mbpoll", "python3"];
 const PYMODBUS: &[&str] = &["pymodbus==3.16.1", "pyserial==3.5"];
 const PYMODBUS_FOLDER: &str = "target/pymodbus";
 
-/// Makes sure that pymodbus is in its folder, from PyPI.
-pub fn ensure_pymodbus() -> Result<()> {
-    let folder = root().join(PYMODBUS_FOLDER);
-    if folder.join("pymodbus").exists() && folder.join("serial").exists() {
-        return Ok(());
+/// Makes sure that all these packages of Debian are installed, and pymodbus is in its folder. Says
+/// before the first what will be installed.
+pub fn ensure_all(debian: &[&[&str]]) -> Result<()> {
+    let mut wanted = debian.concat();
+    if !has_pymodbus() && !has_pip() {
+        wanted.push("python3-pip");
     }
-    let pip = || {
-        let mut pip = Command::new("python3");
-        pip.args(["-m", "pip"]);
-        pip
-    };
-    if !pip().arg("--version").output().is_ok_and(|output| output.status.success()) {
-        ensure_installed(&["python3-pip"])?;
+    let missing = missing(&wanted);
+    if !missing.is_empty() {
+        println!("missing, from Debian: {}", missing.join(" "));
+    }
+    if !has_pymodbus() {
+        println!("missing, from PyPI into {PYMODBUS_FOLDER}: {}", PYMODBUS.join(" "));
+    }
+    ensure_installed(&missing)?;
+    ensure_pymodbus()
+}
+
+fn has_pymodbus() -> bool {
+    let folder = root().join(PYMODBUS_FOLDER);
+    folder.join("pymodbus").exists() && folder.join("serial").exists()
+}
+
+fn pip() -> Command {
+    let mut pip = Command::new("python3");
+    pip.args(["-m", "pip"]);
+    pip
+}
+
+fn has_pip() -> bool {
+    pip().arg("--version").output().is_ok_and(|output| output.status.success())
+}
+
+/// Makes sure that pymodbus is in its folder, from PyPI.
+fn ensure_pymodbus() -> Result<()> {
+    if has_pymodbus() {
+        return Ok(());
     }
     println!("installing {} into {PYMODBUS_FOLDER}", PYMODBUS.join(" "));
     run(pip()
@@ -45,20 +79,29 @@ pub fn ensure_pymodbus() -> Result<()> {
             "--no-deps",
             "--target",
         ])
-        .arg(folder)
+        .arg(root().join(PYMODBUS_FOLDER))
         .args(PYMODBUS))
+}
+
+/// Makes sure that there is npm, from wherever node comes.
+pub fn ensure_npm() -> Result<()> {
+    match Command::new("npm").arg("--version").output().is_ok_and(|found| found.status.success()) {
+        true => Ok(()),
+        false => ensure_installed(&["npm"]),
+    }
 }
 
 /// Makes sure that packages are installed.
 pub fn ensure_installed(packages: &[&str]) -> Result<()> {
-    let missing: Vec<&str> = packages.iter().copied().filter(|package| !is_installed(package)).collect();
+    let missing = missing(packages);
     if missing.is_empty() {
         return Ok(());
     }
     let names = missing.join(" ");
     if !Path::new("/etc/debian_version").exists() || !is_root() {
         bail!(
-            "missing packages: {names}\n  Debian: sudo apt-get install --no-install-recommends {names}\n  or leave this part out with --host-only"
+            "missing packages: {names}\n  Debian: sudo apt-get install --no-install-recommends \
+                {names}\n  or leave this part out with --host-only"
         );
     }
     println!("installing {names}");
@@ -69,8 +112,13 @@ pub fn ensure_installed(packages: &[&str]) -> Result<()> {
         .args(&missing))
 }
 
+fn missing<'a>(packages: &[&'a str]) -> Vec<&'a str> {
+    packages.iter().copied().filter(|package| !is_installed(package)).collect()
+}
+
 fn is_installed(package: &str) -> bool {
-    let query = Command::new("dpkg-query").args(["-W", "-f", "${db:Status-Status}", package]).output();
+    let query =
+        Command::new("dpkg-query").args(["-W", "-f", "${db:Status-Status}", package]).output();
     query.is_ok_and(|output| output.stdout == b"installed")
 }
 

@@ -11,6 +11,9 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new(".")).to_path_buf()
 }
 
+/// Arguments of cargo that turn on what runs on the virtual board.
+pub const WITH_BOARD: &[&str] = &["--features", "tests/uno"];
+
 /// The cargo that runs this task.
 pub fn cargo() -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
@@ -28,6 +31,7 @@ pub fn run(command: &mut Command) -> Result<()> {
 
 fn describe(command: &Command) -> String {
     let arguments = command.get_args().map(|argument| argument.to_string_lossy());
-    let program = Path::new(command.get_program()).file_name().unwrap_or_default().to_string_lossy();
+    let program =
+        Path::new(command.get_program()).file_name().unwrap_or_default().to_string_lossy();
     [program].into_iter().chain(arguments).collect::<Vec<_>>().join(" ")
 }

@@ -1,17 +1,16 @@
 //! `cargo xtask size`: flash, SRAM and stack of the firmware, compared with their budgets.
 //!
-//! Flash and variables are read from the ELF. The deepest stack is measured on the virtual board: `tests/tests/stack.rs`
-//! paints the free SRAM, runs every program there is, and looks how much paint is left.
+//! Flash and variables are read from the ELF. The deepest stack is measured on the virtual board:
+//! `tests/tests/stack.rs` paints the free SRAM, runs every program there is, and looks how much
+//! paint is left.
 
 use std::fs;
-use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
 use object::{Object, ObjectSection, ObjectSymbol};
 use plc_isa::{DATA_LEN, SLOT_START};
 
-use crate::process::{cargo, run as run_command};
-use crate::test::WITH_BOARD;
+use crate::process::{WITH_BOARD, cargo, run as run_command};
 use crate::{budgets, firmware, packages};
 
 /// Prints all figures; fails if one misses its budget.
@@ -22,13 +21,6 @@ pub fn run() -> Result<()> {
     stack.args(["test", "--quiet", "--package", "tests", "--test", "stack"]).args(WITH_BOARD);
     run_command(stack.args(["--", "--nocapture"]))?;
     result
-}
-
-/// Whether an ELF has a symbol of this name.
-pub fn has_symbol(path: &Path, name: &str) -> Result<bool> {
-    let bytes = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
-    let elf = object::File::parse(&*bytes).context("the firmware is no ELF")?;
-    Ok(elf.symbols().any(|symbol| symbol.name() == Ok(name)))
 }
 
 /// What the ELF alone tells. The stack has its test.
@@ -51,7 +43,10 @@ pub fn gate() -> Result<()> {
     }
     println!("beside them: data memory {DATA_LEN} bytes, program slot from {SLOT_START:#06x}");
     ensure!(missed == 0, "{missed} budgets missed");
-    let panics = elf.symbols().filter_map(|symbol| symbol.name().ok()).find(|name| name.contains("9panicking"));
+    let panics = elf
+        .symbols()
+        .filter_map(|symbol| symbol.name().ok())
+        .find(|name| name.contains("9panicking"));
     ensure!(panics.is_none(), "the firmware can panic: {}", panics.unwrap_or_default());
     println!("no panic in the firmware's own code");
     Ok(())

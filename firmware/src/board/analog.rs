@@ -1,4 +1,5 @@
-//! The six analog inputs, converted in the background: one conversion per tick, each input every 6 ms.
+//! The six analog inputs, converted in the background: one conversion per tick, each input every 6
+//! ms.
 
 use core::arch::global_asm;
 use core::mem::offset_of;
@@ -28,7 +29,8 @@ struct Analog {
 }
 
 /// Only used while interrupts are off.
-static mut ANALOG: Analog = Analog { values: [0; CHANNELS], sums: [0; CHANNELS], fresh: 0, filter: 0 };
+static mut ANALOG: Analog =
+    Analog { values: [0; CHANNELS], sums: [0; CHANNELS], fresh: 0, filter: 0 };
 
 global_asm!(
     ".equ AIW_START, {aiw_start}",
@@ -77,7 +79,8 @@ pub fn start() {
     adc.adcsra().write(|w| w.aden().set_bit().adsc().set_bit().adps().prescaler_128());
 }
 
-/// Waits until every input has been converted once, 7 ms: for the start, so that the first scan sees no zeros.
+/// Waits until every input has been converted once, 7 ms: for the start, so that the first scan
+/// sees no zeros.
 pub fn wait_for_all() {
     while fresh() != ALL_CHANNELS {}
 }
@@ -85,8 +88,9 @@ pub fn wait_for_all() {
 /// Smooths over 2 to the power of `filter` samples from now on, beginning with the values of now.
 pub fn set_filter(filter: u8) {
     interrupt::free(|_| {
+        let analog = &raw mut ANALOG;
         // SAFETY: interrupts are off.
-        let analog = unsafe { &mut *&raw mut ANALOG };
+        let analog = unsafe { &mut *analog };
         analog.filter = filter;
         for (sum, value) in analog.sums.iter_mut().zip(&analog.values) {
             *sum = value << filter;
@@ -96,8 +100,8 @@ pub fn set_filter(filter: u8) {
     });
 }
 
-/// Gives the image of inputs the counts of every input that has a new value, as they are and to scale:
-/// [`plc_isa::AnalogInput`].
+/// Gives the image of inputs the counts of every input that has a new value, as they are and to
+/// scale: [`plc_isa::AnalogInput`].
 #[inline(always)]
 pub fn take_fresh() {
     // SAFETY: the assembly writes these words of data memory, which nobody holds a reference to.

@@ -22,7 +22,8 @@ impl Eeprom {
         self.registers.eedr().read().bits()
     }
 
-    /// Starts to write a byte, unless it is there already. Only when ready. Returns whether a write is under way.
+    /// Starts to write a byte, unless it is there already. Only when ready. Returns whether a write
+    /// is under way.
     pub fn update(&self, address: u16, byte: u8) -> bool {
         // This selects the address for the write, too.
         if self.read(address) == byte {

@@ -1,10 +1,13 @@
-//! What is read from flash: the program slot, the token table and texts. Constants elsewhere would cost SRAM.
+//! What is read from flash: the program slot, the token table and texts. Constants elsewhere would
+//! cost SRAM.
 
 use core::arch::asm;
+use core::ptr;
 
 use plc_isa::{
-    Crc32, DATA_END, DIRECTORY_AT, FIELDS_AT, FUNCTION_MODULE, Header, MODULE_HEAD_LEN, MODULES, OPERANDS_MODULE, Op,
-    PID_MODULE, ProgramMemory, REAL_MODULE, Routine, SLOT_LEN, SLOT_START, TOKEN_TABLE, TOKEN_TABLE_LEN,
+    Crc32, DATA_END, DIRECTORY_AT, FIELDS_AT, FUNCTION_MODULE, Header, MODULE_HEAD_LEN, MODULES,
+    OPERANDS_MODULE, Op, PID_MODULE, Profile, ProgramMemory, REAL_MODULE, Routine, SLOT_LEN,
+    SLOT_START, TOKEN_TABLE, TOKEN_TABLE_LEN, UNO,
 };
 
 use crate::engine;
@@ -22,7 +25,12 @@ pub fn byte(address: u16) -> u8 {
     let byte: u8;
     // SAFETY: `lpm` reads flash and changes nothing but its register.
     unsafe {
-        asm!("lpm {byte}, Z", byte = out(reg) byte, in("Z") address, options(pure, readonly, nostack, preserves_flags));
+        asm!(
+            "lpm {byte}, Z",
+            byte = out(reg) byte,
+            in("Z") address,
+            options(pure, readonly, nostack, preserves_flags)
+        );
     }
     byte
 }
@@ -44,24 +52,70 @@ pub fn word(address: u16) -> u16 {
     word
 }
 
+/// What makes an address of an offset in the slot when it is subtracted from the upper byte. The
+/// compiler would not see that the lower one stays as it is.
+const NEGATIVE_START: u8 = (SLOT_START >> 8).wrapping_neg() as u8;
+
+/// The address in flash of an offset in the program slot.
+#[inline(always)]
+pub fn address(mut offset: u16) -> u16 {
+    // SAFETY: nothing but the number changes.
+    unsafe {
+        asm!(
+            "subi {offset:h}, {start}",
+            start = const NEGATIVE_START,
+            offset = inout(reg_iw) offset,
+            options(pure, nomem, nostack)
+        );
+    }
+    offset
+}
+
 /// The program slot.
 #[derive(Clone, Copy)]
 pub struct ProgramSlot;
 
 impl ProgramMemory for ProgramSlot {
     const NATIVE_INTERFACE: u8 = engine::NATIVE_INTERFACE;
+    const PROFILE: Option<&'static Profile> = Some(&UNO);
 
     fn len(&self) -> u16 {
         SLOT_LEN
     }
 
-    // What lies behind the slot is the bootloader: no program is that long, and reading it does no harm.
+    // What lies after the slot is the bootloader: no program is that long, and reading it does no
+    // harm.
     fn byte(&self, offset: u16) -> u8 {
-        byte(SLOT_START.wrapping_add(offset))
+        let byte: u8;
+        // SAFETY: as above.
+        unsafe {
+            asm!(
+                "subi r31, {start}",
+                "lpm {byte}, Z",
+                byte = out(reg) byte,
+                start = const NEGATIVE_START,
+                inout("Z") offset => _,
+                options(pure, readonly, nostack)
+            );
+        }
+        byte
     }
 
     fn word(&self, offset: u16) -> u16 {
-        word(SLOT_START.wrapping_add(offset))
+        let word: u16;
+        // SAFETY: as above.
+        unsafe {
+            asm!(
+                "subi r31, {start}",
+                "lpm {word:l}, Z+",
+                "lpm {word:h}, Z",
+                word = out(reg_pair) word,
+                start = const NEGATIVE_START,
+                inout("Z") offset => _,
+                options(pure, readonly, nostack)
+            );
+        }
+        word
     }
 
     fn token_table(&self, offset: u16) -> [u8; 2] {
@@ -78,7 +132,7 @@ impl ProgramMemory for ProgramSlot {
 
     fn routine(&self, module: u8, routine: u8) -> Option<Routine> {
         let table = jump_table(module);
-        if !engine::HAS_MODULES || table == 0 || routine >= byte(table.wrapping_sub(1)) {
+        if table == 0 || routine >= byte(table.wrapping_sub(1)) {
             return None;
         }
         let start = module_start(table);
@@ -89,20 +143,32 @@ impl ProgramMemory for ProgramSlot {
     fn read_header(&self, header: &mut Header) {
         const LEN: usize = (DIRECTORY_AT - FIELDS_AT) as usize;
         const { assert!(size_of::<Header>() == LEN) };
-        // SAFETY: a header is numbers one behind the other, of which any bytes are a value.
+        // SAFETY: a header is numbers one after the other, of which any bytes are a value.
         let bytes: &mut [u8; LEN] = unsafe { &mut *(&raw mut *header).cast() };
         let mut at = SLOT_START + FIELDS_AT;
-        for place in bytes {
-            *place = byte(at);
+        bytes.fill_with(|| {
+            let byte = byte(at);
             at += 1;
+            byte
+        });
+    }
+
+    #[inline(always)]
+    fn anywhere<T>(place: &mut T) -> &mut T {
+        let mut address = (&raw mut *place).expose_provenance();
+        // SAFETY: the address stays what it is.
+        unsafe {
+            asm!(
+                "/* {0} */",
+                inout(reg_pair) address,
+                options(pure, nomem, nostack, preserves_flags)
+            );
+            &mut *ptr::with_exposed_provenance_mut(address)
         }
     }
 
     #[inline(never)]
     fn modules_end(&self) -> Option<u16> {
-        if !engine::HAS_MODULES {
-            return (!is_used(OPERANDS_MODULE)).then_some(DATA_END);
-        }
         let (mut number, mut state_len) = (0, 0);
         while number < MODULES as u8 {
             if is_used(number) {
@@ -143,7 +209,8 @@ fn is_known(number: u8, table: u16) -> bool {
     let distance = word(table.wrapping_sub(4));
     let start = table.wrapping_sub(distance);
     // Functions and controllers call the module of reals, and all call that of operands.
-    let called = if matches!(number, FUNCTION_MODULE | PID_MODULE) { REAL_MODULE } else { OPERANDS_MODULE };
+    let called =
+        if matches!(number, FUNCTION_MODULE | PID_MODULE) { REAL_MODULE } else { OPERANDS_MODULE };
     // The jump table is where the module itself says, which is what the checksum is of.
     if word(start) != distance || !is_used(called) {
         return false;
@@ -155,5 +222,5 @@ fn is_known(number: u8, table: u16) -> bool {
     };
     take(start, word(table.wrapping_sub(MODULE_HEAD_LEN)));
     take(&raw const KNOWN_MODULES as u16 + 4 * u16::from(number), 4);
-    crc.is_complete()
+    crc.ends()
 }

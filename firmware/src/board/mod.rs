@@ -16,7 +16,6 @@ pub mod takeover;
 pub mod trace;
 pub mod watchdog;
 
-use avr_device::atmega328p::Peripherals;
 use avr_device::interrupt;
 
 use data::Data;
@@ -49,13 +48,10 @@ pub fn set_up() {
     // First: after its own reset the watchdog goes on with its shortest time.
     watchdog::stop();
     stack::paint();
-    // SAFETY: comes here once, before anything else touches a peripheral; interrupts take their own registers only.
-    let peripherals = unsafe { Peripherals::steal() };
     ports::release_outputs();
     analog::start();
-    clock::start(&peripherals.TC0);
+    clock::start();
     serial::set_up();
-    data::clear();
     watchdog::start();
     // SAFETY: everything that interrupts share has been set up.
     unsafe { interrupt::enable() };

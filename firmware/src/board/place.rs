@@ -10,6 +10,7 @@ static mut UNO: Uno = Uno::new(unsafe { Board::of_reset() });
 /// The PLC. Only for `main`, which is entered once.
 #[inline(always)]
 pub fn uno() -> &'static mut Uno {
+    let uno = &raw mut UNO;
     // SAFETY: there is one caller, which is entered once, so that this is the only reference.
-    unsafe { &mut *&raw mut UNO }
+    unsafe { &mut *uno }
 }

@@ -1,4 +1,5 @@
-//! Digital inputs and outputs. Ports are read and written whole, so that all points of a scan are of one moment.
+//! Digital inputs and outputs. Ports are read and written whole, so that all points of a scan are
+//! of one moment.
 
 use avr_device::atmega328p::{PORTB, PORTD};
 
@@ -23,10 +24,11 @@ impl Ports {
     /// Switches the pull-up resistors of the inputs on, a bit each.
     #[inline(never)]
     pub fn set_pullups(&self, pullups: u8) {
-        // SAFETY: every value is a valid choice of pull-ups; the pins of the serial line keep theirs.
-        self.inputs
-            .portd()
-            .modify(|r, w| unsafe { w.bits(r.bits() & !(POINTS << INPUT_SHIFT) | (pullups & POINTS) << INPUT_SHIFT) });
+        // SAFETY: every value is a valid choice of pull-ups; the pins of the serial line keep
+        // theirs.
+        self.inputs.portd().modify(|r, w| unsafe {
+            w.bits(r.bits() & !(POINTS << INPUT_SHIFT) | (pullups & POINTS) << INPUT_SHIFT)
+        });
     }
 
     /// Drives the output pins, Q0.0 in bit 0.

@@ -1,5 +1,5 @@
-//! The serial line: frames of Modbus RTU, by interrupts (`serial.s`), in data memory. Nothing waits. What requests ask
-//! for is not known here.
+//! The serial line: frames of Modbus RTU, by interrupts (`serial.s`), in data memory. Nothing
+//! waits. What requests ask for is not known here.
 
 use core::arch::global_asm;
 use core::mem::offset_of;
@@ -52,8 +52,16 @@ struct Rtu {
     settings: u8,
 }
 
-static mut RTU: Rtu =
-    Rtu { state: LISTENING, unit: 0, address: 0, room: 0, next: 0, left: 0, crc: 0, settings: Settings::DEFAULT.line };
+static mut RTU: Rtu = Rtu {
+    state: LISTENING,
+    unit: 0,
+    address: 0,
+    room: 0,
+    next: 0,
+    left: 0,
+    crc: 0,
+    settings: Settings::DEFAULT.line,
+};
 
 global_asm!(
     ".equ RTU_STATE, {state}",
@@ -91,9 +99,10 @@ global_asm!(
 );
 global_asm!(include_str!("serial.s"), options(raw));
 
-/// Of each rate in the order of [`plc_isa::LineSettings::RATES`]: the divider of 2 MHz, less 1, and the pause that ends
-/// a frame, less 1, in counts of 16 us, or of 64 us from 4800 baud down: 1.76 ms, then 3.5 characters of 11 bits.
-/// 115200 is 2.1 % fast, what receivers take, 57600 0.8 % slow. At 1200 the counter ends after 1.8 characters.
+/// Of each rate in the order of [`plc_isa::LineSettings::RATES`]: the divider of 2 MHz, less 1, and
+/// the pause that ends a frame, less 1, in counts of 16 us, or of 64 us from 4800 baud down: 1.76
+/// ms, then 3.5 characters of 11 bits. 115200 is 2.1 % fast, what receivers take, 57600 0.8 % slow.
+/// At 1200 the counter ends after 1.8 characters.
 #[unsafe(link_section = ".progmem.data")]
 static RATES: [[u8; 3]; 8] = [
     rate(16, 109),
@@ -113,12 +122,18 @@ const fn rate(divider: u16, pause: u8) -> [u8; 3] {
     [low, high, pause]
 }
 
+/// Where that is.
+#[inline(always)]
+fn rtu() -> *mut Rtu {
+    &raw mut RTU
+}
+
 /// Sets the line up for frames, also after a module had it.
 #[unsafe(export_name = "uno200_set_up_line")]
 pub extern "C" fn set_up() {
     interrupt::free(|_| {
         // SAFETY: with interrupts off nobody else uses the registers and the state of the line.
-        let (usart, timer, line) = unsafe { (USART0::steal(), TC2::steal(), &mut *&raw mut RTU) };
+        let (usart, timer, line) = unsafe { (USART0::steal(), TC2::steal(), &mut *rtu()) };
         line.state = LISTENING;
         let (rate, parity) = (line.settings & 7, line.settings >> 4);
         let entry = &raw const RATES as u16 + 3 * u16::from(rate);
@@ -131,7 +146,9 @@ pub extern "C" fn set_up() {
         usart.ucsr0c().write(|w| unsafe { w.bits(parity_bits | 0x06) });
         timer.timsk2().reset();
         timer.tccr2a().write(|w| w.wgm2().ctc());
-        timer.tccr2b().write(|w| if rate < SLOW { w.cs2().prescale_256() } else { w.cs2().prescale_1024() });
+        timer
+            .tccr2b()
+            .write(|w| if rate < SLOW { w.cs2().prescale_256() } else { w.cs2().prescale_1024() });
         timer.ocr2a().write(|w| w.set(flash::byte(entry + 2)));
         usart.ucsr0b().write(|w| w.rxcie0().set_bit().rxen0().set_bit().txen0().set_bit());
     });
@@ -143,8 +160,8 @@ fn state() -> u8 {
 }
 
 fn set_state(state: u8) {
-    // SAFETY: a byte, written where interrupts do not write it: they are off, or the state is one that they leave
-    // alone.
+    // SAFETY: a byte, written where interrupts do not write it: they are off, or the state is one
+    // that they leave alone.
     unsafe { (&raw mut RTU.state).write_volatile(state) };
 }
 
@@ -165,8 +182,8 @@ pub fn is_sending() -> bool {
     state() >= ANSWERING
 }
 
-/// Length of the request, which stays as it is from now on: function code and data. 255: it is longer than there is
-/// room for. 0: something else has come meanwhile.
+/// Length of the request, which stays as it is from now on: function code and data. 255: it is
+/// longer than there is room for. 0: something else has come meanwhile.
 pub fn take() -> u8 {
     let is_there = interrupt::free(|_| {
         let is_there = has_request();
@@ -176,7 +193,7 @@ pub fn take() -> u8 {
         is_there
     });
     // SAFETY: interrupts do not use it in the state of now, if it is that.
-    let line = unsafe { &*&raw const RTU };
+    let line = unsafe { &*rtu() };
     if !is_there {
         return 0;
     }
@@ -184,7 +201,10 @@ pub fn take() -> u8 {
         return u8::MAX;
     }
     let received = line.room - line.left;
-    if received > CRC_LEN { received - CRC_LEN } else { 0 }
+    if received <= CRC_LEN {
+        return 0;
+    }
+    received - CRC_LEN
 }
 
 /// Nothing is received until [`place`].
@@ -197,11 +217,11 @@ pub fn ignore() {
     set_state(LISTENING);
 }
 
-/// Sends the answer, so many bytes from data address `frame` on. Requests to all get none, nor do any when a module has
-/// taken over the line.
+/// Sends the answer, so many bytes from data address `frame` on. Requests to all get none, nor do
+/// any when a module has taken over the line.
 pub fn send(frame: u16, len: u8) {
     // SAFETY: interrupts do not use it in the state of now.
-    let line = unsafe { &mut *&raw mut RTU };
+    let line = unsafe { &mut *rtu() };
     if line.address == 0 || takeover::flags() & takeover::SERIAL != 0 {
         return ignore();
     }
@@ -214,11 +234,12 @@ pub fn send(frame: u16, len: u8) {
     });
 }
 
-/// From now on the frame, which the engine has placed, has room for requests of so many bytes, and the line is as a
-/// program's settings say.
+/// From now on the frame, which the engine has placed, has room for requests of so many bytes, and
+/// the line is as a program's settings say.
 pub fn place(room: u8, settings: &Settings) {
-    // SAFETY: interrupts do not use it in the state of now, and the line is listening only after that.
-    let line = unsafe { &mut *&raw mut RTU };
+    // SAFETY: interrupts do not use it in the state of now, and the line is listening only after
+    // that.
+    let line = unsafe { &mut *rtu() };
     line.room = room + CRC_LEN;
     line.unit = settings.modbus_address;
     if line.settings != settings.line {

@@ -1,9 +1,10 @@
-; Frames of Modbus RTU on the serial line: the interrupts of a received character, of an empty transmitter, and of the
-; pause behind a character, which Timer2 measures. What is in a frame is not known here.
+; Frames of Modbus RTU on the serial line: the interrupts of a received character, of an empty
+; transmitter, and of the pause after a character, which Timer2 measures. What is in a frame is not
+; known here.
 ;
-; Requests are written to data memory as they come, to the frame of the engine (link.s), without address but with
-; checksum; answers are read from there. Over a whole frame the checksum is 0. r31 is on the stack when an interrupt
-; begins.
+; Requests are written to data memory as they come, to the frame of the engine (link.s), without
+; address but with checksum; answers are read from there. Over a whole frame the checksum is 0. r31
+; is on the stack when an interrupt begins.
 
 .equ TIFR2, 0x17
 .equ TIMSK2, 0x70
@@ -28,6 +29,7 @@
 .section .text.uno200_line, "ax", @progbits
 
 ; The first character of a frame: for this unit, or for all.
+; in: r24 character, as in uno200_character   ends: the interrupt
 first:
     sts RTU + RTU_ADDRESS, r24
     lds r25, RTU + RTU_UNIT
@@ -43,18 +45,21 @@ first:
     sts RTU + RTU_NEXT + 1, r25
     lds r25, RTU + RTU_ROOM
     sts RTU + RTU_LEFT, r25
+; in: r24 first byte of a frame   ends: the interrupt, with its checksum in RTU_CRC
 begin_crc:
     ldi r30, 0xFF
     ldi r31, 0xFF
     rjmp crc_step
 
 ; Until the next pause.
+; in: -   ends: the interrupt
 ignore:
     ldi r31, IGNORING
     sts RTU + RTU_STATE, r31
     rjmp leave_line
 
 ; A character was received.
+; in: r31 on the hardware stack   ends: the interrupt
 .global uno200_character
 uno200_character:
     ENTER_LINE
@@ -84,14 +89,17 @@ uno200_character:
     lds r30, RTU + RTU_NEXT
     lds r31, RTU + RTU_NEXT + 1
     st Z+, r24
+; in: Z place of the next byte, r24 this one   ends: the interrupt, with the checksum over both
 next_byte:
     sts RTU + RTU_NEXT, r30
     sts RTU + RTU_NEXT + 1, r31
+; in: r24 byte   ends: the interrupt, with the checksum over it, too
 only_crc:
     lds r30, RTU + RTU_CRC
     lds r31, RTU + RTU_CRC + 1
-; The checksum r31 and r30 over the byte r24, too: its polynomial has so few terms that a byte is a parity and two
+; The checksum over one more byte: its polynomial has so few terms that a byte is a parity and two
 ; shifts.
+; in: r31, r30 checksum, r24 byte   ends: the interrupt, with the new one in RTU_CRC
 crc_step:
     eor r30, r24
     mov r24, r30
@@ -118,6 +126,7 @@ crc_step:
     eor r25, r24
     sts RTU + RTU_CRC, r25
     sts RTU + RTU_CRC + 1, r31
+; in: the hardware stack as ENTER_LINE leaves it   ends: the interrupt
 leave_line:
     pop r24
     out SREG, r24
@@ -128,6 +137,7 @@ leave_line:
     reti
 
 ; The pause has lasted long enough.
+; in: r31 on the hardware stack   ends: the interrupt
 .global uno200_pause
 uno200_pause:
     ENTER_LINE
@@ -147,6 +157,7 @@ uno200_pause:
     rjmp leave_line
 
 ; The transmitter has room for a byte: the address, then what is in the frame, then the checksum.
+; in: -   ends: the interrupt
 .global __vector_19
 __vector_19:
     push r31

@@ -41,7 +41,7 @@ fn stack_pointer() -> usize {
 
 /// Bytes that the stack has never used.
 pub fn free() -> u16 {
-    let behind: u16;
+    let end: u16;
     // SAFETY: reading SRAM has no effect; it ends with what is on the stack now.
     unsafe {
         core::arch::asm!(
@@ -50,11 +50,11 @@ pub fn free() -> u16 {
             "breq 1b",
             byte = out(reg_upper) _,
             paint = const PAINT,
-            inout("Z") first_free() as u16 => behind,
+            inout("Z") first_free() as u16 => end,
             options(nostack, readonly)
         );
     }
-    behind - 1 - first_free() as u16
+    end - 1 - first_free() as u16
 }
 
 /// Whether the stack has kept away from the variables.

@@ -1,5 +1,5 @@
-//! What the modules of a program have taken over of the controller: interrupts, Timer1 and Timer2, the serial line. It is
-//! taken back when RUN ends. What they do with it is not known here.
+//! What the modules of a program have taken over of the controller: interrupts, Timer1 and Timer2,
+//! the serial line. It is taken back when RUN ends. What they do with it is not known here.
 
 use avr_device::atmega328p::{CPU, EXINT, TC1};
 

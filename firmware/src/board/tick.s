@@ -1,5 +1,6 @@
-; The interrupt of every millisecond: the clock, and one conversion of an analog input. And what takes the values of the
-; inputs into the image. What the clock and the inputs are for is not known here.
+; The interrupt of every millisecond: the clock, and one conversion of an analog input. And what
+; takes the values of the inputs into the image. What the clock and the inputs are for is not known
+; here.
 
 .equ ADCL, 0x78
 .equ ADCH, 0x79
@@ -13,6 +14,7 @@
 .section .text.uno200_tick_interrupt, "ax", @progbits
 
 ; TIMER0_COMPA. Only what is pushed may be used, r1 may be anything.
+; in: -   ends: the interrupt
 .global __vector_14
 __vector_14:
     push r31
@@ -91,7 +93,8 @@ __vector_14:
     pop r31
     reti
 
-; Gives the image the fresh values, as raw counts and to scale.
+; void uno200_take_analog(): gives the image the fresh values, as raw counts and to scale.
+; in: -   out: -   destroys: r0, r18-r25, X, Z
 .global uno200_take_analog
 uno200_take_analog:
     ldi r26, lo8(ANALOG)

@@ -1,5 +1,7 @@
-//! The hardware watchdog: supervises firmware and tick together. Its interrupt notes the fault, then it resets.
+//! The hardware watchdog: supervises firmware and tick together. Its interrupt notes the fault,
+//! then it resets.
 
+use core::arch::global_asm;
 use core::cell::Cell;
 
 use avr_device::atmega328p::{CPU, WDT};
@@ -27,7 +29,7 @@ fn set(value: u8) {
         avr_device::asm::wdr();
         // SAFETY: the sequence of the data sheet (10.9.2); interrupts are off.
         let (cpu, watchdog) = unsafe { (CPU::steal(), WDT::steal()) };
-        // A reset by the watchdog keeps it on as long as its flag stands.
+        // A reset by the watchdog keeps it on as long as its flag is.
         cpu.mcusr().reset();
         // SAFETY: as above.
         watchdog.wdtcsr().write(|w| unsafe { w.bits(UNLOCK) });
@@ -47,7 +49,7 @@ pub fn start() {
 }
 
 /// The firmware is alive, at this time. A clock that stands still does not count as life.
-#[inline]
+#[inline(never)]
 pub fn feed(now_ms: u32) {
     let now = now_ms as u16;
     let has_moved = interrupt::free(|cs| LAST_MS.borrow(cs).replace(now) != now);
@@ -67,7 +69,16 @@ pub fn reset(fault: Fault) -> ! {
     }
 }
 
-#[avr_device::interrupt(atmega328p)]
-fn WDT() {
+// The interrupt never returns, so nothing is kept: r1 alone is not what Rust expects.
+global_asm!(
+    ".section .text.uno200_hang, \"ax\", @progbits",
+    ".global __vector_6",
+    "__vector_6:",
+    "clr r1",
+    "jmp {hang}",
+    hang = sym hang,
+);
+
+extern "C" fn hang() -> ! {
     reset(Fault::Hang)
 }

@@ -1,6 +1,7 @@
 //! The fast engine seen from Rust: what the assembly needs to know, and what it calls.
 //!
-//! The assembly is put together by the build script from `engine.s`, `handlers.s` and the instruction table.
+//! The assembly is put together by the build script from `engine.s`, `handlers.s` and the
+//! instruction table.
 #![allow(unsafe_code)]
 
 use core::arch::global_asm;
@@ -8,23 +9,22 @@ use core::mem::offset_of;
 use core::ptr;
 
 use plc_isa::{
-    COUNTERS_ENTRY, COUNTERS_MODULE, DIRECTORY_AT, ENO, EVENTS_ENTRY, EVENTS_MODULE, EVENTS_SEEN, Execute,
-    FREEPORT_ENTRY, FREEPORT_MODULE, MODULE_HEAD_LEN, PULSES_ENTRY, PULSES_MODULE, SLOT_START, TimerResolution,
+    COUNTERS_ENTRY, COUNTERS_MODULE, DIRECTORY_AT, ENO, EVENTS_ENTRY, EVENTS_MODULE, EVENTS_SEEN,
+    FREEPORT_ENTRY, FREEPORT_MODULE, MODULE_HEAD_LEN, PULSES_ENTRY, PULSES_MODULE, SLOT_START,
+    TimerResolution,
 };
-use plc_vm::{CALLS_MAX, Environment, Exit, Interpreter};
+use plc_vm::{CALLS_MAX, Environment, Exit, Scan, TimeOfScan};
 
-use crate::board::flash::ProgramSlot;
-use crate::board::{clock, takeover};
+use crate::board::flash::{ProgramSlot, address};
+use crate::board::{clock, takeover, watchdog};
 use crate::engine::link;
-use crate::environment::ScanTime;
+use crate::environment::{ModuleEvents, ScanTime};
 
 /// The firmware's interface to native programs.
 pub const NATIVE_INTERFACE: u8 = plc_isa::NATIVE_INTERFACE;
 
-/// Whether instructions of modules are executed.
-pub const HAS_MODULES: bool = true;
-
-type Execution<'a> = Interpreter<'a, ProgramSlot, ScanTime>;
+type Execution<'a> = Scan<'a, ProgramSlot, ScanTime, ModuleEvents>;
+type Time<'a> = TimeOfScan<'a, ScanTime>;
 
 /// What is known of the program and the scan. The assembly reads it at these offsets.
 #[repr(C)]
@@ -32,16 +32,15 @@ struct Context {
     /// Where execution begins in flash: the address of bytecode, the word address of machine code.
     start: u16,
     is_native: bool,
-    /// Address of the plan's table of routines in flash, and data address of its edge memory. More of the plan is known
-    /// to the line.
+    /// Address of the plan's table of routines in flash, and data address of its edge memory. More
+    /// of the plan is known to the line.
     routines_in_flash: u16,
     edges_start: u16,
-    /// How many timers and counters the plan has.
+    /// How many timers the plan has.
     timers: u16,
-    counters: u16,
     /// Intervals of 100 ms between the starts of this scan and the last.
     ticks_100: u16,
-    /// Two bytes behind the start of the instruction that left the program, in flash.
+    /// Two bytes after the start of the instruction that left the program, in flash.
     left_at: u16,
     /// The stack pointer where the program is left.
     stack: u16,
@@ -49,7 +48,8 @@ struct Context {
     tick: u8,
     /// How many routines are being executed.
     depth: u8,
-    /// The upper byte of where the last instruction of a status window is in flash; 0: there is none in this scan.
+    /// The upper byte of where the last instruction of a status window is in flash; 0: there is
+    /// none in this scan.
     window_page: u8,
 }
 
@@ -59,7 +59,6 @@ static mut CONTEXT: Context = Context {
     routines_in_flash: 0,
     edges_start: 0,
     timers: 0,
-    counters: 0,
     ticks_100: 0,
     left_at: 0,
     stack: 0,
@@ -71,14 +70,14 @@ static mut CONTEXT: Context = Context {
 /// What the module for the clock keeps of the time of day; 0 until it is set.
 static mut TIME_OF_DAY: [u8; 10] = [0; 10];
 
-/// The execution that the assembly is in.
-static mut EXECUTION: *mut Execution<'static> = ptr::null_mut();
+/// The time of the execution that the assembly is in.
+static mut TIME: *mut Time<'static> = ptr::null_mut();
 
 const LEFT_AT_END: u8 = 0;
 const LEFT_BY_STOP: u8 = 1;
 const LEFT_BY_WATCHDOG: u8 = 2;
 const LEFT_BY_UNDEFINED: u8 = 3;
-/// Behind the last: modules count from it.
+/// After the last: modules count from it.
 const LEFT_BY_POINTER: u8 = 4;
 const LEFT_BY_REAL: u8 = 5;
 
@@ -106,7 +105,6 @@ global_asm!(
     ".equ COUNTERS_START, {counters_start}",
     ".equ EDGES_START, {edges_start}",
     ".equ TIMERS, {timers}",
-    ".equ COUNTERS, {counters}",
     ".equ TICKS_100, {ticks_100}",
     ".equ LEFT_AT, {left_at}",
     ".equ STACK, {stack}",
@@ -142,7 +140,6 @@ global_asm!(
     counters_start = const link::COUNTERS_START,
     edges_start = const offset_of!(Context, edges_start),
     timers = const offset_of!(Context, timers),
-    counters = const offset_of!(Context, counters),
     ticks_100 = const offset_of!(Context, ticks_100),
     left_at = const offset_of!(Context, left_at),
     stack = const offset_of!(Context, stack),
@@ -167,8 +164,12 @@ unsafe extern "C" {
 
 /// Advances the running timers of 1 ms or 10 ms. In the scan that begins a RUN there are none.
 pub fn advance_timers(resolution: TimerResolution, ticks: u16) {
-    // SAFETY: the context is that of the program in force, whose plan has been checked; the assembly changes memory of
-    // its timers and their bits and keeps what the calling convention asks for.
+    if ticks == 0 {
+        return;
+    }
+    // SAFETY: the context is that of the program in force, whose plan has been checked; the
+    // assembly changes memory of its timers and their bits and keeps what the calling convention
+    // asks for.
     unsafe { uno200_advance_timers(u8::from(resolution == TimerResolution::Ms10), ticks) }
 }
 
@@ -197,16 +198,19 @@ impl Left {
     }
 }
 
-/// Executes the program. Returns why it was left, and the offset of the instruction that left it. A status window that
-/// is to be filled in is; native programs leave it alone.
+/// Executes the program. Returns why it was left, and the offset of the instruction that left it. A
+/// status window that is to be filled in is; native programs leave it alone.
 #[inline(always)]
-pub fn run(mut execution: Execution<'_>) -> (Left, u16) {
-    enter(&mut execution);
-    // SAFETY: the program has been verified; the assembly reads flash, writes to addresses of the plan, and keeps what
-    // the calling convention asks for. Machine code is trusted to do the same: its translator made it from a verified
-    // program, and its checksum and interface version are right. Nothing else uses the context.
+pub fn run(execution: Execution<'_>) -> (Left, u16) {
+    enter(&execution);
+    let mut time = execution.into_time();
+    // SAFETY: the program has been verified; the assembly reads flash, writes to addresses of the
+    // plan, and keeps what the calling convention asks for. Machine code is trusted to do the same:
+    // its translator made it from a verified program, and its checksum and interface version are
+    // right. Nothing else uses the context.
     let left = unsafe {
-        let (start, is_native) = ((*&raw const CONTEXT).start, (*&raw const CONTEXT).is_native);
+        TIME = (&raw mut time).cast();
+        let (start, is_native) = (CONTEXT.start, CONTEXT.is_native);
         if is_native {
             uno200_run_native(start)
         } else if link::has_window() {
@@ -216,67 +220,71 @@ pub fn run(mut execution: Execution<'_>) -> (Left, u16) {
         }
     };
     // SAFETY: the assembly has returned; nothing else uses the context.
-    let at = unsafe { (*&raw const CONTEXT).left_at };
+    let at = unsafe { CONTEXT.left_at };
     (Left(left), at.wrapping_sub(SLOT_START + 2))
 }
 
 /// Executes bytecode step by step.
 ///
 /// # Safety
-/// As for running it at once: the context is that of a verified program. The entries lie in data memory.
+/// As for running it at once: the context is that of a verified program. The entries lie in data
+/// memory.
 #[inline(never)]
 unsafe fn run_steps(window: u16, address: u16) -> u8 {
-    // SAFETY: nothing else uses the context; the steps are machine code that keeps to the interface of native programs.
+    // SAFETY: nothing else uses the context; the steps are machine code that keeps to the interface
+    // of native programs.
     unsafe {
         let left = uno200_run_steps(uno200_steps as *const () as u16, window, address);
         // The program may have been left before its end.
-        (*&raw mut CONTEXT).window_page = 0;
+        CONTEXT.window_page = 0;
         left
     }
 }
 
-/// Makes an execution the one that the assembly works for. What the plan says stays the same until the next RUN.
+/// Makes an execution the one that the assembly works for. What the plan says stays the same until
+/// the next RUN.
 #[inline(always)]
-fn enter(execution: &mut Execution<'_>) {
+fn enter(execution: &Execution<'_>) {
     let plan = execution.program().plan();
-    // SAFETY: no interrupt uses the context or the execution, and the assembly is not running.
+    // SAFETY: no interrupt uses the context, and the assembly is not running.
     unsafe {
         let context = &raw mut CONTEXT;
-        if execution.is_first_scan() {
+        if execution.is_first() {
             let entry = execution.program().entry();
             (*context).is_native = entry.is_some();
-            (*context).start =
-                entry.map_or(SLOT_START + execution.program().code_at(), |entry| (SLOT_START + entry) / 2);
-            (*context).routines_in_flash = SLOT_START + plan.routines_at;
+            (*context).start = entry
+                .map_or_else(|| address(execution.program().code_at()), |entry| address(entry) / 2);
+            (*context).routines_in_flash = address(plan.routines_at);
             (*context).edges_start = plan.edges_start;
             (*context).timers = plan.header.timers;
-            (*context).counters = plan.header.counters;
         }
         (*context).ticks_100 = execution.ticks_100();
-        EXECUTION = ptr::from_mut(execution).cast();
     }
 }
 
-/// Does something with the execution that the assembly is in. Only for what the assembly calls.
+/// The time of the execution that the assembly is in. Only for what the assembly calls.
 #[inline(always)]
-fn with_execution<T>(act: impl FnOnce(&mut Execution<'_>) -> T) -> T {
-    // SAFETY: the assembly has called, which `run` has called with this execution and which waits; `run` does not touch
-    // it before the assembly returns, and none of the callers calls another.
-    unsafe { act(&mut *EXECUTION) }
+fn time() -> &'static mut Time<'static> {
+    // SAFETY: the assembly has called, which `run` has called with this time and which waits; `run`
+    // does not touch it before the assembly returns, and none of the callers calls another.
+    unsafe { &mut *TIME }
 }
 
 /// Brings the timers of 1 ms up to date.
 #[unsafe(no_mangle)]
 extern "C" fn uno200_refresh_timers() {
-    with_execution(|execution| execution.refresh_timers());
+    advance_timers(TimerResolution::Ms1, time().take_fast_ms());
 }
 
-/// Whether the scan takes longer than it may; not 0 if so. Asked again only when the clock has moved.
+/// Whether the scan takes longer than it may; not 0 if so. Asked again only when the clock has
+/// moved.
 #[unsafe(no_mangle)]
 extern "C" fn uno200_is_overdue() -> u8 {
+    let now_ms = clock::now_ms();
     // SAFETY: as in `enter`: the assembly has called and waits.
-    unsafe { (*&raw mut CONTEXT).tick = clock::now_ms() as u8 };
-    with_execution(|execution| u8::from(execution.environment().is_overdue(0)))
+    unsafe { CONTEXT.tick = now_ms as u8 };
+    watchdog::feed(now_ms);
+    u8::from(time().environment.is_over())
 }
 
 /// The millisecond clock.
@@ -288,5 +296,5 @@ extern "C" fn uno200_now() -> u32 {
 /// WDR.
 #[unsafe(no_mangle)]
 extern "C" fn uno200_retrigger_watchdog() {
-    with_execution(|execution| execution.environment().retrigger_watchdog());
+    time().environment.retrigger_watchdog();
 }

@@ -1,19 +1,19 @@
 //! Answers to requests on the serial line, seen from Rust: what the assembly needs to know.
 //!
-//! The assembly means what the crate plc-link means, which a compiler makes too large for the board; tests compare
-//! their answers.
+//! The assembly means what the crate plc-link means, which a compiler makes too large for the
+//! board; tests compare their answers.
 #![allow(unsafe_code)]
 
 use core::arch::global_asm;
 use core::mem::offset_of;
 
 use plc_isa::{
-    AC_START, AIN_START, AIW_START, AQW_START, ARENA_START, DATA_END, FORCED, HC0, I_START, LINE_ROOM, Program,
-    ProgramMemory, Q_START, SLOT_LEN, SLOT_START, V_RANGE_LEN, WINDOW_LEN,
+    AC_START, AIN_START, AIW_START, AQW_START, ARENA_START, DATA_END, FORCED, HC0, I_START,
+    LINE_ROOM, Program, ProgramMemory, Q_START, SLOT_LEN, SLOT_START, V_RANGE_LEN, WINDOW_LEN,
 };
 
 use crate::board::clock::{COUNTS_PER_MS, Moment};
-use crate::board::flash::ProgramSlot;
+use crate::board::flash::{ProgramSlot, address};
 use crate::board::stack;
 
 /// Longest request and answer: function code and data.
@@ -21,7 +21,7 @@ const PDU_MAX: u16 = 252;
 /// Bytes of a force: place, reference, value.
 const FORCE_LEN: usize = 9;
 const FORCES_MAX: usize = 16;
-/// Bytes behind a request in the frame, its checksum.
+/// Bytes after a request in the frame, its checksum.
 const BEHIND_REQUEST: u16 = 2;
 /// The service function that more is done for here.
 const IDENTIFY: u8 = 65;
@@ -38,13 +38,11 @@ pub const SCANS: u8 = 3;
 const NONE: u8 = 0xFF;
 /// A request that nothing has been done about.
 const NEW: u8 = 0;
-/// Phases of a request for the status of instructions: the next scan fills its entries in, and it has.
-#[cfg(feature = "engine")]
+/// Phases of a request for the status of instructions: the next scan fills its entries in, and it
+/// has.
 const ARMED: u8 = 2;
-#[cfg(feature = "engine")]
 const NOTED: u8 = 3;
 /// Bytes of the frame before the entries.
-#[cfg(feature = "engine")]
 const FIRST_ENTRY: u16 = 3;
 
 /// What begins anew when a program is loaded.
@@ -67,6 +65,9 @@ struct Loaded {
     /// The program's name in flash.
     name_at: u16,
     name_len: u8,
+    /// The bits of the state that the program alone makes.
+    program_bits: u8,
+    forces_count: u8,
 }
 
 impl Loaded {
@@ -84,6 +85,8 @@ impl Loaded {
         counters_start: 0,
         name_at: 0,
         name_len: 0,
+        program_bits: 0,
+        forces_count: 0,
     };
 }
 
@@ -100,8 +103,8 @@ struct Line {
     state: u8,
     fault: u32,
     fault_before_reset: u32,
-    /// Lengths of the scans since RUN, inputs to outputs, in timer counts: the shortest, the last, the longest. 0:
-    /// there is none yet. Three bytes of each are used.
+    /// Lengths of the scans since RUN, inputs to outputs, in timer counts: the shortest, the last,
+    /// the longest. 0: there is none yet. Three bytes of each are used.
     shortest: u32,
     last: u32,
     longest: u32,
@@ -110,10 +113,7 @@ struct Line {
     /// Bytes of stack that were never used.
     free_stack: u16,
     image_len: u16,
-    forces_count: u8,
     forces: [u8; FORCE_LEN * FORCES_MAX],
-    /// The bits of the state that the program alone makes.
-    program_bits: u8,
     /// Data memory for a trace, and its end.
     ring: u16,
     ring_end: u16,
@@ -121,29 +121,30 @@ struct Line {
     phase: u8,
 }
 
-const _: () =
-    assert!(offset_of!(Line, loaded.v_table) == 9 && offset_of!(Line, state) == 26 && offset_of!(Line, scans) == 47);
-const _: () =
-    assert!(offset_of!(Line, forces_count) == 55 && offset_of!(Line, ring) == 201 && offset_of!(Line, phase) == 205);
+const _: () = assert!(
+    offset_of!(Line, loaded.v_table) == 9
+        && offset_of!(Line, loaded.forces_count) == 25
+        && offset_of!(Line, state) == 28
+        && offset_of!(Line, scans) == 49
+);
+const _: () = assert!(
+    offset_of!(Line, forces) == 57
+        && offset_of!(Line, ring) == 201
+        && offset_of!(Line, phase) == 205
+);
 
-/// Where the engine finds the same of the plan.
-#[cfg(feature = "engine")]
-mod places {
-    use super::{Line, offset_of};
+// Where the engine finds the same of the plan.
 
-    /// Addresses of tables in flash.
-    pub const TIMERS_IN_FLASH: usize = offset_of!(Line, loaded.timers_table);
-    /// As above.
-    pub const COUNTERS_IN_FLASH: usize = offset_of!(Line, loaded.counters_table);
-    /// As above.
-    pub const LABELS_IN_FLASH: usize = offset_of!(Line, loaded.labels_table);
-    /// Data addresses of the first slots.
-    pub const TIMERS_START: usize = offset_of!(Line, loaded.timers_start);
-    /// As above.
-    pub const COUNTERS_START: usize = offset_of!(Line, loaded.counters_start);
-}
-#[cfg(feature = "engine")]
-pub use places::*;
+/// Addresses of tables in flash.
+pub const TIMERS_IN_FLASH: usize = offset_of!(Line, loaded.timers_table);
+/// As above.
+pub const COUNTERS_IN_FLASH: usize = offset_of!(Line, loaded.counters_table);
+/// As above.
+pub const LABELS_IN_FLASH: usize = offset_of!(Line, loaded.labels_table);
+/// Data addresses of the first slots.
+pub const TIMERS_START: usize = offset_of!(Line, loaded.timers_start);
+/// As above.
+pub const COUNTERS_START: usize = offset_of!(Line, loaded.counters_start);
 
 static mut LINE: Line = Line {
     frame: 0,
@@ -159,16 +160,14 @@ static mut LINE: Line = Line {
     scans: 0,
     free_stack: 0,
     image_len: 0,
-    forces_count: 0,
     forces: [0; FORCE_LEN * FORCES_MAX],
-    program_bits: 0,
     ring: 0,
     ring_end: 0,
     phase: NEW,
 };
 
 global_asm!(
-    ".equ CAPABILITIES, 3",
+    ".equ CAPABILITIES, 7",
     ".equ I_START, {i_start}",
     ".equ Q_START, {q_start}",
     ".equ AIW_START, {aiw_start}",
@@ -206,11 +205,22 @@ global_asm!(
 );
 global_asm!(
     concat!(".macro VERSION_TEXT\n.asciz \"", env!("CARGO_PKG_VERSION"), "\"\n.endm\n"),
-    include_str!("link.s"),
-    include_str!("status.s"),
-    include_str!("trace.s"),
-    include_str!("scan_times.s"),
-    include_str!("forced.s"),
+    include_str!("link/answer.s"),
+    include_str!("link/references.s"),
+    include_str!("link/modbus.s"),
+    include_str!("link/registers.s"),
+    include_str!("link/values.s"),
+    include_str!("link/identification.s"),
+    include_str!("link/identity.s"),
+    include_str!("link/control.s"),
+    include_str!("link/watch.s"),
+    include_str!("link/forces.s"),
+    include_str!("link/blocks.s"),
+    include_str!("link/set.s"),
+    include_str!("link/status.s"),
+    include_str!("link/trace.s"),
+    include_str!("link/scan_times.s"),
+    include_str!("link/forced.s"),
     options(raw)
 );
 
@@ -226,18 +236,22 @@ unsafe extern "C" {
 /// The state. Only the main program uses it, never while the assembly runs.
 #[inline(always)]
 fn line() -> &'static mut Line {
-    // SAFETY: no reference outlives the function below that it is made for; none of them calls another meanwhile.
-    unsafe { &mut *&raw mut LINE }
+    let line = &raw mut LINE;
+    // SAFETY: no reference outlives the function below that it is made for; none of them calls
+    // another meanwhile.
+    unsafe { &mut *line }
 }
 
-/// Forgets the request before, of which there is work left when a module took the line over meanwhile.
+/// Forgets the request before, of which there is work left when a module took the line over
+/// meanwhile.
 #[inline(always)]
 pub fn forget() {
     line().phase = NEW;
 }
 
-/// Answers the request of so many bytes, at least 1, in the frame. Returns the length of the answer, which has replaced
-/// it; 0: the answer takes another scan, at whose end this is called again.
+/// Answers the request of so many bytes, at least 1, in the frame. Returns the length of the
+/// answer, which has replaced it; 0: the answer takes another scan, at whose end this is called
+/// again.
 pub fn answer(len: u8) -> u8 {
     // SAFETY: the frame is in data memory.
     let function = unsafe { *(line().frame as *const u8) };
@@ -245,8 +259,9 @@ pub fn answer(len: u8) -> u8 {
     if function == IDENTIFY {
         line().free_stack = stack::free();
     }
-    // SAFETY: the assembly reads flash and the image that has been checked, writes data memory of the program in force
-    // and behind it, and keeps what the calling convention asks for. Nobody holds a reference to data memory.
+    // SAFETY: the assembly reads flash and the image that has been checked, writes data memory of
+    // the program in force and after it, and keeps what the calling convention asks for. Nobody
+    // holds a reference to data memory.
     unsafe { line_answer(len) }
 }
 
@@ -265,14 +280,12 @@ pub fn begin_scans() {
 }
 
 /// Whether this scan is to fill in a status window.
-#[cfg(feature = "engine")]
 #[inline(always)]
 pub fn has_window() -> bool {
     line().phase == ARMED
 }
 
 /// Data address of its first entry. It is filled in when the next request is answered.
-#[cfg(feature = "engine")]
 #[inline(always)]
 pub fn take_window() -> u16 {
     let line = line();
@@ -288,7 +301,7 @@ pub fn frame() -> u16 {
 /// Whether something is forced.
 #[inline(always)]
 pub fn is_forced() -> bool {
-    line().forces_count != 0
+    line().loaded.forces_count != 0
 }
 
 /// Gives forced operands their values.
@@ -308,32 +321,32 @@ pub fn end_run() {
     }
 }
 
-/// Places the frame behind the program's memory, and notes where its tables are. Nothing is forced, and no request is
-/// being answered. Returns the most bytes of a request.
-pub fn place(program: Option<&Program<ProgramSlot>>) -> u8 {
+/// Places the frame after the program's memory and the copy of what is retained, and notes where
+/// its tables are. Nothing is forced,
+/// and no request is being answered. Returns the most bytes of a request.
+pub fn place(program: Option<&Program<ProgramSlot>>, retained_len: u16) -> u8 {
     let line = line();
     let (mut frame, mut end) = (ARENA_START, DATA_END);
     line.loaded = Loaded::NOTHING;
     let loaded = &mut line.loaded;
-    (line.image_len, line.program_bits) = (0, 0);
+    line.image_len = 0;
     if let Some(program) = program {
         let plan = program.plan();
         let header = &plan.header;
-        frame = plan.end() + plan.retained_len();
+        frame = plan.end() + retained_len;
         end = program.memory().modules_end().unwrap_or(frame + LINE_ROOM);
-        loaded.timers_table = SLOT_START + plan.timers_at;
-        loaded.counters_table = SLOT_START + plan.counters_at;
-        loaded.labels_table = SLOT_START + plan.labels_at;
+        loaded.timers_table = address(plan.timers_at);
+        loaded.counters_table = address(plan.counters_at);
+        loaded.labels_table = address(plan.labels_at);
         loaded.timers_start = plan.timers_start;
         loaded.counters_start = plan.counters_start;
-        loaded.v_table = loaded.timers_table - V_RANGE_LEN * header.v_ranges;
+        loaded.v_table = address(plan.v_ranges_at);
         loaded.name_len = header.name_len;
         loaded.name_at = loaded.v_table - u16::from(header.name_len);
         line.image_len = header.total_len;
-        line.program_bits = if header.interface == 0 { 1 << 1 } else { 1 << 1 | 1 << 3 };
+        loaded.program_bits = if header.interface == 0 { 1 << 1 } else { 1 << 1 | 1 << 3 };
     }
     line.phase = NEW;
-    line.forces_count = 0;
     line.frame = frame;
     line.room = (end - frame - BEHIND_REQUEST).min(PDU_MAX) as u8;
     line.ring = frame + u16::from(line.room) + BEHIND_REQUEST;
@@ -344,7 +357,7 @@ pub fn place(program: Option<&Program<ProgramSlot>>) -> u8 {
 /// Mode and fault are these now.
 pub fn tell(runs: bool, fault: u32) {
     let line = line();
-    let mut state = u8::from(runs) | line.program_bits;
+    let mut state = u8::from(runs) | line.loaded.program_bits;
     if line.scans_left != 0 {
         state |= STEPPING;
     }
@@ -391,6 +404,7 @@ pub fn count_scan() {
 /// A scan is over that began at this moment.
 #[inline(always)]
 pub fn enter_scan(start: Moment) {
-    // SAFETY: the assembly writes the times of scans and, for a trace, data memory behind the frame.
+    // SAFETY: the assembly writes the times of scans and, for a trace, data memory behind the
+    // frame.
     unsafe { line_enter_scan(start.ms[0], start.ms[1], start.counts) }
 }

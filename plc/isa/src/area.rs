@@ -1,4 +1,5 @@
-//! Memory areas of the S7-200 and the numbers that are legal in them. No placement: that is the plan's.
+//! Memory areas of the S7-200 and the numbers that are legal in them. No placement: that is the
+//! plan's.
 
 use crate::layout::*;
 
@@ -41,7 +42,8 @@ impl Area {
         }
     }
 
-    /// How many bytes a program can address (reference 4.1; V and SM: largest CPU). For T and C: how many numbers.
+    /// How many bytes a program can address (docs/s7-200.md 4.1; V and SM: largest CPU). For T and
+    /// C: how many numbers.
     pub const fn size(self) -> u16 {
         match self {
             Area::I | Area::Q => 16,
@@ -53,8 +55,8 @@ impl Area {
         }
     }
 
-    /// Data address of the area's first byte in the bit page; V has none, because the plan places it.
-    /// For T and C this is where their bits are.
+    /// Data address of the area's first byte in the bit page; V has none, because the plan places
+    /// it. For T and C this is where their bits are.
     pub const fn page_start(self) -> Option<u16> {
         match self {
             Area::I => Some(I_START),
@@ -69,7 +71,7 @@ impl Area {
         }
     }
 
-    /// Bytes the area takes in the bit page. SM bytes behind them are placed by the plan.
+    /// Bytes the area takes in the bit page. SM bytes after them are placed by the plan.
     pub const fn page_len(self) -> u16 {
         match self {
             Area::T | Area::C | Area::Sm => 32,
@@ -78,10 +80,9 @@ impl Area {
         }
     }
 
-    /// First byte a program may write. Inputs belong to the plant; SMB0-SMB29 to the system (reference 3.1).
+    /// First byte a program may write: SMB0-SMB29 belong to the system (docs/s7-200.md 3.1).
     pub const fn first_writable(self) -> u16 {
         match self {
-            Area::I => u16::MAX,
             Area::Sm => 30,
             _ => 0,
         }
@@ -114,7 +115,7 @@ pub enum AnalogInput {
 }
 
 impl AnalogInput {
-    /// Full scale of an AIW word at the reference voltage (reference 9).
+    /// Full scale of an AIW word at the reference voltage (docs/decisions.md).
     pub const SCALED_MAX: u16 = 32000;
     /// Full scale of the board's 10-bit converter.
     pub const RAW_MAX: u16 = 1023;
@@ -129,7 +130,10 @@ impl AnalogInput {
 
     /// The analog input whose word is at this data address.
     pub const fn at_address(address: u16) -> Option<AnalogInput> {
-        if address < AIW_START || address >= AIN_START + 2 * ANALOG_INPUTS || !address.is_multiple_of(2) {
+        if address < AIW_START
+            || address >= AIN_START + 2 * ANALOG_INPUTS
+            || !address.is_multiple_of(2)
+        {
             return None;
         }
         let index = ((address - AIW_START) / 2) as u8;
@@ -140,7 +144,8 @@ impl AnalogInput {
         }
     }
 
-    /// By 65,536 it is 32,000 / 1,023, near enough for every count: a division takes the board longer than a scan has.
+    /// By 65,536 it is 32,000 / 1,023, near enough for every count: a division takes the board
+    /// longer than a scan has.
     pub const SCALE: u32 = 2_050_002;
 
     /// The AIW value of a raw count, rounded to the nearest.
@@ -152,11 +157,12 @@ impl AnalogInput {
     /// The raw count nearest to an AIW value.
     pub const fn unscale(scaled: u16) -> u16 {
         let scaled = if scaled > Self::SCALED_MAX { Self::SCALED_MAX } else { scaled } as u32;
-        ((scaled * Self::RAW_MAX as u32 + Self::SCALED_MAX as u32 / 2) / Self::SCALED_MAX as u32) as u16
+        ((scaled * Self::RAW_MAX as u32 + Self::SCALED_MAX as u32 / 2) / Self::SCALED_MAX as u32)
+            as u16
     }
 }
 
-/// What a timer counts in (reference 2.1).
+/// What a timer counts in (docs/s7-200.md 2.1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum TimerResolution {
     /// 1 ms, up to 32.767 s.
@@ -178,7 +184,7 @@ impl TimerResolution {
     }
 }
 
-/// Which instructions a timer number belongs to (reference 2.1).
+/// Which instructions a timer number belongs to (docs/s7-200.md 2.1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum TimerFamily {
     /// T0-T31 and T64-T95.
@@ -187,7 +193,8 @@ pub enum TimerFamily {
     TonTof,
 }
 
-/// The resolution of a timer, by its number: the first five of each 32 up to T100 are the fast ones.
+/// The resolution of a timer, by its number: the first five of each 32 up to T100 are the fast
+/// ones.
 pub const fn timer_resolution(number: u8) -> TimerResolution {
     match number % 32 {
         _ if number > 100 => TimerResolution::Ms100,
@@ -211,7 +218,8 @@ mod tests {
 
     #[test]
     fn every_raw_count_is_scaled_to_the_nearest() {
-        let (raw_max, scaled_max) = (u32::from(AnalogInput::RAW_MAX), u32::from(AnalogInput::SCALED_MAX));
+        let (raw_max, scaled_max) =
+            (u32::from(AnalogInput::RAW_MAX), u32::from(AnalogInput::SCALED_MAX));
         for raw in 0..=raw_max {
             let nearest = (raw * scaled_max + raw_max / 2) / raw_max;
             assert_eq!(u32::from(AnalogInput::scale(raw as u16)), nearest, "{raw}");

@@ -1,9 +1,7 @@
 //! CRC-32 (IEEE 802.3, reflected), byte by byte, without a table: tables cost SRAM on the board.
 
-use crate::image::ProgramMemory;
-
-/// A CRC-32 being computed. The firmware feeds it in small slices. It holds the checksum of the bytes so far, so that it
-/// begins with zero.
+/// A CRC-32 being computed. The firmware feeds it in small slices. It holds the checksum of the
+/// bytes so far, so that it begins with zero.
 #[derive(Debug, Clone, Copy)]
 pub struct Crc32(u32);
 
@@ -22,15 +20,13 @@ impl Crc32 {
     /// Takes one byte in.
     #[cfg_attr(target_arch = "avr", inline(never))]
     pub const fn byte(&mut self, byte: u8) {
-        let (mut crc, mut byte, mut bits) = (!self.0, byte, 8u8);
-        while bits != 0 {
-            let is_odd = (crc as u8 ^ byte) & 1 != 0;
+        let (mut crc, mut bit) = (!self.0 ^ byte as u32, 1u8);
+        while bit != 0 {
+            // All bits of the polynomial, or none.
+            let taken = (crc as u16 & 1).wrapping_neg();
             crc >>= 1;
-            byte >>= 1;
-            if is_odd {
-                crc ^= 0xEDB8_8320;
-            }
-            bits -= 1;
+            crc ^= (taken & 0x8320) as u32 | ((taken & 0xEDB8) as u32) << 16;
+            bit <<= 1;
         }
         self.0 = !crc;
     }
@@ -40,21 +36,13 @@ impl Crc32 {
         self.0
     }
 
-    /// Takes bytes of program memory in, from one offset to before another.
+    /// Whether what has been taken in ends with its own checksum, low byte first. Begins anew.
     #[cfg_attr(target_arch = "avr", inline(never))]
-    pub fn bytes<P: ProgramMemory>(&mut self, memory: &P, from: u16, to: u16) {
-        let mut offset = from;
-        while offset != to {
-            self.byte(memory.byte(offset));
-            offset = offset.wrapping_add(1);
-        }
-    }
-
-    /// Whether what has been taken in ends with its own checksum, low byte first.
-    #[cfg_attr(target_arch = "avr", inline(never))]
-    pub const fn is_complete(&self) -> bool {
+    pub const fn ends(&mut self) -> bool {
         // What is left after any data followed by its checksum.
-        self.0 == !0xDEBB_20E3
+        let is_complete = self.0 == !0xDEBB_20E3;
+        *self = Crc32::new();
+        is_complete
     }
 
     /// The checksum of a slice.
@@ -78,9 +66,11 @@ mod tests {
         bytes.extend(Crc32::of(&bytes).to_le_bytes());
         let mut crc = Crc32::new();
         crc.bytes(&bytes, 0, 12);
-        assert!(crc.is_complete());
+        assert!(crc.ends());
+        assert!(!crc.ends());
+        crc.bytes(&bytes, 0, 12);
         crc.byte(0);
-        assert!(!crc.is_complete());
+        assert!(!crc.ends());
     }
 
     #[test]

@@ -1,9 +1,12 @@
-//! A decoded instruction: what the checker, the disassembler and the listing look at. Executing is elsewhere.
+//! A decoded instruction: what the checker, the disassembler and the listing look at. Executing is
+//! elsewhere.
 
-use crate::image::ProgramMemory;
-use crate::operand::{Kind, Operand, Raw, Relation};
+use crate::fetch::Fetched;
+use crate::kind::Kind;
+use crate::memory::ProgramMemory;
+use crate::operand::{OPERANDS_MAX, Operand, Raw, Relation};
 use crate::table::{Op, StackEffect};
-use crate::tokens::{Fetched, OPERANDS_MAX, unpacked};
+use crate::token_table::unpacked;
 
 /// Why bytes are no instruction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,11 +41,14 @@ pub fn decode<P: ProgramMemory>(code: &P, pc: u16) -> Result<Decoded, DecodeErro
     if next > code.len() || next <= pc {
         return Err(DecodeError::Truncated);
     }
-    let mut decoded = Decoded { op: fetched.op, stack: unpacked(fetched.stack), len: next - pc, raw };
+    let mut decoded =
+        Decoded { op: fetched.op, stack: unpacked(fetched.stack), len: next - pc, raw };
     for raw in raw {
         match raw.kind() {
-            Some(kind) if !kind.is_canonical(raw) => return Err(DecodeError::Malformed),
-            Some(Kind::Level) => decoded.stack.needs = decoded.stack.needs.saturating_add(raw.value as u8),
+            Some(kind) if !kind.shape().is_canonical(raw) => return Err(DecodeError::Malformed),
+            Some(Kind::Level) => {
+                decoded.stack.needs = decoded.stack.needs.saturating_add(raw.value as u8)
+            }
             _ => {}
         }
     }

@@ -1,106 +1,23 @@
-//! The program image: header and tables, as bytes. Whether an image may run is decided in [`verify`](crate::verify).
+//! The program image: header and tables, as bytes. Whether an image may run is decided in
+//! [`verify`](crate::verify).
 //!
-//! Layout (docs/image.md): header, modules, name, V ranges, timers, counters, labels, retained ranges, routines, events,
-//! constants, initial values, code, CRC.
-//! Numbers are little-endian. Offsets count from the first byte of the image.
+//! Layout (docs/image.md): header, modules, name, V ranges, timers, counters, labels, retained
+//! ranges, routines, events, constants, initial values, code, CRC. Numbers are little-endian.
+//! Offsets count from the first byte of the image.
 
 use crate::crc::Crc32;
-use crate::modules::{self, MODULE_KINDS_AT, MODULES, Routine};
+use crate::header::{FORMAT_AT, HEADER_LEN};
+use crate::memory::ProgramMemory;
 use crate::plan::Plan;
+use crate::profile::Profile;
 use crate::settings::{Retained, Settings};
-use crate::tokens::{TOKEN_TABLE, TOKEN_TABLE_LEN};
 
 /// First bytes of every image.
 pub const MAGIC: [u8; 4] = *b"U200";
-/// Version of the image format and of the instruction set it is written in.
-pub const FORMAT_VERSION: u8 = 6;
-/// Bytes of the header.
-pub const HEADER_LEN: u16 = DIRECTORY_AT + 2 * MODULES as u16;
-/// Offset of the directory of modules in the header: for each the word address of its jump table in flash, 0 where the
-/// program does not use it.
-pub const DIRECTORY_AT: u16 = 42;
-/// Offset of the first field of [`Header`].
-pub const FIELDS_AT: u16 = 5;
-// Offsets of what the loader's check names.
-pub(crate) const TOTAL_LEN_AT: u16 = 6;
-pub(crate) const ARENA_LEN_AT: u16 = 10;
-pub(crate) const SETTINGS_AT: u16 = 22;
-// Offsets of numbers that the check of operands asks for; the last two are bytes.
-pub(crate) const EDGES_AT: u8 = 12;
-pub(crate) const LABELS_AT: u8 = 14;
-pub(crate) const TIMERS_AT: u8 = 18;
-pub(crate) const COUNTERS_AT: u8 = 20;
-pub(crate) const ROUTINES_AT: u8 = 38;
-pub(crate) const EVENTS_AT: u8 = 39;
 /// Bytes of the checksum at the end.
 pub const CRC_LEN: u16 = 4;
 /// Longest program name in bytes.
 pub const NAME_LEN_MAX: u8 = 24;
-
-/// Version of the firmware interface that machine code in an image is translated for (docs/image.md).
-pub const NATIVE_INTERFACE: u8 = 1;
-
-/// Where an image is read from: a slice on the host, flash on the board.
-pub trait ProgramMemory {
-    /// The firmware interface that machine code finds here; 0: none, machine code is refused.
-    const NATIVE_INTERFACE: u8 = 0;
-
-    /// Bytes that can be read.
-    fn len(&self) -> u16;
-    /// The byte at an offset; 0xFF, an undefined token, past the end.
-    fn byte(&self, offset: u16) -> u8;
-    /// The little-endian word at an offset.
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn word(&self, offset: u16) -> u16 {
-        u16::from_le_bytes([self.byte(offset), self.byte(offset.wrapping_add(1))])
-    }
-    /// The two bytes at an offset of [`TOKEN_TABLE`](crate::TOKEN_TABLE), which the board keeps in flash like the program;
-    /// 0 past the end.
-    fn token_table(&self, offset: u16) -> [u8; 2] {
-        static TABLE: [u8; TOKEN_TABLE_LEN] = TOKEN_TABLE;
-        let byte = |at: usize| TABLE.get(at).copied().unwrap_or(0);
-        [byte(usize::from(offset)), byte(usize::from(offset) + 1)]
-    }
-    /// Where [`kind`](Self::kind) finds the list of kinds that stands at an offset of the token table.
-    fn kinds_at(&self, offset: u16) -> u16 {
-        offset
-    }
-    /// The number of a kind in a list of the token table or of a [`Routine`].
-    fn kind(&self, at: u16) -> u8 {
-        if at < MODULE_KINDS_AT { self.token_table(at)[0] } else { modules::kind_byte(at - MODULE_KINDS_AT) }
-    }
-    /// A routine of a module; `None` where there is none.
-    fn routine(&self, module: u8, routine: u8) -> Option<Routine> {
-        modules::routine(module, routine)
-    }
-    /// One past the last data address that the modules in the image leave to the program; `None` when one of them is not
-    /// the module that this machine knows. The host executes their instructions itself and takes them all.
-    fn modules_end(&self) -> Option<u16> {
-        let is_used = |module: &u8| self.word(DIRECTORY_AT + 2 * u16::from(*module)) != 0;
-        Some(modules::data_end((0..MODULES as u8).filter(is_used)))
-    }
-    /// Reads the fields of the header in place, whatever they say. The board copies them: they stand in the image as they
-    /// lie in its memory.
-    fn read_header(&self, header: &mut Header) {
-        header.read_fields(self);
-    }
-    /// Whether there is nothing to read.
-    fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-}
-
-/// Slices and vectors of the host.
-impl<T: AsRef<[u8]>> ProgramMemory for T {
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn len(&self) -> u16 {
-        u16::try_from(self.as_ref().len()).unwrap_or(u16::MAX)
-    }
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn byte(&self, offset: u16) -> u8 {
-        self.as_ref().get(usize::from(offset)).copied().unwrap_or(0xFF)
-    }
-}
 
 /// What is wrong with an image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -109,7 +26,7 @@ pub enum ImageFault {
     Length,
     /// Does not begin with the magic bytes: no program.
     Magic,
-    /// Written for another version.
+    /// Written for another version, or for a profile that does not run here.
     Version,
     /// A reserved field that this version does not know. None is left; the number stays taken.
     Flags,
@@ -145,7 +62,8 @@ pub enum ImageFault {
     Label,
     /// FOR and NEXT do not pair, or are nested too deep.
     Loop,
-    /// Machine code that cannot run here: for another firmware interface, for the board only, or without a valid entry.
+    /// Machine code that cannot run here: for another firmware interface, for the board only, or
+    /// without a valid entry.
     Interface,
     /// A module is not the one that the firmware knows, or an instruction's module is missing.
     Module,
@@ -201,7 +119,9 @@ impl ImageFault {
         match self {
             ImageFault::Length => "the image is incomplete",
             ImageFault::Magic => "this is no program image",
-            ImageFault::Version => "the image was made for another version",
+            ImageFault::Version => {
+                "the image was made for another version or board: assemble it again"
+            }
             ImageFault::Flags => "the image asks for something this version does not know",
             ImageFault::Crc => "the checksum does not match",
             ImageFault::Name => "the program name is not valid",
@@ -216,10 +136,14 @@ impl ImageFault {
             ImageFault::Malformed => "an operand is not stored as it must be",
             ImageFault::Operand => "an operand is not in the memory plan",
             ImageFault::ReadOnly => "an instruction writes to read-only memory",
-            ImageFault::StackUnderflow => "an instruction needs more values than the logic stack holds",
+            ImageFault::StackUnderflow => {
+                "an instruction needs more values than the logic stack holds"
+            }
             ImageFault::Label => "a jump and its label do not match",
             ImageFault::Loop => "FOR and NEXT do not match",
-            ImageFault::Interface => "the image is translated to machine code that this machine does not run",
+            ImageFault::Interface => {
+                "the image is translated to machine code that this machine does not run"
+            }
             ImageFault::Module => "a module of the image is not one that this firmware knows",
             ImageFault::Routine => "a call and its routine do not match",
             ImageFault::Event => "the table of interrupt events is not valid",
@@ -228,7 +152,7 @@ impl ImageFault {
     }
 }
 
-/// The header: lengths and settings, in the order in which they stand in the image.
+/// The header: lengths and settings, in the order in which they are in the image.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Header {
@@ -268,7 +192,8 @@ pub struct Header {
     pub name_len: u8,
 }
 
-/// Bytes of a V range in the image: first byte, then how much of the arena the ranges up to and with this one take.
+/// Bytes of a V range in the image: first byte, then how much of the arena the ranges up to and
+/// with this one take.
 pub const V_RANGE_LEN: u16 = 4;
 /// Bytes of a timer in the image: number, kind.
 pub const TIMER_LEN: u16 = 2;
@@ -287,19 +212,19 @@ pub const INITIAL_HEAD_LEN: u16 = 3;
 /// Bytes of the entry: an offset in the image, at the start of machine code.
 pub const ENTRY_LEN: u16 = 2;
 
-/// Where entry `index` stands among others of `len` bytes, whether in a table of the image or in the arena. Wraps.
-#[cfg_attr(target_arch = "avr", inline(never))]
-#[cfg_attr(not(target_arch = "avr"), inline(always))]
+/// Where entry `index` is among others of `len` bytes, whether in a table of the image or in
+/// the arena. Wraps.
+#[inline(always)]
 pub(crate) fn entry_at(start: u16, index: u16, len: u16) -> u16 {
     start.wrapping_add(index.wrapping_mul(len))
 }
 
 impl Header {
-    /// The header as bytes, with an empty directory of modules.
-    pub fn to_bytes(&self) -> [u8; HEADER_LEN as usize] {
+    /// The header as bytes for a profile, with an empty directory of modules.
+    pub fn to_bytes(&self, profile: &Profile) -> [u8; HEADER_LEN as usize] {
         let mut bytes = [0; HEADER_LEN as usize];
         bytes[..4].copy_from_slice(&MAGIC);
-        bytes[4] = FORMAT_VERSION;
+        bytes[usize::from(FORMAT_AT)] = profile.format();
         bytes[5] = self.interface;
         let words = [
             self.total_len,
@@ -348,19 +273,28 @@ impl Header {
             return error(ImageFault::Length, 0);
         }
         let [a, b, c, d] = MAGIC;
-        if memory.word(0) != u16::from_le_bytes([a, b]) || memory.word(2) != u16::from_le_bytes([c, d]) {
+        if memory.word(0) != u16::from_le_bytes([a, b])
+            || memory.word(2) != u16::from_le_bytes([c, d])
+        {
             return error(ImageFault::Magic, 0);
         }
-        if memory.byte(4) != FORMAT_VERSION {
-            return error(ImageFault::Version, 4);
+        let format = memory.byte(FORMAT_AT);
+        let is_taken = match P::PROFILE {
+            Some(profile) => format == profile.format(),
+            None => Profile::of_format(format).is_some(),
+        };
+        if !is_taken {
+            return error(ImageFault::Version, FORMAT_AT);
         }
         let total_len = memory.word(6);
-        if total_len > memory.len() || !(HEADER_LEN + CRC_LEN..=crate::layout::SLOT_LEN).contains(&total_len) {
+        if total_len > memory.len()
+            || !(HEADER_LEN + CRC_LEN..=memory.profile().slot_len).contains(&total_len)
+        {
             return error(ImageFault::Length, 6);
         }
         let mut crc = Crc32::new();
         crc.bytes(memory, 0, total_len);
-        if !crc.is_complete() {
+        if !crc.ends() {
             return error(ImageFault::Crc, total_len - CRC_LEN);
         }
         let interface = memory.byte(5);
@@ -378,7 +312,7 @@ impl Header {
     }
 
     /// The same in place, field by field.
-    fn read_fields<P: ProgramMemory + ?Sized>(&mut self, memory: &P) {
+    pub(crate) fn read_fields<P: ProgramMemory + ?Sized>(&mut self, memory: &P) {
         self.interface = memory.byte(5);
         self.total_len = memory.word(6);
         self.code_len = memory.word(8);
@@ -455,23 +389,54 @@ impl Header {
         self.tables().code_at()
     }
 
-    /// Where the parts of the image begin, without the image: what its tables place in the arena is not known.
+    /// Where the parts of the image begin, without the image: what its tables place in the arena is
+    /// not known.
     fn tables(&self) -> Plan<[u8; 0]> {
         Plan::of_tables([], *self)
     }
 
-    /// Offset of the first byte behind the code, which is the checksum.
+    /// Offset of the first byte after the code, which is the checksum.
     pub fn code_end(&self) -> u16 {
         self.code_at() + self.code_len
     }
 
     /// No count is absurd: offsets cannot overflow after this.
-    pub(crate) fn is_plausible(&self) -> bool {
-        // Each is below 2,048 if all their bits together are.
-        self.v_ranges | self.timers | self.counters | self.labels | self.edges < 2048
-            && self.modules_len | self.constants_len | self.initial_len < 8192
+    #[inline(always)]
+    pub(crate) fn is_plausible(&self, is_wide: bool) -> bool {
+        let is_small = if is_wide {
+            self.parts_len() == u32::from(self.total_len)
+        } else {
+            // Each is below 2,048 if all their bits together are.
+            self.v_ranges | self.timers | self.counters | self.labels | self.edges < 2048
+                && self.modules_len | self.constants_len | self.initial_len < 8192
+        };
+        is_small
             && self.code_len <= self.total_len
             && self.name_len <= NAME_LEN_MAX
             && self.retained <= Retained::RANGES_MAX
+    }
+
+    /// Bytes of all parts together, checksum included.
+    fn parts_len(&self) -> u32 {
+        let tables = [
+            (self.v_ranges, V_RANGE_LEN),
+            (self.timers, TIMER_LEN),
+            (self.counters, COUNTER_LEN),
+            (self.labels, LABEL_LEN),
+            (self.retained.into(), Retained::STORED_LEN),
+            (self.routines.into(), ROUTINE_LEN),
+            (self.events.into(), EVENT_LEN),
+        ];
+        let bytes = [
+            HEADER_LEN,
+            self.modules_len,
+            self.name_len.into(),
+            self.constants_len,
+            self.initial_len,
+            self.code_len,
+            CRC_LEN,
+        ];
+        let tables = tables.map(|(count, len)| u32::from(count) * u32::from(len));
+        tables.into_iter().sum::<u32>() + bytes.map(u32::from).into_iter().sum::<u32>()
     }
 }

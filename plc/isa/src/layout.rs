@@ -1,21 +1,16 @@
-//! Where data lives: the address map of the controller's data memory, shared by host and board.
+//! Where data lives: the address map of the controller's data memory, the same on every board.
+//! Where it ends is a [profile](crate::Profile)'s.
 //!
 //! Addresses are AVR data addresses, so that the operand of an instruction is an address the board
 //! can use as it stands. What the fixed areas do not hold (V bytes, timer and counter words, edge
 //! memories) is placed per program in the [arena](ARENA_START) by the memory plan.
 
-/// First data address: the start of the ATmega328P's SRAM.
+/// First data address: the start of SRAM on the Uno.
 pub const DATA_START: u16 = 0x0100;
-/// One past the last data address a program can reach.
-pub const DATA_END: u16 = 0x0600;
-/// Bytes of data memory.
-pub const DATA_LEN: usize = (DATA_END - DATA_START) as usize;
 
-/// Bytes between the controller's data memory and the firmware's variables: a word or a timer at the very end of data
-/// memory reaches behind it when the program in flash has changed.
+/// Bytes between the controller's data memory and the firmware's variables: a word or a timer at
+/// the very end of data memory reaches after it when the program in flash has changed.
 pub const DATA_GAP: u16 = 4;
-/// On the board: the millisecond clock, four bytes, the lowest first.
-pub const CLOCK: u16 = DATA_END + DATA_GAP;
 
 /// The bit page: 256 bytes from here hold all areas with short bit addresses.
 pub const PAGE_START: u16 = DATA_START;
@@ -43,7 +38,7 @@ pub const L_START: u16 = 0x01C0;
 pub const AIW_START: u16 = 0x0200;
 /// The same analog inputs as raw 10-bit counts: Ain0 ... Ain5, one word each.
 pub const AIN_START: u16 = 0x020C;
-/// Analog inputs of the board.
+/// Analog inputs that there are words for.
 pub const ANALOG_INPUTS: u16 = 6;
 
 /// Accumulators AC0-AC3, a double word each.
@@ -56,61 +51,37 @@ pub const HC0: u16 = 0x0228;
 pub const HC3: u16 = 0x022C;
 /// Analog outputs AQW0 and AQW2, a word each.
 pub const AQW_START: u16 = 0x0230;
-/// How many analog outputs there are.
+/// Analog outputs that there are words for.
 pub const ANALOG_OUTPUTS: u8 = 2;
-/// ENO of the last module instruction: a byte, 0 or 1. No instruction names it.
+/// ENO of the last box, as far as the program asks for it there: a byte, 0 or 1. Boxes of modules
+/// leave it, those of the core with [`Op::NoteEno`](crate::Op::NoteEno).
 pub const ENO: u16 = 0x0234;
-/// On the board: what the last look for interrupt events saw; behind it what waits. No instruction names these bytes.
+/// On the board: what the last look for interrupt events saw; after it what waits. No instruction
+/// names these bytes.
 pub const EVENTS_SEEN: u16 = 0x0235;
 /// The value of that byte when RUN begins and nothing has been seen.
 pub const EVENTS_RUN_BEGINS: u8 = 0xFF;
 
-/// On the board: what is forced of IB0, then of QB0, for immediate access. For each a byte with the bits that are forced, and one with their
-/// values, 0 in the others. No instruction names these bytes.
+/// On the board: what is forced of IB0, then of QB0, for immediate access. For each a byte with the
+/// bits that are forced, and one with their values, 0 in the others. No instruction names these
+/// bytes.
 pub const FORCED: u16 = 0x023C;
 
 /// The arena: memory planned per program.
 pub const ARENA_START: u16 = 0x0240;
-/// Bytes in the arena.
-pub const ARENA_LEN: u16 = DATA_END - LINE_ROOM - ARENA_START;
-/// Bytes of data memory that every program leaves free behind its arena: for requests on the serial line and their answers.
+/// Bytes of data memory that every program leaves free after its arena: for requests on the serial
+/// line and their answers.
 pub const LINE_ROOM: u16 = 64;
 
 /// Arena bytes per timer: current value (2), preset (2), state (1).
 pub const TIMER_SLOT_LEN: u16 = 5;
 /// Arena bytes per counter: current value (2), state (1).
 pub const COUNTER_SLOT_LEN: u16 = 3;
-/// Most bytes of bytecode from the beginning of a unit, or from one instruction that looks for a status window, to the
-/// next: so far the board goes to a window step by step.
+/// Most bytes of bytecode from the beginning of a unit, or from one instruction that looks for a
+/// status window, to the next: so far the board goes to a window step by step.
 pub const APPROACH_LEN: u16 = 152;
-/// Less than so many bytes of bytecode lie between the first and the last instruction of a status window; a multiple of 256.
+/// Less than so many bytes of bytecode lie between the first and the last instruction of a status
+/// window; a multiple of 256.
 pub const WINDOW_LEN: u16 = 512;
 /// Most edge instructions (EU and ED together) in a program.
 pub const EDGES_MAX: u16 = 256;
-
-/// Program slot in flash: first address. The firmware lies below, the bootloader above.
-pub const SLOT_START: u16 = 0x6000;
-/// Program slot in flash: one past the last address, where Optiboot begins.
-pub const SLOT_END: u16 = 0x7E00;
-/// Bytes in the program slot: the longest image.
-pub const SLOT_LEN: u16 = SLOT_END - SLOT_START;
-
-/// Vectors: routines of the firmware that machine code in the slot calls. Flash address of the first; each takes an
-/// `rjmp`, two bytes. What they do is said in docs/image.md.
-pub const NATIVE_VECTORS: u16 = 0x0068;
-
-/// The engine's jump table: flash address of an `rjmp` for each token, a multiple of 512, because the token is the low byte
-/// of a word address there.
-pub const JUMP_TABLE: u16 = 0x0400;
-
-/// Digital inputs with a pin on the Uno: I0.0-I0.5 at D2-D7.
-pub const DIGITAL_INPUTS: u8 = 6;
-/// Digital outputs with a pin on the Uno: Q0.0-Q0.5 at D8-D13.
-pub const DIGITAL_OUTPUTS: u8 = 6;
-
-/// Bytes of EEPROM for retained values. The rest is reserved for settings of the board.
-pub const RETENTION_LEN: u16 = 992;
-/// Bytes that a saved copy takes beside the values: sequence number (2) and checksum (4).
-pub const RETENTION_OVERHEAD: u16 = 6;
-/// Most bytes that a program can retain: two copies must fit.
-pub const RETAINED_LEN_MAX: u16 = RETENTION_LEN / 2 - RETENTION_OVERHEAD;

@@ -1,11 +1,10 @@
-//! Modules: instructions whose machine code comes with the program. What the loader must know of their routines.
-//!
-//! The host executes them itself and takes this from the instruction table; the board finds the same in the module.
+//! Modules: instructions whose machine code comes with the program. Which there are, what they
+//! need, and what of data memory is theirs. Their routines are in routines.rs.
 
-use crate::layout::DATA_END;
-use crate::table::{CORE_INSTRUCTIONS, INSTRUCTIONS, Instruction, MODULE_PREFIX, Op};
-use crate::tokens::packed;
+use crate::profile::{DATA_END, Profile};
 
+/// The token of module 0; those of the others follow. The routine of the module is the next byte.
+pub const MODULE_PREFIX: u8 = 0xF0;
 /// How many modules there are.
 pub const MODULES: usize = 13;
 /// The modules' names, by their numbers.
@@ -32,19 +31,21 @@ pub const FUNCTION_MODULE: u8 = 2;
 pub const PID_MODULE: u8 = 12;
 /// The module that looks for interrupt events on the board.
 pub const EVENTS_MODULE: u8 = 5;
-/// Where in its jump table that begins: behind its routines.
+/// Where in its jump table that begins: after its routines.
 pub const EVENTS_ENTRY: u8 = 12;
 /// The module that all others need: it reads their operands.
 pub const OPERANDS_MODULE: u8 = 7;
-/// The high-speed counters. Behind its routines: what is done at edges of I0.0, of I0.1, of any input.
+/// The high-speed counters. After its routines: what is done at edges of I0.0, of I0.1, of any
+/// input.
 pub const COUNTERS_MODULE: u8 = 8;
 /// Where these entries begin in its jump table.
 pub const COUNTERS_ENTRY: u8 = 2;
-/// The pulse and analog outputs. Behind its routines: what is done at the end of a cycle.
+/// The pulse and analog outputs. After its routines: what is done at the end of a cycle.
 pub const PULSES_MODULE: u8 = 9;
 /// Where this entry is in its jump table.
 pub const PULSES_ENTRY: u8 = 2;
-/// The freeport. Behind its routines: what is done when a character has come, when all are sent, and at its timer.
+/// The freeport. After its routines: what is done when a character has come, when all are sent,
+/// and at its timer.
 pub const FREEPORT_MODULE: u8 = 10;
 /// Where these entries begin in its jump table.
 pub const FREEPORT_ENTRY: u8 = 3;
@@ -64,8 +65,8 @@ pub const fn needed_modules(module: u8) -> &'static [u8] {
     }
 }
 
-/// Bytes at the end of data memory that a program with this module leaves alone: the module's state, 32 bytes, and those of
-/// modules behind it.
+/// Bytes at the end of data memory that a program with this module leaves alone: the module's
+/// state, 32 bytes, and those of modules after it.
 const fn state_len(module: u8) -> u16 {
     match module {
         EVENTS_MODULE => 32,
@@ -76,81 +77,19 @@ const fn state_len(module: u8) -> u16 {
     }
 }
 
-/// Where a module's state begins: one past the last data address of a program with this module.
+/// Where a module's state begins on the Uno: one past the last data address of a program with this
+/// module.
 pub const fn state_at(module: u8) -> u16 {
     DATA_END - state_len(module)
 }
 
-/// One past the last data address of a program with these modules.
-pub fn data_end(modules: impl Iterator<Item = u8>) -> u16 {
-    modules.map(state_at).min().unwrap_or(DATA_END)
-}
-
-/// Bytes of a module before its jump table: its length, the offset of the table, bytes at the end of data memory that the
-/// program leaves alone, routines.
-pub const MODULE_HEAD_LEN: u16 = 6;
-
-/// Kinds of module routines are asked for at [`ProgramMemory::kind`](crate::ProgramMemory::kind) from here on.
-pub(crate) const MODULE_KINDS_AT: u16 = 0x8000;
-
-/// What decoding needs of a module's routine.
-#[derive(Debug, Clone, Copy)]
-pub struct Routine {
-    /// The instruction. On the board, where nobody asks, any of the modules.
-    pub op: Op,
-    /// Its effect on the stack, packed as in the token table.
-    pub stack: u8,
-    /// Where its kinds stand for [`ProgramMemory::kind`](crate::ProgramMemory::kind), a 0 behind the last.
-    pub kinds_at: u16,
-}
-
-/// The instructions of a module in the order of their routines.
-pub fn module_instructions(module: u8) -> impl Iterator<Item = &'static Instruction> {
-    INSTRUCTIONS.iter().skip(CORE_INSTRUCTIONS).filter(move |instruction| instruction.module() == Some(module))
-}
-
-/// What a module says of an instruction's operands: their kinds as bytes, a 0 behind the last.
-pub fn kind_numbers(instruction: &Instruction) -> impl Iterator<Item = u8> {
-    let kinds = instruction.forms.first().map_or(&[][..], |form| form.kinds);
-    kinds.iter().map(|kind| kind.number()).chain([0])
-}
-
-/// What a module says of an instruction's effect on the stack.
-pub fn packed_stack(instruction: &Instruction) -> u8 {
-    packed(instruction.stack)
-}
-
-/// Bytes of a routine's kinds on the host: operands and the 0.
-const KINDS_LEN: u16 = 8;
-
-/// Most routines of a module.
-pub const ROUTINES_MAX: usize = 80;
-
-/// For every module and routine the instruction's place in the table; 0: there is none.
-const PLACES: [[u8; ROUTINES_MAX]; MODULES] = {
-    let (mut places, mut index) = ([[0; ROUTINES_MAX]; MODULES], CORE_INSTRUCTIONS);
-    while index < INSTRUCTIONS.len() {
-        let form = &INSTRUCTIONS[index].forms[0];
-        if let Some(prefix) = form.prefix {
-            places[(prefix - MODULE_PREFIX) as usize][form.first_token as usize] = index as u8;
-        }
-        index += 1;
+impl Profile {
+    /// One past the last data address of a program with these modules.
+    pub fn data_end_with(&self, modules: impl Iterator<Item = u8>) -> u16 {
+        self.data_end - modules.map(state_len).max().unwrap_or(0)
     }
-    places
-};
-
-/// The routine of a module in the instruction table.
-pub(crate) fn routine(module: u8, routine: u8) -> Option<Routine> {
-    let index = usize::from(*PLACES.get(usize::from(module))?.get(usize::from(routine))?);
-    let instruction = INSTRUCTIONS.get(index).filter(|_| index != 0)?;
-    let kinds_at = MODULE_KINDS_AT + KINDS_LEN * (index - CORE_INSTRUCTIONS) as u16;
-    Some(Routine { op: instruction.op, stack: packed(instruction.stack), kinds_at })
 }
 
-/// The byte at an offset of the modules' kinds.
-pub(crate) fn kind_byte(offset: u16) -> u8 {
-    let index = CORE_INSTRUCTIONS + usize::from(offset / KINDS_LEN);
-    let kinds =
-        INSTRUCTIONS.get(index).and_then(|instruction| instruction.forms.first()).map_or(&[][..], |form| form.kinds);
-    kinds.get(usize::from(offset % KINDS_LEN)).map_or(0, |kind| kind.number())
-}
+/// Bytes of a module before its jump table: its length, the offset of the table, bytes at the end
+/// of data memory that the program leaves alone, routines.
+pub const MODULE_HEAD_LEN: u16 = 6;

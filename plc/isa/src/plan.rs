@@ -1,19 +1,29 @@
-//! The memory plan of a program: which V bytes, timers, counters and edges it uses and where they live.
+//! The memory plan of a program: which V bytes, timers, counters and edges it uses and where they
+//! live.
 //!
-//! Order in the arena: V ranges, timer slots, counter slots, edge memories, attached events. The tables of the image
-//! are the plan; nothing is stored twice.
+//! Order in the arena: V ranges, timer slots, counter slots, edge memories, attached events. The
+//! tables of the image are the plan; nothing is stored twice.
 
 use crate::area::{AnalogInput, Area, TimerFamily, timer_family};
+use crate::header::HEADER_LEN;
 use crate::image::{
-    COUNTER_LEN, EVENT_LEN, HEADER_LEN, Header, LABEL_LEN, ProgramMemory, ROUTINE_LEN, TIMER_LEN, V_RANGE_LEN, entry_at,
+    COUNTER_LEN, EVENT_LEN, Header, LABEL_LEN, ROUTINE_LEN, TIMER_LEN, V_RANGE_LEN, entry_at,
 };
 use crate::layout::*;
+use crate::memory::ProgramMemory;
 use crate::operand::Bit;
+use crate::profile::Profile;
 use crate::settings::{Retained, Settings};
 use crate::table::Op;
 
 /// The V ranges carry SM bytes that are not in the bit page with this added to their number.
 pub const SM_IN_V: u16 = 0x8000;
+
+/// Number of the first byte of local memory that is in the table of V ranges: what the bit page has
+/// no room for. It is after V memory with a gap, because adjacent ranges would be one.
+pub const LOCALS_IN_V: u16 = Area::V.size() + 2;
+/// Bytes of it at most: more than any chain of calls has.
+pub const LOCALS_LEN_MAX: u16 = 1024;
 
 /// How a program starts a timer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -136,9 +146,10 @@ pub struct Plan<P> {
     pub(crate) memory: P,
     /// The header.
     pub header: Header,
-    // Where the tables stand in the image and their memory in the arena, derived once.
-    pub(crate) v_ranges_at: u16,
-    /// Offset of the timers' table in the image.
+    // Where the tables are in the image and their memory in the arena, derived once.
+    /// Offset of the table of V ranges in the image.
+    pub v_ranges_at: u16,
+    /// Offset of the timers' table.
     pub timers_at: u16,
     /// Offset of the counters' table.
     pub counters_at: u16,
@@ -163,12 +174,6 @@ pub struct Plan<P> {
     /// Data address of the first event's byte: the routine attached to it, counted from 1.
     pub events_start: u16,
     end: u16,
-}
-
-/// What stands behind `count` entries of `len` bytes. Wraps.
-#[inline(always)]
-fn behind(start: u16, count: u16, len: u16) -> u16 {
-    start.wrapping_add(count.wrapping_mul(len))
 }
 
 impl<P: ProgramMemory> Plan<P> {
@@ -196,7 +201,8 @@ impl<P: ProgramMemory> Plan<P> {
         }
     }
 
-    /// The plan in the tables behind this header, taken on trust: for the assembler, which wrote them.
+    /// The plan in the tables after this header, taken on trust: for the assembler, which wrote
+    /// them.
     pub fn trusted(memory: P, header: Header) -> Self {
         let mut plan = Plan::of_tables(memory, header);
         plan.place_memory();
@@ -215,7 +221,7 @@ impl<P: ProgramMemory> Plan<P> {
     #[inline(always)]
     pub(crate) fn read(&mut self) -> bool {
         self.memory.read_header(&mut self.header);
-        self.header.is_plausible()
+        self.header.is_plausible(self.memory.is_wide())
     }
 
     /// Places the tables of the image, and what they say in the arena.
@@ -229,41 +235,49 @@ impl<P: ProgramMemory> Plan<P> {
     #[inline(always)]
     fn place_tables(&mut self) {
         let header = &self.header;
-        let mut at = HEADER_LEN.wrapping_add(header.modules_len).wrapping_add(u16::from(header.name_len));
+        let mut at =
+            HEADER_LEN.wrapping_add(header.modules_len).wrapping_add(u16::from(header.name_len));
         self.v_ranges_at = at;
-        at = behind(at, header.v_ranges, V_RANGE_LEN);
+        at = entry_at(at, header.v_ranges, V_RANGE_LEN);
         self.timers_at = at;
-        at = behind(at, header.timers, TIMER_LEN);
+        at = entry_at(at, header.timers, TIMER_LEN);
         self.counters_at = at;
-        at = behind(at, header.counters, COUNTER_LEN);
+        at = entry_at(at, header.counters, COUNTER_LEN);
         self.labels_at = at;
-        at = behind(at, header.labels, LABEL_LEN);
+        at = entry_at(at, header.labels, LABEL_LEN);
         self.retained_at = at;
         at = entry_at(at, u16::from(header.retained), Retained::STORED_LEN);
         self.routines_at = at;
-        at = behind(at, u16::from(header.routines), ROUTINE_LEN);
+        at = entry_at(at, u16::from(header.routines), ROUTINE_LEN);
         self.events_at = at;
-        at = behind(at, u16::from(header.events), EVENT_LEN);
+        at = entry_at(at, u16::from(header.events), EVENT_LEN);
         self.constants_at = at;
-        at = behind(at, header.constants_len, 1);
+        at = entry_at(at, header.constants_len, 1);
         self.initial_at = at;
-        self.code_at = behind(at, header.initial_len, 1);
+        self.code_at = entry_at(at, header.initial_len, 1);
     }
 
     /// Places the memory in the arena by header and tables.
     #[inline(always)]
     fn place_memory(&mut self) {
         let header = &self.header;
-        // An end that is not checked yet may wrap: then it is not valid, and nothing is placed by it.
+        // An end that is not checked yet may wrap: then it is not valid, and nothing is placed by
+        // it.
         let mut start = ARENA_START.wrapping_add(self.v_len_before(self.timers_at));
         self.timers_start = start;
         start = entry_at(start, header.timers, TIMER_SLOT_LEN);
         self.counters_start = start;
         start = entry_at(start, header.counters, COUNTER_SLOT_LEN);
         self.edges_start = start;
-        start = behind(start, header.edges.wrapping_add(7) / 8, 1);
+        start = entry_at(start, header.edges.wrapping_add(7) / 8, 1);
         self.events_start = start;
-        self.end = behind(start, u16::from(header.events), 1);
+        self.end = entry_at(start, u16::from(header.events), 1);
+    }
+
+    /// The profile that the image is for.
+    #[inline(always)]
+    pub fn profile(&self) -> &'static Profile {
+        self.memory.profile()
     }
 
     /// Offset of the first instruction in the image.
@@ -335,8 +349,8 @@ impl<P: ProgramMemory> Plan<P> {
     }
 
     /// Code offset of a label.
-    pub fn label(&self, index: u8) -> u16 {
-        self.memory.word(self.labels_at + LABEL_LEN * u16::from(index))
+    pub fn label(&self, index: u16) -> u16 {
+        self.memory.word(entry_at(self.labels_at, index, LABEL_LEN))
     }
 
     /// Offset of a routine's first instruction.
@@ -434,7 +448,7 @@ impl<P: ProgramMemory> Plan<P> {
         self.counters().find(|slot| slot.number == number)
     }
 
-    /// What stands at a data address; `None` where a program has no business.
+    /// What is at a data address; `None` where a program has no business.
     pub fn region(&self, address: u16) -> Option<Region> {
         if (PAGE_START..PAGE_START + PAGE_LEN).contains(&address) {
             let (area, byte) = Area::of_page_address(address)?;
@@ -446,7 +460,8 @@ impl<P: ProgramMemory> Plan<P> {
         if address < self.timers_start {
             return self.v_region(address - ARENA_START);
         }
-        let region = if address < self.counters_start { Region::TimerValue } else { Region::CounterValue };
+        let region =
+            if address < self.counters_start { Region::TimerValue } else { Region::CounterValue };
         self.number_at(address).map(region)
     }
 
@@ -481,7 +496,11 @@ impl<P: ProgramMemory> Plan<P> {
     fn v_region(&self, mut offset: u16) -> Option<Region> {
         for (first, len) in self.v_ranges() {
             if offset < len {
-                let (area, first) = if first < SM_IN_V { (Area::V, first) } else { (Area::Sm, first - SM_IN_V) };
+                let (area, first) = match first {
+                    SM_IN_V.. => (Area::Sm, first - SM_IN_V),
+                    LOCALS_IN_V.. => (Area::L, Area::L.size() + first - LOCALS_IN_V),
+                    _ => (Area::V, first),
+                };
                 return Some(Region::Byte { area, byte: first + offset, room: len - offset });
             }
             offset -= len;
@@ -491,7 +510,7 @@ impl<P: ProgramMemory> Plan<P> {
 }
 
 impl Region {
-    /// What stands between bit page and arena.
+    /// What is between bit page and arena.
     fn beside_page(address: u16) -> Option<Region> {
         const END_OF_ACCUMULATORS: u16 = AC_START + 4 * ACCUMULATORS as u16;
         const END_OF_OUTPUTS: u16 = AQW_START + 2 * ANALOG_OUTPUTS as u16;
@@ -509,14 +528,16 @@ impl Region {
         }
     }
 
-    /// Whether an instruction may write here. How much, [`holds_value`](Self::holds_value) and the room say.
+    /// Whether an instruction may write here. How much, [`holds_value`](Self::holds_value) and the
+    /// room say.
     pub fn is_writable(self) -> bool {
         match self {
             Region::Byte { area, byte, .. } => byte >= area.first_writable(),
             Region::Analog(_) | Region::HighSpeedCounter(_) => false,
-            Region::TimerValue(_) | Region::CounterValue(_) | Region::Accumulator { .. } | Region::AnalogOutput(_) => {
-                true
-            }
+            Region::TimerValue(_)
+            | Region::CounterValue(_)
+            | Region::Accumulator { .. }
+            | Region::AnalogOutput(_) => true,
         }
     }
 
@@ -538,7 +559,10 @@ impl Region {
             // A byte or word of an accumulator is its low end.
             Region::Accumulator { room, .. } => room == len,
             Region::HighSpeedCounter(_) => len == 4,
-            Region::Analog(_) | Region::AnalogOutput(_) | Region::TimerValue(_) | Region::CounterValue(_) => len == 2,
+            Region::Analog(_)
+            | Region::AnalogOutput(_)
+            | Region::TimerValue(_)
+            | Region::CounterValue(_) => len == 2,
         }
     }
 }

@@ -1,10 +1,11 @@
-//! References: the operands of module instructions, a word each, for memory, pointers and constants alike.
+//! References: the operands of module instructions, a word each, for memory, pointers and constants
+//! alike.
 //!
-//! What a reference leads to is read by the interpreter; whether it may, the loader's check and the plan know.
+//! What a reference leads to is read by the interpreter; whether it may, the loader's check and the
+//! plan know.
 
-use crate::layout::{DATA_END, DATA_START};
-use crate::operand::{Bit, OfRaw, Raw, Relation};
-use crate::tokens::OPERANDS_MAX;
+use crate::layout::DATA_START;
+use crate::profile::{IMAGE_LEN_MAX, Profile};
 
 /// A reference as it stands in the code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -12,7 +13,7 @@ pub struct Reference(pub u16);
 
 /// What a reference names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Place {
+pub enum Referent {
     /// A data address.
     Direct(u16),
     /// The data address of a double word that holds a pointer.
@@ -23,11 +24,14 @@ pub enum Place {
     Pool(u16),
 }
 
-/// Bits of a constant that stands in the reference itself.
+/// Bits of a constant that is in the reference itself.
 const CONSTANT_BITS: u32 = 13;
 const CONSTANT: u16 = 0xC000;
 const POOL: u16 = 0xE000;
 const INDIRECT: u16 = 0x8000;
+/// In wide images: constants that are so far in the image that `POOL` does not reach them.
+const FAR_POOL: u16 = 0x4000;
+const FAR_POOL_END: u16 = FAR_POOL + IMAGE_LEN_MAX / Reference::FAR_POOL_UNIT;
 
 impl Reference {
     /// The least constant that a reference can hold.
@@ -35,76 +39,53 @@ impl Reference {
     /// The greatest constant that a reference can hold.
     pub const CONSTANT_MAX: i32 = (1 << (CONSTANT_BITS - 1)) - 1;
 
-    /// What it names; `None` if it is no reference.
-    pub const fn place(self) -> Option<Place> {
+    /// Constants at this offset of a wide image and after it are at multiples of
+    /// [`FAR_POOL_UNIT`](Self::FAR_POOL_UNIT).
+    pub const FAR_POOL_AT: u16 = !POOL + 1;
+    /// How far apart they are at least.
+    pub const FAR_POOL_UNIT: u16 = 4;
+
+    /// What it names; `None` if it is no reference of any profile.
+    pub const fn place(self) -> Option<Referent> {
+        self.place_in(&Profile::LARGEST)
+    }
+
+    /// What it names in an image for this profile.
+    #[inline(always)]
+    pub const fn place_in(self, profile: &Profile) -> Option<Referent> {
+        const FAR_POOL_START: u16 = FAR_POOL + Reference::FAR_POOL_AT / Reference::FAR_POOL_UNIT;
         let address = self.0 & !INDIRECT;
         match self.0 {
-            POOL.. => Some(Place::Pool(self.0 & !POOL)),
+            POOL.. => Some(Referent::Pool(self.0 & !POOL)),
+            FAR_POOL_START..FAR_POOL_END if profile.is_wide => {
+                Some(Referent::Pool((self.0 - FAR_POOL) * Self::FAR_POOL_UNIT))
+            }
             CONSTANT.. => {
                 let unused = u16::BITS - CONSTANT_BITS;
-                Some(Place::Constant((self.0 << unused) as i16 >> unused))
+                Some(Referent::Constant((self.0 << unused) as i16 >> unused))
             }
-            _ if address < DATA_START || address >= DATA_END => None,
-            INDIRECT.. => Some(Place::Indirect(address)),
-            _ => Some(Place::Direct(address)),
+            _ if address < DATA_START || address >= profile.data_end => None,
+            INDIRECT.. => Some(Referent::Indirect(address)),
+            _ => Some(Referent::Direct(address)),
         }
     }
 
-    /// The reference to a place. Constants and offsets must be in their ranges.
-    pub const fn to(place: Place) -> Reference {
+    /// The reference to a place. Constants and offsets must be in their ranges, far offsets
+    /// multiples of their unit.
+    pub const fn to(place: Referent) -> Reference {
         match place {
-            Place::Direct(address) => Reference(address),
-            Place::Indirect(address) => Reference(INDIRECT | address),
-            Place::Constant(value) => Reference(CONSTANT | value as u16 & !POOL),
-            Place::Pool(offset) => Reference(POOL | offset),
+            Referent::Direct(address) => Reference(address),
+            Referent::Indirect(address) => Reference(INDIRECT | address),
+            Referent::Constant(value) => Reference(CONSTANT | value as u16 & !POOL),
+            Referent::Pool(offset) if offset >= Self::FAR_POOL_AT => {
+                Reference(FAR_POOL + offset / Self::FAR_POOL_UNIT)
+            }
+            Referent::Pool(offset) => Reference(POOL | offset),
         }
     }
 }
 
-impl OfRaw for Reference {
-    #[inline]
-    fn of_raw(raw: Raw) -> Reference {
-        Reference(raw.value)
-    }
-}
-
-/// The operands of a module instruction, as they stand in its row of the table.
-#[derive(Debug)]
-pub struct Operands<'a> {
-    raw: &'a [Raw; OPERANDS_MAX],
-}
-
-impl<'a> Operands<'a> {
-    pub(crate) fn of(raw: &'a [Raw; OPERANDS_MAX]) -> Self {
-        Operands { raw }
-    }
-
-    fn raw(&self, index: usize) -> Raw {
-        self.raw.get(index).copied().unwrap_or(Raw::NONE)
-    }
-
-    /// A reference.
-    pub fn reference(&self, index: usize) -> Reference {
-        OfRaw::of_raw(self.raw(index))
-    }
-
-    /// A bit.
-    pub fn bit(&self, index: usize) -> Bit {
-        OfRaw::of_raw(self.raw(index))
-    }
-
-    /// A comparison.
-    pub fn relation(&self, index: usize) -> Relation {
-        OfRaw::of_raw(self.raw(index))
-    }
-
-    /// A number.
-    pub fn number(&self, index: usize) -> u8 {
-        OfRaw::of_raw(self.raw(index))
-    }
-}
-
-/// Area codes in the highest byte of a pointer; below stands the byte offset (docs/decisions.md).
+/// Area codes in the highest byte of a pointer; below is the byte offset (docs/decisions.md).
 pub mod pointer {
     use crate::area::Area;
 
@@ -143,18 +124,22 @@ pub mod pointer {
 
 #[cfg(test)]
 mod tests {
-    use super::{Place, Reference};
+    use super::{Reference, Referent};
+    use crate::profile::{HOST, UNO};
 
     #[test]
     fn every_reference_comes_back() {
-        let mut places = 0;
-        for word in 0..=u16::MAX {
-            if let Some(place) = Reference(word).place() {
-                assert_eq!(Reference::to(place), Reference(word));
-                places += 1;
+        for (profile, far) in [(UNO, 0), (HOST, (0xFE00 - 0x2000) / 4)] {
+            let mut places = 0;
+            for word in 0..=u16::MAX {
+                if let Some(place) = Reference(word).place_in(&profile) {
+                    assert_eq!(Reference::to(place), Reference(word));
+                    assert_eq!(Reference(word).place(), Some(place));
+                    places += 1;
+                }
             }
+            assert_eq!(places, 2 * profile.data_len() + 0x2000 + 0x2000 + far);
         }
-        assert_eq!(places, 2 * 0x500 + 0x2000 + 0x2000);
-        assert_eq!(Reference::to(Place::Constant(-1)).place(), Some(Place::Constant(-1)));
+        assert_eq!(Reference::to(Referent::Constant(-1)).place(), Some(Referent::Constant(-1)));
     }
 }

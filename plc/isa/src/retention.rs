@@ -1,9 +1,11 @@
-//! Which bytes of data memory a program retains, one after the other. How they are kept is the machine's business.
+//! Which bytes of data memory a program retains, one after the other. How they are kept is the
+//! machine's business.
 
 use crate::area::Area;
 use crate::crc::Crc32;
-use crate::image::{COUNTER_LEN, ProgramMemory, TIMER_LEN};
+use crate::image::{COUNTER_LEN, TIMER_LEN};
 use crate::layout::{COUNTER_SLOT_LEN, M_START, TIMER_SLOT_LEN};
+use crate::memory::ProgramMemory;
 use crate::plan::Plan;
 use crate::settings::Retained;
 
@@ -16,17 +18,18 @@ const T: u8 = 2;
 const C: u8 = 3;
 const _: () = assert!(matches!(Retained::AREAS, [Area::V, Area::M, Area::T, Area::C]));
 
-/// A walk over the retained bytes of a plan, in the order of the ranges. Current values of timers and counters are
-/// retained where the program uses them.
+/// A walk over the retained bytes of a plan, in the order of the ranges. Current values of timers
+/// and counters are retained where the program uses them.
 #[derive(Debug, Clone, Copy)]
 pub struct RetainedWalk {
-    /// Where the walk stands: bytes that lie side by side begin here.
+    /// Where the walk is: bytes that lie side by side begin here.
     pub address: u16,
-    /// How many they are. None where the program uses nothing of a range, and behind its last value.
+    /// How many they are. None where the program uses nothing of a range, and after its last
+    /// value.
     pub len: u16,
     /// Bytes to come in an area of bytes; 0 at the end of any range.
     left: u16,
-    /// Where the next range stands among the others.
+    /// Where the next range is among the others.
     range: u8,
     /// Bytes of a slot, and of its entry in the image; 0 in areas of bytes.
     slot_len: u8,
@@ -54,8 +57,8 @@ impl RetainedWalk {
         end: 0,
     };
 
-    /// Goes on to the next bytes, at most `len_max`, which is at least 2. Returns false at the end. No step takes long,
-    /// as none goes through a range without bytes to the next.
+    /// Goes on to the next bytes, at most `len_max`, which is at least 2. Returns false at the end.
+    /// No step takes long, as none goes through a range without bytes to the next.
     #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn next<P: ProgramMemory>(&mut self, plan: &Plan<P>, len_max: u16) -> bool {
         if self.left == 0 {
@@ -75,9 +78,11 @@ impl RetainedWalk {
         true
     }
 
-    /// Stands before the first byte, or a slot before the first one, of the range at an offset of the image.
+    /// Stands before the first byte, or a slot before the first one, of the range at an offset of
+    /// the image.
     fn enter<P: ProgramMemory>(&mut self, plan: &Plan<P>, at: u16) {
-        let (area, first, count) = (plan.memory.byte(at), plan.memory.word(at + 1), plan.memory.word(at + 3));
+        let (area, first, count) =
+            (plan.memory.byte(at), plan.memory.word(at + 1), plan.memory.word(at + 3));
         self.range += Retained::STORED_LEN as u8;
         (self.first, self.span) = (first as u8, (count as u8).wrapping_sub(1));
         (self.len, self.left) = (0, count);
@@ -91,7 +96,8 @@ impl RetainedWalk {
             (self.entry, self.end) = (plan.counters_at - COUNTER_LEN, plan.labels_at);
         } else {
             self.slot_len = 0;
-            self.address = if area == M { M_START + first } else { plan.v_address(first).unwrap_or(0) };
+            self.address =
+                if area == M { M_START + first } else { plan.v_address(first).unwrap_or(0) };
         }
     }
 
@@ -123,15 +129,16 @@ impl<P: ProgramMemory> Plan<P> {
         self.retained_into(&mut Crc32::new())
     }
 
-    /// A checksum of what the retained bytes are: the ranges, and which timers and counters in them the program uses.
-    /// Values that were saved under another one belong to something else.
+    /// A checksum of what the retained bytes are: the ranges, and which timers and counters in them
+    /// the program uses. Values that were saved under another one belong to something else.
     pub fn retained_identity(&self) -> Crc32 {
         let mut crc = Crc32::new();
         self.retained_into(&mut crc);
         crc
     }
 
-    /// Takes what the [identity](Self::retained_identity) is of into a checksum. Returns the bytes that are retained.
+    /// Takes what the [identity](Self::retained_identity) is of into a checksum. Returns the bytes
+    /// that are retained.
     #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn retained_into(&self, crc: &mut Crc32) -> u16 {
         crc.bytes(&self.memory, self.retained_at, self.routines_at);

@@ -1,11 +1,13 @@
 //! System settings that ride in the image: what the `//#` lines of a program ask of the machine.
 
 use crate::area::Area;
+use crate::profile::Profile;
 
-/// Main scan watchdog when the program sets none (reference 9).
+/// Main scan watchdog when the program sets none (docs/decisions.md).
 pub const DEFAULT_WATCHDOG_MS: u16 = 500;
 
-/// Settings of fixed size, in the order in which they stand in the image. The retained ranges are a table of it.
+/// Settings of fixed size, in the order in which they are in the image. The retained ranges are a
+/// table of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Settings {
@@ -61,9 +63,10 @@ impl Settings {
     /// Highest address on the serial line; what lies above is reserved by Modbus.
     pub const MODBUS_ADDRESS_MAX: u8 = 247;
 
-    pub(crate) fn is_valid(&self) -> bool {
-        let inputs = (1 << crate::layout::DIGITAL_INPUTS) - 1;
-        let outputs = (1 << crate::layout::DIGITAL_OUTPUTS) - 1;
+    #[inline(always)]
+    pub(crate) fn is_valid(&self, profile: &Profile) -> bool {
+        let inputs = ((1u16 << profile.digital_inputs) - 1) as u8;
+        let outputs = ((1u16 << profile.digital_outputs) - 1) as u8;
         (1..=Self::TIME_MAX_MS).contains(&self.watchdog_ms)
             && self.scan_ms <= Self::TIME_MAX_MS
             && self.filter <= Self::FILTER_MAX
@@ -91,7 +94,8 @@ pub enum Parity {
     Odd,
 }
 
-/// Settings of the serial line in a byte: index of the rate in bits 0 to 2, parity in bits 4 and 5. 0 is the default.
+/// Settings of the serial line in a byte: index of the rate in bits 0 to 2, parity in bits 4 and 5.
+/// 0 is the default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct LineSettings {
     /// Index in [`RATES`](Self::RATES), 0..=7.
@@ -141,12 +145,13 @@ impl Retained {
     /// Bytes of a range in the image.
     pub const STORED_LEN: u16 = 5;
 
-    /// Areas that can be retained (reference 6.4), in the order of their stored codes.
+    /// Areas that can be retained (docs/s7-200.md 6.4), in the order of their stored codes.
     pub const AREAS: [Area; 4] = [Area::V, Area::M, Area::T, Area::C];
 
     /// As stored in the image.
     pub fn to_bytes(self) -> [u8; Self::STORED_LEN as usize] {
-        let code = Self::AREAS.iter().position(|&area| area == self.area).unwrap_or(usize::from(u8::MAX));
+        let code =
+            Self::AREAS.iter().position(|&area| area == self.area).unwrap_or(usize::from(u8::MAX));
         let [first_low, first_high] = self.first.to_le_bytes();
         let [count_low, count_high] = self.count.to_le_bytes();
         [code as u8, first_low, first_high, count_low, count_high]

@@ -1,11 +1,11 @@
 //! The logic stack: nine one-bit levels, S0 on top.
 
-/// Levels of the logic stack (reference 1.0).
+/// Levels of the logic stack (docs/s7-200.md 1.0).
 pub const STACK_LEVELS: u8 = 9;
 
 const MASK: u16 = (1 << STACK_LEVELS) - 1;
 
-/// Nine one-bit levels. A push loses S8; a pop shifts a 0 into S8 (reference 9).
+/// Nine one-bit levels. A push loses S8; a pop shifts a 0 into S8 (docs/decisions.md).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct LogicStack(u16);
 
@@ -14,43 +14,43 @@ impl LogicStack {
     pub const EMPTY: LogicStack = LogicStack(0);
 
     /// S0, the top of the stack: the power flow.
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     pub const fn top(self) -> bool {
         self.0 & 1 != 0
     }
 
     /// Level `n`, 0 for the top. Levels that do not exist read 0.
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     pub const fn level(self, n: u8) -> bool {
         n < STACK_LEVELS && self.0 >> n & 1 != 0
     }
 
     /// S0 := `value`, nothing moves.
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     pub const fn set_top(&mut self, value: bool) {
         self.0 = self.0 & !1 | value as u16;
     }
 
     /// S0 := S0 AND `value`.
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     pub const fn and(&mut self, value: bool) {
         self.0 &= !1 | value as u16;
     }
 
     /// S0 := S0 OR `value`.
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     pub const fn or(&mut self, value: bool) {
         self.0 |= value as u16;
     }
 
     /// Pushes a value; S8 is lost.
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     pub const fn push(&mut self, value: bool) {
         self.0 = (self.0 << 1 | value as u16) & MASK;
     }
 
     /// Removes and returns S0; a 0 comes in from below.
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     pub const fn pop(&mut self) -> bool {
         let top = self.top();
         self.0 >>= 1;

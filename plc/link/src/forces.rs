@@ -3,7 +3,7 @@
 use plc_isa::{Bit, I_START, Q_START, SM_START};
 use plc_vm::Memory;
 
-use crate::place::{BYTE, Place};
+use crate::place::{BYTE, SizedAddress};
 use crate::protocol::{FORCE_LEN, FORCES_MAX};
 
 /// SM4.7: something is forced.
@@ -14,7 +14,7 @@ const SOMETHING_FORCED: Bit = Bit { address: SM_START + 4, bit: 7 };
 pub(crate) struct Force {
     /// Reference (3) and value (4), as on the line.
     pub entry: [u8; FORCE_LEN as usize],
-    pub place: Place,
+    pub place: SizedAddress,
 }
 
 impl Force {
@@ -43,7 +43,8 @@ impl Forces {
     /// Nothing is forced.
     pub const NONE: Forces = Forces {
         count: 0,
-        entries: [Force { entry: [0; FORCE_LEN as usize], place: Place::NONE }; FORCES_MAX as usize],
+        entries: [Force { entry: [0; FORCE_LEN as usize], place: SizedAddress::NONE };
+            FORCES_MAX as usize],
     };
 
     /// Whether nothing is forced.
@@ -51,7 +52,8 @@ impl Forces {
         self.count == 0
     }
 
-    /// Gives forced operands their values. After the inputs were read, and again before outputs are written.
+    /// Gives forced operands their values. After the inputs were read, and again before outputs are
+    /// written.
     pub fn apply(&self, memory: &mut Memory) {
         for force in self.entries() {
             force.apply(memory);
@@ -74,12 +76,17 @@ impl Forces {
     }
 
     /// The number of the entry for a place; the number of entries if there is none.
-    fn position(&self, place: Place) -> usize {
+    fn position(&self, place: SizedAddress) -> usize {
         self.entries().iter().take_while(|force| force.place != place).count()
     }
 
     /// Forces an operand. Returns whether there is room for it.
-    pub(crate) fn set(&mut self, entry: [u8; FORCE_LEN as usize], place: Place, memory: &mut Memory) -> bool {
+    pub(crate) fn set(
+        &mut self,
+        entry: [u8; FORCE_LEN as usize],
+        place: SizedAddress,
+        memory: &mut Memory,
+    ) -> bool {
         let at = self.position(place);
         let Some(force) = self.entries.get_mut(at) else { return false };
         *force = Force { entry, place };
@@ -91,9 +98,12 @@ impl Forces {
     }
 
     /// Ends the force on an operand, if there is one. The last entry takes its place.
-    pub(crate) fn unset(&mut self, place: Place, memory: &mut Memory) {
+    pub(crate) fn unset(&mut self, place: SizedAddress, memory: &mut Memory) {
         let at = self.position(place);
-        let Some(last) = self.entries().last().copied().filter(|_| at < self.entries().len()) else { return };
+        let Some(last) = self.entries().last().copied().filter(|_| at < self.entries().len())
+        else {
+            return;
+        };
         if let Some(force) = self.entries.get_mut(at) {
             *force = last;
         }
@@ -106,7 +116,8 @@ impl Forces {
     }
 }
 
-/// IB1 to IB15 are 0 again: nothing but a force ever writes inputs that the board does not have.
+/// IB1 to IB15 are 0 again: nothing but a force and the program writes inputs that the board does
+/// not have.
 fn release_inputs(memory: &mut Memory) {
     for address in I_START + 1..Q_START {
         memory.set_byte(address, 0);

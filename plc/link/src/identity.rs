@@ -2,7 +2,7 @@
 
 use plc_isa::{LINE_ROOM, NAME_LEN_MAX};
 
-use crate::answer::{Answered, Exception, Request};
+use crate::request::{Answered, Exception, Request};
 use crate::station::{Station, TEXTS};
 
 /// The only kind of function 43 that there is.
@@ -10,6 +10,7 @@ const READ_DEVICE_IDENTIFICATION: u8 = 14;
 /// Basic and regular objects, as a stream and one by one.
 const CONFORMITY: u8 = 0x82;
 
+const PRODUCT_CODE: u8 = 1;
 const REVISION: u8 = 2;
 const USER_APPLICATION_NAME: u8 = 6;
 
@@ -62,11 +63,17 @@ impl<S: Station> Request<'_, S> {
         let start = self.out;
         self.put(object);
         self.put(0);
-        if let Some(text) = TEXTS.get(usize::from(object)) {
+        let text = match object {
+            PRODUCT_CODE => Some(self.station.product()),
+            _ => TEXTS.get(usize::from(object)).copied(),
+        };
+        if let Some(text) = text {
             text.bytes().for_each(|byte| self.put(byte));
         } else if object == USER_APPLICATION_NAME {
             let mut index = 0;
-            while let Some(byte) = self.station.plc().program().and_then(|program| program.plan().name().nth(index)) {
+            while let Some(byte) =
+                self.station.plc().program().and_then(|program| program.plan().name().nth(index))
+            {
                 self.put(byte);
                 index += 1;
             }

@@ -1,14 +1,17 @@
-//! What a machine holds for the answers: where the frame is, how far the work on a request has come, forces and trace.
+//! What a machine holds for the answers: where the frame is, how far the work on a request has
+//! come, forces and trace.
 
 use plc_isa::ARENA_START;
 use plc_vm::Memory;
 
 use crate::forces::Forces;
-use crate::status;
-use crate::trace::Trace;
+use crate::sampling::Trace;
 
 /// Longest request and answer: function code and data.
 pub const PDU_MAX: u16 = 252;
+
+/// Offset in the frame of the first [entry](crate::status) of a status request.
+pub(crate) const STATUS_AT: u8 = 3;
 
 /// How far the work on the request in the frame has come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,9 +57,9 @@ impl Link {
         }
     }
 
-    /// Says where the frame is: from data address `frame` on for `room` bytes, of which [`PDU_MAX`] are used; and where
-    /// the ring of the trace is: from `ring` to before `ring_end`. Request, forces and trace are forgotten. After a
-    /// program was loaded, which has cleared the memory.
+    /// Says where the frame is: from data address `frame` on for `room` bytes, of which [`PDU_MAX`]
+    /// are used; and where the ring of the trace is: from `ring` to before `ring_end`. Request,
+    /// forces and trace are forgotten. After a program was loaded, which has cleared the memory.
     pub fn place(&mut self, frame: u16, room: u16, ring: u16, ring_end: u16) {
         self.frame = frame;
         self.room = room.min(PDU_MAX);
@@ -80,18 +83,19 @@ impl Link {
         self.phase = Phase::New;
     }
 
-    /// Before the program is executed: the [entries](crate::status) that this scan is to fill in, data address of the
-    /// first and their number; 0: none, which is nearly always so. Whoever gets some hands them to
-    /// [`executed`](crate::status::executed) after every instruction.
+    /// Before the program is executed: the [entries](crate::status) that this scan is to fill in,
+    /// data address of the first and their number; 0: none, which is nearly always so. Whoever gets
+    /// some hands them to [`executed`](crate::status::executed) after every instruction.
     pub fn status_entries(&mut self) -> (u16, u8) {
         if self.phase != Phase::Armed {
             return (0, 0);
         }
         self.phase = Phase::Noted;
-        (self.frame + u16::from(status::FIRST), self.left)
+        (self.frame + u16::from(STATUS_AT), self.left)
     }
 
-    /// After a scan: takes a sample, if there is a trace and it is time. `scan`: the low word of the scans since RUN.
+    /// After a scan: takes a sample, if there is a trace and it is time. `scan`: the low word of
+    /// the scans since RUN.
     pub fn trace_step(&mut self, memory: &mut Memory, scan: u16) {
         if self.trace.is_going_on() {
             self.trace.step(memory, scan);

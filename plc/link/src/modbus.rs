@@ -3,8 +3,8 @@
 use plc_isa::{AC_START, AIN_START, AIW_START, AQW_START, COUNTER_SLOT_LEN, HC0, TIMER_SLOT_LEN};
 use plc_vm::Memory;
 
-use crate::answer::{Answered, Exception, Request};
 use crate::place::{page_len, page_start, v_address, value_address};
+use crate::request::{Answered, Exception, Request};
 use crate::station::Station;
 
 const READ_DISCRETE_INPUTS: u8 = 2;
@@ -50,7 +50,7 @@ pub(crate) fn answer<S: Station>(request: &mut Request<S>, function: u8) -> Answ
     let is_bits = matches!(function, 1 | READ_DISCRETE_INPUTS | WRITE_COIL | 15);
     let reads = function < WRITE_COIL || function == READ_AND_WRITE;
     let writes = function >= WRITE_COIL;
-    // Function 23 says what to write behind what to read.
+    // Function 23 says what to write after what to read.
     let base = if function == READ_AND_WRITE { 5 } else { 1 };
     let (mut len, mut data, mut written) = (5, 3, request.word(base + 2));
     if function > WRITE_REGISTER {
@@ -107,13 +107,21 @@ pub(crate) fn answer<S: Station>(request: &mut Request<S>, function: u8) -> Answ
 
 /// Bytes that so many bits or registers take.
 fn byte_count(is_bits: bool, count: u16) -> Answered {
-    let (max, bytes) = if is_bits { (BITS_MAX, count.wrapping_add(7) >> 3) } else { (REGISTERS_MAX, count << 1) };
+    let (max, bytes) =
+        if is_bits { (BITS_MAX, count.wrapping_add(7) >> 3) } else { (REGISTERS_MAX, count << 1) };
     if count == 0 || count > max { Err(Exception::Value) } else { Ok(bytes as u8) }
 }
 
 impl<S: Station> Request<'_, S> {
     /// Where `count` bits or registers from number `first` on are.
-    fn find(&self, function: u8, first: u16, count: u16, is_bits: bool, writes: bool) -> Result<Run, Exception> {
+    fn find(
+        &self,
+        function: u8,
+        first: u16,
+        count: u16,
+        is_bits: bool,
+        writes: bool,
+    ) -> Result<Run, Exception> {
         if is_bits {
             find_bits(function, first, count, writes)
         } else {
@@ -121,7 +129,13 @@ impl<S: Station> Request<'_, S> {
         }
     }
 
-    fn find_registers(&self, function: u8, first: u16, count: u16, writes: bool) -> Result<Run, Exception> {
+    fn find_registers(
+        &self,
+        function: u8,
+        first: u16,
+        count: u16,
+        writes: bool,
+    ) -> Result<Run, Exception> {
         let step = match first {
             TIMERS..COUNTERS => TIMER_SLOT_LEN,
             COUNTERS..OTHERS => COUNTER_SLOT_LEN,
@@ -132,8 +146,12 @@ impl<S: Station> Request<'_, S> {
         }
         let address = self.register(function, first);
         let last = self.register(function, first.wrapping_add(count - 1));
-        // Where the last one follows the first at its distance, so do those between: numbers ascend with addresses.
-        if address == 0 || last != address + step * (count - 1) || writes && address < AQW_START && last >= HC0 {
+        // Where the last one follows the first at its distance, so do those between: numbers ascend
+        // with addresses.
+        if address == 0
+            || last != address + step * (count - 1)
+            || writes && address < AQW_START && last >= HC0
+        {
             return Err(Exception::Address);
         }
         Ok(Run { address, step: step as u8 })

@@ -1,8 +1,8 @@
 //! References of the service functions, and where in data memory what they name is.
 
 use plc_isa::{
-    AC_START, AIN_START, AIW_START, ANALOG_OUTPUTS, AQW_START, ARENA_START, C_BITS_START, HC0, L_START, M_START,
-    PAGE_START, Program, ProgramMemory, S_START, SM_IN_V, SM_START, T_BITS_START,
+    AC_START, AIN_START, AIW_START, ANALOG_OUTPUTS, AQW_START, ARENA_START, C_BITS_START, HC0,
+    L_START, M_START, PAGE_START, Program, ProgramMemory, S_START, SM_IN_V, SM_START, T_BITS_START,
 };
 use plc_vm::Memory;
 
@@ -20,13 +20,14 @@ const L: u8 = 7;
 const V: u8 = 8;
 const SECOND_PAGE: u8 = 9;
 
-/// What a reference may name: a bit for each area; behind them one for each other part of the second page, and one for
-/// bits of T and C.
+/// What a reference may name: a bit for each area; after them one for each other part of the
+/// second page, and one for bits of T and C.
 pub(crate) const ANYTHING: u16 = u16::MAX;
 /// I, Q, M, V, AIW, AQW.
 pub(crate) const FORCED: u16 = 1 | 1 << Q | 1 << 2 | 1 << V | 1 << SECOND_PAGE | 1 << OUTPUTS;
 /// Q, M, S, V, current values of T and C, AC, AQW.
-pub(crate) const WRITABLE: u16 = 1 << Q | 1 << 2 | 1 << 4 | 1 << T | 1 << C | 1 << V | 1 << ACCUMULATORS | 1 << OUTPUTS;
+pub(crate) const WRITABLE: u16 =
+    1 << Q | 1 << 2 | 1 << 4 | 1 << T | 1 << C | 1 << V | 1 << ACCUMULATORS | 1 << OUTPUTS;
 const RAW: u8 = 10;
 const ACCUMULATORS: u8 = 11;
 const COUNTERS: u8 = 12;
@@ -40,20 +41,24 @@ const HC: u16 = HC0 - AIW_START;
 const AQW: u16 = AQW_START - AIW_START;
 const END: u16 = AQW + 2 * ANALOG_OUTPUTS as u16;
 
-const _: () = assert!(page_start(2) == M_START && page_start(SM) == SM_START && page_start(4) == S_START);
-const _: () = assert!(page_start(T) == T_BITS_START && page_start(C) == C_BITS_START && page_start(L) == L_START);
+const _: () =
+    assert!(page_start(2) == M_START && page_start(SM) == SM_START && page_start(4) == S_START);
+const _: () = assert!(
+    page_start(T) == T_BITS_START && page_start(C) == C_BITS_START && page_start(L) == L_START
+);
 
-/// Where a value is: a data address and its size, in one word because many wait in the frame. Bits 0 to 11 are the
-/// address; bits 12 to 15 the size: 0 to 7 that bit of a byte, 8 a byte, 9 a word, 10 a double word.
+/// Where a value is: a data address and its size, in one word because many wait in the frame. Bits
+/// 0 to 11 are the address; bits 12 to 15 the size: 0 to 7 that bit of a byte, 8 a byte, 9 a word,
+/// 10 a double word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Place(pub u16);
+pub struct SizedAddress(pub u16);
 
-impl Place {
+impl SizedAddress {
     /// No place: a reference that names nothing.
-    pub const NONE: Place = Place(0);
+    pub const NONE: SizedAddress = SizedAddress(0);
 
-    fn new(address: u16, size: u8) -> Place {
-        Place(address | u16::from(size << 4) << 8)
+    fn new(address: u16, size: u8) -> SizedAddress {
+        SizedAddress(address | u16::from(size << 4) << 8)
     }
 
     /// The data address.
@@ -76,7 +81,8 @@ impl Place {
         }
     }
 
-    /// The four bytes from its first on, a bit as 0 or 1 in the first. What comes behind the value is in the rest.
+    /// The four bytes from its first on, a bit as 0 or 1 in the first. What comes after the value
+    /// is in the rest.
     pub(crate) fn bytes_in(self, memory: &Memory) -> [u8; 4] {
         let mut bytes = [0, 1, 2, 3].map(|offset| memory.byte(self.address() + offset));
         if self.size() < BYTE {
@@ -115,10 +121,15 @@ pub(crate) const fn page_len(area: u8) -> u8 {
 }
 
 /// The place of what a reference names, if it is among what is allowed.
-pub(crate) fn resolve<P: ProgramMemory>(program: Option<&Program<P>>, code: u8, number: u16, allowed: u16) -> Place {
+pub(crate) fn resolve<P: ProgramMemory>(
+    program: Option<&Program<P>>,
+    code: u8,
+    number: u16,
+    allowed: u16,
+) -> SizedAddress {
     let (area, mut size, mut class) = (code >> 4, code & 15, code >> 4);
     if size > DOUBLE || number >= SM_IN_V {
-        return Place::NONE;
+        return SizedAddress::NONE;
     }
     let width = width(size);
     let address = match area {
@@ -132,17 +143,24 @@ pub(crate) fn resolve<P: ProgramMemory>(program: Option<&Program<P>>, code: u8, 
         V => v_address(program, number, width),
         SM if number >= 32 => v_address(program, number | SM_IN_V, width),
         SECOND_PAGE => {
-            let Some(found) = second_page(number, size) else { return Place::NONE };
+            let Some(found) = second_page(number, size) else { return SizedAddress::NONE };
             class = found;
             AIW_START + number
         }
-        _ if area <= L && number + u16::from(width) <= u16::from(page_len(area)) => page_start(area) + number,
+        _ if area <= L && number + u16::from(width) <= u16::from(page_len(area)) => {
+            page_start(area) + number
+        }
         _ => 0,
     };
-    if address == 0 || allowed >> class & 1 == 0 { Place::NONE } else { Place::new(address, size) }
+    if address == 0 || allowed >> class & 1 == 0 {
+        SizedAddress::NONE
+    } else {
+        SizedAddress::new(address, size)
+    }
 }
 
-/// To which class an offset of the second page belongs, and whether a value of this size begins there.
+/// To which class an offset of the second page belongs, and whether a value of this size begins
+/// there.
 fn second_page(number: u16, size: u8) -> Option<u8> {
     let (class, width) = match number {
         0..AIN => (SECOND_PAGE, 2),
@@ -156,7 +174,11 @@ fn second_page(number: u16, size: u8) -> Option<u8> {
 }
 
 /// Data address of a value in V memory that lies in one range of the plan; 0: there is none.
-pub(crate) fn v_address<P: ProgramMemory>(program: Option<&Program<P>>, number: u16, width: u8) -> u16 {
+pub(crate) fn v_address<P: ProgramMemory>(
+    program: Option<&Program<P>>,
+    number: u16,
+    width: u8,
+) -> u16 {
     let Some(program) = program else { return 0 };
     let mut start = ARENA_START;
     for (first, len) in program.plan().v_ranges() {
@@ -170,7 +192,11 @@ pub(crate) fn v_address<P: ProgramMemory>(program: Option<&Program<P>>, number: 
 }
 
 /// Data address of the current value of a timer or counter; 0: the program does not use it.
-pub(crate) fn value_address<P: ProgramMemory>(program: Option<&Program<P>>, is_timer: bool, number: u16) -> u16 {
+pub(crate) fn value_address<P: ProgramMemory>(
+    program: Option<&Program<P>>,
+    is_timer: bool,
+    number: u16,
+) -> u16 {
     let (Some(program), Ok(number)) = (program, u8::try_from(number)) else { return 0 };
     let plan = program.plan();
     if is_timer {

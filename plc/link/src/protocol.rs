@@ -1,4 +1,5 @@
-//! The numbers of docs/protocol.md that both ends of a line need: function codes and limits. No meaning.
+//! The numbers of docs/protocol.md that both ends of a line need: function codes and limits. No
+//! meaning.
 
 /// The version of the service functions.
 pub const VERSION: u8 = 1;
@@ -22,13 +23,17 @@ pub const READ_BLOCK: u8 = 71;
 /// Service function: operands get values, all or none.
 pub const SET: u8 = 72;
 
+/// Service function: a single scan with the status of instructions in it.
+pub const SCAN_STATUS: u8 = 100;
+
 /// Most operands in one request to watch.
 pub const WATCH_MAX: u8 = 32;
 /// Most operands in one request to set.
 pub const SET_MAX: u8 = 16;
 /// Most instructions in a status window.
 pub const STATUS_MAX: u8 = 24;
-/// Less than so many bytes of the image lie between the first and the last instruction of a status window.
+/// Less than so many bytes of the image lie between the first and the last instruction of a status
+/// window.
 pub const STATUS_SPAN: u16 = plc_isa::WINDOW_LEN;
 /// Most operands in a trace.
 pub const TRACE_MAX: u8 = 8;
@@ -45,10 +50,11 @@ pub const TRACE_NONE: u8 = 0;
 pub const TRACE_DONE: u8 = 1;
 /// It waits for its trigger. From here on samples are taken.
 pub const TRACE_WAITING: u8 = 2;
-/// It fills behind the trigger.
+/// It fills after the trigger.
 pub const TRACE_FILLING: u8 = 3;
 
-/// In the memory of a trace: how many values a sample has. These are offsets; words have the high byte first.
+/// In the memory of a trace: how many values a sample has. These are offsets; words have the high
+/// byte first.
 pub const TRACE_VALUES: u16 = 8;
 /// Bytes of a sample.
 pub const TRACE_SAMPLE_LEN: u16 = 10;

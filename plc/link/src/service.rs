@@ -1,36 +1,25 @@
 //! The service functions: user-defined function codes for commissioning.
 
-use plc_isa::{Bit, CRC_LEN, SLOT_LEN};
+use plc_isa::{Bit, CRC_LEN};
 use plc_vm::{Fault, Mode};
 
-use crate::answer::{Answered, Exception, Request};
 use crate::link::Phase;
-use crate::place::{ANYTHING, BYTE, FORCED, Place, WRITABLE, resolve};
+use crate::place::{ANYTHING, BYTE, FORCED, SizedAddress, WRITABLE, resolve};
 use crate::protocol::{
-    BLOCK_MAX, CONTROL, FORCE, FORCE_LEN, IDENTIFY, READ_BLOCK, SET, SET_MAX, STATUS, TRACE, VERSION, WATCH, WATCH_MAX,
+    BLOCK_MAX, CONTROL, FORCE, FORCE_LEN, IDENTIFY, READ_BLOCK, SCAN_STATUS, SET, SET_MAX, STATUS,
+    TRACE, VERSION, WATCH, WATCH_MAX,
 };
-use crate::station::Station;
+use crate::request::{Answered, Exception, Request};
+use crate::station::{Command, Station};
 
-/// What there is: bit 0 status of instructions, bit 1 trace. A board may have less.
-const CAPABILITIES: u8 = 0b11;
+/// What there is: bit 0 status of instructions, bit 1 trace, bit 2 status in a single scan. A board
+/// may have less.
+const CAPABILITIES: u8 = 0b111;
 
 /// Bytes of a reference.
 const REFERENCE_LEN: u8 = 3;
-/// Bytes of a [`Place`] that waits in the frame.
+/// Bytes of a [`SizedAddress`] that waits in the frame.
 const PLACE_LEN: u8 = 2;
-
-/// What [`Station::control`] is asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Command {
-    /// RUN to STOP.
-    Stop,
-    /// STOP to RUN, with a first scan. In RUN: nothing.
-    Run,
-    /// Forget the fault that led to STOP.
-    ClearFault,
-    /// So many scans, at least 1, from STOP: goes on where the program stood, then STOP again.
-    Scans(u16),
-}
 
 /// Functions from 65 on.
 pub(crate) fn answer<S: Station>(request: &mut Request<S>, function: u8) -> Answered {
@@ -39,7 +28,8 @@ pub(crate) fn answer<S: Station>(request: &mut Request<S>, function: u8) -> Answ
         CONTROL => request.control(),
         WATCH => request.watch(),
         FORCE => request.force(),
-        STATUS => request.status(),
+        STATUS => request.status(false),
+        SCAN_STATUS => request.status(true),
         TRACE => request.trace(),
         READ_BLOCK => request.read_block(),
         SET => request.set(),
@@ -60,7 +50,8 @@ impl<S: Station> Request<'_, S> {
             len = header.total_len;
             state |= if header.interface != 0 { 1 << 1 | 1 << 3 } else { 1 << 1 };
         }
-        state |= u8::from(!self.station.link().forces.is_empty()) << 2 | u8::from(self.station.has_scans_left()) << 4;
+        state |= u8::from(!self.station.link().forces.is_empty()) << 2
+            | u8::from(self.station.has_scans_left()) << 4;
         self.put(VERSION);
         self.put(CAPABILITIES);
         self.put(state);
@@ -117,8 +108,9 @@ impl<S: Station> Request<'_, S> {
         Ok(4)
     }
 
-    /// Function 67: values of one moment. In the first scans references become places, from the last to the first, at
-    /// the end of the frame's room; then these become values, whose place is not always behind the reference.
+    /// Function 67: values of one moment. In the first scans references become places, from the
+    /// last to the first, at the end of the frame's room; then these become values, whose place is
+    /// not always after the reference.
     fn watch(&mut self) -> Answered {
         let count = self.byte(1);
         self.expect_count(count, WATCH_MAX)?;
@@ -160,7 +152,7 @@ impl<S: Station> Request<'_, S> {
     /// Function 68: forces.
     fn force(&mut self) -> Answered {
         let action = self.byte(1);
-        let (mut place, mut entry) = (Place::NONE, [0; FORCE_LEN as usize]);
+        let (mut place, mut entry) = (SizedAddress::NONE, [0; FORCE_LEN as usize]);
         match action {
             0 | 3 => self.expect_len(2)?,
             1 | 2 => {
@@ -204,7 +196,7 @@ impl<S: Station> Request<'_, S> {
         self.expect_count(len, BLOCK_MAX)?;
         self.expect_room(len + 2)?;
         let end = match space {
-            0 => SLOT_LEN,
+            0 => self.station.slot_len(),
             1 => self.station.link().trace.len(),
             _ => return Err(Exception::Address),
         };
@@ -226,7 +218,8 @@ impl<S: Station> Request<'_, S> {
         Ok(self.out)
     }
 
-    /// Function 72: sets operands, all or none. In the first scans references become places where they stand.
+    /// Function 72: sets operands, all or none. In the first scans references become places where
+    /// they are.
     fn set(&mut self) -> Answered {
         let count = self.byte(1);
         self.expect_count(count, SET_MAX)?;
@@ -264,7 +257,7 @@ impl<S: Station> Request<'_, S> {
     }
 
     /// Writes the value at an offset of the frame to its place.
-    fn set_value(&mut self, place: Place, at: u8) {
+    fn set_value(&mut self, place: SizedAddress, at: u8) {
         if place.size() < BYTE {
             let value = self.byte(at) & 1 != 0;
             self.memory().set_bit(Bit { address: place.address(), bit: place.size() }, value);
@@ -285,10 +278,10 @@ impl<S: Station> Request<'_, S> {
     }
 
     /// The place of the reference at an offset of the frame.
-    pub fn reference(&mut self, at: u8, allowed: u16) -> Result<Place, Exception> {
+    pub fn reference(&mut self, at: u8, allowed: u16) -> Result<SizedAddress, Exception> {
         let (code, number) = (self.byte(at), self.word(at + 1));
         let place = resolve(self.station.plc().program(), code, number, allowed);
-        if place == Place::NONE { Err(Exception::Address) } else { Ok(place) }
+        if place == SizedAddress::NONE { Err(Exception::Address) } else { Ok(place) }
     }
 
     pub fn expect_count(&self, count: u8, max: u8) -> Result<(), Exception> {
@@ -296,8 +289,8 @@ impl<S: Station> Request<'_, S> {
     }
 
     /// The place that waits at an offset of the frame.
-    pub fn place(&mut self, at: u8) -> Place {
-        Place(self.word(at).swap_bytes())
+    pub fn place(&mut self, at: u8) -> SizedAddress {
+        SizedAddress(self.word(at).swap_bytes())
     }
 
     pub fn set_low_first(&mut self, at: u8, word: u16) {

@@ -1,12 +1,12 @@
-//! What a machine is to the answers: its memory, controller and times. Implemented by the firmware and by the simulator.
+//! What a machine is to the answers: its memory, controller and times. Implemented by the firmware
+//! and by the simulator.
 
-use plc_isa::ProgramMemory;
+use plc_isa::{ProgramMemory, UNO};
 use plc_vm::{Memory, Plc};
 
 use crate::link::Link;
-use crate::service::Command;
 
-/// Who answers: vendor, product code and revision. The same on every machine.
+/// Who answers: vendor, product code and revision. A simulator may call itself by another product.
 pub const TEXTS: [&str; 3] = ["uno200", "Arduino Uno", env!("CARGO_PKG_VERSION")];
 
 /// Lengths of the scans since RUN, inputs to outputs, in counts of [`Station::COUNTS_PER_MS`].
@@ -39,6 +39,19 @@ impl ScanTimes {
     }
 }
 
+/// What [`Station::control`] is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Command {
+    /// RUN to STOP.
+    Stop,
+    /// STOP to RUN, with a first scan. In RUN: nothing.
+    Run,
+    /// Forget the fault that led to STOP.
+    ClearFault,
+    /// So many scans, at least 1, from STOP: goes on where the program was, then STOP again.
+    Scans(u16),
+}
+
 /// A machine with a line.
 pub trait Station {
     /// Where the program's bytes are.
@@ -66,8 +79,13 @@ pub trait Station {
     /// The scans since RUN.
     fn times(&self) -> &ScanTimes;
 
-    /// The byte of the program slot at an offset below [`plc_isa::SLOT_LEN`], whether there is a valid program or not;
-    /// 0xFF where nothing was written.
+    /// Bytes of the program slot: as many as the program's profile has.
+    fn slot_len(&self) -> u16 {
+        self.plc().program().map_or(UNO.slot_len, |program| program.plan().profile().slot_len)
+    }
+
+    /// The byte of the program slot at an offset below its [length](Self::slot_len), whether there
+    /// is a valid program or not; 0xFF where nothing was written.
     fn slot_byte(&self, offset: u16) -> u8;
 
     /// The fault before the last reset, as [`plc_vm::Fault::to_bytes`] gives it.
@@ -80,17 +98,23 @@ pub trait Station {
         0xFFFF
     }
 
+    /// What the machine is: the product code of function 43.
+    fn product(&self) -> &'static str {
+        TEXTS[1]
+    }
+
     /// Whether single scans go on that [`Command::Scans`] asked for.
     fn has_scans_left(&self) -> bool;
 
-    /// Carries a command out. It can be: RUN and single scans come only with a program, single scans in STOP only.
-    /// STOP is obeyed at once. RUN and single scans begin after the answer has been sent, because they may load
-    /// the program anew, which clears the frame; what became of them the client asks.
-    /// Whoever goes from RUN to STOP, for whatever reason, calls [`Forces::clear`](crate::Forces::clear).
+    /// Carries a command out. It can be: RUN and single scans come only with a program, single
+    /// scans in STOP only. STOP is obeyed at once. RUN and single scans begin after the answer has
+    /// been sent, because they may load the program anew, which clears the frame; what became of
+    /// them the client asks. Whoever goes from RUN to STOP, for whatever reason, calls
+    /// [`Forces::clear`](crate::Forces::clear).
     fn control(&mut self, command: Command);
 
-    /// Asked between the parts of an answer that can be made in parts: whether there is time for another one in this
-    /// scan. After `false` the machine comes back at the end of the next scan.
+    /// Asked between the parts of an answer that can be made in parts: whether there is time for
+    /// another one in this scan. After `false` the machine comes back at the end of the next scan.
     fn has_time(&mut self) -> bool {
         true
     }

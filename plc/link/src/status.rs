@@ -1,30 +1,29 @@
-//! Status of instructions (service function 69): logic stack and an operand right after some instructions of one scan.
+//! Status of instructions (service functions 69 and 100): logic stack and an operand right after
+//! some instructions of one scan, the next one in RUN or a single scan from STOP.
 //!
-//! The request is converted in place to entries that an engine fills in as the program passes their instructions:
+//! The request is converted in place to entries that an engine fills in as the program passes their
+//! instructions:
 //!
 //! | byte | |
 //! |---|---|
 //! | 0-1 | offset of the instruction in the image, low byte first; ascending from entry to entry |
-//! | 2-3 | [`Place`] of the operand, low byte first; 0: none |
-//! | 4-5 | bit 15: executed; bits 8 to 0: S8 to S0 right after it. High byte first; 0 before the scan |
+//! | 2-3 | [`SizedAddress`] of the operand, low byte first; 0: none |
+//! | 4-5 | bit 15: executed; bits 8 to 0: S8 to S0 right after; high byte first; 0 before a scan |
 //! | 6-9 | the four bytes at the address of the place right after it, whatever its size |
 //!
-//! Behind the last entry stands the offset 0xFFFF, which no instruction has.
+//! After the last entry is the offset 0xFFFF, which no instruction has.
 
-use plc_isa::{LogicStack, SLOT_LEN};
+use plc_isa::LogicStack;
 use plc_vm::{Memory, Mode};
 
-use crate::answer::{Answered, Exception, Request};
-use crate::link::Phase;
-use crate::place::{ANYTHING, Place};
+use crate::link::{Phase, STATUS_AT as FIRST};
+use crate::place::{ANYTHING, SizedAddress};
 use crate::protocol::{STATUS_MAX, STATUS_SPAN};
-use crate::station::Station;
+use crate::request::{Answered, Exception, Request};
+use crate::station::{Command, Station};
 
 /// Bytes of an entry.
 pub const ENTRY_LEN: u16 = 10;
-
-/// Offset of the first entry in the frame.
-pub(crate) const FIRST: u8 = 3;
 
 /// Bytes of a request's and of an answer's part about an instruction.
 const REQUEST_LEN: u8 = 5;
@@ -32,7 +31,7 @@ const ANSWER_LEN: u8 = 6;
 
 /// The bit of an entry's stack that says so.
 const EXECUTED: u16 = 0x8000;
-/// Stands behind the last entry.
+/// Stands after the last entry.
 const END: u16 = 0xFFFF;
 
 /// Instead of a reference: no operand.
@@ -40,15 +39,15 @@ const NO_OPERAND: u8 = 0xFF;
 
 /// The instruction of the entry at this data address has been executed and left this stack.
 pub fn note(memory: &mut Memory, entry: u16, stack: LogicStack) {
-    let place = Place(memory.word(entry + 2).swap_bytes());
+    let place = SizedAddress(memory.word(entry + 2).swap_bytes());
     memory.set_word(entry + 4, stack.bits() | EXECUTED);
     for offset in 0..4 {
         memory.set_byte(entry + 6 + offset, memory.byte(place.address() + offset));
     }
 }
 
-/// The instruction at an offset of the image has been executed and left this stack: looks for its entry among `count`
-/// from data address `first` on. For an engine that tells of every instruction.
+/// The instruction at an offset of the image has been executed and left this stack: looks for its
+/// entry among `count` from data address `first` on. For an engine that tells of every instruction.
 pub fn executed(memory: &mut Memory, (first, count): (u16, u8), at: u16, stack: LogicStack) {
     let mut entry = first;
     for _ in 0..count {
@@ -60,9 +59,9 @@ pub fn executed(memory: &mut Memory, (first, count): (u16, u8), at: u16, stack: 
 }
 
 impl<S: Station> Request<'_, S> {
-    /// Function 69. In the first scans the request becomes entries, from the last to the first; then a scan fills them
-    /// in.
-    pub fn status(&mut self) -> Answered {
+    /// Functions 69 and 100. In the first scans the request becomes entries, from the last to the
+    /// first; then a scan fills them in: the next one, or a single scan that is made for it.
+    pub fn status(&mut self, is_single: bool) -> Answered {
         let (count, phase) = (self.byte(1), self.station.link().phase);
         match phase {
             // The request is no more.
@@ -70,7 +69,10 @@ impl<S: Station> Request<'_, S> {
             Phase::Armed | Phase::Noted => return Ok(self.collect()),
             _ => {}
         }
-        if self.station.plc().program().is_none_or(|program| program.plan().header.interface != 0) {
+        let plc = self.station.plc();
+        if plc.program().is_none_or(|program| program.plan().header.interface != 0)
+            || is_single && plc.mode() == Mode::Run
+        {
             return Err(Exception::Busy);
         }
         self.expect_count(count, STATUS_MAX)?;
@@ -82,10 +84,15 @@ impl<S: Station> Request<'_, S> {
             left -= 1;
             let at = 2 + REQUEST_LEN * left;
             let offset = self.word(at);
-            let place = if self.byte(at + 2) == NO_OPERAND { Place::NONE } else { self.reference(at + 2, ANYTHING)? };
+            let place = if self.byte(at + 2) == NO_OPERAND {
+                SizedAddress::NONE
+            } else {
+                self.reference(at + 2, ANYTHING)?
+            };
             let entry = FIRST + ENTRY_LEN as u8 * left;
-            let ascends = left + 1 == count || offset < self.word(entry + ENTRY_LEN as u8).swap_bytes();
-            if offset >= SLOT_LEN || !ascends {
+            let ascends =
+                left + 1 == count || offset < self.word(entry + ENTRY_LEN as u8).swap_bytes();
+            if offset >= self.station.slot_len() || !ascends {
                 return Err(Exception::Value);
             }
             self.set_low_first(entry, offset);
@@ -98,13 +105,17 @@ impl<S: Station> Request<'_, S> {
                 return Ok(0);
             }
         }
-        let [first, last] = [FIRST, end - ENTRY_LEN as u8].map(|entry| self.word(entry).swap_bytes());
+        let [first, last] =
+            [FIRST, end - ENTRY_LEN as u8].map(|entry| self.word(entry).swap_bytes());
         if last - first >= STATUS_SPAN {
             return Err(Exception::Value);
         }
         self.set_word(end, END);
         let link = self.station.link();
         (link.phase, link.left) = (Phase::Armed, count);
+        if is_single {
+            self.station.control(Command::Scans(1));
+        }
         Ok(0)
     }
 
@@ -115,7 +126,11 @@ impl<S: Station> Request<'_, S> {
             let entry = FIRST + ENTRY_LEN as u8 * index;
             let (place, noted) = (self.place(entry + 2), self.word(entry + 4));
             let bytes = u32::from(self.word(entry + 6)) << 16 | u32::from(self.word(entry + 8));
-            let value = if noted & EXECUTED == 0 || place == Place::NONE { 0 } else { place.value_in(bytes) };
+            let value = if noted & EXECUTED == 0 || place == SizedAddress::NONE {
+                0
+            } else {
+                place.value_in(bytes)
+            };
             let answer = FIRST + ANSWER_LEN * index;
             self.set_word(answer, noted);
             self.set_word(answer + 2, (value >> 16) as u16);

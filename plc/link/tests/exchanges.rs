@@ -1,4 +1,5 @@
-//! The exchanges that were written by hand from the protocol: requests and their answers, byte by byte.
+//! The exchanges that were written by hand from the protocol: requests and their answers, byte by
+//! byte.
 
 mod machine;
 
@@ -62,7 +63,10 @@ fn every_exchange_is_as_written() {
             obey(&mut machine);
             machine.scan();
             if !matches(&answer, expected) {
-                wrong.push(format!("line {}: >{request}\n  <{expected}\n  is {answer:02X?}", number + 1));
+                wrong.push(format!(
+                    "line {}: >{request}\n  <{expected}\n  is {answer:02X?}",
+                    number + 1
+                ));
             }
             count += 1;
         }

@@ -45,7 +45,8 @@ fn no_request_panics_or_writes_where_it_may_not() {
             if answer != 0 {
                 break;
             }
-            // No scan meanwhile: only the answer changes memory. Except for 69, which waits for one.
+            // No scan meanwhile: only the answer changes memory. Except for 69, which waits for
+            // one.
             if request[0] == 69 {
                 machine.link.status_entries();
             }
@@ -54,8 +55,11 @@ fn no_request_panics_or_writes_where_it_may_not() {
         let (function, code) = (machine.memory.byte(frame), machine.memory.byte(frame + 1));
         let (before, after) = (before.bytes(), machine.memory.bytes());
         let context = format!("{request:02X?}");
-        // Behind the frame's room is nothing of the answer's, but what a trace has begun with.
-        assert!(request[0] == 70 || is_unchanged(before, after, frame + room, DATA_END), "{context}");
+        // After the frame's room is nothing of the answer's, but what a trace has begun with.
+        assert!(
+            request[0] == 70 || is_unchanged(before, after, frame + room, DATA_END),
+            "{context}"
+        );
         let is_refused = function & 0x80 != 0;
         if is_refused {
             assert_eq!(answer, 2, "{context}");

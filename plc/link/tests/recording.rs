@@ -4,6 +4,7 @@ mod machine;
 
 use machine::{Machine, PROGRAM};
 use plc_isa::{DATA_END, M_START, decode};
+use plc_vm::Mode;
 
 /// Offsets of the instructions of the main program.
 fn offsets(machine: &Machine) -> Vec<u16> {
@@ -29,7 +30,8 @@ fn status(entries: &[(u16, [u8; 3])]) -> Vec<u8> {
 const NO_OPERAND: [u8; 3] = [0xFF, 0, 0];
 
 /// Contacts and what they drive: I0.0 and I0.1 in a row, then a jump over a coil.
-const RUNGS: &str = "LD I0.0\nA I0.1\n= M0.0\nLD I0.0\nJMP 1\nLD SM0.0\n= M0.1\nLBL 1\nLD SM0.0\nINCW VW0\n";
+const RUNGS: &str =
+    "LD I0.0\nA I0.1\n= M0.0\nLD I0.0\nJMP 1\nLD SM0.0\n= M0.1\nLBL 1\nLD SM0.0\nINCW VW0\n";
 
 #[test]
 fn status_shows_stack_and_operand_right_after_each_instruction() {
@@ -51,7 +53,8 @@ fn status_shows_stack_and_operand_right_after_each_instruction() {
         .chunks(6)
         .map(|e| (u16::from_be_bytes([e[0], e[1]]), u32::from_be_bytes([e[2], e[3], e[4], e[5]])))
         .collect();
-    // The increment was executed four times: in the first scan, in two, and in the one that was watched.
+    // The increment was executed four times: in the first scan, in two, and in the one that was
+    // watched.
     assert_eq!(words, [(0x8001, 0), (0x8000, 0), (0x8000, 0), (0, 0), (0x8003, 4)]);
     machine.inputs = 0b10;
     let answer = machine.ask(&status(&entries));
@@ -67,6 +70,37 @@ fn status_in_stop_is_of_nothing_executed() {
     machine.plc.stop();
     let answer = machine.ask(&status(&[(at[0], NO_OPERAND), (at[9], [0x89, 0, 0])]));
     assert_eq!(answer[3..], [0; 12]);
+}
+
+#[test]
+fn a_single_scan_tells_what_it_did() {
+    let mut machine = Machine::with_room(RUNGS, 252);
+    let at = offsets(&machine);
+    let mut request = status(&[(at[0], NO_OPERAND), (at[6], [0x21, 0, 0]), (at[9], [0x89, 0, 0])]);
+    request[0] = 100;
+    assert_eq!(machine.ask(&request), [0xE4, 4], "in RUN");
+    machine.plc.stop();
+    machine.inputs = 1;
+    for executed in 1..4 {
+        let scans = machine.times.scans;
+        let (answer, _) = machine.ask_for_scans(&request);
+        assert_eq!(machine.times.scans, scans + 1);
+        assert_eq!((machine.plc.mode(), answer[0]), (Mode::Stop, 100));
+        assert_eq!(answer[1..3], (machine.times.scans as u16).to_be_bytes());
+        assert_eq!(answer[3..9], [0x80, 1, 0, 0, 0, 0]);
+        assert_eq!(answer[9..15], [0; 6], "jumped over");
+        assert_eq!(answer[15..], [0x80, 3, 0, 0, 0, 1 + executed]);
+        for _ in 0..3 {
+            machine.scan();
+        }
+    }
+    let scans = machine.times.scans;
+    for wrong in [&request[..request.len() - 1], &[100, 0], &[100, 1, 0x1E, 0, 0xFF, 0, 0]] {
+        assert_eq!(machine.ask(wrong), [0xE4, 3]);
+    }
+    assert!(machine.commands.is_empty(), "nothing was executed for it");
+    assert_eq!(machine.times.scans, scans);
+    assert_eq!(Machine::empty_with_line().ask(&request), [0xE4, 4]);
 }
 
 #[test]
@@ -96,8 +130,16 @@ struct Trace {
 fn start(trace: Trace, references: &[[u8; 3]]) -> Vec<u8> {
     let Trace { every, before, kind, trigger } = trace;
     let count = references.len() as u8;
-    [&[70, 1][..], &every.to_be_bytes(), &before.to_be_bytes(), &[kind], &trigger, &[count], &references.concat()]
-        .concat()
+    [
+        &[70, 1][..],
+        &every.to_be_bytes(),
+        &before.to_be_bytes(),
+        &[kind],
+        &trigger,
+        &[count],
+        &references.concat(),
+    ]
+    .concat()
 }
 
 fn word(answer: &[u8], at: usize) -> u16 {
@@ -158,7 +200,10 @@ fn samples(machine: &mut Machine) -> Vec<u16> {
 #[test]
 fn a_trace_keeps_what_was_before_the_trigger() {
     let mut machine = Machine::with_room(RUNGS, 252);
-    let answer = machine.ask(&start(Trace { every: 1, before: 10, kind: 1, trigger: [0x02, 0, 0] }, &[[0x89, 0, 0]]));
+    let answer = machine.ask(&start(
+        Trace { every: 1, before: 10, kind: 1, trigger: [0x02, 0, 0] },
+        &[[0x89, 0, 0]],
+    ));
     assert_eq!(answer, [70, WAITING]);
     let Head { sample_len, capacity, triggered_at, .. } = head(&mut machine);
     assert_eq!((sample_len, triggered_at), (2, 0xFFFF));
@@ -172,7 +217,8 @@ fn a_trace_keeps_what_was_before_the_trigger() {
     machine.inputs = 0b100;
     machine.scan();
     let triggered_in = machine.times.scans as u16;
-    let trigger_value = machine.memory.word(machine.plc.program().unwrap().plan().v_address(0).unwrap());
+    let trigger_value =
+        machine.memory.word(machine.plc.program().unwrap().plan().v_address(0).unwrap());
     for _ in 0..2 * capacity {
         machine.scan();
     }
@@ -215,7 +261,10 @@ fn every_kind_of_trigger_fires_when_it_should() {
     ];
     for (kind, levels, triggers) in cases {
         let mut machine = Machine::with_room(RUNGS, 252);
-        machine.ask(&start(Trace { every: 1, before: 20, kind, trigger: [0x02, 0, 0] }, &[[0x28, 0, 5], [0x02, 0, 0]]));
+        machine.ask(&start(
+            Trace { every: 1, before: 20, kind, trigger: [0x02, 0, 0] },
+            &[[0x28, 0, 5], [0x02, 0, 0]],
+        ));
         for (index, level) in levels.into_iter().enumerate() {
             machine.inputs = u8::from(level) << 2;
             machine.scan();
@@ -236,11 +285,26 @@ fn a_trace_that_cannot_be_is_refused_and_the_one_before_is_gone() {
     assert_eq!(machine.ask(&[71, 1, 0, 0, 1]), [71, 1, 0], "memory, whatever there is");
     assert_eq!(machine.ask(&good())[1], WAITING);
     let capacity = head(&mut machine).capacity;
-    assert_eq!(machine.ask(&start(Trace { every: 0, before: 0, kind: 0, trigger: [0; 3] }, &[m])), [0xC6, 3]);
-    assert_eq!(machine.ask(&start(Trace { every: 1, before: 0, kind: 5, trigger: [0; 3] }, &[m])), [0xC6, 3]);
-    assert_eq!(machine.ask(&start(Trace { every: 1, before: 0, kind: 1, trigger: m }, &[m])), [0xC6, 2]);
-    assert_eq!(machine.ask(&start(Trace { every: 1, before: 0, kind: 0, trigger: [0; 3] }, &[])), [0xC6, 3]);
-    assert_eq!(machine.ask(&start(Trace { every: 1, before: 0, kind: 0, trigger: [0; 3] }, &[m; 9])), [0xC6, 3]);
+    assert_eq!(
+        machine.ask(&start(Trace { every: 0, before: 0, kind: 0, trigger: [0; 3] }, &[m])),
+        [0xC6, 3]
+    );
+    assert_eq!(
+        machine.ask(&start(Trace { every: 1, before: 0, kind: 5, trigger: [0; 3] }, &[m])),
+        [0xC6, 3]
+    );
+    assert_eq!(
+        machine.ask(&start(Trace { every: 1, before: 0, kind: 1, trigger: m }, &[m])),
+        [0xC6, 2]
+    );
+    assert_eq!(
+        machine.ask(&start(Trace { every: 1, before: 0, kind: 0, trigger: [0; 3] }, &[])),
+        [0xC6, 3]
+    );
+    assert_eq!(
+        machine.ask(&start(Trace { every: 1, before: 0, kind: 0, trigger: [0; 3] }, &[m; 9])),
+        [0xC6, 3]
+    );
     assert_eq!(machine.ask(&[70, 3]), [0xC6, 3]);
     assert_eq!(phase(&mut machine), WAITING);
     let too_early = Trace { every: 1, before: capacity, kind: 0, trigger: [0; 3] };

@@ -33,7 +33,7 @@ fn identify_tells_everything_in_a_fixed_length() {
     let mut machine = Machine::new();
     let answer = machine.ask(&[65]);
     assert_eq!(answer.len(), 40);
-    assert_eq!(answer[..4], [65, 1, 3, 3]);
+    assert_eq!(answer[..4], [65, 1, 7, 3]);
     assert_eq!(answer[12..14], [0, 250]);
     assert_eq!(answer[14..18], [0, 0, 3, 232]);
     assert_eq!(answer[26..30], [0, 0, 0, 1]);
@@ -60,7 +60,10 @@ fn control_passes_commands_on_that_can_be_obeyed() {
     assert_eq!(machine.ask(&[66, 3, 0, 0]), [0xC2, 3]);
     machine.ask(&[66, 1, 0, 0]);
     machine.ask(&[66, 2, 0, 0]);
-    assert_eq!(machine.commands, [Command::Stop, Command::Scans(258), Command::Run, Command::ClearFault]);
+    assert_eq!(
+        machine.commands,
+        [Command::Stop, Command::Scans(258), Command::Run, Command::ClearFault]
+    );
     assert_eq!(machine.ask(&[66, 4, 0, 0]), [0xC2, 3]);
     assert_eq!(machine.ask(&[66, 1, 0]), [0xC2, 3]);
     let mut empty = Machine::empty_with_line();
@@ -78,14 +81,21 @@ fn watch_reads_every_area_in_every_size() {
         (plan.timer_slot(37).unwrap().address, plan.counter_slot(7).unwrap().address)
     };
     let memory = &mut machine.memory;
-    for (address, value) in
-        [(I_START + 1, 0x8101), (Q_START + 14, 0x2233), (M_START + 28, 0x4455), (M_START + 30, 0x6677)]
-    {
+    for (address, value) in [
+        (I_START + 1, 0x8101),
+        (Q_START + 14, 0x2233),
+        (M_START + 28, 0x4455),
+        (M_START + 30, 0x6677),
+    ] {
         memory.set_word(address, value);
     }
-    for (address, value) in
-        [(timer, 0x1122), (counter, 0x3344), (v100, 0xABCD), (AC_START + 4, 0xDEAD), (AC_START + 6, 0xBEEF)]
-    {
+    for (address, value) in [
+        (timer, 0x1122),
+        (counter, 0x3344),
+        (v100, 0xABCD),
+        (AC_START + 4, 0xDEAD),
+        (AC_START + 6, 0xBEEF),
+    ] {
         memory.set_word(address, value);
     }
     memory.set_byte(0x01A0, 0x80);
@@ -141,7 +151,12 @@ fn references_to_nothing_are_refused() {
     for wrong in wrong {
         assert_eq!(machine.ask(&watch(&[wrong])), [0xC3, 2], "{wrong:02X?}");
     }
-    let right = [reference(3, BYTE, 34), reference(7, WORD, 62), reference(9, WORD, 50), reference(8, DOUBLE, 1004)];
+    let right = [
+        reference(3, BYTE, 34),
+        reference(7, WORD, 62),
+        reference(9, WORD, 50),
+        reference(8, DOUBLE, 1004),
+    ];
     assert_eq!(machine.ask(&watch(&right)).len(), 3 + 1 + 2 + 2 + 4);
     // Without a program there are the areas of fixed size.
     let mut empty = Machine::empty_with_line();
@@ -155,8 +170,9 @@ fn a_watch_takes_1_to_32_and_as_much_room_as_there_is() {
     for (index, address) in (M_START..).take(32).enumerate() {
         machine.memory.set_byte(address, index as u8);
     }
-    let references: Vec<_> =
-        (0..32).map(|number| reference(2, if number < 29 { DOUBLE } else { BYTE }, number)).collect();
+    let references: Vec<_> = (0..32)
+        .map(|number| reference(2, if number < 29 { DOUBLE } else { BYTE }, number))
+        .collect();
     machine.patience = 3;
     let (answer, scans) = machine.ask_for_scans(&watch(&references));
     assert_eq!(answer.len(), 3 + 29 * 4 + 3);
@@ -225,7 +241,8 @@ fn sixteen_operands_can_be_forced_and_inputs_that_are_not_there_come_back() {
     assert_eq!(machine.memory.byte(I_START + 15), 0);
     assert_eq!(machine.memory.byte(I_START + 14), 0xFF);
     let mut small = Machine::with_room(PROGRAM, 62);
-    let lens: Vec<usize> = (0..10).map(|byte| small.ask(&force(1, reference(2, BYTE, byte), 0)).len()).collect();
+    let lens: Vec<usize> =
+        (0..10).map(|byte| small.ask(&force(1, reference(2, BYTE, byte), 0)).len()).collect();
     assert_eq!(lens[7..], [58, 58, 58]);
     assert_eq!(small.ask(&[68, 0])[1], 10);
 }
@@ -259,7 +276,11 @@ fn what_cannot_be_forced_or_set_is_refused() {
         let width = [1, 2, 4][usize::from((operand[0] & 15).saturating_sub(8))];
         let request = [&[72, 1][..], &operand, &vec![0; width]].concat();
         let answer = machine.ask(&request);
-        assert_eq!(answer, if can & settable == 0 { vec![0xC8, 2] } else { vec![72, 1] }, "{operand:02X?}");
+        assert_eq!(
+            answer,
+            if can & settable == 0 { vec![0xC8, 2] } else { vec![72, 1] },
+            "{operand:02X?}"
+        );
         machine.ask(&[68, 3]);
     }
     for wrong in [&[68, 4][..], &[68], &[68, 0, 0], &[68, 1, 0x20, 0, 0], &[68, 3, 0]] {
@@ -270,16 +291,21 @@ fn what_cannot_be_forced_or_set_is_refused() {
 #[test]
 fn set_is_all_or_nothing() {
     let mut machine = Machine::new();
-    let mut request = [&[72, 3][..], &reference(2, 3, 0), &[1], &reference(8, WORD, 100), &[0xAB, 0xCD]].concat();
+    let mut request =
+        [&[72, 3][..], &reference(2, 3, 0), &[1], &reference(8, WORD, 100), &[0xAB, 0xCD]].concat();
     request.extend([&reference(9, DOUBLE, 24)[..], &[1, 2, 3, 4]].concat());
     machine.patience = 1;
     let (answer, scans) = machine.ask_for_scans(&request);
     assert_eq!((answer, scans), (vec![72, 3], 3));
     assert_eq!(machine.memory.byte(M_START), 1 << 3);
     assert_eq!(machine.memory.word(v_address(&machine, 100)), 0xABCD);
-    assert_eq!((machine.memory.word(AC_START), machine.memory.word(AC_START + 2)), (0x0102, 0x0304));
+    assert_eq!(
+        (machine.memory.word(AC_START), machine.memory.word(AC_START + 2)),
+        (0x0102, 0x0304)
+    );
     let before = machine.memory.clone();
-    let half = [&[72, 2][..], &reference(4, BYTE, 0), &[0xFF], &reference(3, BYTE, 0), &[1]].concat();
+    let half =
+        [&[72, 2][..], &reference(4, BYTE, 0), &[0xFF], &reference(3, BYTE, 0), &[1]].concat();
     assert_eq!(machine.ask(&half), [0xC8, 2]);
     assert_eq!(machine.memory.byte(S_START), before.byte(S_START));
     let short = [&[72, 2][..], &reference(4, BYTE, 0), &[0xFF], &reference(4, BYTE, 1)].concat();
@@ -287,7 +313,9 @@ fn set_is_all_or_nothing() {
     let long = [&[72, 1][..], &reference(4, BYTE, 0), &[0xFF, 0]].concat();
     assert_eq!(machine.ask(&long), [0xC8, 3]);
     assert_eq!(machine.memory.byte(S_START), before.byte(S_START));
-    let many = [&[72, 17][..], &[reference(4, BYTE, 0); 17].map(|r| [r[0], r[1], r[2], 0]).concat()].concat();
+    let many =
+        [&[72, 17][..], &[reference(4, BYTE, 0); 17].map(|r| [r[0], r[1], r[2], 0]).concat()]
+            .concat();
     assert_eq!(machine.ask(&many), [0xC8, 3]);
     assert_eq!(machine.ask(&[72, 0]), [0xC8, 3]);
     assert_eq!(machine.memory.word(AQW_START), 0);

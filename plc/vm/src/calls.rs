@@ -1,9 +1,12 @@
-//! The routines that are being executed, innermost last: where each returns to, and what it gives back.
+//! The routines that are being executed, innermost last: where each returns to, and what it gives
+//! back.
 
 use plc_isa::{AC_START, ACCUMULATORS, ENO, LogicStack, SM_START};
 
-use crate::interpreter::CALLS_MAX;
 use crate::memory::Memory;
+
+/// Deepest nesting of subroutine calls from the main program (docs/s7-200.md 1.8).
+pub const CALLS_MAX: usize = 8;
 
 /// An interrupt routine and the subroutine that it may call come on top.
 const FRAMES: usize = CALLS_MAX + 2;
@@ -41,8 +44,11 @@ pub(crate) struct Calls {
 
 impl Calls {
     /// Only the main program.
-    pub const NONE: Calls =
-        Calls { frames: [Frame { return_to: 0, stack: LogicStack::EMPTY }; FRAMES], depth: 0, interrupted: None };
+    pub const NONE: Calls = Calls {
+        frames: [Frame { return_to: 0, stack: LogicStack::EMPTY }; FRAMES],
+        depth: 0,
+        interrupted: None,
+    };
 
     /// Whether an interrupt routine is being executed.
     pub fn is_interrupted(&self) -> bool {
@@ -53,7 +59,8 @@ impl Calls {
     pub fn enter(&mut self, frame: Frame) -> bool {
         // Only an interrupt routine's own call may be deeper than calls of the main program.
         let most = if self.is_interrupted() { FRAMES } else { CALLS_MAX };
-        let Some(place) = self.frames.get_mut(usize::from(self.depth)).filter(|_| usize::from(self.depth) < most)
+        let Some(place) =
+            self.frames.get_mut(usize::from(self.depth)).filter(|_| usize::from(self.depth) < most)
         else {
             return false;
         };
@@ -68,7 +75,12 @@ impl Calls {
         for (address, byte) in (AC_START..).zip(&mut accumulators) {
             *byte = memory.byte(address);
         }
-        let context = Context { depth: self.depth, accumulators, status: memory.byte(STATUS), eno: memory.byte(ENO) };
+        let context = Context {
+            depth: self.depth,
+            accumulators,
+            status: memory.byte(STATUS),
+            eno: memory.byte(ENO),
+        };
         self.interrupted = Some(context);
         self.enter(frame)
     }

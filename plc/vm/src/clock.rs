@@ -1,14 +1,20 @@
-//! Intervals of the millisecond clock: how many 10 ms and 100 ms ticks have passed, and the clock bits.
+//! Intervals of the millisecond clock: how many 10 ms and 100 ms ticks have passed, and the clock
+//! bits.
 //!
 //! Ticks are counted from the change to RUN, so their sum is exact however scans fall.
 
+use plc_isa::{Plan, ProgramMemory, TimerResolution};
+
+use crate::environment::Environment;
+use crate::memory::Memory;
 use crate::special::{HALF_MINUTE, HALF_SECOND};
 
-/// From so many milliseconds on all timers come to their ends. No scan takes as long: see [`SCAN_MS_MAX`](crate::SCAN_MS_MAX).
+/// From so many milliseconds on all timers come to their ends. No scan takes as long: see
+/// [`SCAN_MS_MAX`](crate::SCAN_MS_MAX).
 const PASSED_MS_MAX: u16 = 65_500;
 
-/// A time of before, as far as it is needed to tell what has passed since. On the board half of it: no scan there takes so
-/// long that it wraps.
+/// A time of before, as far as it is needed to tell what has passed since. On the board half of it:
+/// no scan there takes so long that it wraps.
 #[cfg(target_arch = "avr")]
 type Before = u16;
 /// On a host, which can stand still between two scans, the whole.
@@ -22,7 +28,8 @@ pub(crate) struct Clock {
     pub now_ms: u32,
     scan_start_ms: Before,
     fast_ms: Before,
-    // Parts of an interval that have passed: milliseconds, tens of them, hundreds of them, half seconds.
+    // Parts of an interval that have passed: milliseconds, tens of them, hundreds of them, half
+    // seconds.
     rest_10: u8,
     rest_100: u8,
     rest_500: u8,
@@ -60,12 +67,13 @@ impl Clock {
     }
 
     /// The time since the last scan is not counted.
-    #[cfg_attr(target_arch = "avr", inline(never))]
+    #[inline(never)]
     pub fn resume(&mut self) {
         (self.scan_start_ms, self.fast_ms) = (self.now_ms as Before, self.now_ms as Before);
     }
 
-    /// A scan starts. Returns the milliseconds since the last one started, at most [`PASSED_MS_MAX`].
+    /// A scan starts. Returns the milliseconds since the last one started, at most
+    /// [`PASSED_MS_MAX`].
     pub fn advance(&mut self) -> u16 {
         let passed = since(&mut self.scan_start_ms, self.now_ms);
         self.pass(passed);
@@ -75,7 +83,7 @@ impl Clock {
         passed
     }
 
-    #[cfg_attr(target_arch = "avr", inline(never))]
+    #[inline(never)]
     fn pass(&mut self, ms: u16) {
         self.ticks_10 = intervals(&mut self.rest_10, ms, 10);
         self.ticks_100 = 0;
@@ -96,6 +104,18 @@ impl Clock {
     pub fn take_fast_ms(&mut self, now_ms: u32) -> u16 {
         since(&mut self.fast_ms, now_ms)
     }
+
+    /// Brings the timers of 1 ms up to date.
+    #[inline(always)]
+    pub fn refresh_timers<P: ProgramMemory, E: Environment>(
+        &mut self,
+        environment: &mut E,
+        memory: &mut Memory,
+        plan: &Plan<P>,
+    ) {
+        let passed = self.take_fast_ms(environment.now_ms());
+        E::advance_timers(memory, plan, TimerResolution::Ms1, passed);
+    }
 }
 
 /// Milliseconds since a time, which becomes now.
@@ -107,7 +127,7 @@ fn since(time_ms: &mut Before, now_ms: u32) -> u16 {
 }
 
 /// Whole intervals of so many parts when some pass, and what is left for the next time.
-#[cfg_attr(target_arch = "avr", inline(never))]
+#[inline(never)]
 fn intervals(rest: &mut u8, passed: u16, parts: u8) -> u16 {
     let (left, mut count) = (u16::from(*rest) + passed, 0);
     if left >= u16::from(parts) {
@@ -142,7 +162,10 @@ mod tests {
             hundreds += u32::from(clock.ticks_100);
             assert_eq!((tens, hundreds), (total / 10, total / 100));
             let is_on = |bit| clock.bits & bit != 0;
-            assert_eq!((is_on(HALF_SECOND), is_on(HALF_MINUTE)), (total / 500 % 2 == 1, total / 30_000 % 2 == 1));
+            assert_eq!(
+                (is_on(HALF_SECOND), is_on(HALF_MINUTE)),
+                (total / 500 % 2 == 1, total / 30_000 % 2 == 1)
+            );
         }
         assert!(total > 20_000);
     }
@@ -170,6 +193,9 @@ mod tests {
         clock.now_ms = 50_000;
         clock.resume();
         clock.now_ms = 50_003;
-        assert_eq!((clock.advance(), clock.ticks_10, clock.ticks_100, clock.take_fast_ms(50_003)), (3, 1, 1, 3));
+        assert_eq!(
+            (clock.advance(), clock.ticks_10, clock.ticks_100, clock.take_fast_ms(50_003)),
+            (3, 1, 1, 3)
+        );
     }
 }

@@ -1,4 +1,4 @@
-//! Counters CTU, CTD and CTUD (reference 2.4).
+//! Counters CTU, CTD and CTUD (docs/s7-200.md 2.4).
 
 use plc_isa::{Bit, CounterSlot, LogicStack, counter_bit};
 
@@ -16,7 +16,6 @@ pub(crate) struct Counter<'m> {
 }
 
 impl Counter<'_> {
-    #[cfg_attr(target_arch = "avr", inline(never))]
     fn edge(&mut self, input: u8, now: bool) -> bool {
         let place = Bit { address: self.slot.address + 2, bit: input };
         rose(self.memory, place, now, self.first_scan)

@@ -5,7 +5,7 @@ use plc_isa::Bit;
 use crate::memory::Memory;
 
 /// Remembers `now` and returns what was remembered. In the first scan after STOP there is no edge
-/// (reference 9): the memory is taken to have held `now` already.
+/// (docs/decisions.md): the memory is taken to have held `now` already.
 #[inline]
 pub(crate) fn remember(memory: &mut Memory, place: Bit, now: bool, first_scan: bool) -> bool {
     let before = memory.bit(place);

@@ -10,18 +10,12 @@ pub const SCAN_MS_MAX: u32 = 60_000;
 
 /// The outside of a running program.
 pub trait Environment {
-    /// Whether the interpreter is to be small rather than fast. Both ways do the same.
-    const COMPACT: bool = cfg!(target_arch = "avr");
-
-    /// Instructions that an engine of the caller's own executes ([`Execute::EXECUTED_ELSEWHERE`](plc_isa::Execute)).
-    const EXECUTED_ELSEWHERE: u128 = 0;
-
     /// The millisecond clock. Wraps after 49.7 days; only differences count.
     fn now_ms(&mut self) -> u32;
 
-    /// The program jumps back: `bytes` bytes of code, at least the jump's own, make up the pass that ends here. Or an
-    /// interrupt routine begins, which takes as long as so many bytes. Returns whether the scan's watchdog time is over.
-    /// Nothing else can spend unlimited time.
+    /// The program jumps back: `bytes` bytes of code, at least the jump's own, make up the pass
+    /// that ends here. Or an interrupt routine begins, which takes as long as so many bytes.
+    /// Returns whether the scan's watchdog time is over. Nothing else can spend unlimited time.
     fn is_overdue(&mut self, bytes: u16) -> bool;
 
     /// WDR: the watchdog time of this scan starts again.
@@ -32,16 +26,22 @@ pub trait Environment {
         let _ = character;
     }
 
-    /// Advances every running timer of this resolution, 1 ms or 10 ms, by so many ticks. For an engine that does the same
-    /// in another way.
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn advance_timers<P: ProgramMemory>(memory: &mut Memory, plan: &Plan<P>, resolution: TimerResolution, ticks: u16) {
+    /// Advances every running timer of this resolution, 1 ms or 10 ms, by so many ticks. For an
+    /// engine that does the same in another way.
+    #[inline(always)]
+    fn advance_timers<P: ProgramMemory>(
+        memory: &mut Memory,
+        plan: &Plan<P>,
+        resolution: TimerResolution,
+        ticks: u16,
+    ) {
         timer::advance(memory, plan, resolution, ticks);
     }
 
-    /// Called by the interpreter's own loop after every instruction, with its offset, and the stack and memory it left.
-    /// For monitors, which write down what they see behind the program's own memory, and for tests.
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    /// Called by the interpreter's own loop after every instruction, with its offset, and the stack
+    /// and memory it left. For monitors, which write down what they see after the program's own
+    /// memory, and for tests.
+    #[inline(always)]
     fn executed(&mut self, at: u16, stack: LogicStack, memory: &mut Memory) {
         let _ = (at, stack, memory);
     }

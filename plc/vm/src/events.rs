@@ -1,12 +1,13 @@
-//! Interrupt events: which wait for their routines, and in which order they are served (reference 1.9).
+//! Interrupt events: which wait for their routines, and in which order they are served
+//! (docs/s7-200.md 1.9).
 //!
-//! Time and timers cause events here, inputs those of their edges and of the high-speed counters. Everybody else who
-//! knows of an event says so by [`Events::occur`].
+//! Time and timers cause events here, inputs those of their edges and of the high-speed counters.
+//! Everybody else who knows of an event says so by [`Events::occur`].
 
-use plc_isa::{Area, Bit, Plan, ProgramMemory, SM_START, TimerKind, timer_bit};
+use plc_isa::{Area, Bit, I_START, Plan, ProgramMemory, SM_START, TimerKind, timer_bit};
 
 use crate::memory::Memory;
-use crate::modules::hardware::Hardware;
+use crate::modules::hardware_state::Hardware;
 
 /// The groups of events, the most urgent first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,7 +65,8 @@ impl Queue {
     }
 
     fn push(&mut self, event: u8, most: usize) -> bool {
-        let place = self.events.get_mut(usize::from(self.len)).filter(|_| usize::from(self.len) < most);
+        let place =
+            self.events.get_mut(usize::from(self.len)).filter(|_| usize::from(self.len) < most);
         place.map(|place| *place = event).inspect(|()| self.len += 1).is_some()
     }
 
@@ -134,6 +136,28 @@ impl Default for Events {
     }
 }
 
+/// Who looks for interrupt events and drives outputs beside the program: [`Events`], or what a
+/// board has instead of them.
+pub trait EventSystem {
+    /// The change to RUN: nothing is attached, no event waits, and none is served.
+    fn restart<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory);
+
+    /// A scan starts at `now_ms`, so many milliseconds after the last one.
+    fn pass<P: ProgramMemory>(
+        &mut self,
+        passed_ms: u32,
+        now_ms: u32,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+    );
+
+    /// A scan begins with these inputs in the process image.
+    fn note_points(&mut self, memory: &Memory);
+
+    /// The outputs of QB0 that are not the program's, and their levels.
+    fn driven_outputs(&self) -> (u8, u8);
+}
+
 impl Events {
     /// None waits, and none is served.
     pub const NONE: Events = Events {
@@ -144,20 +168,15 @@ impl Events {
         hardware: Hardware::NEW,
     };
 
-    /// The change to RUN: nothing is attached, no event waits, and none is served.
-    pub(crate) fn restart<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory) {
-        self.hardware.restart();
-        *self = Events { hardware: self.hardware.clone(), ..Events::NONE };
-        for index in 0..plan.header.events {
-            memory.set_byte(plan.event_address(index), 0);
-        }
-        memory.set_bit(ENABLED, false);
-        memory.set_byte(STATE, memory.byte(STATE) & !OVERFLOWS);
-    }
-
     /// An event has occurred, by its number. It waits when a routine is attached to it.
-    pub(crate) fn occur<P: ProgramMemory>(&mut self, event: u8, plan: &Plan<P>, memory: &mut Memory) {
-        let is_attached = index_of(event, plan).is_some_and(|index| memory.byte(plan.event_address(index)) != 0);
+    pub(crate) fn occur<P: ProgramMemory>(
+        &mut self,
+        event: u8,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+    ) {
+        let is_attached =
+            index_of(event, plan).is_some_and(|index| memory.byte(plan.event_address(index)) != 0);
         let group = Group::of(event);
         if is_attached && !self.queues[group as usize].push(event, group.queue_len()) {
             memory.set_bit(Bit { address: STATE, bit: group.overflow_bit() }, true);
@@ -165,7 +184,12 @@ impl Events {
     }
 
     /// IB0 is now this: every change of a bit is an edge. Low bits first.
-    pub(crate) fn see_inputs<P: ProgramMemory>(&mut self, levels: u8, plan: &Plan<P>, memory: &mut Memory) {
+    pub(crate) fn see_inputs<P: ProgramMemory>(
+        &mut self,
+        levels: u8,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+    ) {
         let changed = levels ^ self.hardware.levels;
         for input in (0..8).filter(|input| changed >> input & 1 != 0) {
             let falls = u8::from(levels >> input & 1 == 0);
@@ -196,28 +220,8 @@ impl Events {
         }
     }
 
-    /// A scan starts so many milliseconds after the last one.
-    pub(crate) fn pass<P: ProgramMemory>(&mut self, passed_ms: u32, now_ms: u32, plan: &Plan<P>, memory: &mut Memory) {
-        self.hardware.clock.now(now_ms);
-        let events = self.hardware.pulses.pass(passed_ms, plan, memory);
-        let communication = self.hardware.freeport.pass(now_ms, plan, memory);
-        for event in events.into_iter().chain([communication]).flatten() {
-            self.occur(event, plan, memory);
-        }
-        if plan.header.events == 0 {
-            return;
-        }
-        for _ in 0..passed_ms.min(PASSED_MS_MAX) {
-            for index in 0..self.timed.len() {
-                if self.timed[index].tick() {
-                    self.occur(TIMED.0 + index as u8, plan, memory);
-                }
-            }
-        }
-        self.look_at_timers(plan, memory);
-    }
-
-    /// T32 or T96 may have reached its preset: an on-delay when its bit comes, an off-delay when it goes by itself.
+    /// T32 or T96 may have reached its preset: an on-delay when its bit comes, an off-delay when it
+    /// goes by itself.
     pub(crate) fn look_at_timers<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory) {
         if plan.header.events == 0 {
             return;
@@ -228,7 +232,9 @@ impl Events {
                 continue;
             }
             let reached = plan.timer_slot(number).is_some_and(|slot| match slot.kind {
-                TimerKind::OffDelay => !bit && (1..=memory.int(slot.address)).contains(&memory.int(slot.address + 2)),
+                TimerKind::OffDelay => {
+                    !bit && (1..=memory.int(slot.address)).contains(&memory.int(slot.address + 2))
+                }
                 _ => bit,
             });
             if reached {
@@ -237,23 +243,23 @@ impl Events {
         }
     }
 
-    /// The outputs of QB0 that PLS drives, and their levels.
-    pub(crate) fn driven_outputs(&self) -> (u8, u8) {
-        self.hardware.pulses.levels()
-    }
-
     /// ATCH: a timed interrupt takes its period.
     pub(crate) fn attach<P: ProgramMemory>(&mut self, event: u8, plan: &Plan<P>, memory: &Memory) {
         let Some(index) = event.checked_sub(TIMED.0) else { return };
         if let Some(timed) = self.timed.get_mut(usize::from(index)) {
             let period = plan.byte_address(Area::Sm, TIMED.1 + u16::from(index));
-            *timed = Timed { period_ms: period.map_or(0, |address| memory.byte(address)), passed_ms: 0 };
+            *timed =
+                Timed { period_ms: period.map_or(0, |address| memory.byte(address)), passed_ms: 0 };
         }
     }
 
-    /// The routine of the event that is served next. When none is left, the main program goes on, and queues that were
-    /// too short are forgotten.
-    pub(crate) fn take<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory) -> Option<u8> {
+    /// The routine of the event that is served next. When none is left, the main program goes on,
+    /// and queues that were too short are forgotten.
+    pub(crate) fn take<P: ProgramMemory>(
+        &mut self,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+    ) -> Option<u8> {
         if !self.enabled {
             return None;
         }
@@ -261,7 +267,8 @@ impl Events {
             while let Some(&event) = queue.waiting().first() {
                 queue.events.copy_within(1.., 0);
                 queue.len -= 1;
-                let attached = index_of(event, plan).map_or(0, |index| memory.byte(plan.event_address(index)));
+                let attached =
+                    index_of(event, plan).map_or(0, |index| memory.byte(plan.event_address(index)));
                 // It may have been detached while it waited.
                 if let Some(routine) = attached.checked_sub(1) {
                     return Some(routine);
@@ -284,6 +291,53 @@ impl Events {
     /// CEVNT and DTCH: forgets the waiting ones.
     pub(crate) fn clear(&mut self, event: u8) {
         self.queues[Group::of(event) as usize].retain(|waiting| waiting != event);
+    }
+}
+
+impl EventSystem for Events {
+    fn note_points(&mut self, memory: &Memory) {
+        self.hardware.points = memory.byte(I_START);
+    }
+
+    fn restart<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &mut Memory) {
+        self.hardware.restart();
+        *self = Events { hardware: self.hardware.clone(), ..Events::NONE };
+        for index in 0..plan.header.events {
+            memory.set_byte(plan.event_address(index), 0);
+        }
+        memory.set_bit(ENABLED, false);
+        memory.set_byte(STATE, memory.byte(STATE) & !OVERFLOWS);
+    }
+
+    fn pass<P: ProgramMemory>(
+        &mut self,
+        passed_ms: u32,
+        now_ms: u32,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+    ) {
+        self.hardware.clock.now(now_ms);
+        let events = self.hardware.pulses.pass(passed_ms, plan, memory);
+        let communication = self.hardware.freeport.pass(now_ms, plan, memory);
+        for event in events.into_iter().chain([communication]).flatten() {
+            self.occur(event, plan, memory);
+        }
+        if plan.header.events == 0 {
+            return;
+        }
+        for _ in 0..passed_ms.min(PASSED_MS_MAX) {
+            for index in 0..self.timed.len() {
+                if self.timed[index].tick() {
+                    self.occur(TIMED.0 + index as u8, plan, memory);
+                }
+            }
+        }
+        self.look_at_timers(plan, memory);
+    }
+
+    /// Those of PLS and of analog outputs.
+    fn driven_outputs(&self) -> (u8, u8) {
+        self.hardware.pulses.levels()
     }
 }
 

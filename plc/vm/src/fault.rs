@@ -1,4 +1,5 @@
-//! Faults: why the controller went to STOP by itself, in words for programs and in bytes for the board.
+//! Faults: why the controller went to STOP by itself, in words for programs and in bytes for the
+//! board.
 
 use plc_isa::{ImageError, ImageFault};
 
@@ -17,7 +18,8 @@ pub enum Fault {
         /// Offset of the instruction.
         at: u16,
     },
-    /// A comparison at this offset of the image read through an illegal pointer.
+    /// A comparison at this offset of the image read through an illegal pointer, or a text whose
+    /// length is impossible.
     ComparedPointer {
         /// Offset of the instruction.
         at: u16,
@@ -42,13 +44,13 @@ impl Fault {
     pub const NONE: [u8; 4] = [0; 4];
 
     /// [`to_bytes`](Self::to_bytes) as a number, low byte first; 0 stands for no fault.
-    #[cfg_attr(target_arch = "avr", inline(always))]
+    #[inline(always)]
     pub const fn to_word(self) -> u32 {
         u32::from_le_bytes(self.to_bytes())
     }
 
     /// [`BadImage`](Self::BadImage) as such a number.
-    #[cfg_attr(target_arch = "avr", inline(always))]
+    #[inline(always)]
     pub(crate) const fn bad_image(ImageError { fault, at }: ImageError) -> u32 {
         let [low, high] = at.to_le_bytes();
         u32::from_le_bytes([1, fault as u8, low, high])
@@ -60,7 +62,7 @@ impl Fault {
     }
 
     /// Code, detail and offset, low byte first: how the board keeps and reports a fault.
-    #[cfg_attr(target_arch = "avr", inline(always))]
+    #[inline(always)]
     pub const fn to_bytes(self) -> [u8; 4] {
         let (code, at) = match self {
             Fault::BadImage(error) => return Self::bad_image(error).to_le_bytes(),
@@ -77,13 +79,18 @@ impl Fault {
         [code, 0, low, high]
     }
 
-    /// What happened, in words. Where there is a [place](Self::at), it belongs behind them: "... at p.awl:3".
+    /// What happened, in words. Where there is a [place](Self::at), it belongs after them: "... at
+    /// p.awl:3".
     pub const fn message(self) -> &'static str {
         match self {
             Fault::BadImage(_) => "bad image",
             Fault::Watchdog { .. } => "watchdog: the scan took too long; the program was",
             Fault::UndefinedInstruction { .. } => "there is no instruction",
-            Fault::ComparedPointer { .. } => "a comparison read through a pointer that leads to no value (0011)",
+            Fault::ComparedPointer { .. } => {
+                "a comparison read through a pointer that leads to no value, or a text of \
+                    impossible \
+                 length (0011)"
+            }
             Fault::ComparedReal { .. } => "a comparison read a real that is no number (0012)",
             Fault::ProgramChanged => "self-test: the program in flash has changed",
             Fault::StackOverflow => "self-test: the stack has grown into the firmware's variables",
@@ -107,7 +114,10 @@ impl Fault {
     pub fn from_bytes([code, detail, low, high]: [u8; 4]) -> Option<Fault> {
         let at = u16::from_le_bytes([low, high]);
         Some(match code {
-            1 => Fault::BadImage(ImageError { fault: *ImageFault::ALL.get(usize::from(detail))?, at }),
+            1 => Fault::BadImage(ImageError {
+                fault: *ImageFault::ALL.get(usize::from(detail))?,
+                at,
+            }),
             2 => Fault::Watchdog { at },
             3 => Fault::UndefinedInstruction { at },
             4 => Fault::ProgramChanged,

@@ -1,12 +1,14 @@
-//! SQRT SIN COS TAN LN EXP of a real, in integer steps that the board repeats one by one (firmware/modules/function.s).
+//! SQRT SIN COS TAN LN EXP of a real, in integer steps that the board repeats one by one
+//! (firmware/modules/function.s).
 //!
-//! SQRT is correctly rounded. The others are off by at most 0.6 ulp, SIN COS TAN for operands
-//! up to 10,000: farther out their error grows, but up to 2^30 it stays below 2^-31. Changing a constant or a
-//! step here means changing it there.
+//! SQRT is correctly rounded. The others are off by at most 0.6 ulp, SIN COS TAN for operands up to
+//! 10,000: farther out their error grows, but up to 2^30 it stays below 2^-31. Changing a constant
+//! or a step here means changing it there.
 //!
 //! Fractions are unsigned: a `u32` counts 2^-32, an angle or exponent in a `u64` counts 2^-62.
 
-/// An operand that is not zero: ± `mantissa` / 2^31 * 2^`exponent`, the top bit of the mantissa set.
+/// An operand that is not zero: ± `mantissa` / 2^31 * 2^`exponent`, the top bit of the mantissa
+/// set.
 struct Parts {
     negative: bool,
     mantissa: u32,
@@ -39,7 +41,8 @@ const TINY_EXPONENT: i32 = -26;
 /// Half of each function as a polynomial with alternating signs, the constant term first.
 const SIN: [u32; 4] = [0x7FFF_FFF9, 0x1555_53F3, 0x0111_05F3, 0x0006_63CE];
 const COS: [u32; 5] = [0x8000_0000, 0x3FFF_FFF7, 0x0555_54E7, 0x002D_80E6, 0x0000_CC7A];
-const EXP: [u32; 7] = [0x7FFF_FFFD, 0x7FFF_FE5D, 0x3FFF_DA03, 0x1554_096D, 0x054F_E69F, 0x0105_39E9, 0x0020_4D5E];
+const EXP: [u32; 7] =
+    [0x7FFF_FFFD, 0x7FFF_FE5D, 0x3FFF_DA03, 0x1554_096D, 0x054F_E69F, 0x0105_39E9, 0x0020_4D5E];
 const LN: [u32; 10] = [
     0x7FFF_FFFF,
     0x3FFF_FF09,
@@ -61,7 +64,8 @@ pub fn sqrt(x: f32) -> Option<f32> {
         return None;
     }
     let odd = parts.exponent & 1;
-    // 25 bits: the last one rounds. It is never half-way, as the square of an odd number of 25 bits has more than 24.
+    // 25 bits: the last one rounds. It is never half-way, as the square of an odd number of 25 bits
+    // has more than 24.
     let root = (u64::from(parts.mantissa) << (17 + odd)).isqrt() as u32;
     let exponent = (parts.exponent - odd) / 2;
     pack(false, root << 7 | 1, exponent + 1)
@@ -86,13 +90,20 @@ pub fn tan(x: f32) -> Option<f32> {
     let odd = angle.quarters & 1 != 0;
     let (dividend, divisor) = if odd { (cosine, sine) } else { (sine, cosine) };
     // A quarter of the quotient is less than 1, however the two are scaled.
-    let quarter = (u64::from(dividend.fraction) << 30).checked_div(u64::from(divisor.fraction))? as u32;
-    pack(x.is_sign_negative() ^ angle.folded ^ odd, quarter, dividend.exponent - divisor.exponent + 2)
+    let quarter =
+        (u64::from(dividend.fraction) << 30).checked_div(u64::from(divisor.fraction))? as u32;
+    pack(
+        x.is_sign_negative() ^ angle.folded ^ odd,
+        quarter,
+        dividend.exponent - divisor.exponent + 2,
+    )
 }
 
 /// EXP: e to the power of x. `None` above 88.72; 0.0 below -103.97.
 pub fn exp(x: f32) -> Option<f32> {
-    let Some(x) = parts(finite(x)?).filter(|parts| parts.exponent >= TINY_EXPONENT) else { return Some(1.0) };
+    let Some(x) = parts(finite(x)?).filter(|parts| parts.exponent >= TINY_EXPONENT) else {
+        return Some(1.0);
+    };
     if x.exponent >= 7 {
         return if x.negative { Some(0.0) } else { None };
     }
@@ -126,13 +137,16 @@ pub fn ln(x: f32) -> Option<f32> {
     }
     let part = i64::from(part.checked_shr((places - 1) as u32).unwrap_or(0));
     let whole = i64::from(exponent.unsigned_abs()) * (LN_2 >> 30) as i64;
-    let (sum, places) = normalize((if below == (exponent < 0) { whole + part } else { whole - part }) as u64);
+    let (sum, places) =
+        normalize((if below == (exponent < 0) { whole + part } else { whole - part }) as u64);
     pack(exponent < 0, sum, 32 - places)
 }
 
 /// Takes an angle apart; `Some(None)` when it is tiny.
 fn angle(x: f32) -> Option<Option<Angle>> {
-    let Some(x) = parts(finite(x)?).filter(|parts| parts.exponent >= TINY_EXPONENT) else { return Some(None) };
+    let Some(x) = parts(finite(x)?).filter(|parts| parts.exponent >= TINY_EXPONENT) else {
+        return Some(None);
+    };
     let (quarters, rest) = divide_with_rest(&x, QUARTER);
     Some(Some(if rest >= FOLD {
         Angle { quarters: quarters.wrapping_add(1), rest: QUARTER - rest, folded: true }
@@ -151,7 +165,10 @@ impl Angle {
 
     fn rest_sine(&self) -> Scaled {
         let (leading, places) = normalize(self.rest);
-        Scaled { fraction: multiply(leading, polynomial(&SIN, self.square(), true)), exponent: 3 - places }
+        Scaled {
+            fraction: multiply(leading, polynomial(&SIN, self.square(), true)),
+            exponent: 3 - places,
+        }
     }
 
     fn rest_cosine(&self) -> Scaled {
@@ -163,7 +180,8 @@ impl Angle {
     }
 }
 
-/// How often the divisor, in 2^-62 and from 0.5 to 2, fits |x|, modulo 2^32, and what is left of x, in 2^-62.
+/// How often the divisor, in 2^-62 and from 0.5 to 2, fits |x|, modulo 2^32, and what is left of x,
+/// in 2^-62.
 fn divide_with_rest(x: &Parts, divisor: u64) -> (i32, u64) {
     let mut rest = u64::from(x.mantissa) << 30;
     let steps = x.exponent + 1;
@@ -188,7 +206,8 @@ fn fraction(rest: u64) -> u32 {
     (rest >> 30) as u32
 }
 
-/// c0 ± x (c1 ± x (c2 ± ...)), minus throughout when `alternating`. A difference is 2^-32 too small.
+/// c0 ± x (c1 ± x (c2 ± ...)), minus throughout when `alternating`. A difference is 2^-32 too
+/// small.
 fn polynomial(coefficients: &[u32], x: u32, alternating: bool) -> u32 {
     let step = |sum: u32, coefficient: &u32| {
         let product = multiply(sum, x);
@@ -221,10 +240,15 @@ fn parts(x: f32) -> Option<Parts> {
     let (field, fraction) = ((bits >> 23 & 0xFF) as i32, bits & 0x7F_FFFF);
     let significand = if field == 0 { fraction } else { fraction | 0x80_0000 };
     let (mantissa, places) = normalize(u64::from(significand) << 40);
-    (mantissa != 0).then(|| Parts { negative: x.is_sign_negative(), mantissa, exponent: field.max(1) - 127 - places })
+    (mantissa != 0).then(|| Parts {
+        negative: x.is_sign_negative(),
+        mantissa,
+        exponent: field.max(1) - 127 - places,
+    })
 }
 
-/// ± `fraction` / 2^32 * 2^`exponent`, rounded to nearest even. `None` when too large; 0.0 when too small.
+/// ± `fraction` / 2^32 * 2^`exponent`, rounded to nearest even. `None` when too large; 0.0 when too
+/// small.
 fn pack(negative: bool, fraction: u32, exponent: i32) -> Option<f32> {
     // Exact in double precision, so that it is rounded once.
     let unit = f64::from_bits(((1023 + exponent - 32) as u64) << 52);
@@ -239,7 +263,10 @@ mod tests {
     #[test]
     fn at_the_ends_of_the_range() {
         assert_eq!((exp(88.72283), exp(88.72284)), (Some(3.4027985e38), None));
-        assert_eq!((exp(-103.97), exp(-104.0), exp(-500.0)), (Some(f32::from_bits(1)), Some(0.0), Some(0.0)));
+        assert_eq!(
+            (exp(-103.97), exp(-104.0), exp(-500.0)),
+            (Some(f32::from_bits(1)), Some(0.0), Some(0.0))
+        );
         assert_eq!((ln(f32::from_bits(1)), ln(f32::MAX)), (Some(-103.27893), Some(88.72284)));
         assert_eq!((ln(0.0), ln(-0.0), ln(-1.0), sqrt(-1.0)), (None, None, None, None));
         assert_eq!((sin(f32::NAN), cos(f32::INFINITY), tan(f32::NEG_INFINITY)), (None, None, None));
@@ -248,11 +275,15 @@ mod tests {
     #[test]
     fn exact_where_the_function_is() {
         for zero in [0.0_f32, -0.0] {
-            for (result, function) in [(sin(zero), "SIN"), (tan(zero), "TAN"), (sqrt(zero), "SQRT")] {
+            for (result, function) in [(sin(zero), "SIN"), (tan(zero), "TAN"), (sqrt(zero), "SQRT")]
+            {
                 assert_eq!(result.map(f32::to_bits), Some(zero.to_bits()), "{function} {zero:?}");
             }
             assert_eq!((cos(zero), exp(zero)), (Some(1.0), Some(1.0)));
         }
-        assert_eq!((ln(1.0), sqrt(6.25), sqrt(f32::from_bits(4))), (Some(0.0), Some(2.5), Some(7.486784e-23)));
+        assert_eq!(
+            (ln(1.0), sqrt(6.25), sqrt(f32::from_bits(4))),
+            (Some(0.0), Some(2.5), Some(7.486784e-23))
+        );
     }
 }

@@ -1,8 +1,9 @@
-//! What the instructions of the core do: one method for each of the table. Those of modules are in `modules`.
+//! What the instructions of the core do: one method for each of the table. Those of modules are in
+//! `modules`.
 
 use plc_isa::{
-    Bit, ByteSource, ENO, Execute, Flow, Op, OperandKind, OperandReader, Operands, ProgramMemory, Relation, SM_START,
-    WordSource, kinds,
+    Bit, ByteSource, ENO, Execute, Flow, Op, OperandKind, OperandReader, Operands, ProgramMemory,
+    Relation, SM_START, WordSource, kinds,
 };
 
 use crate::calls::Frame;
@@ -21,49 +22,47 @@ const INTERRUPT_LEN: u16 = 75;
 const CALL_LEN: u16 = 2;
 /// Where SMB1 is, the status of results.
 const STATUS: u16 = SM_START + 1;
-/// In the operand of AENO: looks at ENO of a module instruction too.
-const MODULE_ENO: u8 = 0x80;
+/// In the operand of AENO: looks at the ENO that was left, not at SMB1 alone.
+const LEFT_ENO: u8 = 0x80;
 
 impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
-    const EXECUTED_ELSEWHERE: u128 = E::EXECUTED_ELSEWHERE;
-
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn load(&mut self, bit: Bit) -> Flow {
         self.stack.push(self.memory.bit(bit));
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn load_not(&mut self, bit: Bit) -> Flow {
         self.stack.push(!self.memory.bit(bit));
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn and(&mut self, bit: Bit) -> Flow {
         self.stack.and(self.memory.bit(bit));
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn and_not(&mut self, bit: Bit) -> Flow {
         self.stack.and(!self.memory.bit(bit));
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn or(&mut self, bit: Bit) -> Flow {
         self.stack.or(self.memory.bit(bit));
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn or_not(&mut self, bit: Bit) -> Flow {
         self.stack.or(!self.memory.bit(bit));
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn not(&mut self) -> Flow {
         self.stack.set_top(!self.stack.top());
         Flow::Next
@@ -83,18 +82,18 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn assign(&mut self, bit: Bit) -> Flow {
         self.memory.set_bit(bit, self.stack.top());
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn set(&mut self, bit: Bit, n: ByteSource) -> Flow {
         self.bit_range(bit, n, true)
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn reset(&mut self, bit: Bit, n: ByteSource) -> Flow {
         self.bit_range(bit, n, false)
     }
@@ -103,7 +102,8 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         if self.stack.top() {
             let count = self.numbers(first, n);
             range::write(self.memory, self.program.plan(), plc_isa::timer_bit(first), count, false);
-            for slot in self.program.plan().timers().filter(|slot| is_in(slot.number, first, count)) {
+            for slot in self.program.plan().timers().filter(|slot| is_in(slot.number, first, count))
+            {
                 Timer { memory: self.memory, slot }.reset();
             }
         }
@@ -113,94 +113,102 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
     fn reset_counters(&mut self, first: u8, n: ByteSource) -> Flow {
         if self.stack.top() {
             let count = self.numbers(first, n);
-            range::write(self.memory, self.program.plan(), plc_isa::counter_bit(first), count, false);
-            for slot in self.program.plan().counters().filter(|slot| is_in(slot.number, first, count)) {
+            range::write(
+                self.memory,
+                self.program.plan(),
+                plc_isa::counter_bit(first),
+                count,
+                false,
+            );
+            for slot in
+                self.program.plan().counters().filter(|slot| is_in(slot.number, first, count))
+            {
                 counter::reset(self.memory, slot);
             }
         }
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn no_operation(&mut self, _n: u8) -> Flow {
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn and_load(&mut self) -> Flow {
         let top = self.stack.pop();
         self.stack.and(top);
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn or_load(&mut self) -> Flow {
         let top = self.stack.pop();
         self.stack.or(top);
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn logic_push(&mut self) -> Flow {
         self.stack.push(self.stack.top());
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn logic_read(&mut self) -> Flow {
         self.stack.set_top(self.stack.level(1));
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn logic_pop(&mut self) -> Flow {
         self.stack.pop();
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn load_stack(&mut self, n: u8) -> Flow {
         self.stack.push(self.stack.level(n));
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn load_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow {
         self.stack.push(self.words(relation, in1, in2));
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn and_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow {
         self.stack.and(self.words(relation, in1, in2));
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn or_word(&mut self, relation: Relation, in1: WordSource, in2: WordSource) -> Flow {
         self.stack.or(self.words(relation, in1, in2));
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn load_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow {
         self.stack.push(self.bytes(relation, in1, in2));
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn and_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow {
         self.stack.and(self.bytes(relation, in1, in2));
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn or_byte(&mut self, relation: Relation, in1: ByteSource, in2: ByteSource) -> Flow {
         self.stack.or(self.bytes(relation, in1, in2));
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn move_byte(&mut self, input: ByteSource, out: u16) -> Flow {
         if self.stack.top() {
             let value = self.memory.byte_of(input);
@@ -209,7 +217,7 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         Flow::Next
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     fn move_word(&mut self, input: WordSource, out: u16) -> Flow {
         if self.stack.top() {
             let value = self.memory.int_of(input);
@@ -307,15 +315,15 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         if again { self.go_to(reader.position(), here) } else { Flow::Next }
     }
 
-    fn jump(&mut self, label: u8, here: u16) -> Flow {
+    fn jump(&mut self, label: u16, here: u16) -> Flow {
         if !self.stack.top() {
             return Flow::Next;
         }
         self.go_to(self.plan().label(label), here)
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
-    fn label(&mut self, _n: u8) -> Flow {
+    #[inline]
+    fn label(&mut self, _n: u16) -> Flow {
         Flow::Next
     }
 
@@ -372,11 +380,9 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         Flow::Next
     }
 
-    fn conditional_scr_end(&mut self, scr: Bit) -> Flow {
-        if self.stack.top() {
-            self.memory.set_bit(scr, false);
-        }
-        Flow::Next
+    /// The S stack is what it was: nothing looks at it before the next LSCR.
+    fn conditional_scr_end(&mut self, label: u16, here: u16) -> Flow {
+        self.jump(label, here)
     }
 
     fn begin_call(&mut self, end: u16) -> Flow {
@@ -474,30 +480,21 @@ impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
         Flow::Next
     }
 
-    fn and_eno(&mut self, errors: u8) -> Flow {
-        let failed = self.memory.byte(STATUS) & errors & !MODULE_ENO != 0;
-        let module_failed = errors & MODULE_ENO != 0 && self.memory.byte(ENO) == 0;
-        self.stack.and(!failed && !module_failed);
+    fn note_eno(&mut self, errors: u8) -> Flow {
+        let eno = self.stack.top() && self.memory.byte(STATUS) & errors == 0;
+        self.memory.set_byte(ENO, u8::from(eno));
         Flow::Next
     }
 
-    #[cfg(not(target_arch = "avr"))]
+    fn and_eno(&mut self, errors: u8) -> Flow {
+        let failed = self.memory.byte(STATUS) & errors & !LEFT_ENO != 0;
+        let left_failed = errors & LEFT_ENO != 0 && self.memory.byte(ENO) == 0;
+        self.stack.and(!failed && !left_failed);
+        Flow::Next
+    }
+
     fn module_instruction(&mut self, op: Op, operands: &Operands<'_>) -> Flow {
         crate::modules::execute(self, op, operands)
-    }
-
-    /// On the board they are machine code.
-    #[cfg(target_arch = "avr")]
-    fn module_instruction(&mut self, _op: Op, _operands: &Operands<'_>) -> Flow {
-        self.leave(Exit::Undefined)
-    }
-
-    fn byte_at(&self, address: u16) -> u8 {
-        self.memory.byte(address)
-    }
-
-    fn word_at(&self, address: u16) -> u16 {
-        self.memory.word(address)
     }
 
     fn undefined(&mut self) -> Flow {

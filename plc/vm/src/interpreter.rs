@@ -1,8 +1,9 @@
-//! The reference interpreter: its state and what its instructions share. What each of them does, instructions.rs says.
+//! The reference interpreter: its state and what its instructions share. What each of them does,
+//! instructions.rs says.
 
 use plc_isa::{
-    Bit, ByteSource, Flow, LogicStack, Plan, Program, ProgramMemory, Relation, TimerResolution, WordSource, execute,
-    execute_compact, timer_resolution,
+    Bit, ByteSource, Flow, LogicStack, OfWidth, Plan, Program, ProgramMemory, Relation,
+    TimerResolution, WordSource, execute, timer_resolution,
 };
 
 use crate::calls::Calls;
@@ -12,6 +13,7 @@ use crate::environment::Environment;
 use crate::events::Events;
 use crate::memory::Memory;
 use crate::range;
+use crate::scan::Scan;
 use crate::timer::Timer;
 
 /// Why the program was left.
@@ -31,9 +33,6 @@ pub enum Exit {
     ComparedReal,
 }
 
-/// Deepest nesting of subroutine calls from the main program (reference 1.8).
-pub const CALLS_MAX: usize = 8;
-
 /// Bytes of a jump or of NEXT, about.
 const JUMP_LEN: u16 = 3;
 
@@ -52,17 +51,32 @@ pub struct Interpreter<'a, P, E> {
     pub(crate) exit: Exit,
 }
 
+impl<'a, P: ProgramMemory, E: Environment> Interpreter<'a, P, E> {
+    /// An execution of the program in this scan.
+    pub fn new(scan: Scan<'a, P, E, Events>) -> Self {
+        let Scan { program, memory, environment, clock, first_scan, events } = scan;
+        let (stack, calls, exit) = (LogicStack::EMPTY, Calls::NONE, Exit::End);
+        Interpreter { program, memory, environment, clock, first_scan, stack, calls, events, exit }
+    }
+}
+
 impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
-    /// Executes the program once. Returns why it was left, and the offset of the instruction that left it.
-    pub fn run(mut self) -> (Exit, u16) {
-        let program = self.program;
-        let mut pc = program.code_at();
+    /// Executes the program once. Returns why it was left, and the offset of the instruction that
+    /// left it.
+    pub fn run(self) -> (Exit, u16) {
+        let memory = self.program.memory();
+        if memory.is_wide() {
+            self.run_code(&OfWidth::<P, true>(memory))
+        } else {
+            self.run_code(&OfWidth::<P, false>(memory))
+        }
+    }
+
+    /// The same, with what the code is read through.
+    fn run_code<C: ProgramMemory>(mut self, code: &C) -> (Exit, u16) {
+        let mut pc = self.program.code_at();
         loop {
-            let flow = match E::COMPACT {
-                true => execute_compact(&mut self, program.memory(), pc),
-                false => execute(&mut self, program.memory(), pc),
-            };
-            match flow {
+            match execute(&mut self, code, pc) {
                 Flow::Jump(next) => {
                     self.environment.executed(pc, self.stack, self.memory);
                     pc = next;
@@ -75,42 +89,27 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
         }
     }
 
-    /// The program.
-    pub fn program(&self) -> &Program<P> {
-        self.program
-    }
-
-    /// Whether this is the first scan since RUN.
-    pub fn is_first_scan(&self) -> bool {
-        self.first_scan
-    }
-
-    /// The outside of the program.
-    pub fn environment(&mut self) -> &mut E {
-        self.environment
-    }
-
-    /// Intervals of 100 ms between the starts of this scan and the last.
-    pub fn ticks_100(&self) -> u16 {
-        self.clock.ticks_100
+    /// Data memory between two instructions, for a caller who executes them one by one.
+    pub fn memory(&mut self) -> &mut Memory {
+        self.memory
     }
 
     pub(crate) fn plan(&self) -> &Plan<P> {
         self.program.plan()
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     pub(crate) fn words(&self, relation: Relation, in1: WordSource, in2: WordSource) -> bool {
         relation.holds(self.memory.int_of(in1), self.memory.int_of(in2))
     }
 
-    #[cfg_attr(not(target_arch = "avr"), inline(always))]
+    #[inline]
     pub(crate) fn bytes(&self, relation: Relation, in1: ByteSource, in2: ByteSource) -> bool {
         relation.holds(self.memory.byte_of(in1), self.memory.byte_of(in2))
     }
 
     /// An integer box: `compute(OUT, IN1)` gives the result, `None` when it does not fit.
-    #[cfg_attr(not(target_arch = "avr"), inline)]
+    #[inline]
     pub(crate) fn int_box(
         &mut self,
         in1: WordSource,
@@ -155,9 +154,9 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
     }
 
     pub(crate) fn refresh(&mut self) {
-        let passed = self.clock.take_fast_ms(self.environment.now_ms());
-        E::advance_timers(self.memory, self.program.plan(), TimerResolution::Ms1, passed);
-        self.events.look_at_timers(self.program.plan(), self.memory);
+        let plan = self.program.plan();
+        self.clock.refresh_timers(self.environment, self.memory, plan);
+        self.events.look_at_timers(plan, self.memory);
     }
 
     pub(crate) fn counter(&mut self, slot: u8) -> Counter<'_> {

@@ -1,4 +1,4 @@
-//! Integer arithmetic with its SM1 bits (reference 1.4 and 9).
+//! Integer arithmetic with its SM1 bits (docs/s7-200.md 1.4 and docs/decisions.md).
 
 use crate::memory::Memory;
 use crate::special::{DIVISION_BY_ZERO, NEGATIVE, OVERFLOW, ZERO};

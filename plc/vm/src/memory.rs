@@ -1,8 +1,12 @@
-//! Data memory: 1,280 bytes at the addresses of [`plc_isa`]'s layout. Big-endian, as on the S7-200.
+//! Data memory at the addresses of [`plc_isa`]'s layout: as much as the largest profile has that
+//! this build runs. Big-endian, as on the S7-200.
 
 use core::cell::Cell;
 
-use plc_isa::{Bit, ByteSource, DATA_LEN, DATA_START, WordSource};
+use plc_isa::{Bit, ByteSource, DATA_START, Profile, WordSource};
+
+/// Bytes of data memory.
+const LEN: usize = Profile::LARGEST.data_len();
 
 /// The data memory of the controller.
 ///
@@ -11,7 +15,7 @@ use plc_isa::{Bit, ByteSource, DATA_LEN, DATA_START, WordSource};
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[repr(transparent)]
 pub struct Memory {
-    bytes: [u8; DATA_LEN],
+    bytes: [u8; LEN],
 }
 
 impl Default for Memory {
@@ -28,7 +32,7 @@ const fn index(address: u16) -> usize {
 impl Memory {
     /// Memory full of zeros.
     pub const fn new() -> Self {
-        Memory { bytes: [0; DATA_LEN] }
+        Memory { bytes: [0; LEN] }
     }
 
     /// Sets every byte to 0.
@@ -37,13 +41,13 @@ impl Memory {
     }
 
     /// All bytes, from [`DATA_START`] on.
-    pub fn bytes(&self) -> &[u8; DATA_LEN] {
+    pub fn bytes(&self) -> &[u8; LEN] {
         &self.bytes
     }
 
     /// All bytes, to be changed.
     #[inline(always)]
-    pub fn bytes_mut(&mut self) -> &mut [u8; DATA_LEN] {
+    pub fn bytes_mut(&mut self) -> &mut [u8; LEN] {
         &mut self.bytes
     }
 

@@ -1,25 +1,37 @@
 //! PID: the loop calculation of the S7-200. When it runs is the program's business.
 //!
-//! The board's twin (firmware/modules/function.s) does the same operations in the same order.
+//! The board's twin (firmware/modules/pid.s) does the same operations in the same order.
 
 use crate::real::{add, divide, multiply, subtract};
 
-/// The reals of a loop table, in their order: process variable PVn, setpoint SPn, output Mn, gain Kc, sample time Ts
-/// in seconds, integral time Ti and derivative time Td in minutes, bias MX (the integral sum), and PVn-1.
+/// The reals of a loop table, in their order: process variable PVn, setpoint SPn, output Mn, gain
+/// Kc, sample time Ts in seconds, integral time Ti and derivative time Td in minutes, bias MX (the
+/// integral sum), and PVn-1.
 pub type LoopTable = [f32; 9];
 
 /// 2^113: an integral time from here on has no effect.
 const NO_INTEGRAL: f32 = f32::from_bits(0x7800_0000);
 
-/// Executes PID once; `is_start` when power flow has come since the last scan: the setpoint then starts at the process
-/// variable and the bias at the output, so that the output does not jump.
+/// Executes PID once; `is_start` when power flow has come since the last scan: the setpoint then
+/// starts at the process variable and the bias at the output, so that the output does not jump.
 ///
-/// A gain of zero means no proportional action, and 1 as the gain of the other two. An integral time that is zero, very
-/// large or infinite means no integral action: the bias is part of the output and stays what it is. A derivative time of
-/// zero means no derivative action. The output is kept within 0.0 to 1.0, and so is the bias; at a limit the bias becomes
-/// what the output lacks (anti-windup). `None` when an operation has no result: the table then is as it was.
+/// A gain of zero means no proportional action, and 1 as the gain of the other two. An integral
+/// time that is zero, very large or infinite means no integral action: the bias is part of the
+/// output and stays what it is. A derivative time of zero means no derivative action. The output is
+/// kept within 0.0 to 1.0, and so is the bias; at a limit the bias becomes what the output lacks
+/// (anti-windup). `None` when an operation has no result: the table then is as it was.
 pub fn execute(table: &LoopTable, is_start: bool) -> Option<LoopTable> {
-    let [process, mut setpoint, output, gain, sample_time, integral_time, derivative_time, mut bias, mut last] = *table;
+    let [
+        process,
+        mut setpoint,
+        output,
+        gain,
+        sample_time,
+        integral_time,
+        derivative_time,
+        mut bias,
+        mut last,
+    ] = *table;
     if is_start {
         (setpoint, last, bias) = (process, process, output);
     }
@@ -45,7 +57,17 @@ pub fn execute(table: &LoopTable, is_start: bool) -> Option<LoopTable> {
     if integrates {
         bias = limit(sum);
     }
-    Some([process, setpoint, output, gain, sample_time, integral_time, derivative_time, bias, process])
+    Some([
+        process,
+        setpoint,
+        output,
+        gain,
+        sample_time,
+        integral_time,
+        derivative_time,
+        bias,
+        process,
+    ])
 }
 
 /// The nearest value from 0.0 to 1.0.
@@ -83,7 +105,11 @@ mod tests {
             assert_eq!(output_and_bias(with(&[(5, none)])), Some((0.75, 0.25)), "no I");
         }
         let sum = 0.25 + 1.0 / 600.0 * 0.25;
-        assert_eq!(output_and_bias(with(&[(3, 0.0)])), Some((sum, sum)), "no P: the gain of I is 1");
+        assert_eq!(
+            output_and_bias(with(&[(3, 0.0)])),
+            Some((sum, sum)),
+            "no P: the gain of I is 1"
+        );
         let derivative = output_and_bias(with(&[(5, f32::INFINITY), (6, 0.01), (8, 0.625)]));
         assert_eq!(derivative, Some((2.0 * (0.01 * 60.0) * 0.125 + 0.5 + 0.25, 0.25)));
     }
@@ -91,8 +117,16 @@ mod tests {
     #[test]
     fn output_and_bias_stay_in_range() {
         assert_eq!(output_and_bias(with(&[(3, 4.0)])), Some((1.0, 0.0)), "1.0 - 4.0 * 0.25");
-        assert_eq!(output_and_bias(with(&[(0, 0.875), (7, 0.125)])), Some((0.0, 0.25)), "-2.0 * (0.75 - 0.875)");
-        assert_eq!(output_and_bias(with(&[(3, 16.0)])), Some((1.0, 0.0)), "a bias of -3.0 is limited too");
+        assert_eq!(
+            output_and_bias(with(&[(0, 0.875), (7, 0.125)])),
+            Some((0.0, 0.25)),
+            "-2.0 * (0.75 - 0.875)"
+        );
+        assert_eq!(
+            output_and_bias(with(&[(3, 16.0)])),
+            Some((1.0, 0.0)),
+            "a bias of -3.0 is limited too"
+        );
     }
 
     #[test]

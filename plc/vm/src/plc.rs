@@ -1,22 +1,19 @@
 //! The controller: mode, scan, faults. Reads inputs from the caller, leaves outputs for the caller.
 
 use plc_isa::{
-    ANALOG_INPUTS, AnalogInput, DATA_START, I_START, INITIAL_HEAD_LEN, ImageError, LogicStack, Program, ProgramMemory,
-    Q_START, TimerResolution, verify_into,
+    ANALOG_INPUTS, AnalogInput, DATA_START, I_START, INITIAL_HEAD_LEN, ImageError, Program,
+    ProgramMemory, Q_START, TimerResolution, verify_into,
 };
 
-use crate::calls::Calls;
 use crate::clock::Clock;
 use crate::environment::Environment;
-use crate::events::Events;
+use crate::events::{EventSystem, Events};
 use crate::fault::Fault;
 use crate::interpreter::{Exit, Interpreter};
 use crate::memory::Memory;
+use crate::scan::Scan;
 use crate::special;
 use crate::timer::{self, AtScanStart};
-
-/// Whether a program stays in force when an image that is to replace it is refused.
-const KEEPS_PROGRAM: bool = cfg!(not(target_arch = "avr"));
 
 /// Where the image of the outputs begins in data memory.
 const OUTPUTS: usize = (Q_START - DATA_START) as usize;
@@ -57,8 +54,11 @@ pub enum Mode {
 }
 
 /// The controller. The program's bytes are read through `P`; data memory belongs to the caller.
+///
+/// With [`Events`] it executes programs itself. With others ([`with_events`](Self::with_events)) it
+/// is what goes on around an engine of the caller's: mode, clock, faults.
 #[derive(Debug, Clone)]
-pub struct Plc<P> {
+pub struct Plc<P, V = Events> {
     program: Option<Program<P>>,
     mode: Mode,
     /// As [`Fault::to_word`].
@@ -66,7 +66,7 @@ pub struct Plc<P> {
     clock: Clock,
     timers: AtScanStart,
     scans: Scans,
-    events: Events,
+    events: V,
     /// Bits of SMB0 that the next first scan has otherwise than the first one since power-up.
     changed_bits: u8,
 }
@@ -94,8 +94,83 @@ impl<P: ProgramMemory> Default for Plc<P> {
 
 impl<P: ProgramMemory> Plc<P> {
     /// A controller in STOP without a program, just switched on.
-    #[inline(always)]
     pub const fn new() -> Self {
+        Plc::with_events(Events::NONE)
+    }
+
+    /// Loads a program in STOP and clears data memory. A bad image is refused; the program in force
+    /// and its memory stay as they are.
+    pub fn load(&mut self, memory: &mut Memory, image: P) -> Result<(), ImageError> {
+        let (before, mode, fault) = (self.program.take(), self.mode, self.fault);
+        let result = self.replace(memory, image);
+        if result.is_err() && before.is_some() {
+            (self.program, self.mode, self.fault) = (before, mode, fault);
+        }
+        result
+    }
+
+    /// The first half of a scan: takes the inputs into the process image and, in RUN, executes the
+    /// program. Communication and self-test follow, then the caller writes
+    /// [`outputs`](Self::outputs).
+    pub fn scan<E: Environment>(
+        &mut self,
+        memory: &mut Memory,
+        inputs: &Inputs,
+        environment: &mut E,
+    ) {
+        inputs.write(memory);
+        self.execute(memory, environment);
+    }
+
+    /// The same for a caller that has written the inputs into the process image itself, because it
+    /// has only few.
+    pub fn execute<E: Environment>(&mut self, memory: &mut Memory, environment: &mut E) {
+        let now_ms = environment.now_ms();
+        if now_ms != self.time() {
+            self.set_time(now_ms);
+        }
+        let Some(scan) = self.begin(memory, environment) else { return };
+        let (exit, at) = Interpreter::new(scan).run();
+        self.finish(exit, at);
+    }
+
+    /// IB0 has become this since it was seen last: for interrupts and high-speed counters, between
+    /// two scans.
+    pub fn see_inputs(&mut self, memory: &mut Memory, levels: u8) {
+        match &self.program {
+            Some(program) if self.mode == Mode::Run => {
+                self.events.see_inputs(levels, program.plan(), memory)
+            }
+            _ => self.events.note_inputs(levels),
+        }
+    }
+
+    /// The part of the time in thousandths that output Q0.`output` is on, where PLS or an analog
+    /// output drives its pin.
+    pub fn duty(&self, output: u8) -> Option<u16> {
+        self.events.hardware.pulses.duty(output).filter(|_| self.mode == Mode::Run)
+    }
+
+    /// A character comes in on the serial line, at this time in milliseconds, between two scans.
+    pub fn receive(&mut self, memory: &mut Memory, character: u8, now_ms: u32) {
+        if let Some(program) = &self.program
+            && self.mode == Mode::Run
+        {
+            self.events.character(character, now_ms, program.plan(), memory);
+        }
+    }
+
+    /// The software clock is set from outside, at this time in milliseconds.
+    pub fn set_clock(&mut self, time: crate::TimeOfDay, now_ms: u32) {
+        self.events.hardware.clock.set(time, now_ms);
+    }
+}
+
+impl<P: ProgramMemory, V: EventSystem> Plc<P, V> {
+    /// A controller in STOP without a program, just switched on, with somebody who looks for
+    /// events.
+    #[inline(always)]
+    pub const fn with_events(events: V) -> Self {
         Plc {
             program: None,
             mode: Mode::Stop,
@@ -103,25 +178,20 @@ impl<P: ProgramMemory> Plc<P> {
             clock: Clock::zero(),
             timers: AtScanStart::NONE,
             scans: Scans::None,
-            events: Events::NONE,
+            events,
             changed_bits: 0,
         }
     }
 
-    /// Loads a program in STOP and clears data memory. A bad image is refused; the program in force
-    /// and its memory stay as they are.
-    pub fn load(&mut self, memory: &mut Memory, image: P) -> Result<(), ImageError> {
-        // The board has no room for two programs, and in its slot there is only one.
-        let before = if KEEPS_PROGRAM { self.program.take() } else { None };
+    /// Loads a program in STOP and clears data memory. A bad image is a fault, and then there is no
+    /// program any more: for a caller who has room for one.
+    pub fn replace(&mut self, memory: &mut Memory, image: P) -> Result<(), ImageError> {
         if let Err(error) = verify_into(&mut self.program, image) {
-            self.program = before;
-            if self.program.is_none() {
-                self.stop_with(Fault::bad_image(error));
-            }
+            self.program = None;
+            self.stop_with(Fault::bad_image(error));
             return Err(error);
         }
-        self.stop();
-        self.fault = 0;
+        self.stop_with(0);
         self.scans = Scans::None;
         memory.clear();
         self.write_initial_values(memory);
@@ -129,7 +199,7 @@ impl<P: ProgramMemory> Plc<P> {
     }
 
     /// Gives V memory the values of the program's data block.
-    #[cfg_attr(target_arch = "avr", inline(never))]
+    #[inline(never)]
     fn write_initial_values(&self, memory: &mut Memory) {
         let Some(program) = &self.program else { return };
         let (plan, image) = (program.plan(), program.memory());
@@ -145,37 +215,6 @@ impl<P: ProgramMemory> Plc<P> {
                 at += 1;
             }
         }
-    }
-
-    /// IB0 has become this since it was seen last: for interrupts and high-speed counters, between two scans.
-    #[cfg(not(target_arch = "avr"))]
-    pub fn see_inputs(&mut self, memory: &mut Memory, levels: u8) {
-        match &self.program {
-            Some(program) if self.mode == Mode::Run => self.events.see_inputs(levels, program.plan(), memory),
-            _ => self.events.note_inputs(levels),
-        }
-    }
-
-    /// The part of the time in thousandths that output Q0.`output` is on, where PLS or an analog output drives its pin.
-    #[cfg(not(target_arch = "avr"))]
-    pub fn duty(&self, output: u8) -> Option<u16> {
-        self.events.hardware.pulses.duty(output).filter(|_| self.mode == Mode::Run)
-    }
-
-    /// A character comes in on the serial line, at this time in milliseconds, between two scans.
-    #[cfg(not(target_arch = "avr"))]
-    pub fn receive(&mut self, memory: &mut Memory, character: u8, now_ms: u32) {
-        if let Some(program) = &self.program
-            && self.mode == Mode::Run
-        {
-            self.events.character(character, now_ms, program.plan(), memory);
-        }
-    }
-
-    /// The software clock is set from outside, at this time in milliseconds.
-    #[cfg(not(target_arch = "avr"))]
-    pub fn set_clock(&mut self, time: crate::TimeOfDay, now_ms: u32) {
-        self.events.hardware.clock.set(time, now_ms);
     }
 
     /// The program, if a valid one is loaded.
@@ -208,14 +247,15 @@ impl<P: ProgramMemory> Plc<P> {
     pub fn run(&mut self) -> bool {
         if self.mode == Mode::Stop && self.program.is_some() {
             self.mode = Mode::Run;
-            self.fault = 0;
+            self.clear_fault();
             self.scans = Scans::None;
         }
         self.mode == Mode::Run
     }
 
-    /// STOP to RUN, to go on where the program stood: the next scan is a first scan only if there has been none since the
-    /// program was loaded or [`run`](Self::run). The time between does not count. Otherwise as `run`.
+    /// STOP to RUN, to go on where the program was: the next scan is a first scan only if there
+    /// has been none since the program was loaded or [`run`](Self::run). The time between does not
+    /// count. Otherwise as `run`.
     pub fn go_on(&mut self) -> bool {
         let scans = if self.scans == Scans::None { Scans::None } else { Scans::Resumed };
         if self.mode == Mode::Stop && self.run() {
@@ -225,6 +265,7 @@ impl<P: ProgramMemory> Plc<P> {
     }
 
     /// In STOP there is no fault any more.
+    #[inline(never)]
     pub fn clear_fault(&mut self) {
         self.fault = 0;
     }
@@ -240,24 +281,10 @@ impl<P: ProgramMemory> Plc<P> {
         self.stop_with(fault.to_word());
     }
 
-    #[cfg_attr(target_arch = "avr", inline(never))]
+    #[inline(never)]
     fn stop_with(&mut self, fault: u32) {
         self.mode = Mode::Stop;
         self.fault = fault;
-    }
-
-    /// The first half of a scan: takes the inputs into the process image and, in RUN, executes the
-    /// program. Communication and self-test follow, then the caller writes [`outputs`](Self::outputs).
-    pub fn scan<E: Environment>(&mut self, memory: &mut Memory, inputs: &Inputs, environment: &mut E) {
-        inputs.write(memory);
-        self.execute(memory, environment);
-    }
-
-    /// The same for a caller that has written the inputs into the process image itself, because it has only few.
-    pub fn execute<E: Environment>(&mut self, memory: &mut Memory, environment: &mut E) {
-        let Some(execution) = self.begin(memory, environment) else { return };
-        let (exit, at) = execution.run();
-        self.finish(exit, at);
     }
 
     /// Sets the time, in milliseconds, at which the next scan starts.
@@ -273,27 +300,14 @@ impl<P: ProgramMemory> Plc<P> {
         self.clock.now_ms
     }
 
-    /// Begins a scan: clock, special memory, timers. In RUN hands out the execution of the program, for a caller with
-    /// an engine of its own, which ends with [`finish`](Self::finish).
+    /// Begins a scan at the time that was set: clock, special memory, timers. In RUN hands out the
+    /// scan for the program to be executed, which ends with [`finish`](Self::finish).
+    #[inline(always)]
     pub fn begin<'a, E: Environment>(
         &'a mut self,
         memory: &'a mut Memory,
         environment: &'a mut E,
-    ) -> Option<Interpreter<'a, P, E>> {
-        let now_ms = environment.now_ms();
-        if now_ms != self.time() {
-            self.set_time(now_ms);
-        }
-        self.begin_at_set_time(memory, environment)
-    }
-
-    /// The same for a caller that has set the time.
-    #[inline(always)]
-    pub fn begin_at_set_time<'a, E: Environment>(
-        &'a mut self,
-        memory: &'a mut Memory,
-        environment: &'a mut E,
-    ) -> Option<Interpreter<'a, P, E>> {
+    ) -> Option<Scan<'a, P, E, V>> {
         if self.mode == Mode::Stop {
             return None;
         }
@@ -307,14 +321,14 @@ impl<P: ProgramMemory> Plc<P> {
             }
             _ => self.start_scan::<E>(memory),
         }
+        self.events.note_points(memory);
         let first_scan = self.scans == Scans::First;
         let (program, clock, events) = (self.program.as_ref()?, &mut self.clock, &mut self.events);
-        let (stack, calls, exit) = (LogicStack::EMPTY, Calls::NONE, Exit::End);
-        Some(Interpreter { program, memory, environment, clock, first_scan, stack, calls, events, exit })
+        Some(Scan { program, memory, environment, clock, first_scan, events })
     }
 
     /// A scan starts at another time than the one before, or is the first or second.
-    #[cfg_attr(target_arch = "avr", inline(never))]
+    #[inline(never)]
     fn start_scan<E: Environment>(&mut self, memory: &mut Memory) {
         let mut bits = 0;
         if self.scans == Scans::None {
@@ -349,7 +363,7 @@ impl<P: ProgramMemory> Plc<P> {
         self.events.pass(u32::from(passed_ms), self.clock.now_ms, plan, memory);
     }
 
-    #[cfg_attr(target_arch = "avr", inline(never))]
+    #[inline(never)]
     fn start_run(&mut self, memory: &mut Memory) {
         self.clock.start();
         special::clear_scan_times(memory);
@@ -361,7 +375,7 @@ impl<P: ProgramMemory> Plc<P> {
     }
 
     /// The program was left, at this offset.
-    #[cfg_attr(target_arch = "avr", inline(never))]
+    #[inline(never)]
     pub fn finish(&mut self, exit: Exit, at: u16) {
         self.fail(match exit {
             Exit::End => return,
@@ -376,10 +390,12 @@ impl<P: ProgramMemory> Plc<P> {
     /// Output byte `byte` as logical values: the process image in RUN, all off otherwise.
     pub fn outputs(&self, memory: &Memory, byte: u8) -> u8 {
         match self.mode {
-            // Between the change to RUN and the end of the first scan the image is that of an earlier RUN.
+            // Between the change to RUN and the end of the first scan the image is that of an
+            // earlier RUN.
             Mode::Run if self.scans != Scans::None && usize::from(byte) < IMAGE_BYTES => {
                 let image = memory.bytes().get(OUTPUTS + usize::from(byte)).copied().unwrap_or(0);
-                let (driven, levels) = if byte == 0 { self.events.driven_outputs() } else { (0, 0) };
+                let (driven, levels) =
+                    if byte == 0 { self.events.driven_outputs() } else { (0, 0) };
                 image & !driven | levels
             }
             _ => 0,

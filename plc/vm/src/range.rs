@@ -6,7 +6,13 @@ use crate::memory::Memory;
 
 /// Writes `count` consecutive bits. A range that would leave its area is not written at all: only a
 /// count read at run time can ask for that.
-pub(crate) fn write<P: ProgramMemory>(memory: &mut Memory, plan: &Plan<P>, first: Bit, count: u8, value: bool) {
+pub(crate) fn write<P: ProgramMemory>(
+    memory: &mut Memory,
+    plan: &Plan<P>,
+    first: Bit,
+    count: u8,
+    value: bool,
+) {
     let end = u16::from(first.bit) + u16::from(count);
     if count > 1 && !fits(plan, first, end) {
         return;

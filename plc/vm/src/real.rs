@@ -1,7 +1,8 @@
-//! Arithmetic, comparison and conversion of reals: IEEE single, rounded to nearest even, denormals included.
+//! Arithmetic, comparison and conversion of reals: IEEE single, rounded to nearest even, denormals
+//! included.
 //!
-//! An operand or a result that is infinite or not a number is an error: `None`. The SM1 bits, the division by
-//! zero and OUT belong to the caller. The board's twin is firmware/modules/real.s.
+//! An operand or a result that is infinite or not a number is an error: `None`. The SM1 bits, the
+//! division by zero and OUT belong to the caller. The board's twin is firmware/modules/real.s.
 
 use core::cmp::Ordering;
 
@@ -20,7 +21,8 @@ pub fn multiply(a: f32, b: f32) -> Option<f32> {
     checked(a, b, a * b)
 }
 
-/// /R: `a` divided by `b`. A divisor of zero is `None` too: /R looks for it first, because it sets another bit.
+/// /R: `a` divided by `b`. A divisor of zero is `None` too: /R looks for it first, because it sets
+/// another bit.
 pub fn divide(a: f32, b: f32) -> Option<f32> {
     checked(a, b, a / b)
 }
@@ -29,7 +31,8 @@ fn checked(a: f32, b: f32, result: f32) -> Option<f32> {
     (a.is_finite() && b.is_finite() && result.is_finite()).then_some(result)
 }
 
-/// How `a` compares with `b`; -0.0 equals 0.0, infinities are ordered. `None` when one is not a number.
+/// How `a` compares with `b`; -0.0 equals 0.0, infinities are ordered. `None` when one is not a
+/// number.
 pub fn compare(a: f32, b: f32) -> Option<Ordering> {
     a.partial_cmp(&b)
 }
@@ -82,7 +85,10 @@ mod tests {
         for (x, rounded, truncated) in pairs {
             assert_eq!((round(x), truncate(x)), (Some(rounded), Some(truncated)), "{x}");
         }
-        assert_eq!((round(-2147483648.0), truncate(-2147483648.0)), (Some(i32::MIN), Some(i32::MIN)));
+        assert_eq!(
+            (round(-2147483648.0), truncate(-2147483648.0)),
+            (Some(i32::MIN), Some(i32::MIN))
+        );
         for x in [2147483648.0, -2147483904.0, f32::NAN, f32::INFINITY] {
             assert_eq!((round(x), truncate(x)), (None, None), "{x}");
         }

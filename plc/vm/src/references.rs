@@ -1,12 +1,13 @@
-//! What the operands of module instructions lead to: memory, at once or by a pointer, and constants. Nothing is read or
-//! written that the program's memory plan does not hold.
+//! What the operands of module instructions lead to: memory, at once or by a pointer, and
+//! constants. Nothing is read or written that the program's memory plan does not hold.
 
 use plc_isa::{
-    AIW_START, ANALOG_INPUTS, ANALOG_OUTPUTS, AQW_START, AnalogInput, Area, Place, ProgramMemory, Region, pointer,
+    AIW_START, ANALOG_INPUTS, ANALOG_OUTPUTS, AQW_START, AnalogInput, Area, ProgramMemory,
+    Referent, Region, pointer,
 };
 
 use crate::environment::Environment;
-use crate::modules::{Execution, Failure};
+use crate::modules::execution::{Execution, Failure};
 
 /// How long a value is, and which numbers it holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,8 +84,8 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
     /// The value of operand `index`.
     pub fn read(&self, index: usize, width: Width) -> Result<i64, Failure> {
         match self.operands.reference(index).place() {
-            Some(Place::Constant(value)) => Ok(width.wrapped(i64::from(value))),
-            Some(Place::Pool(offset)) => {
+            Some(Referent::Constant(value)) => Ok(width.wrapped(i64::from(value))),
+            Some(Referent::Pool(offset)) => {
                 let byte = |at: u16| self.interpreter.program.memory().byte(offset + at);
                 Ok(big_endian(width, byte))
             }
@@ -100,7 +101,7 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
     /// The string of operand `index`.
     pub fn read_text(&self, index: usize) -> Result<Text, Failure> {
         let mut text = Text::EMPTY;
-        if let Some(Place::Pool(offset)) = self.operands.reference(index).place() {
+        if let Some(Referent::Pool(offset)) = self.operands.reference(index).place() {
             let image = self.interpreter.program.memory();
             let len = u16::from(image.byte(offset));
             (1..=len).try_for_each(|at| text.push(image.byte(offset + at)))?;
@@ -133,10 +134,18 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
         self.address(index, width, count, Region::is_writable)
     }
 
-    fn address(&self, index: usize, width: Width, count: u16, may: fn(Region) -> bool) -> Result<u16, Failure> {
+    fn address(
+        &self,
+        index: usize,
+        width: Width,
+        count: u16,
+        may: fn(Region) -> bool,
+    ) -> Result<u16, Failure> {
         let address = match self.operands.reference(index).place() {
-            Some(Place::Direct(address)) => Some(address),
-            Some(Place::Indirect(address)) => self.pointed(self.get(address, Width::Double) as u32),
+            Some(Referent::Direct(address)) => Some(address),
+            Some(Referent::Indirect(address)) => {
+                self.pointed(self.get(address, Width::Double) as u32)
+            }
             _ => None,
         };
         let address = address.ok_or(Failure::Operand)?;
@@ -155,8 +164,12 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
             (pointer::ANALOG_INPUT, 0..INPUTS) => Some(AIW_START + offset),
             (pointer::ANALOG_OUTPUT, 0..OUTPUTS) => Some(AQW_START + offset),
             _ => match (pointer::area(code)?, u8::try_from(offset / 2)) {
-                (Area::T, Ok(number)) if offset.is_multiple_of(2) => plan.timer_slot(number).map(|slot| slot.address),
-                (Area::C, Ok(number)) if offset.is_multiple_of(2) => plan.counter_slot(number).map(|slot| slot.address),
+                (Area::T, Ok(number)) if offset.is_multiple_of(2) => {
+                    plan.timer_slot(number).map(|slot| slot.address)
+                }
+                (Area::C, Ok(number)) if offset.is_multiple_of(2) => {
+                    plan.counter_slot(number).map(|slot| slot.address)
+                }
                 (area, _) => plan.byte_address(area, offset),
             },
         }
@@ -209,7 +222,12 @@ mod tests {
             (Width::Word, i64::from(i16::MIN), i64::from(i16::MAX)),
             (Width::Double, i64::from(i32::MIN), i64::from(i32::MAX)),
         ] {
-            assert!(width.holds(least) && width.holds(most) && !width.holds(least - 1) && !width.holds(most + 1));
+            assert!(
+                width.holds(least)
+                    && width.holds(most)
+                    && !width.holds(least - 1)
+                    && !width.holds(most + 1)
+            );
             assert_eq!((width.wrapped(most + 1), width.wrapped(least - 1)), (least, most));
         }
         assert_eq!((Width::Word.pattern(-1), Width::Double.pattern(-2)), (0xFFFF, 0xFFFF_FFFE));

@@ -1,4 +1,4 @@
-//! Special memory: the system's bits and words (reference 3), written here and nowhere else.
+//! Special memory: the system's bits and words (docs/s7-200.md 3), written here and nowhere else.
 
 use plc_isa::{Bit, DATA_START, SM_START};
 
@@ -24,10 +24,11 @@ pub(crate) const HALF_MINUTE: u8 = 1 << 4;
 pub(crate) const HALF_SECOND: u8 = 1 << 5;
 /// SM0.6, on in every other scan.
 const SCAN_CLOCK: u8 = 1 << 6;
-/// SM0.7, the mode switch stands at RUN: the Uno has none.
+/// SM0.7, the mode switch is at RUN: the Uno has none.
 const SWITCH_AT_RUN: u8 = 1 << 7;
 
-/// Writes SMB0 at the start of a scan, with these of its bits. The first scan is one with the scan clock on.
+/// Writes SMB0 at the start of a scan, with these of its bits. The first scan is one with the scan
+/// clock on.
 pub(crate) fn write_system_bits(memory: &mut Memory, bits: u8) {
     let byte = &mut memory.bytes_mut()[SMB0];
     let scan_clock = if bits & FIRST_SCAN != 0 { SCAN_CLOCK } else { !*byte & SCAN_CLOCK };
@@ -40,7 +41,8 @@ pub(crate) fn toggle_scan_clock(memory: &mut Memory) {
     memory.bytes_mut()[SMB0] ^= SCAN_CLOCK;
 }
 
-/// Scan times in milliseconds: last, shortest and longest since RUN. Before there is one, all are 0.
+/// Scan times in milliseconds: last, shortest and longest since RUN. Before there is one, all are
+/// 0.
 pub(crate) fn clear_scan_times(memory: &mut Memory) {
     memory.bytes_mut()[SMW22_LAST..SMW26_MAX + 2].fill(0);
 }
@@ -51,7 +53,8 @@ pub(crate) fn write_no_scan_time(memory: &mut Memory) {
     memory.bytes_mut()[SMW22_LAST..SMW24_MIN + 2].copy_from_slice(&[0; 4]);
 }
 
-/// Enters the time from one scan start to the next; `first` when it is the first since RUN, when all are 0.
+/// Enters the time from one scan start to the next; `first` when it is the first since RUN, when
+/// all are 0.
 pub(crate) fn write_scan_time(memory: &mut Memory, passed_ms: u16, first: bool) {
     let [high, low] = passed_ms.min(i16::MAX as u16).to_be_bytes();
     let bytes = memory.bytes_mut();

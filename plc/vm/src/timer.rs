@@ -1,11 +1,13 @@
-//! Timers TON, TOF and TONR with their three resolutions (reference 2.1 to 2.3).
+//! Timers TON, TOF and TONR with their three resolutions (docs/s7-200.md 2.1 to 2.3).
 //!
-//! 100 ms timers advance when their instruction executes, 10 ms timers at scan start, 1 ms timers at
-//! scan start and whenever they are executed or read. The execution that starts a timer adds nothing.
+//! 100 ms timers advance when their instruction executes, 10 ms timers at scan start, 1 ms timers
+//! at scan start and whenever they are executed or read. The execution that starts a timer adds
+//! nothing.
 
 use plc_isa::{
-    C_BITS_START, DATA_START, Plan, Program, ProgramMemory, T_BITS_START, TIMER_LEN, TIMER_SLOT_LEN, TimerFamily,
-    TimerKind, TimerResolution, TimerSlot, timer_bit, timer_family, timer_resolution,
+    C_BITS_START, DATA_START, Plan, Program, ProgramMemory, T_BITS_START, TIMER_LEN,
+    TIMER_SLOT_LEN, TimerFamily, TimerKind, TimerResolution, TimerSlot, timer_bit, timer_family,
+    timer_resolution,
 };
 
 use crate::memory::Memory;
@@ -46,7 +48,8 @@ impl Timer<'_> {
         self.memory.set_bit(timer_bit(self.slot.number), value);
     }
 
-    /// The instruction executes. `ticks` are the intervals that an already running timer gains by it.
+    /// The instruction executes. `ticks` are the intervals that an already running timer gains by
+    /// it.
     pub fn execute(&mut self, input: bool, preset: i16, ticks: u16) {
         self.memory.set_int(self.slot.address + 2, preset);
         match self.slot.kind {
@@ -107,7 +110,12 @@ impl Timer<'_> {
 }
 
 /// Advances every running timer of this resolution.
-pub(crate) fn advance<P: ProgramMemory>(memory: &mut Memory, plan: &Plan<P>, resolution: TimerResolution, ticks: u16) {
+pub(crate) fn advance<P: ProgramMemory>(
+    memory: &mut Memory,
+    plan: &Plan<P>,
+    resolution: TimerResolution,
+    ticks: u16,
+) {
     if ticks == 0 {
         return;
     }
@@ -134,10 +142,15 @@ impl AtScanStart {
 }
 
 /// Where the bits are in data memory.
-const BITS: core::ops::Range<usize> = (T_BITS_START - DATA_START) as usize..(C_BITS_START - DATA_START) as usize;
+const BITS: core::ops::Range<usize> =
+    (T_BITS_START - DATA_START) as usize..(C_BITS_START - DATA_START) as usize;
 
-/// The change to RUN (reference 2.2): no timer runs, all bits are 0; only TONR keeps its current value.
-pub(crate) fn start_of_run<P: ProgramMemory>(memory: &mut Memory, program: &Program<P>) -> AtScanStart {
+/// The change to RUN (docs/s7-200.md 2.2): no timer runs, all bits are 0; only TONR keeps its
+/// current value.
+pub(crate) fn start_of_run<P: ProgramMemory>(
+    memory: &mut Memory,
+    program: &Program<P>,
+) -> AtScanStart {
     let mut found = 0;
     memory.bytes_mut()[BITS].fill(0);
     let plan = program.plan();

@@ -1,4 +1,5 @@
-//! How far SQRT SIN COS TAN LN EXP are from the true value, over random operands. Single values are tested in the sources.
+//! How far SQRT SIN COS TAN LN EXP are from the true value, over random operands. Single values are
+//! tested in the sources.
 
 use plc_vm::function::{cos, exp, ln, sin, sqrt, tan};
 
@@ -14,11 +15,23 @@ struct Case {
 const CASES: [Case; 8] = [
     Case { name: "SQRT", function: sqrt, truth: f64::sqrt, operand: Random::positive, ulps: 0.5 },
     Case { name: "SIN", function: sin, truth: f64::sin, operand: Random::angle, ulps: 0.6 },
-    Case { name: "SIN, next to a zero", function: sin, truth: f64::sin, operand: Random::next_to_quarter, ulps: 0.6 },
+    Case {
+        name: "SIN, next to a zero",
+        function: sin,
+        truth: f64::sin,
+        operand: Random::next_to_quarter,
+        ulps: 0.6,
+    },
     Case { name: "COS", function: cos, truth: f64::cos, operand: Random::angle, ulps: 0.6 },
     Case { name: "TAN", function: tan, truth: f64::tan, operand: Random::angle, ulps: 0.7 },
     Case { name: "LN", function: ln, truth: f64::ln, operand: Random::positive, ulps: 0.6 },
-    Case { name: "LN, next to 1", function: ln, truth: f64::ln, operand: Random::next_to_1, ulps: 0.6 },
+    Case {
+        name: "LN, next to 1",
+        function: ln,
+        truth: f64::ln,
+        operand: Random::next_to_1,
+        ulps: 0.6,
+    },
     Case { name: "EXP", function: exp, truth: f64::exp, operand: Random::exponent, ulps: 0.6 },
 ];
 

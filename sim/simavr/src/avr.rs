@@ -39,10 +39,11 @@ pub struct Edge {
     pub high: bool,
 }
 
-/// An ATmega328P at 16 MHz and 5 V. Time is its cycle counter alone; nothing waits for a real clock.
+/// An ATmega328P at 16 MHz and 5 V. Time is its cycle counter alone; nothing waits for a real
+/// clock.
 ///
-/// A new chip is powered but not [reset](Avr::reset): flash and EEPROM are erased, SRAM is 0. SRAM, pins, voltages and
-/// flash survive a reset.
+/// A new chip is powered but not [reset](Avr::reset): flash and EEPROM are erased, SRAM is 0. SRAM,
+/// pins, voltages and flash survive a reset.
 pub struct Avr {
     chip: Chip,
 }
@@ -64,7 +65,16 @@ impl Avr {
     /// # Panics
     /// Without memory for it.
     pub fn new() -> Avr {
-        Avr { chip: Chip::new().expect("no memory for another simulated chip") }
+        Avr { chip: Chip::new(false).expect("no memory for another simulated chip") }
+    }
+
+    /// An ATmega2560 instead, with external memory up to address 0xFFFF: for programs that are too
+    /// large for the Uno. Of what is beside its memories only GPIOR0 is like the Uno's.
+    ///
+    /// # Panics
+    /// Without memory for it.
+    pub fn with_room() -> Avr {
+        Avr { chip: Chip::new(true).expect("no memory for another simulated chip") }
     }
 
     /// Writes what an ELF holds into flash and EEPROM; the rest of them stays. Then a reset is due.
@@ -87,17 +97,19 @@ impl Avr {
     pub fn write_flash(&mut self, at: u32, bytes: &[u8]) -> Result<(), LoadError> {
         let flash = self.chip.flash_mut();
         let place = flash.get_mut(at as usize..).and_then(|rest| rest.get_mut(..bytes.len()));
-        let place = place.ok_or_else(|| LoadError(format!("{} bytes at {at:#06x} are outside flash", bytes.len())))?;
+        let place = place.ok_or_else(|| {
+            LoadError(format!("{} bytes at {at:#06x} are outside flash", bytes.len()))
+        })?;
         place.copy_from_slice(bytes);
         Ok(())
     }
 
-    /// The flash, all 32 KB.
+    /// The flash, all of it: the Uno has 32 KB.
     pub fn flash(&self) -> &[u8] {
         self.chip.flash()
     }
 
-    /// The flash to be changed behind the program's back.
+    /// The flash to be changed after the program's back.
     pub fn flash_mut(&mut self) -> &mut [u8] {
         self.chip.flash_mut()
     }
@@ -107,8 +119,8 @@ impl Avr {
         self.chip.data()
     }
 
-    /// Data memory to be changed behind the program's back. A write to an I/O register changes what the program reads
-    /// there and does nothing else.
+    /// Data memory to be changed after the program's back. A write to an I/O register changes what
+    /// the program reads there and does nothing else.
     pub fn data_mut(&mut self) -> &mut [u8] {
         self.chip.data_mut()
     }
@@ -122,7 +134,8 @@ impl Avr {
 
     /// Writes into the EEPROM without asking the program.
     pub fn write_eeprom(&mut self, at: u16, bytes: &[u8]) -> Result<(), LoadError> {
-        let outside = || LoadError(format!("{} bytes at {at:#06x} are outside the EEPROM", bytes.len()));
+        let outside =
+            || LoadError(format!("{} bytes at {at:#06x} are outside the EEPROM", bytes.len()));
         self.chip.eeprom_write(at, bytes).then_some(()).ok_or_else(outside)
     }
 
@@ -131,10 +144,12 @@ impl Avr {
         self.chip.eeprom_write(0, &vec![0xFF; self.chip.eeprom_len()]);
     }
 
-    /// Address of the EEPROM byte that the program is just writing, which takes 3.4 ms. It has its new value already;
-    /// a real one has none yet that could be relied on.
+    /// Address of the EEPROM byte that the program is just writing, which takes 3.4 ms. It has its
+    /// new value already; a real one has none yet that could be relied on.
     pub fn eeprom_writing(&self) -> Option<u16> {
-        u16::try_from(self.chip.eeprom_writing()).ok().filter(|&at| usize::from(at) < self.chip.eeprom_len())
+        u16::try_from(self.chip.eeprom_writing())
+            .ok()
+            .filter(|&at| usize::from(at) < self.chip.eeprom_len())
     }
 
     /// How often the program has written each byte of the EEPROM.
@@ -207,7 +222,8 @@ impl Avr {
         }
     }
 
-    /// Drives a pin from outside, against any pull-up, until it is driven otherwise. An output stays what it is.
+    /// Drives a pin from outside, against any pull-up, until it is driven otherwise. An output
+    /// stays what it is.
     pub fn drive(&mut self, pin: Pin, high: bool) {
         self.chip.drive(pin.port.index(), pin.bit, high);
     }
@@ -237,7 +253,11 @@ impl Avr {
 
     /// The edges since this was last asked for, to a few cycles.
     pub fn take_waves(&mut self) -> Vec<Edge> {
-        let edge = |edge: u64| Edge { cycle: edge >> 2, pin: Pin::of_wave(edge & 2 != 0), high: edge & 1 != 0 };
+        let edge = |edge: u64| Edge {
+            cycle: edge >> 2,
+            pin: Pin::of_wave(edge & 2 != 0),
+            high: edge & 1 != 0,
+        };
         self.chip.take_edges().into_iter().map(edge).collect()
     }
 
@@ -252,11 +272,14 @@ impl Avr {
     /// The same, as the lowest voltage that gives this value (0 to 1023) of the converter.
     pub fn set_counts(&mut self, channel: u8, counts: u16) {
         let reference = u32::from(Self::REFERENCE_MILLIVOLTS);
-        self.set_millivolts(channel, (u32::from(counts.min(1023)) * reference).div_ceil(1023) as u16);
+        self.set_millivolts(
+            channel,
+            (u32::from(counts.min(1023)) * reference).div_ceil(1023) as u16,
+        );
     }
 
-    /// Sends bytes to the UART. They wait outside until the program has switched the receiver on and takes them, at its
-    /// speed: none gets lost.
+    /// Sends bytes to the UART. They wait outside until the program has switched the receiver on
+    /// and takes them, at its speed: none gets lost.
     ///
     /// # Panics
     /// Without memory for them.

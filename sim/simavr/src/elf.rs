@@ -1,4 +1,5 @@
-//! Reads an ELF as avr-gcc's linker writes it: what goes into flash and EEPROM, and the symbols. Nothing is loaded here.
+//! Reads an ELF as avr-gcc's linker writes it: what goes into flash and EEPROM, and the symbols.
+//! Nothing is loaded here.
 
 use std::collections::HashMap;
 use std::fmt;
@@ -34,7 +35,8 @@ impl From<object::Error> for LoadError {
 /// An ELF with its contents.
 #[derive(Debug, Clone, Default)]
 pub struct Elf {
-    /// Address in flash and bytes. Initial values of data are among them, where the startup code fetches them.
+    /// Address in flash and bytes. Initial values of data are among them, where the startup code
+    /// fetches them.
     pub flash: Vec<(u32, Vec<u8>)>,
     /// Address in EEPROM and bytes.
     pub eeprom: Vec<(u16, Vec<u8>)>,
@@ -52,8 +54,10 @@ impl Elf {
                 continue;
             }
             let content = segment.data(LittleEndian, bytes);
-            let content = content.map_err(|()| LoadError("the ELF is cut off".to_string()))?.to_vec();
-            // The physical address is the place of the bytes, the virtual one that of what they initialise.
+            let content =
+                content.map_err(|()| LoadError("the ELF is cut off".to_string()))?.to_vec();
+            // The physical address is the place of the bytes, the virtual one that of what they
+            // initialise.
             let at = u64::from(segment.p_paddr(LittleEndian));
             match at {
                 0..DATA => elf.flash.push((at as u32, content)),
@@ -68,7 +72,9 @@ impl Elf {
             }
             let name = symbol.name()?.to_string();
             match symbol.address() {
-                address @ DATA..EEPROM => _ = elf.data_symbols.insert(name, (address - DATA) as u16),
+                address @ DATA..EEPROM => {
+                    _ = elf.data_symbols.insert(name, (address - DATA) as u16)
+                }
                 address @ 0..DATA => _ = elf.flash_symbols.insert(name, address as u32),
                 _ => {}
             }
@@ -95,7 +101,8 @@ mod tests {
         values.iter().flat_map(|value| value.to_le_bytes()).collect()
     }
 
-    /// An ELF with these segments (virtual address, physical address, bytes) and symbols (name, address, defined).
+    /// An ELF with these segments (virtual address, physical address, bytes) and symbols (name,
+    /// address, defined).
     fn elf(segments: &[(u32, u32, &[u8])], symbols: &[(&str, u32, bool)]) -> Vec<u8> {
         let headers_len = 52 + 32 * segments.len();
         let (mut headers, mut content) = (Vec::new(), Vec::new());
@@ -120,15 +127,27 @@ mod tests {
         sections.extend(words(&[0, 3, 0, 0, names_at, names.len() as u32, 0, 0, 1, 0]));
         let mut file = b"\x7fELF\x01\x01\x01\0\0\0\0\0\0\0\0\0\x02\0\x53\0".to_vec();
         file.extend(words(&[1, 0, 52, sections_at, 0]));
-        file.extend([52u16, 32, segments.len() as u16, 40, 3, 2].into_iter().flat_map(u16::to_le_bytes));
+        file.extend(
+            [52u16, 32, segments.len() as u16, 40, 3, 2].into_iter().flat_map(u16::to_le_bytes),
+        );
         [file, headers, content, table, names, sections].concat()
     }
 
     #[test]
     fn segments_go_where_their_bytes_are_kept() {
         let file = elf(
-            &[(0, 0, &[1, 2]), (0x80_0100, 2, &[3]), (0x80_0101, 0x80_0101, &[]), (0x81_0004, 0x81_0004, &[9])],
-            &[("main", 0x1_24, true), ("UNO200_TICK", 0x80_0600, true), ("weak", 0, false), ("fuse", 0x82_0000, true)],
+            &[
+                (0, 0, &[1, 2]),
+                (0x80_0100, 2, &[3]),
+                (0x80_0101, 0x80_0101, &[]),
+                (0x81_0004, 0x81_0004, &[9]),
+            ],
+            &[
+                ("main", 0x1_24, true),
+                ("UNO200_TICK", 0x80_0600, true),
+                ("weak", 0, false),
+                ("fuse", 0x82_0000, true),
+            ],
         );
         let elf = Elf::parse(&file).unwrap();
         assert_eq!(elf.flash, [(0, vec![1, 2]), (2, vec![3])]);

@@ -1,4 +1,5 @@
-//! The boundary to C: the functions of shim.c and the one owner of what they give. Everything unsafe is here.
+//! The boundary to C: the functions of shim.c and the one owner of what they give. Everything
+//! unsafe is here.
 #![allow(unsafe_code)]
 
 use std::ptr::NonNull;
@@ -11,7 +12,7 @@ struct Shim {
 }
 
 unsafe extern "C" {
-    fn shim_new() -> *mut Shim;
+    fn shim_new(has_room: i32) -> *mut Shim;
     fn shim_free(shim: *mut Shim);
     fn shim_reset(shim: *mut Shim, cause: u8);
     fn shim_flash(shim: *mut Shim) -> *mut u8;
@@ -68,7 +69,8 @@ pub(crate) struct Chip(NonNull<Shim>);
 
 impl Drop for Chip {
     fn drop(&mut self) {
-        // SAFETY: the pointer came from shim_new, this is its only owner, and nothing uses it after drop.
+        // SAFETY: the pointer came from shim_new, this is its only owner, and nothing uses it after
+        // drop.
         unsafe { shim_free(self.0.as_ptr()) }
     }
 }
@@ -76,18 +78,19 @@ impl Drop for Chip {
 /// Calls a function of shim.c that takes the chip and numbers.
 macro_rules! call {
     ($chip:ident.$function:ident($($number:expr),*)) => {
-        // SAFETY: the pointer is valid as long as its owner. The function keeps no other pointer, takes any number or
-        // one that was checked just before, and changes the chip only where the owner is borrowed exclusively, so that
-        // no slice of its memory is alive.
+        // SAFETY: the pointer is valid as long as its owner. The function keeps no other pointer,
+        // takes any number or one that was checked just before, and changes the chip only where the
+        // owner is borrowed exclusively, so that no slice of its memory is alive.
         unsafe { $function($chip.0.as_ptr() $(, $number)*) }
     };
 }
 
 impl Chip {
-    /// A chip with erased memories, or none if there is no room for it.
-    pub(crate) fn new() -> Option<Chip> {
-        // SAFETY: needs nothing; gives null or what shim_free takes.
-        NonNull::new(unsafe { shim_new() }).map(Chip)
+    /// A chip with erased memories, or none if there is no memory for it: the Uno's, or the one
+    /// that has room.
+    pub(crate) fn new(has_room: bool) -> Option<Chip> {
+        // SAFETY: takes any number; gives null or what shim_free takes.
+        NonNull::new(unsafe { shim_new(has_room.into()) }).map(Chip)
     }
 
     pub(crate) fn reset(&mut self, cause: u8) {
@@ -128,14 +131,18 @@ impl Chip {
     }
 
     pub(crate) fn flash(&self) -> &[u8] {
-        // SAFETY: simavr's flash has this length, is initialised, and stays where it is until shim_free; only
-        // methods that borrow self exclusively change it.
-        unsafe { slice::from_raw_parts(shim_flash(self.0.as_ptr()), shim_flash_len(self.0.as_ptr())) }
+        // SAFETY: simavr's flash has this length, is initialised, and stays where it is until
+        // shim_free; only methods that borrow self exclusively change it.
+        unsafe {
+            slice::from_raw_parts(shim_flash(self.0.as_ptr()), shim_flash_len(self.0.as_ptr()))
+        }
     }
 
     pub(crate) fn flash_mut(&mut self) -> &mut [u8] {
         // SAFETY: as for flash; the exclusive borrow lasts as long as the slice.
-        unsafe { slice::from_raw_parts_mut(shim_flash(self.0.as_ptr()), shim_flash_len(self.0.as_ptr())) }
+        unsafe {
+            slice::from_raw_parts_mut(shim_flash(self.0.as_ptr()), shim_flash_len(self.0.as_ptr()))
+        }
     }
 
     pub(crate) fn data(&self) -> &[u8] {
@@ -145,7 +152,9 @@ impl Chip {
 
     pub(crate) fn data_mut(&mut self) -> &mut [u8] {
         // SAFETY: as for flash_mut.
-        unsafe { slice::from_raw_parts_mut(shim_data(self.0.as_ptr()), shim_data_len(self.0.as_ptr())) }
+        unsafe {
+            slice::from_raw_parts_mut(shim_data(self.0.as_ptr()), shim_data_len(self.0.as_ptr()))
+        }
     }
 
     /// `port`: 0 to 2 for B to D; `bit`: 0 to 7.
@@ -174,7 +183,8 @@ impl Chip {
     pub(crate) fn uart_take(&mut self) -> Vec<[u8; 2]> {
         let mut bytes = vec![[0; 2]; call!(self.shim_uart_received())];
         if !bytes.is_empty() {
-            // SAFETY: the shim writes two bytes for each it has, and their number was just asked for.
+            // SAFETY: the shim writes two bytes for each it has, and their number was just asked
+            // for.
             unsafe { shim_uart_take(self.0.as_ptr(), bytes.as_mut_ptr().cast()) }
         }
         bytes
@@ -224,7 +234,8 @@ impl Chip {
 
     pub(crate) fn eeprom_read(&self, at: u16, to: &mut [u8]) {
         assert!(self.has_eeprom(at, to.len()), "outside the EEPROM");
-        // SAFETY: the pointer is valid; the shim copies so many bytes into the slice, and the EEPROM has them.
+        // SAFETY: the pointer is valid; the shim copies so many bytes into the slice, and the
+        // EEPROM has them.
         unsafe { shim_eeprom_read(self.0.as_ptr(), at, to.as_mut_ptr(), to.len() as u32) }
     }
 
@@ -232,7 +243,8 @@ impl Chip {
     pub(crate) fn eeprom_write(&mut self, at: u16, bytes: &[u8]) -> bool {
         let has_room = self.has_eeprom(at, bytes.len());
         if has_room {
-            // SAFETY: the pointer is valid; the shim copies so many bytes from the slice, and the EEPROM has room.
+            // SAFETY: the pointer is valid; the shim copies so many bytes from the slice, and the
+            // EEPROM has room.
             unsafe { shim_eeprom_write(self.0.as_ptr(), at, bytes.as_ptr(), bytes.len() as u32) }
         }
         has_room

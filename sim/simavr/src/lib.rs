@@ -1,7 +1,8 @@
-//! An ATmega328P at 16 MHz, simulated by libsimavr: flash, memory, pins, converter, UART. Knows no PLC.
+//! An ATmega328P at 16 MHz, simulated by libsimavr: flash, memory, pins, converter, UART. Knows no
+//! PLC.
 //!
-//! libsimavr is GPL-3, so this crate is for tools that test and is part of nothing that is shipped. Without the feature
-//! `link` it is empty and needs no libsimavr.
+//! libsimavr is GPL-3, so this crate is for tools that test and is part of nothing that is shipped.
+//! Without the feature `link` it is empty and needs no libsimavr.
 
 #[cfg(feature = "link")]
 mod avr;

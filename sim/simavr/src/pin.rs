@@ -20,7 +20,8 @@ impl Port {
         self as u8
     }
 
-    /// Data address of the register that reads the pins; the direction's and the output's follow it.
+    /// Data address of the register that reads the pins; the direction's and the output's follow
+    /// it.
     fn pin_register(self) -> usize {
         0x23 + 3 * usize::from(self.index())
     }
@@ -55,16 +56,22 @@ impl Pin {
 
     /// Which output of timer 1 is at this pin.
     pub(crate) fn wave(self) -> Option<u8> {
-        [false, true].iter().position(|&is_second| Pin::of_wave(is_second) == self).map(|wave| wave as u8)
+        [false, true]
+            .iter()
+            .position(|&is_second| Pin::of_wave(is_second) == self)
+            .map(|wave| wave as u8)
     }
 
     /// Whether that drives the pin, if it is an output.
     pub(crate) fn is_wave(self, data: &[u8]) -> bool {
-        self.wave().zip(data.get(TIMER_CONTROL_A)).is_some_and(|(wave, control)| control >> (6 - 2 * wave) & 3 != 0)
+        self.wave()
+            .zip(data.get(TIMER_CONTROL_A))
+            .is_some_and(|(wave, control)| control >> (6 - 2 * wave) & 3 != 0)
     }
 
     fn register_bit(self, data: &[u8], offset: usize) -> bool {
-        data.get(self.port.pin_register() + offset).is_some_and(|byte| byte >> (self.bit & 7) & 1 == 1)
+        data.get(self.port.pin_register() + offset)
+            .is_some_and(|byte| byte >> (self.bit & 7) & 1 == 1)
     }
 
     pub(crate) fn is_output(self, data: &[u8]) -> bool {

@@ -75,7 +75,8 @@ struct shim {
 	avr_cycle_count_t bottom;
 	/* simavr's own for writes to timer 1, from TCCR1A on. */
 	struct handler timer_handlers[TIMER_REGISTERS];
-	/* While they are watched their edges, each as the cycle, which of both, and the level in the lowest bit. */
+	/* While they are watched their edges, each as the cycle, which of both, and
+	 * the level in the lowest bit. */
 	struct bytes edges;
 	int edges_are_watched;
 	int marked;
@@ -86,7 +87,8 @@ struct shim {
 	/* For each byte that has come what UCSR0B was then. */
 	struct bytes from_uart_controls;
 	int uart_is_full;
-	/* Address of the byte that is being written, or EEPROM_LEN; how often each was; whether it was disturbed. */
+	/* Address of the byte that is being written, or EEPROM_LEN; how often each
+	 * was; whether it was disturbed. */
 	uint32_t eeprom_writing, eeprom_writes[EEPROM_LEN];
 	int eeprom_is_misused;
 };
@@ -134,7 +136,8 @@ static avr_cycle_count_t on_eeprom_written(avr_t *avr, avr_cycle_count_t when, v
 	return 0;
 }
 
-/* simavr writes in no time. A chip is busy for a while, and must then be left alone. Called after simavr's own. */
+/* simavr writes in no time. A chip is busy for a while, and must then be left
+ * alone. Called after simavr's own. */
 static void on_eeprom_control(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
 {
 	struct shim *shim = param;
@@ -205,8 +208,10 @@ static void connect_uart(struct shim *shim)
 }
 
 /*
- * The outputs of timer 1 in fast PWM up to ICR1 (mode 14), by the data sheet. simavr has them, but takes no new compare
- * value until the mode changes, knows no forced compare, and gives other levels when the compare value is the top.
+ * The outputs of timer 1 in fast PWM up to ICR1 (mode 14), by the data sheet. simavr has them,
+ * but takes no new compare
+ * value until the mode changes, knows no forced compare, and gives other levels when the compare
+ * value is the top.
  */
 static uint32_t timer_word(avr_t *avr, int low)
 {
@@ -221,7 +226,8 @@ static int timer_divider(avr_t *avr)
 
 static int waves_can_run(avr_t *avr)
 {
-	return (avr->data[TIMER_CONTROL_A] & 3) == 2 && (avr->data[TIMER_CONTROL_B] & 0x18) == 0x18 && timer_divider(avr);
+	return (avr->data[TIMER_CONTROL_A] & 3) == 2 && (avr->data[TIMER_CONTROL_B] & 0x18) == 0x18 &&
+			timer_divider(avr);
 }
 
 static int wave_mode(avr_t *avr, int wave)
@@ -259,7 +265,8 @@ static avr_cycle_count_t on_match_b(avr_t *avr, avr_cycle_count_t when, void *pa
 }
 
 /*
- * The timer has come to this count: when it comes to the compare values, if it does before the top, where the bottom wins.
+ * The timer has come to this count: when it comes to the compare values, if it does before the
+ * top, where the bottom wins.
  * That can have been since simavr looked at its timers last.
  */
 static void await_matches(struct shim *shim, uint32_t count)
@@ -283,7 +290,8 @@ static void on_bottom(struct shim *shim)
 {
 	avr_t *avr = shim->avr;
 	avr_cycle_count_t due = shim->bottom + (timer_word(avr, TIMER_TOP) + 1) * timer_divider(avr);
-	/* simavr looks at its timers between two instructions, and is up to a count early where the count was set. */
+	/* simavr looks at its timers between two instructions, and is up to a count
+	 * early where the count was set. */
 	avr_cycle_count_t early_max = timer_divider(avr) + 16;
 	shim->bottom = avr->cycle + early_max - due < 2 * early_max ? due : avr->cycle;
 	for (int wave = 0; wave < WAVES; wave++) {
@@ -363,6 +371,8 @@ static void connect_timer(struct shim *shim)
 /* A larger copy of one of simavr's two memories; it frees them with free. */
 static int enlarge(uint8_t **memory, size_t old_len, size_t new_len)
 {
+	if (new_len <= old_len)
+		return 1;
 	uint8_t *larger = realloc(*memory, new_len);
 	if (!larger)
 		return 0;
@@ -376,7 +386,8 @@ void shim_free(struct shim *shim)
 	avr_t *avr = shim->avr;
 	if (avr) {
 		avr_terminate(avr);
-		/* avr_terminate leaves the signals of registers and interrupts, the list of them, and the chip itself. */
+		/* avr_terminate leaves the signals of registers and interrupts, the
+		 * list of them, and the chip itself. */
 		for (int i = 0; i < MAX_IOs; i++)
 			avr_free_irq(avr->io[i].irq, AVR_IOMEM_IRQ_ALL + 1);
 		for (int i = 0; i < avr->interrupts.vector_count; i++)
@@ -395,7 +406,8 @@ void shim_free(struct shim *shim)
 static void raise_pin(struct shim *shim, int port, int bit, int level)
 {
 	avr_t *avr = shim->avr;
-	/* INT0 and INT1: while their pins are low simavr would look at them in every cycle, used or not. */
+	/* INT0 and INT1: while their pins are low simavr would look at them in
+	 * every cycle, used or not. */
 	avr_extint_set_strict_lvl_trig(avr, 0, 0);
 	avr_extint_set_strict_lvl_trig(avr, 1, 0);
 	avr_raise_irq(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('B' + port), bit), level);
@@ -407,7 +419,8 @@ void shim_drive(struct shim *shim, int port, int bit, int level)
 	shim->levels[port] &= ~(1 << bit);
 	shim->levels[port] |= level << bit;
 	/* Without this a pull-up would win over what drives the pin. */
-	avr_ioport_external_t external = { .name = 'B' + port, .mask = shim->driven[port], .value = shim->levels[port] };
+	avr_ioport_external_t external = { .name = 'B' + port, .mask = shim->driven[port],
+			.value = shim->levels[port] };
 	avr_ioctl(shim->avr, AVR_IOCTL_IOPORT_SET_EXTERNAL('B' + port), &external);
 	raise_pin(shim, port, bit, level);
 }
@@ -441,23 +454,28 @@ void shim_reset(struct shim *shim, uint8_t cause)
 {
 	avr_t *avr = shim->avr;
 	avr_reset(avr);
-	/* A reset by the watchdog that was due at this moment is done now, and leaves traces: once more. */
+	/* A reset by the watchdog that was due at this moment is done now, and
+	 * leaves traces: once more. */
 	if (avr->data[RESET_FLAGS] & RESET_BY_WATCHDOG)
 		avr_reset(avr);
 	avr->data[RESET_FLAGS] = cause;
 	shim->from_uart.len = shim->from_uart_controls.len = 0;
 }
 
-struct shim *shim_new(void)
+/* The Uno's chip, or one with room: an ATmega2560 with external memory as far as
+ * addresses reach. */
+struct shim *shim_new(int has_room)
 {
 	struct shim *shim = calloc(1, sizeof *shim);
 	if (!shim)
 		return NULL;
-	avr_t *avr = shim->avr = avr_make_mcu_by_name("atmega328p");
+	avr_t *avr = shim->avr = avr_make_mcu_by_name(has_room ? "atmega2560" : "atmega328p");
 	if (!avr) {
 		shim_free(shim);
 		return NULL;
 	}
+	if (has_room)
+		avr->ramend = REACHABLE_DATA - 1;
 	avr_init(avr);
 	avr->frequency = 16000000;
 	avr->vcc = avr->avcc = avr->aref = 5000;
@@ -543,7 +561,7 @@ int shim_uart_send(struct shim *shim, const uint8_t *bytes, size_t len)
 size_t shim_uart_waiting(struct shim *shim) { return shim->to_uart.len - shim->to_uart.taken; }
 size_t shim_uart_received(struct shim *shim) { return shim->from_uart.len; }
 
-/* Each byte with its UCSR0B behind it. */
+/* Each byte with its UCSR0B after it. */
 void shim_uart_take(struct shim *shim, uint8_t *to)
 {
 	for (size_t i = 0; i < shim->from_uart.len; i++) {
@@ -563,7 +581,8 @@ void shim_take_edges(struct shim *shim, uint64_t *to)
 	shim->edges.len = 0;
 }
 
-static void eeprom(struct shim *shim, uint32_t request, uint8_t *bytes, uint16_t offset, uint32_t len)
+static void eeprom(struct shim *shim, uint32_t request, uint8_t *bytes, uint16_t offset,
+		uint32_t len)
 {
 	avr_eeprom_desc_t range = { .ee = bytes, .offset = offset, .size = len };
 	avr_ioctl(shim->avr, request, &range);
@@ -571,7 +590,10 @@ static void eeprom(struct shim *shim, uint32_t request, uint8_t *bytes, uint16_t
 
 int shim_eeprom_is_misused(struct shim *shim) { return shim->eeprom_is_misused; }
 uint32_t shim_eeprom_writing(struct shim *shim) { return shim->eeprom_writing; }
-uint32_t shim_eeprom_writes(struct shim *shim, uint16_t at) { return shim->eeprom_writes[at % EEPROM_LEN]; }
+uint32_t shim_eeprom_writes(struct shim *shim, uint16_t at)
+{
+	return shim->eeprom_writes[at % EEPROM_LEN];
+}
 size_t shim_eeprom_len(struct shim *shim) { return shim->avr->e2end + 1; }
 
 void shim_eeprom_read(struct shim *shim, uint16_t offset, uint8_t *to, uint32_t len)

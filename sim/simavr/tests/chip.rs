@@ -1,4 +1,5 @@
-//! The chip with small programs, given as opcodes: marks, pins, converter, UART, EEPROM, watchdog, resets, crashes.
+//! The chip with small programs, given as opcodes: marks, pins, converter, UART, EEPROM, watchdog,
+//! resets, crashes.
 #![cfg(feature = "link")]
 
 use simavr::{Avr, Edge, Pin, Port, Reset, Stopped};
@@ -138,7 +139,8 @@ fn a_driven_pin_wins_over_its_pull_up() {
 
 #[test]
 fn the_converter_gives_the_counts_that_were_set() {
-    // ADMUX = AVCC, channel 3; ADCSRA = on, start, /2; waits for ADSC = 0; the result to r19 and r20, then a mark.
+    // ADMUX = AVCC, channel 3; ADCSRA = on, start, /2; waits for ADSC = 0; the result to r19 and
+    // r20, then a mark.
     let [sts_mux, sts_mux_at] = sts(0x7C, 16);
     let [sts_control, sts_control_at] = sts(0x7A, 17);
     let [lds_control, lds_control_at] = lds(18, 0x7A);
@@ -282,7 +284,7 @@ fn what_a_program_cannot_survive_is_a_crash() {
     let mut avr = running(&[]);
     assert_eq!(avr.run_to_mark(100_000), Stopped::Crash { pc: 0 });
     assert_eq!(avr.run_to_mark(100_000), Stopped::Crash { pc: 0 }, "and stays one");
-    // A write behind the end of memory.
+    // A write after the end of memory.
     let [store, _] = sts(0, 16);
     load(&mut avr, &[store, 0xFFFF, rjmp(-1)]);
     assert!(matches!(avr.run_to_mark(100), Stopped::Crash { .. }));
@@ -318,7 +320,8 @@ fn a_byte_of_the_eeprom_takes_its_time() {
     const EECR: u8 = 0x1F;
     const EEDR: u8 = 0x20;
     const EEARL: u8 = 0x21;
-    let write = [ldi(16, 5), out(EEARL, 16), ldi(16, 0xAB), out(EEDR, 16), sbi(EECR, 2), sbi(EECR, 1)];
+    let write =
+        [ldi(16, 5), out(EEARL, 16), ldi(16, 0xAB), out(EEDR, 16), sbi(EECR, 2), sbi(EECR, 1)];
     let mut avr = running(&[&write[..], &[rjmp(-1)]].concat());
     assert_eq!(avr.eeprom_writing(), None);
     avr.run_for(100);
@@ -326,7 +329,10 @@ fn a_byte_of_the_eeprom_takes_its_time() {
     avr.run_for(54_400 - 200);
     assert_eq!(avr.eeprom_writing(), Some(5));
     avr.run_for(300);
-    assert_eq!((avr.eeprom_writing(), avr.data()[0x3F] & 2, avr.eeprom_is_misused()), (None, 0, false));
+    assert_eq!(
+        (avr.eeprom_writing(), avr.data()[0x3F] & 2, avr.eeprom_is_misused()),
+        (None, 0, false)
+    );
     assert_eq!((avr.eeprom_writes()[5], avr.eeprom_writes().iter().sum()), (1, 1));
 
     let mut avr = running(&[&write[..], &write, &[rjmp(-1)]].concat());
@@ -364,7 +370,8 @@ fn wave(edges: &[Edge], pin: Pin) -> Vec<(bool, u64)> {
 
 #[test]
 fn timer_1_modulates_its_pins() {
-    // Up to 99 in 8 cycles each: OC1A is set at 29 and cleared at the bottom, OC1B cleared at 79 and set at the bottom.
+    // Up to 99 in 8 cycles each: OC1A is set at 29 and cleared at the bottom, OC1B cleared at 79
+    // and set at the bottom.
     let mut program = [
         vec![ldi(16, 6), out(DDRB, 16)],
         set(TCCR1A, 0xF0).to_vec(),
@@ -396,7 +403,16 @@ fn timer_1_modulates_its_pins() {
     // The new value counts from the end of a cycle on.
     let changed = first.iter().position(|&part| part == (false, 400)).unwrap();
     assert!(changed >= 2 && first.len() >= changed + 4, "{first:?}");
-    assert!(first[..changed].iter().all(|part| [(false, 240), (true, 560)].contains(part)), "{first:?}");
-    assert!(first[changed..].iter().all(|part| [(false, 400), (true, 400)].contains(part)), "{first:?}");
-    assert!(second.len() > 8 && second.iter().all(|part| [(true, 640), (false, 160)].contains(part)), "{second:?}");
+    assert!(
+        first[..changed].iter().all(|part| [(false, 240), (true, 560)].contains(part)),
+        "{first:?}"
+    );
+    assert!(
+        first[changed..].iter().all(|part| [(false, 400), (true, 400)].contains(part)),
+        "{first:?}"
+    );
+    assert!(
+        second.len() > 8 && second.iter().all(|part| [(true, 640), (false, 160)].contains(part)),
+        "{second:?}"
+    );
 }

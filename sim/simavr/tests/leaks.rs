@@ -1,4 +1,5 @@
-//! Chips and resets must leave no memory behind: tests use thousands. Alone in its process, because it measures it.
+//! Chips and resets must leave no memory behind: tests use thousands. Alone in its process, because
+//! it measures it.
 #![cfg(all(feature = "link", target_os = "linux"))]
 
 use simavr::{Avr, Reset};
@@ -32,6 +33,7 @@ fn chips_and_resets_leave_nothing_behind() {
     use_chips(2_000, 1);
     use_chips(1, 20_000);
     let grown = resident().saturating_sub(before);
-    // The least that libsimavr is known to leave of a chip, the names of its interrupts, is more than 1 KB.
+    // The least that libsimavr is known to leave of a chip, the names of its interrupts, is more
+    // than 1 KB.
     assert!(grown < 500_000, "{grown} bytes more");
 }

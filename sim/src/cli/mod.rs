@@ -1,66 +1,68 @@
 //! The command line of `awl-sim`: from arguments to an exit code.
 
-mod args;
+mod inputs;
 mod output;
 mod report;
 mod serve;
+mod test;
 
+use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use anyhow::{Error, Result};
+use anyhow::{Error, Result, ensure};
 use awl_asm::ast::Symbol;
-use awl_asm::files::{ensure_distinct, read_source};
+use awl_asm::files::ensure_distinct;
+use awl_sim::args::{Args, On, TestArgs};
 use awl_sim::machine::{Machine, MachineError};
-use awl_sim::open::{Opened, ProgramErrors, open_machine};
+use awl_sim::open::Opened;
 use awl_sim::operand::Operand;
-use awl_sim::plant::{PlantSpec, parse_spec};
+use awl_sim::plant::PlantSpec;
 use awl_sim::problem::{Problem, Problems};
 use awl_sim::run::{Job, Length, Outcome, run};
-use awl_sim::scenario::{Context, Scenario};
+use awl_sim::scenario::Scenario;
+use awl_sim::suite::errors::{self, CANNOT_RUN, told};
 use awl_sim::trace::Signal;
 use clap::Parser;
 
-use args::{Args, On};
+use inputs::{access, parse_plant, program_files, read_scenario};
 
-/// Exit code for usage, file and program errors.
-const CANNOT_RUN: u8 = 2;
 /// Runs that take longer than this show how far they are.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Runs the command and gives its exit code.
 pub fn main() -> u8 {
-    match simulate(&Args::parse()) {
-        Ok(code) => code,
-        Err(error) => {
-            show(&error);
+    // A program with the name `test` is `./test`.
+    let mut arguments = std::env::args_os();
+    if arguments.nth(1).is_some_and(|first| first == "test") {
+        let arguments = [OsString::from("test")].into_iter().chain(arguments);
+        return test::test(&TestArgs::parse_from(arguments)).unwrap_or_else(|error| {
+            anstream::eprint!("{}", told(&error));
             CANNOT_RUN
-        }
+        });
     }
-}
-
-fn show(error: &Error) {
-    if let Some(problems) = error.downcast_ref::<Problems>() {
-        anstream::eprint!("{}", problems.render(true));
-    } else if let Some(ProgramErrors(text)) = error.downcast_ref() {
-        anstream::eprint!("{text}");
-    } else {
-        anstream::eprintln!("error: {error:#}");
-    }
+    let args = Args::parse();
+    simulate(&args).unwrap_or_else(|error| {
+        errors::show_error(&error, args.messages);
+        CANNOT_RUN
+    })
 }
 
 fn simulate(args: &Args) -> Result<u8> {
-    let inputs = [Some(&args.program), args.scenario.as_ref()].into_iter().flatten().chain(&args.symbols);
+    let inputs = args.program.iter().chain(&args.scenario).chain(&args.data).chain(&args.symbols);
     let inputs: Vec<&Path> = inputs.map(PathBuf::as_path).collect();
+    let from_stdin = inputs.iter().filter(|path| **path == Path::new("-")).count();
+    ensure!(from_stdin <= 1, "only one file can be read from standard input");
     ensure_distinct(&inputs, args.output.as_deref().as_slice())?;
+    output::format(args)?;
     if let Some(address) = &args.serve {
         serve::serve(args, address)?;
         return Ok(0);
     }
-    let Opened { mut machine, symbols, default_signals, scan_ms, warnings } =
-        open_machine(&args.program, &args.symbols, args.on.into())?;
-    anstream::eprint!("{warnings}");
+    let Opened { mut machine, symbols, default_signals, scan_ms, warnings, .. } =
+        program_files(args).open(args.on.into())?;
+    errors::show(&warnings, args.messages);
     let plant = args.plant.as_deref().map(parse_plant).transpose()?;
     let scenario = read_scenario(args, &symbols, plant.as_ref(), &mut *machine)?;
     let signals = signals(args, &symbols, &default_signals, &mut *machine)?;
@@ -69,13 +71,18 @@ fn simulate(args: &Args) -> Result<u8> {
         scan_ms: args.scan_time.or(scenario.scan_ms).or(scan_ms).unwrap_or(1),
         length: length(args),
         signals,
-        plant: spec.as_ref().map(PlantSpec::build).transpose().map_err(|error| Error::msg(error.message))?,
+        plant: spec
+            .as_ref()
+            .map(PlantSpec::build)
+            .transpose()
+            .map_err(|error| Error::msg(error.message))?,
         progress: None,
     };
     let outcome = run_with_progress(&mut *machine, &scenario, job)?;
     // What was found out is told even if the trace cannot be written.
     let written = output::write(args, &outcome.trace);
-    report::print(&scenario.origin, spec.as_ref().map(|spec| spec.name), &outcome, args.on == On::Host);
+    let plant = spec.as_ref().map(|spec| spec.name);
+    report::print(&scenario.origin, plant, &outcome, args.on == On::Host, args.messages.quiet);
     written?;
     Ok(outcome.exit_code())
 }
@@ -88,30 +95,13 @@ fn length(args: &Args) -> Length {
     }
 }
 
-fn parse_plant(text: &str) -> Result<PlantSpec, Problems> {
-    parse_spec(text).map_err(|list| Problems { origin: "--plant".to_string(), text: text.to_string(), list })
-}
-
-fn read_scenario(
+/// The signals of `--trace`; where only a format is asked for, what the program uses.
+fn signals(
     args: &Args,
     symbols: &[Symbol],
-    plant: Option<&PlantSpec>,
+    defaults: &[Operand],
     machine: &mut dyn Machine,
-) -> Result<Scenario> {
-    let Some(path) = &args.scenario else { return Ok(Scenario::default()) };
-    let origin = path.display().to_string();
-    // The same encodings as for programs.
-    let text = read_source(path)?.text;
-    let mut has_operand = |operand| access(machine, operand);
-    Ok(Scenario::parse(&origin, &text, Context { symbols, plant, has_operand: &mut has_operand })?)
-}
-
-fn access(machine: &mut dyn Machine, operand: Operand) -> Result<(), MachineError> {
-    machine.read(operand).map(|_| ())
-}
-
-/// The signals of `--trace`; where only a format is asked for, what the program uses.
-fn signals(args: &Args, symbols: &[Symbol], defaults: &[Operand], machine: &mut dyn Machine) -> Result<Vec<Signal>> {
+) -> Result<Vec<Signal>> {
     let Some(text) = &args.trace else {
         let is_wanted = args.format.is_some() || args.output.is_some();
         let defaults = if is_wanted { defaults } else { &[] };
@@ -131,7 +121,9 @@ fn signals(args: &Args, symbols: &[Symbol], defaults: &[Operand], machine: &mut 
                 Err(error) => list.push(Problem::new(span, error.to_string())),
             },
             Err(_) if name.is_empty() => list.push(Problem::new(span, "an operand is missing")),
-            Err(error) => list.push(Problem::new(span, error.message).did_you_mean(error.suggestion)),
+            Err(error) => {
+                list.push(Problem::new(span, error.message).did_you_mean(error.suggestion))
+            }
         }
     }
     if list.is_empty() {
@@ -140,7 +132,11 @@ fn signals(args: &Args, symbols: &[Symbol], defaults: &[Operand], machine: &mut 
     Err(Problems { origin: "--trace".to_string(), text: text.clone(), list }.into())
 }
 
-fn run_with_progress(machine: &mut dyn Machine, scenario: &Scenario, job: Job<'_>) -> Result<Outcome, MachineError> {
+fn run_with_progress(
+    machine: &mut dyn Machine,
+    scenario: &Scenario,
+    job: Job<'_>,
+) -> Result<Outcome, MachineError> {
     if !std::io::stderr().is_terminal() {
         return run(machine, scenario, job);
     }

@@ -5,14 +5,16 @@ use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr, ToSocketAddrs};
 
 use anyhow::{Context, Error, Result, bail};
 use awl_sim::machine::Mode;
-use awl_sim::open::{Opened, open_host};
+use awl_sim::open::Opened;
 use awl_sim::plant::PlantSpec;
 use awl_sim::run::Course;
 use awl_sim::serve::{Access, Change, Server, is_here};
 use awl_sim::time::format_time;
 
-use super::args::{Args, On};
-use super::{parse_plant, read_scenario, report};
+use super::inputs::{parse_plant, program_files, read_scenario};
+use super::report;
+use awl_sim::args::{Args, On};
+use awl_sim::suite::errors;
 
 /// Runs the PLC until Ctrl-C.
 pub fn serve(args: &Args, address: &str) -> Result<()> {
@@ -21,21 +23,27 @@ pub fn serve(args: &Args, address: &str) -> Result<()> {
     }
     let access = Access { anywhere: args.serve_anywhere, writes: args.serve_writes };
     let addresses = resolve(address, access)?;
-    let Opened { mut machine, symbols, scan_ms, warnings, .. } = open_host(&args.program, &args.symbols)?;
-    anstream::eprint!("{warnings}");
+    let Opened { mut machine, symbols, scan_ms, warnings, .. } = program_files(args).open_host()?;
+    errors::show(&warnings, args.messages);
     let plant = args.plant.as_deref().map(parse_plant).transpose()?;
     let scenario = read_scenario(args, &symbols, plant.as_ref(), &mut *machine)?;
     let spec = plant.or_else(|| scenario.plant.clone());
-    let model = spec.as_ref().map(PlantSpec::build).transpose().map_err(|error| Error::msg(error.message))?;
+    let model = spec
+        .as_ref()
+        .map(PlantSpec::build)
+        .transpose()
+        .map_err(|error| Error::msg(error.message))?;
     let scan_ms = args.scan_time.or(scenario.scan_ms).or(scan_ms).unwrap_or(1);
 
-    let server = Server::listen(&addresses, access).with_context(|| format!("cannot listen on {address}"))?;
+    let server = Server::listen(&addresses, access)
+        .with_context(|| format!("cannot listen on {address}"))?;
     let stopper = server.stopper();
     ctrlc::set_handler(move || stopper.stop()).context("cannot wait for Ctrl-C")?;
     announce(server.address(), access)?;
     let course = Course::new(&scenario, model, scan_ms);
     let outcome = server.run(&mut machine, course, scan_ms, &mut tell)?;
-    report::print(&scenario.origin, spec.as_ref().map(|spec| spec.name), &outcome, true);
+    let plant = spec.as_ref().map(|spec| spec.name);
+    report::print(&scenario.origin, plant, &outcome, true, args.messages.quiet);
     Ok(())
 }
 
@@ -44,12 +52,14 @@ fn resolve(text: &str, access: Access) -> Result<Vec<SocketAddr>> {
     if !text.contains(':') {
         bail!("--serve {text}: the port is missing: 127.0.0.1:1502");
     }
-    let addresses =
-        text.to_socket_addrs().with_context(|| format!("--serve {text} is no address such as 127.0.0.1:1502"))?;
+    let addresses = text
+        .to_socket_addrs()
+        .with_context(|| format!("--serve {text} is no address such as 127.0.0.1:1502"))?;
     let addresses: Vec<_> = addresses.collect();
     if let Some(address) = addresses.iter().find(|&&address| !access.allows_listening_at(address)) {
         bail!(
-            "--serve {text}: other computers reach {}, and Modbus has no passwords: whoever reaches the port is answered. \
+            "--serve {text}: other computers reach {}, and Modbus has no passwords: whoever \
+                reaches the port is answered. \
              With --serve-anywhere they may read, with --serve-writes too they may write",
             address.ip()
         );
@@ -71,7 +81,10 @@ fn announce(address: SocketAddr, access: Access) -> Result<()> {
         _ => {}
     }
     let mut out = stdout();
-    writeln!(out, "Modbus TCP on {address}: {whom}; look: uno200 --tcp {here} status; end: Ctrl-C")?;
+    writeln!(
+        out,
+        "Modbus TCP on {address}: {whom}; look: uno200 --tcp {here} status; end: Ctrl-C"
+    )?;
     Ok(out.flush()?)
 }
 

@@ -103,7 +103,8 @@ impl Machine for Fake {
     }
 
     fn pin_levels(&mut self) -> u8 {
-        let logical = (0..6).map(|bit| (self.memory.get(&format!("Q0.{bit}")) as u8) << bit).sum::<u8>();
+        let logical =
+            (0..6).map(|bit| (self.memory.get(&format!("Q0.{bit}")) as u8) << bit).sum::<u8>();
         logical ^ self.invert_outputs
     }
 

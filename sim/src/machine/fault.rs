@@ -1,4 +1,5 @@
-//! Faults with their place in the program, the same for every machine. The words are [`Fault::message`]'s.
+//! Faults with their place in the program, the same for every machine. The words are
+//! [`Fault::message`]'s.
 
 use plc_vm::Fault;
 
@@ -11,7 +12,10 @@ pub(super) fn text(fault: Fault, limit_ms: u64, place_of: &PlaceOf) -> String {
             format!("{}: {} (offset {:#06x})", fault.message(), error.fault.message(), error.at)
         }
         (Fault::Watchdog { at }, _) => {
-            format!("watchdog: the scan took longer than {limit_ms} ms; the program was {}", place(at, place_of))
+            format!(
+                "watchdog: the scan took longer than {limit_ms} ms; the program was {}",
+                place(at, place_of)
+            )
         }
         (_, Some(at)) => format!("{} {}", fault.message(), place(at, place_of)),
         (_, None) => fault.message().to_string(),
@@ -20,5 +24,9 @@ pub(super) fn text(fault: Fault, limit_ms: u64, place_of: &PlaceOf) -> String {
 
 fn place(at: u16, place_of: &PlaceOf) -> String {
     let place = place_of(at);
-    if place.is_empty() { format!("at offset {at:#06x} of the image") } else { format!("at {place}") }
+    if place.is_empty() {
+        format!("at offset {at:#06x} of the image")
+    } else {
+        format!("at {place}")
+    }
 }

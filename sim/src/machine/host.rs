@@ -1,11 +1,11 @@
-//! The host machine: the reference interpreter with virtual time. What the board does, without a board.
+//! The host machine: the reference interpreter with virtual time. What the board does, without a
+//! board.
 
 mod link;
 
 use std::collections::VecDeque;
-use std::time::Instant;
 
-use plc_isa::{LogicStack, Plan};
+use plc_isa::{I_START, LogicStack, Plan};
 use plc_link::ScanTimes;
 use plc_vm::{Environment, Fault, Inputs, Memory, Plc, SCAN_MS_MAX};
 
@@ -31,11 +31,26 @@ struct VirtualTime {
     scan_bytes: u64,
     /// On the serial line.
     sent: Vec<u8>,
-    /// What this scan notes for the status of instructions: data address of the first entry, and their number.
+    /// What this scan notes for the status of instructions: data address of the first entry, and
+    /// their number.
     noted: (u16, u8),
+    /// By offset in the image, whether an instruction there was executed; where nobody asks, empty.
+    executed: Vec<bool>,
+    /// Whether somebody wants to know of every instruction: one question is quicker than two.
+    is_watched: bool,
 }
 
 impl VirtualTime {
+    #[cold]
+    fn watch(&mut self, at: u16, stack: LogicStack, memory: &mut Memory) {
+        if self.noted.1 > 0 {
+            plc_link::status::executed(memory, self.noted, at, stack);
+        }
+        if let Some(executed) = self.executed.get_mut(usize::from(at)) {
+            *executed = true;
+        }
+    }
+
     fn is_at_ceiling(&self) -> bool {
         self.scan_bytes > u64::from(SCAN_MS_MAX) * LOOPED_BYTES_PER_MS
     }
@@ -61,11 +76,14 @@ impl Environment for VirtualTime {
     }
 
     fn executed(&mut self, at: u16, stack: LogicStack, memory: &mut Memory) {
-        if self.noted.1 > 0 {
-            plc_link::status::executed(memory, self.noted, at, stack);
+        if self.is_watched {
+            self.watch(at, stack, memory);
         }
     }
 }
+
+/// Microseconds that pass. Only differences are used.
+pub type Clock = Box<dyn FnMut() -> u64 + Send>;
 
 /// A PLC on the host.
 pub struct Host {
@@ -79,10 +97,13 @@ pub struct Host {
     incoming: VecDeque<(u64, u8)>,
     place_of: PlaceOf,
     line: Line,
+    /// What the lengths of scans are measured with.
+    clock: Clock,
 }
 
 impl Host {
-    /// A PLC that is switched on with this image and goes to RUN. A bad image leaves it in STOP with a fault.
+    /// A PLC that is switched on with this image and goes to RUN. A bad image leaves it in STOP
+    /// with a fault.
     pub fn new(image: Vec<u8>, place_of: PlaceOf) -> Host {
         let mut host = Host {
             plc: Plc::new(),
@@ -94,6 +115,7 @@ impl Host {
             incoming: VecDeque::new(),
             place_of,
             line: Line::new(image.clone()),
+            clock: Box::new(|| 0),
         };
         if host.plc.load(&mut host.memory, image).is_ok() {
             // Nothing is kept here, so each start is that of a new board.
@@ -112,6 +134,23 @@ impl Host {
         self.clock_start_ms = clock_ms;
     }
 
+    /// Has the lengths of scans measured, for those who ask how long they are. Without a clock each
+    /// counts as a microsecond.
+    pub fn measure_with(&mut self, clock: Clock) {
+        self.clock = clock;
+    }
+
+    /// Has every instruction that is executed noted from now on.
+    pub fn note_executed(&mut self) {
+        self.time.executed = vec![false; usize::from(u16::MAX) + 1];
+    }
+
+    /// By offset in the image, whether the instruction there was executed. Empty if it was not
+    /// noted.
+    pub fn executed(&self) -> &[bool] {
+        &self.time.executed
+    }
+
     /// STOP to RUN, as by a command from outside.
     pub fn run(&mut self) {
         if self.plc.mode() == plc_vm::Mode::Stop && self.plc.run() {
@@ -121,16 +160,18 @@ impl Host {
 
     /// RUN to STOP, as by a command from outside.
     pub fn stop(&mut self) {
-        let runs = self.plc.mode() == plc_vm::Mode::Run;
         self.plc.stop();
-        if runs {
-            self.end_run();
-        }
+        self.end_run();
     }
 
     /// The data memory, for comparisons with other machines.
     pub fn memory(&self) -> &Memory {
         &self.memory
+    }
+
+    /// The inputs that the next scan takes.
+    pub fn inputs(&self) -> &Inputs {
+        &self.inputs
     }
 
     /// The fault that stopped the PLC.
@@ -155,11 +196,23 @@ impl Host {
 
     /// Gives the PLC the characters that have come in by now.
     fn pass_characters(&mut self, now_ms: u64) {
-        while let Some(&(at_ms, character)) = self.incoming.front().filter(|(at_ms, _)| *at_ms <= now_ms) {
+        while let Some(&(at_ms, character)) =
+            self.incoming.front().filter(|(at_ms, _)| *at_ms <= now_ms)
+        {
             self.incoming.pop_front();
             let at_ms = self.clock_ms(at_ms);
             self.plc.receive(&mut self.memory, character, at_ms);
         }
+    }
+
+    /// Takes the inputs into the process image. Those that the board does not have stay as they
+    /// are.
+    fn take_inputs(&mut self) {
+        let [_, others @ ..] = &mut self.inputs.digital;
+        for (address, byte) in (I_START + 1..).zip(others) {
+            *byte = self.memory.byte(address);
+        }
+        self.inputs.write(&mut self.memory);
     }
 
     fn watchdog_ms(&self) -> u64 {
@@ -182,7 +235,7 @@ impl Points for Host {
 
     fn byte(&self, address: u16) -> u8 {
         match (input_byte(address), output_byte(address)) {
-            (Some(byte), _) => self.inputs.digital[byte],
+            (Some(0), _) => self.inputs.digital[0],
             (_, Some(byte)) => self.plc.outputs(&self.memory, byte),
             _ => self.memory.byte(address),
         }
@@ -194,8 +247,8 @@ impl Points for Host {
 
     fn set(&mut self, address: u16, mask: u8, value: u8) -> Result<(), MachineError> {
         match input_byte(address) {
-            Some(byte) => self.inputs.digital[byte] = replaced(self.inputs.digital[byte], mask, value),
-            None => self.memory.set_byte(address, replaced(self.memory.byte(address), mask, value)),
+            Some(0) => self.inputs.digital[0] = replaced(self.inputs.digital[0], mask, value),
+            _ => self.memory.set_byte(address, replaced(self.memory.byte(address), mask, value)),
         }
         Ok(())
     }
@@ -214,7 +267,9 @@ impl Machine for Host {
         match *action {
             Action::Pulse(pulse) => self.pulses.begin(pulse),
             Action::SetClock { at_ms, time } => self.plc.set_clock(time, self.clock_ms(at_ms)),
-            Action::Receive { at_ms, ref bytes } => self.incoming.extend((at_ms..).zip(bytes.iter().copied())),
+            Action::Receive { at_ms, ref bytes } => {
+                self.incoming.extend((at_ms..).zip(bytes.iter().copied()))
+            }
         }
         Ok(())
     }
@@ -228,16 +283,17 @@ impl Machine for Host {
         self.pass_edges(now_ms);
         self.pass_characters(now_ms);
         (self.time.looped_bytes, self.time.scan_bytes) = (0, 0);
-        self.inputs.write(&mut self.memory);
+        self.take_inputs();
         self.line.link.forces.apply(&mut self.memory);
-        let start = Instant::now();
+        let start_us = (self.clock)();
         let runs = self.plc.mode() == plc_vm::Mode::Run;
         // In STOP no scan notes anything, and that is the answer.
         self.time.noted = self.line.link.status_entries();
+        self.time.is_watched = self.time.noted.1 > 0 || !self.time.executed.is_empty();
         self.plc.execute(&mut self.memory, &mut self.time);
         self.line.link.forces.apply(&mut self.memory);
         if runs {
-            self.end_scan(start);
+            self.end_scan(start_us);
         }
     }
 
@@ -250,7 +306,8 @@ impl Machine for Host {
 
     fn fault(&self) -> Option<String> {
         // WDR may have put the end off until it could be put off no longer.
-        let limit_ms = if self.time.is_at_ceiling() { SCAN_MS_MAX.into() } else { self.watchdog_ms() };
+        let limit_ms =
+            if self.time.is_at_ceiling() { SCAN_MS_MAX.into() } else { self.watchdog_ms() };
         self.plc.fault().map(|kind| fault::text(kind, limit_ms, &self.place_of))
     }
 

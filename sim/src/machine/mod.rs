@@ -1,4 +1,5 @@
-//! The trait of a PLC that can be run scan by scan. Everything above it - scenarios, plants, traces - works on any.
+//! The trait of a PLC that can be run scan by scan. Everything above it - scenarios, plants, traces
+//! - works on any.
 
 use std::fmt;
 
@@ -14,7 +15,7 @@ mod points;
 pub mod uno;
 
 /// Says where an offset of the image is in the source; empty when that is not known.
-pub type PlaceOf = Box<dyn Fn(u16) -> String>;
+pub type PlaceOf = Box<dyn Fn(u16) -> String + Send>;
 
 /// Whether the program is executed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,8 +26,8 @@ pub enum Mode {
     Stop,
 }
 
-/// Why an operand cannot be read or written: the program has no memory for it, or the machine cannot reach it.
-/// Holds a sentence without full stop.
+/// Why an operand cannot be read or written: the program has no memory for it, or the machine
+/// cannot reach it. Holds a sentence without full stop.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MachineError(pub String);
 
@@ -40,25 +41,27 @@ impl std::error::Error for MachineError {}
 
 /// A PLC that can be run scan by scan. Times are in milliseconds since the start of the first scan.
 ///
-/// Whether an operand can be read depends on the program alone, never on time: an operand that could be read once can be
-/// read after every scan. The driver relies on it and tries all operands before the first scan. What can be read can be
-/// written, except inputs that a board has no pin for: they are always 0 there.
+/// Whether an operand can be read depends on the program alone, never on time: an operand that
+/// could be read once can be read after every scan. The driver relies on it and tries all operands
+/// before the first scan. What can be read can be written, except inputs that a board has no pin
+/// for: they are always 0 there.
 pub trait Machine {
     /// Sets an operand.
     ///
-    /// Inputs and analog inputs are signals of the plant: they stay until changed, and the program sees them from the
-    /// next scan on. A digital input is given as a logical value; where the program inverts it, the pin gets the other
-    /// level. Everything else is memory, written once, before the next scan. Words take -32768..=65535,
-    /// reals their bits.
+    /// Inputs and analog inputs are signals of the plant: they stay until changed, and the program
+    /// sees them from the next scan on. A digital input is given as a logical value; where the
+    /// program inverts it, the pin gets the other level. Everything else is memory, written once,
+    /// before the next scan. Words take -32768..=65535, reals their bits.
     fn write(&mut self, operand: Operand, value: i32) -> Result<(), MachineError>;
 
-    /// The value of an operand as the last scan left it; words and double words signed, of a real its bits.
+    /// The value of an operand as the last scan left it; words and double words signed, of a real
+    /// its bits.
     ///
     /// I and Q are the physical points as logical values, in STOP Q is 0.
     fn read(&mut self, operand: Operand) -> Result<i32, MachineError>;
 
-    /// Something happens that is no value. What begins before the next scan has done so when that scan starts; pulses and
-    /// characters that are to begin later wait for their time.
+    /// Something happens that is no value. What begins before the next scan has done so when that
+    /// scan starts; pulses and characters that are to begin later wait for their time.
     fn act(&mut self, action: &Action) -> Result<(), MachineError> {
         let what = match action {
             Action::Pulse(_) => "pulses",
@@ -75,12 +78,12 @@ pub trait Machine {
 
     /// Runs one scan that starts at `now_ms`. Times never decrease.
     ///
-    /// A machine with a clock of its own runs on to this time before; only then it takes what was written since the last
-    /// call.
+    /// A machine with a clock of its own runs on to this time before; only then it takes what was
+    /// written since the last call.
     fn scan(&mut self, now_ms: u64);
 
-    /// Runs all scans that start before this time: what is read then is what the last of them left. Times never decrease,
-    /// also between this and [`scan`](Machine::scan).
+    /// Runs all scans that start before this time: what is read then is what the last of them left.
+    /// Times never decrease, also between this and [`scan`](Machine::scan).
     ///
     /// Only a machine with a clock of its own runs scans that nobody asked for.
     fn catch_up(&mut self, until_ms: u64) {
@@ -93,9 +96,11 @@ pub trait Machine {
     /// The fault that stopped the PLC, in words and with its place in the program.
     fn fault(&self) -> Option<String>;
 
-    /// The electrical levels of the output pins D8 to D13: bit n is the pin of Q0.n, inversion applied. 1 is high.
+    /// The electrical levels of the output pins D8 to D13: bit n is the pin of Q0.n, inversion
+    /// applied. 1 is high.
     fn pin_levels(&mut self) -> u8;
 
-    /// Drives the pin of input I0.`input` (0..=5) electrically: `true` is high. It stays until changed.
+    /// Drives the pin of input I0.`input` (0..=5) electrically: `true` is high. It stays until
+    /// changed.
     fn drive_pin(&mut self, input: u8, high: bool);
 }

@@ -1,7 +1,10 @@
-//! Operands as they are seen from outside, the same for every machine: which bytes hold a value, and where they are.
+//! Operands as they are seen from outside, the same for every machine: which bytes hold a value,
+//! and where they are.
 
 use awl_asm::Address;
-use plc_isa::{AC_START, AQW_START, AnalogInput, Area, Bit, HC0, HC3, Plan, Q_START, counter_bit, timer_bit};
+use plc_isa::{
+    AC_START, AQW_START, AnalogInput, Area, Bit, HC0, HC3, Plan, Q_START, counter_bit, timer_bit,
+};
 use plc_vm::Inputs;
 
 use super::MachineError;
@@ -29,7 +32,7 @@ pub(super) trait Points {
 }
 
 /// Where a value is.
-enum Place {
+enum DataPlace {
     Bit(Bit),
     Byte(u16),
     /// High byte and low byte: V bytes are planned one by one.
@@ -38,9 +41,9 @@ enum Place {
     Double([u16; 4]),
 }
 
-impl Place {
+impl DataPlace {
     /// Where the operand is; `None` where the program has no memory for it.
-    fn of(operand: Operand, plan: Option<&Plan<Vec<u8>>>) -> Option<Place> {
+    fn of(operand: Operand, plan: Option<&Plan<Vec<u8>>>) -> Option<DataPlace> {
         // Without a program there is still the bit page.
         let byte_address = |area: Area, byte: u16| match area.page_start() {
             Some(_) if area == Area::L => None,
@@ -48,42 +51,46 @@ impl Place {
             _ => plan?.byte_address(area, byte),
         };
         Some(match operand {
-            Operand::TimerCurrent(number) => Place::word(plan?.timer_slot(number)?.address),
-            Operand::CounterCurrent(number) => Place::word(plan?.counter_slot(number)?.address),
+            Operand::TimerCurrent(number) => DataPlace::word(plan?.timer_slot(number)?.address),
+            Operand::CounterCurrent(number) => DataPlace::word(plan?.counter_slot(number)?.address),
             Operand::At(Address::Bit { area, byte, bit }) => {
-                Place::Bit(Bit { address: byte_address(area, byte)?, bit })
+                DataPlace::Bit(Bit { address: byte_address(area, byte)?, bit })
             }
-            Operand::At(Address::Byte { area, byte }) => Place::Byte(byte_address(area, byte)?),
+            Operand::At(Address::Byte { area, byte }) => DataPlace::Byte(byte_address(area, byte)?),
             Operand::At(Address::Word { area, byte }) => {
-                Place::Word(byte_address(area, byte)?, byte_address(area, byte + 1)?)
+                DataPlace::Word(byte_address(area, byte)?, byte_address(area, byte + 1)?)
             }
-            Operand::At(Address::Timer(number)) => Place::Bit(timer_bit(number)),
-            Operand::At(Address::Counter(number)) => Place::Bit(counter_bit(number)),
-            Operand::At(Address::Analog(input)) => Place::word(input.address()),
-            Operand::At(Address::AnalogOutput(channel)) => Place::word(AQW_START + 2 * u16::from(channel)),
-            Operand::At(Address::Double { area, byte }) | Operand::Real(Address::Double { area, byte }) => {
-                Place::Double([
-                    byte_address(area, byte)?,
-                    byte_address(area, byte + 1)?,
-                    byte_address(area, byte + 2)?,
-                    byte_address(area, byte + 3)?,
-                ])
+            Operand::At(Address::Timer(number)) => DataPlace::Bit(timer_bit(number)),
+            Operand::At(Address::Counter(number)) => DataPlace::Bit(counter_bit(number)),
+            Operand::At(Address::Analog(input)) => DataPlace::word(input.address()),
+            Operand::At(Address::AnalogOutput(channel)) => {
+                DataPlace::word(AQW_START + 2 * u16::from(channel))
             }
-            Operand::At(Address::Accumulator(number)) | Operand::Real(Address::Accumulator(number)) => {
-                Place::double(AC_START + 4 * u16::from(number))
+            Operand::At(Address::Double { area, byte })
+            | Operand::Real(Address::Double { area, byte }) => DataPlace::Double([
+                byte_address(area, byte)?,
+                byte_address(area, byte + 1)?,
+                byte_address(area, byte + 2)?,
+                byte_address(area, byte + 3)?,
+            ]),
+            Operand::At(Address::Accumulator(number))
+            | Operand::Real(Address::Accumulator(number)) => {
+                DataPlace::double(AC_START + 4 * u16::from(number))
             }
-            Operand::At(Address::HighSpeedCounter(0)) => Place::double(HC0),
-            Operand::At(Address::HighSpeedCounter(3)) => Place::double(HC3),
-            Operand::At(Address::HighSpeedCounter(_)) | Operand::Real(_) | Operand::Duty(_) => return None,
+            Operand::At(Address::HighSpeedCounter(0)) => DataPlace::double(HC0),
+            Operand::At(Address::HighSpeedCounter(3)) => DataPlace::double(HC3),
+            Operand::At(Address::HighSpeedCounter(_)) | Operand::Real(_) | Operand::Duty(_) => {
+                return None;
+            }
         })
     }
 
-    fn word(address: u16) -> Place {
-        Place::Word(address, address + 1)
+    fn word(address: u16) -> DataPlace {
+        DataPlace::Word(address, address + 1)
     }
 
-    fn double(address: u16) -> Place {
-        Place::Double([0, 1, 2, 3].map(|offset| address + offset))
+    fn double(address: u16) -> DataPlace {
+        DataPlace::Double([0, 1, 2, 3].map(|offset| address + offset))
     }
 }
 
@@ -96,33 +103,45 @@ pub(super) fn read(points: &impl Points, operand: Operand) -> Result<i32, Machin
         let is_on = points.byte(Q_START) >> (output & 7) & 1 != 0;
         return Ok(points.duty(output).map_or(if is_on { DUTY_MAX } else { 0 }, i32::from));
     }
-    let place = Place::of(operand, points.plan()).ok_or_else(|| not_used(operand))?;
+    let place = DataPlace::of(operand, points.plan()).ok_or_else(|| not_used(operand))?;
     Ok(match place {
-        Place::Bit(Bit { address, bit }) => i32::from(points.byte(address) >> bit & 1),
-        Place::Byte(address) => i32::from(points.byte(address)),
-        Place::Word(high, low) => i32::from(i16::from_be_bytes([points.byte(high), points.byte(low)])),
-        Place::Double(addresses) => i32::from_be_bytes(addresses.map(|address| points.byte(address))),
+        DataPlace::Bit(Bit { address, bit }) => i32::from(points.byte(address) >> bit & 1),
+        DataPlace::Byte(address) => i32::from(points.byte(address)),
+        DataPlace::Word(high, low) => {
+            i32::from(i16::from_be_bytes([points.byte(high), points.byte(low)]))
+        }
+        DataPlace::Double(addresses) => {
+            i32::from_be_bytes(addresses.map(|address| points.byte(address)))
+        }
     })
 }
 
 /// Sets an operand.
-pub(super) fn write(points: &mut impl Points, operand: Operand, value: i32) -> Result<(), MachineError> {
+pub(super) fn write(
+    points: &mut impl Points,
+    operand: Operand,
+    value: i32,
+) -> Result<(), MachineError> {
     if let Operand::At(Address::Analog(input)) = operand {
         set_analog(points.inputs_mut(), input, value as u16);
         return Ok(());
     }
     if let Operand::Duty(_) = operand {
-        return Err(MachineError(format!("{operand} is what the program makes of it: it cannot be set")));
+        return Err(MachineError(format!(
+            "{operand} is what the program makes of it: it cannot be set"
+        )));
     }
-    match Place::of(operand, points.plan()).ok_or_else(|| not_used(operand))? {
-        Place::Bit(Bit { address, bit }) => points.set(address, 1 << bit, u8::from(value != 0) << bit),
-        Place::Byte(address) => points.set(address, 0xFF, value as u8),
-        Place::Word(high_address, low_address) => {
+    match DataPlace::of(operand, points.plan()).ok_or_else(|| not_used(operand))? {
+        DataPlace::Bit(Bit { address, bit }) => {
+            points.set(address, 1 << bit, u8::from(value != 0) << bit)
+        }
+        DataPlace::Byte(address) => points.set(address, 0xFF, value as u8),
+        DataPlace::Word(high_address, low_address) => {
             let [high, low] = (value as u16).to_be_bytes();
             points.set(high_address, 0xFF, high)?;
             points.set(low_address, 0xFF, low)
         }
-        Place::Double(addresses) => addresses
+        DataPlace::Double(addresses) => addresses
             .into_iter()
             .zip(value.to_be_bytes())
             .try_for_each(|(address, byte)| points.set(address, 0xFF, byte)),
@@ -131,7 +150,8 @@ pub(super) fn write(points: &mut impl Points, operand: Operand, value: i32) -> R
 
 /// Drives the pin of an input: the program sees the other level where it inverts it.
 pub(super) fn drive_pin(points: &mut impl Points, input: u8, high: bool) {
-    let (bit, inverted) = (input & 7, points.plan().map_or(0, |plan| plan.header.settings.invert_inputs));
+    let (bit, inverted) =
+        (input & 7, points.plan().map_or(0, |plan| plan.header.settings.invert_inputs));
     let logical = u8::from(high) << bit ^ inverted & 1 << bit;
     let [byte, ..] = &mut points.inputs_mut().digital;
     *byte = replaced(*byte, 1 << bit, logical);
@@ -142,10 +162,11 @@ pub(super) fn replaced(old: u8, mask: u8, value: u8) -> u8 {
     old & !mask | value & mask
 }
 
-/// The number of an input byte, for an address of the inputs' process image.
-pub(super) fn input_byte(address: u16) -> Option<usize> {
+/// The number of an input byte, for an address of the inputs' process image. IB0 comes in with each
+/// scan; the others are memory, which nothing writes but programs, forces and whoever sets them.
+pub(super) fn input_byte(address: u16) -> Option<u8> {
     match Area::of_page_address(address)? {
-        (Area::I, byte) => Some(usize::from(byte)),
+        (Area::I, byte) => Some(byte as u8),
         _ => None,
     }
 }
@@ -173,7 +194,9 @@ fn set_analog(inputs: &mut Inputs, input: AnalogInput, value: u16) {
         AnalogInput::Scaled(channel) => (channel, AnalogInput::unscale(value), value),
     };
     let channel = usize::from(channel);
-    if let (Some(raw_place), Some(scaled_place)) = (inputs.raw.get_mut(channel), inputs.scaled.get_mut(channel)) {
+    if let (Some(raw_place), Some(scaled_place)) =
+        (inputs.raw.get_mut(channel), inputs.scaled.get_mut(channel))
+    {
         (*raw_place, *scaled_place) = (raw, scaled);
     }
 }
@@ -189,5 +212,20 @@ fn not_used(operand: Operand) -> MachineError {
             "{address} is another place in every unit of the program: copy it to V or M to see it"
         ));
     }
-    MachineError(format!("the program does not use {}", operand.address()))
+    let name = operand.address();
+    MachineError(match operand {
+        Operand::TimerCurrent(_) => {
+            format!(
+                "{name} has no current value: the program neither starts {name} nor reads it as a \
+                    word"
+            )
+        }
+        Operand::CounterCurrent(_) => {
+            format!(
+                "{name} has no current value: the program neither counts {name} nor reads it as a \
+                    word"
+            )
+        }
+        _ => format!("the program does not use {name}"),
+    })
 }

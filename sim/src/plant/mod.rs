@@ -1,4 +1,5 @@
-//! Plants: models of what is wired to the PLC. They see output pins and drive inputs as simulated time passes.
+//! Plants: models of what is wired to the PLC. They see output pins and drive inputs as simulated
+//! time passes.
 //!
 //! A new plant is a type that implements [`Plant`], and a row in [`PLANTS`]:
 //!
@@ -26,6 +27,10 @@
 //!     fn report(&self) -> Report {
 //!         self.report.clone()
 //!     }
+//!
+//!     fn view(&self) -> Vec<(&'static str, f64)> {
+//!         Vec::new()
+//!     }
 //! }
 //! ```
 
@@ -45,21 +50,27 @@ pub use spec::{PlantSpec, parse_spec};
 
 /// A plant model.
 ///
-/// Before every scan the driver calls [`step`](Plant::step) with the pins as the last scan left them; they have been so
-/// since the last call. How much time lies between two calls is the length of a scan, but a plant must work for any:
-/// it keeps the time of the last call and moves by the difference. The first call has time 0.
-pub trait Plant {
+/// Before every scan the driver calls [`step`](Plant::step) with the pins as the last scan left
+/// them; they have been so since the last call. How much time lies between two calls is the length
+/// of a scan, but a plant must work for any: it keeps the time of the last call and moves by the
+/// difference. The first call has time 0.
+pub trait Plant: Send {
     /// The inputs that this plant drives, the same at all times. A scenario cannot set them.
     fn signals(&self) -> Signals;
 
     /// Goes on to `now_ms`.
     ///
-    /// `outputs`: electrical levels of the pins D8 to D13, bit n is the pin of Q0.n, 1 is high. A plant behind an
-    /// inverting relay board reacts to low pins. `inputs` keeps what was set in earlier calls.
+    /// `outputs`: electrical levels of the pins D8 to D13, bit n is the pin of Q0.n, 1 is high. A
+    /// plant after an inverting relay board reacts to low pins. `inputs` keeps what was set in
+    /// earlier calls.
     fn step(&mut self, now_ms: u64, outputs: u8, inputs: &mut Inputs);
 
     /// What has happened so far.
     fn report(&self) -> Report;
+
+    /// How it is now, for a picture: names of its parts with positions from 0 to 1000, counts, or 0
+    /// and 1.
+    fn view(&self) -> Vec<(&'static str, f64)>;
 }
 
 /// A choice of inputs.
@@ -75,13 +86,15 @@ impl Signals {
     /// Whether setting this operand would change one of the inputs.
     pub fn contain(self, operand: Operand) -> bool {
         match operand {
-            Operand::At(Address::Bit { area: Area::I, byte: 0, bit }) => self.digital >> bit & 1 == 1,
-            Operand::At(Address::Byte { area: Area::I, byte: 0 } | Address::Word { area: Area::I, byte: 0 }) => {
-                self.digital != 0
+            Operand::At(Address::Bit { area: Area::I, byte: 0, bit }) => {
+                self.digital >> bit & 1 == 1
             }
-            Operand::At(Address::Analog(AnalogInput::Scaled(channel) | AnalogInput::Raw(channel))) => {
-                self.analog >> channel & 1 == 1
-            }
+            Operand::At(
+                Address::Byte { area: Area::I, byte: 0 } | Address::Word { area: Area::I, byte: 0 },
+            ) => self.digital != 0,
+            Operand::At(Address::Analog(
+                AnalogInput::Scaled(channel) | AnalogInput::Raw(channel),
+            )) => self.analog >> channel & 1 == 1,
             _ => false,
         }
     }

@@ -1,4 +1,5 @@
-//! Options of a plant, `key=value`: typed access with limits. Where they were written is not known here.
+//! Options of a plant, `key=value`: typed access with limits. Where they were written is not known
+//! here.
 
 use std::fmt::Display;
 use std::ops::RangeInclusive;
@@ -30,7 +31,12 @@ impl Options {
     }
 
     /// A whole number.
-    pub fn number(&self, key: &'static str, range: RangeInclusive<u64>, default: u64) -> Result<u64, OptionError> {
+    pub fn number(
+        &self,
+        key: &'static str,
+        range: RangeInclusive<u64>,
+        default: u64,
+    ) -> Result<u64, OptionError> {
         let Some(text) = self.text(key) else { return Ok(default) };
         match text.parse() {
             Ok(number) if range.contains(&number) => Ok(number),
@@ -39,7 +45,12 @@ impl Options {
     }
 
     /// A number with up to three decimals, in thousandths. The range is in thousandths too.
-    pub fn thousandths(&self, key: &'static str, range: RangeInclusive<u64>, default: u64) -> Result<u64, OptionError> {
+    pub fn thousandths(
+        &self,
+        key: &'static str,
+        range: RangeInclusive<u64>,
+        default: u64,
+    ) -> Result<u64, OptionError> {
         let Some(text) = self.text(key) else { return Ok(default) };
         let error = || out_of_range(key, text, range.start() / 1000, range.end() / 1000);
         let (whole, fraction) = text.split_once('.').unwrap_or((text, "0"));
@@ -47,19 +58,32 @@ impl Options {
         if !is_digits(whole) || !is_digits(fraction) || fraction.len() > 3 {
             return Err(error());
         }
-        format!("{whole}{fraction:0<3}").parse().ok().filter(|number| range.contains(number)).ok_or_else(error)
+        format!("{whole}{fraction:0<3}")
+            .parse()
+            .ok()
+            .filter(|number| range.contains(number))
+            .ok_or_else(error)
     }
 
     /// One of several words, by its place in `words`.
-    pub fn word(&self, key: &'static str, words: &[&str], default: usize) -> Result<usize, OptionError> {
+    pub fn word(
+        &self,
+        key: &'static str,
+        words: &[&str],
+        default: usize,
+    ) -> Result<usize, OptionError> {
         let Some(text) = self.text(key) else { return Ok(default) };
-        words
-            .iter()
-            .position(|word| *word == text)
-            .ok_or_else(|| OptionError::new(key, format!("{key}={text}: {key} is one of {}", words.join(", "))))
+        words.iter().position(|word| *word == text).ok_or_else(|| {
+            OptionError::new(key, format!("{key}={text}: {key} is one of {}", words.join(", ")))
+        })
     }
 }
 
-fn out_of_range(key: &'static str, text: &str, low: impl Display, high: impl Display) -> OptionError {
+fn out_of_range(
+    key: &'static str,
+    text: &str,
+    low: impl Display,
+    high: impl Display,
+) -> OptionError {
     OptionError::new(key, format!("{key}={text}: {key} takes a number from {low} to {high}"))
 }

@@ -1,4 +1,5 @@
-//! A plant as it is asked for: `station1 noise=2 seed=1`, in a scenario and on the command line alike.
+//! A plant as it is asked for: `station1 noise=2 seed=1`, in a scenario and on the command line
+//! alike.
 
 use std::ops::Range;
 
@@ -29,7 +30,9 @@ impl PlantSpec {
 pub fn parse_spec(text: &str) -> Result<PlantSpec, Vec<Problem>> {
     let mut words = words_of(text);
     let Some((name_span, name)) = words.next() else {
-        return Err(vec![Problem::new(0..1, "the name of a plant is missing").help(list_of_plants())]);
+        return Err(vec![
+            Problem::new(0..1, "the name of a plant is missing").help(list_of_plants()),
+        ]);
     };
     let Some(kind) = PLANTS.iter().find(|kind| kind.name == name) else {
         return Err(vec![unknown_plant(name_span, name)]);
@@ -62,7 +65,11 @@ fn words_of(text: &str) -> impl Iterator<Item = (Range<usize>, &str)> {
     })
 }
 
-fn option<'a>(kind: &PlantKind, word: &'a str, earlier: &Options) -> Result<(&'a str, &'a str), Problem> {
+fn option<'a>(
+    kind: &PlantKind,
+    word: &'a str,
+    earlier: &Options,
+) -> Result<(&'a str, &'a str), Problem> {
     let (key, value) = word.split_once('=').unwrap_or((word, ""));
     if !kind.options.iter().any(|(known, _)| *known == key) {
         let suggestion = nearest(key, kind.options.iter().map(|(known, _)| *known));
@@ -80,7 +87,9 @@ fn option<'a>(kind: &PlantKind, word: &'a str, earlier: &Options) -> Result<(&'a
 
 fn unknown_plant(span: Range<usize>, name: &str) -> Problem {
     let suggestion = nearest(name, PLANTS.iter().map(|kind| kind.name));
-    Problem::new(span, format!("there is no plant {name}")).help(list_of_plants()).did_you_mean(suggestion)
+    Problem::new(span, format!("there is no plant {name}"))
+        .help(list_of_plants())
+        .did_you_mean(suggestion)
 }
 
 fn list_of_plants() -> String {
@@ -110,7 +119,7 @@ mod tests {
         let problems = parse_spec("station1 nois=2 seed=1 seed=2 button").unwrap_err();
         let spans: Vec<_> = problems.iter().map(|problem| problem.span.clone()).collect();
         assert_eq!(spans, [9..15, 23..29, 30..36]);
-        assert_eq!(problems[0].help.as_deref(), Some("did you mean `noise`?"));
+        assert_eq!(problems[0].suggestion.as_deref(), Some("noise"));
         let value = parse_spec("tank level=101").unwrap_err();
         assert_eq!(value[0].span, 5..14);
         assert!(value[0].message.contains("0 to 100"), "{}", value[0].message);

@@ -1,7 +1,9 @@
-//! The measuring station: a platform lifts workpieces to a height sensor, a piston sorts them onto two ramps.
+//! The measuring station: a platform lifts workpieces to a height sensor, a piston sorts them onto
+//! two ramps.
 //!
-//! It stands behind a relay board with inverted inputs: a low pin energises, and with all pins high nothing moves.
-//! The model knows times and end positions, no forces: what the program should do with a height is not known here.
+//! It is after a relay board with inverted inputs: a low pin energises, and with all pins high
+//! nothing moves. The model knows times and end positions, no forces: what the program should do
+//! with a height is not known here.
 
 use super::options::{OptionError, Options};
 use super::{Inputs, Plant, PlantKind, Report, Signals};
@@ -59,6 +61,10 @@ impl Actuator {
             true => (self.position_ms + dt_ms).min(self.travel_ms),
             false => self.position_ms.saturating_sub(dt_ms),
         };
+    }
+
+    fn permille(&self) -> f64 {
+        permille(self.position_ms, self.travel_ms)
     }
 
     fn is_in(&self) -> bool {
@@ -131,7 +137,8 @@ pub struct Station1 {
 impl Station1 {
     /// The station with these options.
     pub fn new(options: &Options) -> Result<Station1, OptionError> {
-        let heights = options.text("pieces").map_or_else(|| Ok(DEFAULT_PIECES.to_vec()), parse_pieces)?;
+        let heights =
+            options.text("pieces").map_or_else(|| Ok(DEFAULT_PIECES.to_vec()), parse_pieces)?;
         let start = options.word("start", &["bottom", "middle", "top"], 0)?;
         let mut platform = Actuator::new(TRAVEL_MS);
         platform.position_ms = TRAVEL_MS * start as u64 / 2;
@@ -167,7 +174,8 @@ impl Station1 {
         self.piston.move_by(dt_ms, relays.push);
         self.sensor.move_by(dt_ms, relays.sensor);
         self.holder.move_by(dt_ms, relays.hold);
-        let is_moving = relays.lower && !self.platform.is_in() || relays.raise && !self.platform.is_out();
+        let is_moving =
+            relays.lower && !self.platform.is_in() || relays.raise && !self.platform.is_out();
         let conflict = if relays.lower && relays.raise {
             Some("conflict: platform lowered and raised at once")
         } else if is_moving && !self.piston.is_in() && relays.push {
@@ -217,10 +225,14 @@ impl Station1 {
         } else if self.platform.is_in() {
             self.on_platform = None;
             self.rejected += 1;
-            self.report.event(now_ms, format!("piece {number} ({height}) pushed onto ramp 1: rejected"));
+            self.report
+                .event(now_ms, format!("piece {number} ({height}) pushed onto ramp 1: rejected"));
         } else {
             self.conflicts += 1;
-            self.report.event(now_ms, format!("conflict: piece {number} ({height}) pushed between the ramps"));
+            self.report.event(
+                now_ms,
+                format!("conflict: piece {number} ({height}) pushed between the ramps"),
+            );
         }
     }
 
@@ -229,8 +241,12 @@ impl Station1 {
         if let Some(occupant) = &self.on_ramp2 {
             self.collisions += 1;
             let other = occupant.piece.number;
-            self.report
-                .event(now_ms, format!("collision: piece {number} ({height}) pushed against piece {other} on ramp 2"));
+            self.report.event(
+                now_ms,
+                format!(
+                    "collision: piece {number} ({height}) pushed against piece {other} on ramp 2"
+                ),
+            );
             return;
         }
         self.good += 1;
@@ -312,6 +328,32 @@ impl Plant for Station1 {
         ];
         Report { summary, ..self.report.clone() }
     }
+
+    fn view(&self) -> Vec<(&'static str, f64)> {
+        let height = |piece: Option<Piece>| f64::from(piece.map_or(0, |piece| piece.height));
+        vec![
+            ("lift", self.platform.permille()),
+            ("piston", self.piston.permille()),
+            ("sensor", self.sensor.permille()),
+            ("holder", self.holder.permille()),
+            ("piece", height(self.on_platform)),
+            ("ramp2", height(self.on_ramp2.as_ref().map(|occupant| occupant.piece))),
+            (
+                "slid",
+                self.on_ramp2.as_ref().map_or(0.0, |occupant| permille(occupant.slid_ms, SLIDE_MS)),
+            ),
+            ("fed", self.fed as f64),
+            ("good", self.good as f64),
+            ("rejected", self.rejected as f64),
+            ("collisions", self.collisions as f64),
+            ("conflicts", self.conflicts as f64),
+        ]
+    }
+}
+
+/// How far something is, from 0 to 1000.
+fn permille(done_ms: u64, whole_ms: u64) -> f64 {
+    1000.0 * done_ms.min(whole_ms) as f64 / whole_ms as f64
 }
 
 fn parse_pieces(text: &str) -> Result<Vec<u16>, OptionError> {
@@ -331,7 +373,10 @@ fn parse_piece(text: &str) -> Result<u16, OptionError> {
             Ok(counts @ 0..=1023) => Ok(counts),
             _ => Err(OptionError::new(
                 "pieces",
-                format!("{text:?} is no piece: write small, normal, large or a height in counts, 0 to 1023"),
+                format!(
+                    "{text:?} is no piece: write small, normal, large or a height in counts, 0 to \
+                        1023"
+                ),
             )),
         },
     }

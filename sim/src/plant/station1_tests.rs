@@ -19,7 +19,12 @@ struct Bench {
 impl Bench {
     fn new(options: &str) -> Bench {
         let spec: PlantSpec = parse_spec(&format!("station1 {options}")).unwrap();
-        let mut bench = Bench { plant: spec.build().unwrap(), inputs: Inputs::default(), now_ms: 0, step_ms: 1 };
+        let mut bench = Bench {
+            plant: spec.build().unwrap(),
+            inputs: Inputs::default(),
+            now_ms: 0,
+            step_ms: 1,
+        };
         bench.plant.step(0, 0xFF, &mut bench.inputs);
         bench
     }
@@ -172,7 +177,8 @@ fn occupied_ramp_is_a_collision() {
 fn button_is_pressed_some_seconds_after_a_good_piece() {
     let mut bench = Bench::new("pieces=207");
     bring_up_and_push(&mut bench, 0);
-    let arrived = bench.report().events.iter().find(|event| event.text.contains("good")).unwrap().time_ms;
+    let arrived =
+        bench.report().events.iter().find(|event| event.text.contains("good")).unwrap().time_ms;
     while !bench.input(5) {
         bench.energise(HOLD, 1);
         assert!(bench.now_ms < arrived + 10_000);

@@ -1,7 +1,8 @@
-//! A tank: a pump fills it, consumers draw from it, its level comes as an analog value. No pressure, no pipes.
+//! A tank: a pump fills it, consumers draw from it, its level comes as an analog value. No
+//! pressure, no pipes.
 //!
-//! Q0.0 runs the pump, Q0.1 opens the outlet where `outlet=valve`; a high pin is on. The level is on analog
-//! input 0, 0 to 100 % as AIW0 = 0 to 32000, and I0.0 is the overflow switch.
+//! Q0.0 runs the pump, Q0.1 opens the outlet where `outlet=valve`; a high pin is on. The level is
+//! on analog input 0, 0 to 100 % as AIW0 = 0 to 32000, and I0.0 is the overflow switch.
 
 use super::options::{OptionError, Options};
 use super::{Inputs, Plant, PlantKind, Report, Signals};
@@ -37,6 +38,7 @@ pub struct Tank {
     inflow: i64,
     outflow: i64,
     has_valve: bool,
+    is_outlet_open: bool,
     variation_percent: i64,
     demand_percent: i64,
     demand_until_ms: u64,
@@ -61,11 +63,13 @@ impl Tank {
             level: options.thousandths("level", 0..=100_000, 30_000)? as i64 * (PERCENT / 1000),
             inflow: options.thousandths("inflow", 0..=100_000, 5_000)? as i64,
             outflow: options.thousandths("outflow", 0..=100_000, 2_000)? as i64,
+            is_outlet_open: false,
             has_valve: options.word("outlet", &["constant", "valve"], 0)? == 1,
             variation_percent: options.number("variation", 0..=100, 20)? as i64,
             demand_percent: 100,
             demand_until_ms: 0,
-            overflow: options.thousandths("overflow", 1_000..=100_000, 95_000)? as i64 * (PERCENT / 1000),
+            overflow: options.thousandths("overflow", 1_000..=100_000, 95_000)? as i64
+                * (PERCENT / 1000),
             noise: options.number("noise", 0..=50, 0)? as i32,
             random: fastrand::Rng::with_seed(options.number("seed", 0..=u64::MAX, 1)?),
             is_pumping: false,
@@ -79,15 +83,17 @@ impl Tank {
         })
     }
 
-    fn flow(&mut self, dt_ms: u64, is_pumping: bool, is_outlet_open: bool) {
+    fn flow(&mut self, dt_ms: u64, is_pumping: bool) {
         let inflow = if is_pumping { self.inflow } else { 0 };
-        let outflow = if is_outlet_open { self.outflow * self.demand_percent / 100 } else { 0 };
+        let outflow =
+            if self.is_outlet_open { self.outflow * self.demand_percent / 100 } else { 0 };
         self.level = (self.level + (inflow - outflow) * dt_ms as i64).clamp(0, FULL);
     }
 
     fn change_demand(&mut self, now_ms: u64) {
         if now_ms >= self.demand_until_ms {
-            self.demand_percent = 100 + self.random.i64(-self.variation_percent..=self.variation_percent);
+            self.demand_percent =
+                100 + self.random.i64(-self.variation_percent..=self.variation_percent);
             self.demand_until_ms = now_ms + DEMAND_MS;
         }
     }
@@ -143,8 +149,8 @@ impl Plant for Tank {
         let dt_ms = now_ms - self.last_ms;
         self.last_ms = now_ms;
         let is_pumping = outputs & 0b01 != 0;
-        let is_outlet_open = !self.has_valve || outputs & 0b10 != 0;
-        self.flow(dt_ms, is_pumping, is_outlet_open);
+        self.is_outlet_open = !self.has_valve || outputs & 0b10 != 0;
+        self.flow(dt_ms, is_pumping);
         self.change_demand(now_ms);
         self.watch_pump(now_ms, is_pumping);
         self.watch_level(now_ms);
@@ -165,6 +171,15 @@ impl Plant for Tank {
         ];
         Report { summary, ..self.report.clone() }
     }
+
+    fn view(&self) -> Vec<(&'static str, f64)> {
+        vec![
+            ("level", (self.level / (PERCENT / 10)) as f64),
+            ("overflow", (self.overflow / (PERCENT / 10)) as f64),
+            ("pump", f64::from(u8::from(self.is_pumping))),
+            ("outlet", f64::from(u8::from(self.is_outlet_open))),
+        ]
+    }
 }
 
 #[cfg(test)]
@@ -173,7 +188,8 @@ mod tests {
     use crate::plant::parse_spec;
 
     fn run(options: &str, steps: &[(u64, u8)]) -> (Box<dyn Plant>, Inputs) {
-        let mut plant = parse_spec(&format!("tank variation=0 {options}")).unwrap().build().unwrap();
+        let mut plant =
+            parse_spec(&format!("tank variation=0 {options}")).unwrap().build().unwrap();
         let mut inputs = Inputs::default();
         plant.step(0, 0, &mut inputs);
         for &(now_ms, outputs) in steps {
@@ -199,7 +215,8 @@ mod tests {
 
     #[test]
     fn overflow_and_empty_are_told_once_each() {
-        let (plant, inputs) = run("level=90 inflow=10 outflow=0 overflow=95", &[(400, 1), (500, 1), (5_000, 1)]);
+        let (plant, inputs) =
+            run("level=90 inflow=10 outflow=0 overflow=95", &[(400, 1), (500, 1), (5_000, 1)]);
         assert!(inputs.digital(0));
         assert_eq!(plant.report().count("overflows"), Some(1));
         assert_eq!(plant.report().events.last().map(|event| event.time_ms), Some(500));
@@ -221,7 +238,8 @@ mod tests {
 
     #[test]
     fn demand_varies_within_its_limits() {
-        let mut plant = parse_spec("tank level=100 outflow=1 variation=50 seed=3").unwrap().build().unwrap();
+        let mut plant =
+            parse_spec("tank level=100 outflow=1 variation=50 seed=3").unwrap().build().unwrap();
         let mut inputs = Inputs::default();
         let mut drops = Vec::new();
         let mut last = 0;

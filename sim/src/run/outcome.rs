@@ -4,28 +4,26 @@ use std::fmt;
 
 use crate::machine::Machine;
 use crate::plant::Report;
-use crate::scenario::{Expectation, SentExpectation};
 use crate::time::format_time;
 use crate::trace::Trace;
 
-/// An expectation that was not met.
+/// Something expected that was not so.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Failure {
     /// Line of the scenario, from 1.
     pub line: usize,
-    /// The time of the expectation in milliseconds.
+    /// The time of the expectation in milliseconds; of a rule the start of the scan that broke it.
     pub at_ms: u64,
-    /// The operand as written.
-    pub name: String,
-    /// The value that would have been right, or the range of such values.
-    pub expected: String,
-    /// The value it had.
-    pub got: String,
+    /// What was expected, and what was there instead.
+    pub text: String,
+    /// When it was as expected, where that can be said.
+    pub note: Option<String>,
 }
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "at {} expected {} = {}, got {}", format_time(self.at_ms), self.name, self.expected, self.got)
+        write!(f, "at {} {}", format_time(self.at_ms), self.text)?;
+        self.note.as_ref().map_or(Ok(()), |note| write!(f, "; {note}"))
     }
 }
 
@@ -45,9 +43,9 @@ pub struct Outcome {
     pub scans: u64,
     /// Time from scan start to scan start in milliseconds.
     pub scan_ms: u64,
-    /// Expectations that were met.
+    /// Expectations that were met, rules that held and the condition that ended the run included.
     pub met: usize,
-    /// Expectations that were not met, in order of time.
+    /// What was not as expected, in the order in which it was found out.
     pub failures: Vec<Failure>,
     /// Expectations that the run was too short for.
     pub unreached_expectations: usize,
@@ -64,41 +62,12 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    pub(super) fn new(scans: u64, scan_ms: u64, trace: Trace) -> Outcome {
-        Outcome { scans, scan_ms, trace, ..Outcome::default() }
+    pub(super) fn new(scan_ms: u64, trace: Trace) -> Outcome {
+        Outcome { scan_ms, trace, ..Outcome::default() }
     }
 
-    pub(super) fn compare(&mut self, expectation: &Expectation, got: i32) {
-        if expectation.is_met_by(got) {
-            self.met += 1;
-            return;
-        }
-        let text = |value| expectation.operand.text(value);
-        let (low, high) = (*expectation.values.start(), *expectation.values.end());
-        let expected = if low == high { text(low) } else { format!("{}..{}", text(low), text(high)) };
-        let name = expectation.name.clone();
-        self.failures.push(Failure {
-            line: expectation.line,
-            at_ms: expectation.at_ms,
-            name,
-            expected,
-            got: text(got),
-        });
-    }
-
-    pub(super) fn compare_sent(&mut self, expectation: &SentExpectation, got: &[u8]) {
-        if expectation.bytes == got {
-            self.met += 1;
-            return;
-        }
-        let text = |bytes: &[u8]| format!("\"{}\"", bytes.escape_ascii());
-        self.failures.push(Failure {
-            line: expectation.line,
-            at_ms: expectation.at_ms,
-            name: "sent".to_string(),
-            expected: text(&expectation.bytes),
-            got: text(got),
-        });
+    pub(super) fn fail(&mut self, line: usize, at_ms: u64, text: String) {
+        self.failures.push(Failure { line, at_ms, text, note: None });
     }
 
     pub(super) fn stopped_at(&mut self, now_ms: u64, machine: &(impl Machine + ?Sized)) {

@@ -1,136 +1,134 @@
 //! Reads scenario text, line by line. Finds all errors, runs nothing.
 
 mod actions;
+mod conditions;
+mod piece;
+mod sign;
+mod values;
+mod whole;
 
 use std::ops::Range;
 
-use super::value::{meant, parse_value, parse_values, text_bytes};
-use super::{Context, Expectation, SCAN_MS, Scenario, Setting};
-use crate::action::Action;
-use crate::operand::Operand;
-use crate::plant::{self, Signals};
-use crate::problem::{Problem, Problems};
-use crate::time::{format_time, parse_time};
-use awl_asm::Address;
+use super::words::{self, names};
+use super::{Asked, Context, Reading, Repeat, SCAN_MS, Scenario};
+use crate::plant;
+use crate::problem::Problem;
+use crate::time::{TIME_MAX_MS, parse_time};
 use awl_asm::suggest::nearest;
+use piece::Piece;
 
-const STATEMENTS: [&str; 4] = ["scan", "at", "run", "plant"];
-/// Most characters of a string.
-const TEXT_MAX: usize = 254;
-/// What can follow a time beside an assignment.
-const WORDS_AFTER_TIME: [&str; 4] = ["expect", "pulse", "clock", "receive"];
+const STATEMENTS: [&str; 9] = names(&words::STATEMENTS);
 
-/// A stretch of the text that knows where it stands.
+const LIST_FORM: &str = "write operand = value, several separated by commas";
+
+/// When something is expected, and in which line that is written.
 #[derive(Clone, Copy)]
-struct Piece<'a> {
-    text: &'a str,
-    start: usize,
+struct Moment {
+    line: usize,
+    at_ms: u64,
+    /// 0: at once.
+    within_ms: u64,
 }
 
-impl<'a> Piece<'a> {
-    fn span(self) -> Range<usize> {
-        // At least one column wide, so that there is a caret where something is missing.
-        self.start..self.start + self.text.len().max(1)
-    }
-
-    fn part(self, range: Range<usize>) -> Piece<'a> {
-        Piece { text: &self.text[range.clone()], start: self.start + range.start }
-    }
-
-    fn trim(self) -> Piece<'a> {
-        let text = self.text.trim_start();
-        let start = self.start + self.text.len() - text.len();
-        Piece { text: text.trim_end(), start }
-    }
-
-    /// The first word, and what follows it; both without blanks around.
-    fn split_word(self) -> (Piece<'a>, Piece<'a>) {
-        let piece = self.trim();
-        let end = piece.text.find(char::is_whitespace).unwrap_or(piece.text.len());
-        (piece.part(0..end), piece.part(end..piece.text.len()).trim())
-    }
-
-    /// Cuts at a character that does not stand in quotes.
-    fn split(self, separator: char) -> Vec<Piece<'a>> {
-        let mut pieces = Vec::new();
-        let (mut from, mut quoted) = (0, false);
-        for (at, c) in self.text.char_indices() {
-            quoted ^= c == '"';
-            if c == separator && !quoted {
-                pieces.push(self.part(from..at).trim());
-                from = at + c.len_utf8();
-            }
-        }
-        pieces.push(self.part(from..self.text.len()).trim());
-        pieces
-    }
+/// When a value is set.
+#[derive(Clone, Copy)]
+struct Times {
+    at_ms: u64,
+    repeat: Option<Repeat>,
 }
 
 struct Parser<'a, 'c> {
     context: Context<'c>,
+    refuses: &'c dyn Fn(Asked) -> Option<String>,
     scenario: Scenario,
     problems: Vec<Problem>,
-    /// Where the names of set operands and of expected ones stand, parallel to those lists.
+    /// Where the names of set operands are, and what is expected, parallel to those lists.
     setting_spans: Vec<Range<usize>>,
     expectation_spans: Vec<Range<usize>>,
+    rule_spans: Vec<Range<usize>>,
     action_spans: Vec<Range<usize>>,
+    operand_spans: Vec<Range<usize>>,
     seen: Vec<&'a str>,
+    /// The time of the last `at`, from which relative times count.
+    at_ms: u64,
 }
 
-pub(super) fn parse(origin: &str, text: &str, context: Context<'_>) -> Result<Scenario, Problems> {
+pub(super) fn read<'c>(
+    origin: &str,
+    text: &str,
+    context: Context<'c>,
+    refuses: &'c dyn Fn(Asked) -> Option<String>,
+) -> Reading {
     let mut parser = Parser {
         context,
+        refuses,
         scenario: Scenario { origin: origin.to_string(), ..Scenario::default() },
         problems: Vec::new(),
         setting_spans: Vec::new(),
         expectation_spans: Vec::new(),
+        rule_spans: Vec::new(),
         action_spans: Vec::new(),
+        operand_spans: Vec::new(),
         seen: Vec::new(),
+        at_ms: 0,
     };
-    let mut start = 0;
-    for (index, line) in text.split_inclusive('\n').enumerate() {
-        let code = Piece { text: without_comment(line), start }.trim();
+    for (number, code) in (1..).zip(lines(text)) {
         match code.text.find("//") {
             // Programs and scenarios lie side by side, but their comments differ.
-            Some(at) if !code.text[..at].contains('"') => {
-                parser.fail(code.part(at..code.text.len()), "a comment in a scenario begins with #");
+            Some(at) if !code.text[..at].contains('"') && !is_program(code) => {
+                parser.fail(code.behind(at), "a comment in a scenario begins with #");
             }
             _ if code.text.is_empty() => {}
-            _ => parser.statement(code, index + 1),
+            _ => parser.statement(code, number),
         }
-        start += line.len();
     }
     parser.check_times();
     parser.check_plant_inputs();
-    let mut list = parser.problems;
-    if list.is_empty() {
-        return Ok(parser.scenario);
-    }
-    list.sort_by_key(|problem| problem.span.start);
-    Err(Problems { origin: origin.to_string(), text: text.to_string(), list })
+    parser.problems.sort_by_key(|problem| problem.span.start);
+    let Parser { scenario, problems, operand_spans: operands, .. } = parser;
+    Reading { scenario, problems, operands }
 }
 
-/// The line up to a `#` that neither stands in quotes nor belongs to a number such as `16#FF`.
+/// The files that a scenario names as its program, before anything else of it can be read.
+pub fn program_of(text: &str) -> Vec<&str> {
+    let line = lines(text).find(|line| is_program(*line));
+    line.map_or_else(Vec::new, |line| files(line.split_word().1))
+}
+
+fn files(list: Piece<'_>) -> Vec<&str> {
+    list.split(',').into_iter().map(|file| unquoted(file.text)).collect()
+}
+
+fn is_program(line: Piece<'_>) -> bool {
+    line.split_word().0.is("program")
+}
+
+fn unquoted(text: &str) -> &str {
+    text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text)
+}
+
+/// The lines without comments and without blanks around.
+fn lines(text: &str) -> impl Iterator<Item = Piece<'_>> {
+    let mut start = 0;
+    text.split_inclusive('\n').map(move |line| {
+        let piece = Piece { text: without_comment(line), start }.trim();
+        start += line.len();
+        piece
+    })
+}
+
+/// The line up to a `#` that neither is in quotes nor belongs to a number such as `16#FF`.
 fn without_comment(line: &str) -> &str {
-    let mut quoted = false;
-    for (at, c) in line.char_indices() {
-        quoted ^= c == '"';
-        if c == '#' && !quoted && !is_radix_sign(line, at) {
-            return &line[..at];
-        }
-    }
-    line
+    let piece = Piece { text: line, start: 0 };
+    let comment = piece.unquoted().find(|&(at, c)| c == '#' && !is_radix_sign(line, at));
+    comment.map_or(line, |(at, _)| &line[..at])
 }
 
-/// Any digits before and a digit behind make it a number, so that `8#7` is an error and not an 8 with a comment.
+/// Any digits before and a digit after make it a number, so that `8#7` is an error and not an 8
+/// with a comment.
 fn is_radix_sign(line: &str, at: usize) -> bool {
-    line[..at].ends_with(|c: char| c.is_ascii_digit()) && line[at + 1..].starts_with(|c: char| c.is_ascii_hexdigit())
-}
-
-/// `sent "text"`, which is not the symbol `sent`.
-fn is_sent(piece: Piece<'_>) -> bool {
-    let (word, rest) = piece.split_word();
-    word.text.eq_ignore_ascii_case("sent") && !rest.text.starts_with('=')
+    line[..at].ends_with(|c: char| c.is_ascii_digit())
+        && line[at + 1..].starts_with(|c: char| c.is_ascii_hexdigit())
 }
 
 impl<'a> Parser<'a, '_> {
@@ -138,34 +136,70 @@ impl<'a> Parser<'a, '_> {
         self.problems.push(Problem::new(piece.span(), message));
     }
 
+    /// What the machine does not do is an error at its place.
+    fn ask(&mut self, piece: Piece<'_>, asked: Asked) {
+        if let Some(why) = (self.refuses)(asked) {
+            self.fail(piece, why);
+        }
+    }
+
     fn statement(&mut self, code: Piece<'a>, line: usize) {
         let (word, rest) = code.split_word();
         match word.text.to_ascii_lowercase().as_str() {
             "at" => self.at(rest, line),
+            "every" => self.every(rest),
+            "always" => self.rule(rest, true, line),
+            "never" => self.rule(rest, false, line),
             "scan" if self.is_first(word) => self.scan(rest),
             "run" if self.is_first(word) => self.scenario.run_ms = self.lone_time(rest),
+            "until" if self.is_first(word) => self.until(rest, line),
             "plant" if self.is_first(word) => self.plant(rest),
-            "scan" | "run" | "plant" => {}
+            "program" if self.is_first(word) => self.program(rest),
+            "scan" | "run" | "until" | "plant" | "program" => {}
             _ => {
                 let problem = Problem::new(word.span(), format!("unknown statement {}", word.text));
-                let problem = problem.help("the statements are scan, at, run and plant");
+                let [first @ .., last] = STATEMENTS;
+                let help = format!("the statements are {} and {last}", first.join(", "));
+                let is_time = word.text.starts_with(|c: char| c.is_ascii_digit());
+                let problem = problem.help(match is_time {
+                    true => format!("a time is after at: at {} {}", word.text, rest.text),
+                    false => help,
+                });
                 self.problems.push(problem.did_you_mean(nearest(word.text, STATEMENTS)));
             }
         }
     }
 
+    /// `run` and `until` both say how the run ends: one of them is enough.
     fn is_first(&mut self, word: Piece<'a>) -> bool {
-        let is_first = !self.seen.iter().any(|seen| seen.eq_ignore_ascii_case(word.text));
-        if !is_first {
-            self.fail(word, format!("there is a {} statement above already", word.text));
+        let is_end = |word: &str| ["run", "until"].iter().any(|end| word.eq_ignore_ascii_case(end));
+        let is_same = |seen: &&&str| word.is(seen) || (is_end(seen) && is_end(word.text));
+        let before = self.seen.iter().find(is_same).copied();
+        if let Some(before) = before {
+            let article = if before.eq_ignore_ascii_case("until") { "an" } else { "a" };
+            self.fail(word, format!("there is {article} {before} statement above already"));
         }
         self.seen.push(word.text);
-        is_first
+        before.is_none()
+    }
+
+    fn program(&mut self, rest: Piece<'a>) {
+        if rest.text.is_empty() {
+            return self.fail(rest, "a file is missing: write program motor.awl");
+        }
+        let files = files(rest);
+        if files.contains(&"") {
+            return self.fail(rest, "a file is missing: write program main.awl, sbr0.awl");
+        }
+        self.scenario.program = files.into_iter().map(str::to_string).collect();
     }
 
     fn scan(&mut self, rest: Piece<'a>) {
         match self.lone_time(rest) {
-            Some(ms) if SCAN_MS.contains(&ms) => self.scenario.scan_ms = Some(ms),
+            Some(ms) if SCAN_MS.contains(&ms) => {
+                self.ask(rest, Asked::Scan(ms));
+                self.scenario.scan_ms = Some(ms);
+            }
             Some(_) => self.fail(rest, format!("{}: a scan takes 1ms to 60s", rest.text)),
             None => {}
         }
@@ -188,9 +222,23 @@ impl<'a> Parser<'a, '_> {
         parse_time(word.text).map_err(|message| self.fail(word, message)).ok()
     }
 
+    /// The time of an `at`; `+500ms` is counted from the `at` before.
+    fn at_time(&mut self, word: Piece<'a>) -> Option<u64> {
+        let Some(relative) = word.text.strip_prefix('+') else { return self.time(word) };
+        let at_ms = self.at_ms + self.time(word.behind(word.text.len() - relative.len()))?;
+        if at_ms > TIME_MAX_MS {
+            self.fail(word, "this is later than 1000 days (86400000s)");
+            return None;
+        }
+        Some(at_ms)
+    }
+
     fn plant(&mut self, rest: Piece<'a>) {
         match plant::parse_spec(rest.text) {
-            Ok(spec) => self.scenario.plant = Some(spec),
+            Ok(spec) => {
+                self.ask(rest, Asked::Plant);
+                self.scenario.plant = Some(spec);
+            }
             Err(problems) => self.problems.extend(problems.into_iter().map(|mut problem| {
                 problem.span = problem.span.start + rest.start..problem.span.end + rest.start;
                 problem
@@ -201,149 +249,22 @@ impl<'a> Parser<'a, '_> {
     fn at(&mut self, rest: Piece<'a>, line: usize) {
         let (time_word, rest) = rest.split_word();
         // With a wrong time the rest is still checked; the time is reported already.
-        let at_ms = self.time(time_word).unwrap_or(0);
+        let at_ms = self.at_time(time_word).unwrap_or(0);
+        self.at_ms = at_ms;
         let (word, after_word) = rest.split_word();
+        let moment = Moment { line, at_ms, within_ms: 0 };
+        let asked = [("pulse", Asked::Pulse), ("clock", Asked::Clock), ("receive", Asked::Receive)];
+        if let Some((_, asked)) = asked.into_iter().find(|(name, _)| word.is(name)) {
+            self.ask(word, asked);
+        }
         match word.text.to_ascii_lowercase().as_str() {
-            "pulse" => return self.pulse(after_word, at_ms),
-            "clock" => return self.clock(after_word, at_ms),
-            "receive" => return self.receive(after_word, at_ms),
-            _ => {}
-        }
-        let is_expect = word.text.eq_ignore_ascii_case("expect");
-        let list = if is_expect { after_word } else { rest };
-        if list.text.is_empty() {
-            let what = if is_expect { "expected" } else { "set" };
-            return self.fail(list, format!("nothing is {what} here: write operand = value"));
-        }
-        for piece in list.split(',') {
-            if is_expect && is_sent(piece) {
-                self.sent(piece.split_word().1, at_ms, line);
-            } else {
-                self.assignment(piece, is_expect, at_ms, line);
-            }
-        }
-    }
-
-    fn assignment(&mut self, piece: Piece<'a>, is_expect: bool, at_ms: u64, line: usize) {
-        let sides = piece.split('=');
-        let [name, value] = sides[..] else {
-            let (first, rest) = piece.split_word();
-            let misspelt = if rest.text.is_empty() { None } else { nearest(first.text, WORDS_AFTER_TIME) };
-            if let Some(word) = misspelt {
-                let problem = Problem::new(first.span(), format!("unknown word {}", first.text));
-                return self.problems.push(problem.did_you_mean(Some(word)));
-            }
-            return self.fail(piece, "write operand = value, several separated by commas");
-        };
-        let Some(operand) = self.operand(name) else { return };
-        if value.text.starts_with('"') {
-            return self.text(name, value, operand, is_expect, at_ms, line);
-        }
-        let operand = meant(value.text, operand);
-        if is_expect {
-            match parse_values(value.text, operand) {
-                Ok(values) => {
-                    let name_text = name.text.to_string();
-                    self.expectation_spans.push(name.span());
-                    self.scenario.expectations.push(Expectation { line, at_ms, operand, name: name_text, values });
-                }
-                Err(message) => self.fail(value, message),
-            }
-        } else {
-            match parse_value(value.text, operand) {
-                Ok(value) => {
-                    self.setting_spans.push(name.span());
-                    self.scenario.settings.push(Setting { at_ms, operand, value });
-                }
-                Err(message) if value.text.contains("..") => {
-                    self.problems.push(Problem::new(value.span(), message).help("only expect takes a range"));
-                }
-                Err(message) => self.fail(value, message),
-            }
-        }
-    }
-
-    /// A string is its length and its characters, byte by byte from the operand on.
-    fn text(&mut self, name: Piece<'a>, value: Piece<'a>, operand: Operand, is_expect: bool, at_ms: u64, line: usize) {
-        let Operand::At(Address::Byte { area, byte }) = operand else {
-            return self.fail(value, format!("a string stands in bytes, and {operand} is none"));
-        };
-        let bytes = match text_bytes(value.text) {
-            Ok(bytes) if bytes.len() <= TEXT_MAX => bytes,
-            Ok(_) => return self.fail(value, format!("a string has at most {TEXT_MAX} characters")),
-            Err(message) => return self.fail(value, message),
-        };
-        for (number, value) in (byte..).zip([bytes.len() as u8].into_iter().chain(bytes)) {
-            let operand = Operand::At(Address::Byte { area, byte: number });
-            if let Err(error) = (self.context.has_operand)(operand) {
-                return self.fail(name, error.to_string());
-            }
-            let value = i32::from(value);
-            if is_expect {
-                self.expectation_spans.push(name.span());
-                let name = if number == byte { name.text.to_string() } else { operand.to_string() };
-                self.scenario.expectations.push(Expectation { line, at_ms, operand, name, values: value..=value });
-            } else {
-                self.setting_spans.push(name.span());
-                self.scenario.settings.push(Setting { at_ms, operand, value });
-            }
-        }
-    }
-
-    fn operand(&mut self, name: Piece<'a>) -> Option<Operand> {
-        if name.text.is_empty() {
-            self.fail(name, "an operand is missing");
-            return None;
-        }
-        match Operand::parse(name.text, self.context.symbols) {
-            Ok(operand) => match (self.context.has_operand)(operand) {
-                Ok(()) => return Some(operand),
-                Err(error) => self.fail(name, error.to_string()),
-            },
-            Err(error) => {
-                let (first, rest) = name.split_word();
-                let misspelt = if rest.text.is_empty() { None } else { nearest(first.text, WORDS_AFTER_TIME) };
-                let problem = match misspelt {
-                    Some(word) => {
-                        Problem::new(first.span(), format!("unknown word {}", first.text)).did_you_mean(Some(word))
-                    }
-                    None => Problem::new(name.span(), error.message).did_you_mean(error.suggestion),
-                };
-                self.problems.push(problem);
-            }
-        }
-        None
-    }
-
-    /// An expectation that the run ends before would never be checked.
-    fn check_times(&mut self) {
-        let Some(run_ms) = self.scenario.run_ms else { return };
-        for (expectation, span) in self.scenario.expectations.iter().zip(&self.expectation_spans) {
-            if expectation.at_ms > run_ms {
-                let (at, run) = (format_time(expectation.at_ms), format_time(run_ms));
-                let message = format!("expected at {at}, but the run ends at {run}: this would never be checked");
-                self.problems.push(Problem::new(span.clone(), message));
-            }
-        }
-    }
-
-    /// Two drivers on one input would make its value a matter of luck.
-    fn check_plant_inputs(&mut self) {
-        let Some(spec) = self.context.plant.or(self.scenario.plant.as_ref()) else { return };
-        let Ok(plant) = spec.build() else { return };
-        let signals: Signals = plant.signals();
-        for (setting, span) in self.scenario.settings.iter().zip(&self.setting_spans) {
-            if signals.contain(setting.operand) {
-                let message = format!("{} is driven by the plant {}", setting.operand, spec.name);
-                self.problems.push(Problem::new(span.clone(), message).help("drive the inputs that the plant leaves"));
-            }
-        }
-        for (action, span) in self.scenario.actions.iter().zip(&self.action_spans) {
-            let Action::Pulse(pulse) = action else { continue };
-            if (0..8).any(|input| signals.digital >> input & 1 == 1 && pulse.drives(input)) {
-                let message = format!("inputs of these pulses are driven by the plant {}", spec.name);
-                self.problems.push(Problem::new(span.clone(), message).help("drive the inputs that the plant leaves"));
-            }
+            "pulse" => self.pulse(after_word, at_ms),
+            "clock" => self.clock(after_word, at_ms),
+            "receive" => self.receive(after_word, at_ms),
+            "expect" => self.expect(after_word, moment),
+            // With a sign behind it, it is a symbol.
+            "within" if !after_word.text.starts_with('=') => self.within(after_word, moment),
+            _ => self.assignments(rest, Times { at_ms, repeat: None }),
         }
     }
 }

@@ -1,7 +1,11 @@
-//! Values of a scenario: decimal, `16#`, `2#`, reals, and ranges of them. Which operand they are for decides the limits.
+//! Values of a scenario: decimal, `16#`, `2#`, reals, `TRUE` and the like, and ranges of them.
+//! Which operand they are for decides the limits.
 
 use std::ops::RangeInclusive;
 
+use awl_asm::Address;
+
+use super::condition::{Relation, is_order};
 use crate::operand::{Operand, Width, real_of, value_of};
 
 /// Largest bit pattern of a word.
@@ -14,12 +18,27 @@ pub(super) fn meant(text: &str, operand: Operand) -> Operand {
     operand.as_real().filter(|_| is_real).unwrap_or(operand)
 }
 
+/// Words for the values of bits.
+const BIT_WORDS: [(&str, i32); 4] = [("TRUE", 1), ("FALSE", 0), ("ON", 1), ("OFF", 0)];
+
+const BIT_VALUES: &str = "write 0 or 1, TRUE or FALSE, ON or OFF";
+
 /// Reads a value for an operand; words and double words come out signed, of reals the bits.
 pub(super) fn parse_value(text: &str, operand: Operand) -> Result<i32, String> {
+    if let Some((word, value)) = BIT_WORDS.iter().find(|(word, _)| word.eq_ignore_ascii_case(text))
+    {
+        return match operand.width() {
+            Width::Bit => Ok(*value),
+            _ => Err(format!("{word} is for bits, and {operand} is none")),
+        };
+    }
     if operand.width() == Width::Real && !text.contains('#') {
         return parse_real(text).map(value_of);
     }
-    let number = parse_number(text)?;
+    let number = parse_number(text).map_err(|message| match operand.width() {
+        Width::Bit if !text.is_empty() => format!("{text} is no value of a bit: {BIT_VALUES}"),
+        _ => message,
+    })?;
     let range = operand.range();
     if operand.width() == Width::Double
         && let Ok(pattern) = u32::try_from(number)
@@ -28,7 +47,9 @@ pub(super) fn parse_value(text: &str, operand: Operand) -> Result<i32, String> {
     }
     match i32::try_from(number) {
         Ok(value) if range.contains(&value) => Ok(value),
-        Ok(value) if is_signed_word(&range) && (0..=PATTERN_MAX).contains(&value) => Ok(value - PATTERN_MAX - 1),
+        Ok(value) if is_signed_word(&range) && (0..=PATTERN_MAX).contains(&value) => {
+            Ok(value - PATTERN_MAX - 1)
+        }
         _ => Err(out_of_range(text, operand, &range)),
     }
 }
@@ -48,6 +69,29 @@ pub(super) fn parse_values(text: &str, operand: Operand) -> Result<RangeInclusiv
     Ok(low..=high)
 }
 
+/// Reads what an operand is compared with: only what is equal or not can be compared with a range.
+pub(super) fn parse_compared(
+    text: &str,
+    relation: Relation,
+    operand: Operand,
+) -> Result<RangeInclusive<i32>, String> {
+    if !is_order(relation) {
+        return parse_values(text, operand);
+    }
+    let sign = relation.symbol();
+    if text.contains("..") {
+        return Err(format!("{text} is a range, and {sign} takes one value"));
+    }
+    let value = parse_value(text, operand)?;
+    // A bit pattern stands for a negative number, which nobody who writes > 40000 means.
+    let is_integer = operand.width() != Width::Real && operand.width() != Width::Bit;
+    if is_integer && parse_number(text)? > i64::from(*operand.range().end()) {
+        let (low, high) = operand.range().into_inner();
+        return Err(format!("{sign} {text} is out of range: {operand} is {low} to {high}"));
+    }
+    Ok(value..=value)
+}
+
 fn is_ascending(operand: Operand, low: i32, high: i32) -> bool {
     match operand.width() {
         Width::Real => real_of(low) <= real_of(high),
@@ -62,14 +106,26 @@ fn is_signed_word(range: &RangeInclusive<i32>) -> bool {
 fn out_of_range(text: &str, operand: Operand, range: &RangeInclusive<i32>) -> String {
     let (low, high) = (range.start(), range.end());
     match operand.width() {
+        Width::Bit if matches!(operand, Operand::At(Address::Timer(_) | Address::Counter(_))) => {
+            format!(
+                "{text} is out of range: {operand} is a bit, 0 or 1; the current value is \
+                 {operand}.cv"
+            )
+        }
         Width::Bit => format!("{text} is out of range: {operand} is a bit, 0 or 1"),
         Width::Byte => format!("{text} is out of range: {operand} is a byte, 0 to 255"),
         Width::Word if is_signed_word(range) => {
-            format!("{text} is out of range: {operand} is a word, {low} to {high} or a bit pattern up to 16#FFFF")
+            format!(
+                "{text} is out of range: {operand} is a word, {low} to {high} or a bit pattern up \
+                    to 16#FFFF"
+            )
         }
         Width::Word => format!("{text} is out of range: {operand} takes {low} to {high}"),
         Width::Double | Width::Real => {
-            format!("{text} is out of range: {operand} has 32 bits, {low} to {high} or a bit pattern up to 16#FFFFFFFF")
+            format!(
+                "{text} is out of range: {operand} has 32 bits, {low} to {high} or a bit pattern \
+                    up to 16#FFFFFFFF"
+            )
         }
     }
 }
@@ -81,7 +137,8 @@ fn parse_number(text: &str) -> Result<i64, String> {
         Some(_) => return Err(not_a_number(text)),
         None => (text, 10),
     };
-    let unsigned = if radix == 10 { digits.strip_prefix(['+', '-']).unwrap_or(digits) } else { digits };
+    let unsigned =
+        if radix == 10 { digits.strip_prefix(['+', '-']).unwrap_or(digits) } else { digits };
     let is_well_formed = unsigned.starts_with(|c: char| c.is_digit(radix))
         && unsigned.chars().all(|c| c.is_digit(radix) || (c == '_' && radix != 10));
     if !is_well_formed {
@@ -96,7 +153,9 @@ fn parse_real(text: &str) -> Result<f32, String> {
         && text.chars().all(|c| c.is_ascii_digit() || "+-.eE".contains(c));
     match text.parse::<f32>() {
         Ok(real) if is_well_formed && real.is_finite() => Ok(real),
-        Ok(_) if is_well_formed => Err(format!("{text} is out of range: reals reach to 3.402823e38")),
+        Ok(_) if is_well_formed => {
+            Err(format!("{text} is out of range: reals reach to 3.402823e38"))
+        }
         _ => Err(not_a_number(text)),
     }
 }
@@ -113,7 +172,10 @@ pub(super) fn text_bytes(quoted: &str) -> Result<Vec<u8>, String> {
     let closed = quoted.strip_prefix('"').and_then(|text| text.split_once('"'));
     let (mut rest, behind) = closed.ok_or_else(|| format!("{quoted} does not end with a quote"))?;
     if !behind.is_empty() {
-        return Err(format!("nothing may follow the quote that ends the text; one in the text is {}", r"\x22"));
+        return Err(format!(
+            "nothing may follow the quote that ends the text; one in the text is {}",
+            r"\x22"
+        ));
     }
     let mut bytes = Vec::new();
     while let Some(c) = rest.chars().next() {
@@ -121,7 +183,9 @@ pub(super) fn text_bytes(quoted: &str) -> Result<Vec<u8>, String> {
             ('\\', Some(b'r')) => (Some(b'\r'), 2),
             ('\\', Some(b'n')) => (Some(b'\n'), 2),
             ('\\', Some(b'\\')) => (Some(b'\\'), 2),
-            ('\\', Some(b'x')) => (rest.get(2..4).and_then(|digits| u8::from_str_radix(digits, 16).ok()), 4),
+            ('\\', Some(b'x')) => {
+                (rest.get(2..4).and_then(|digits| u8::from_str_radix(digits, 16).ok()), 4)
+            }
             ('\\', _) => (None, 1),
             _ => (u8::try_from(u32::from(c)).ok(), c.len_utf8()),
         };

@@ -1,7 +1,7 @@
-//! Who may do what. Modbus knows no passwords: the address of a client is all there is to go by. It is no protection
-//! against somebody in the same network who forges it.
+//! Who may do what. Modbus knows no passwords: the address of a client is all there is to go by. It
+//! is no protection against somebody in the same network who forges it.
 
-use std::net::{IpAddr, SocketAddr};
+use core::net::{IpAddr, SocketAddr};
 
 use plc_link::protocol::{FORCE, IDENTIFICATION, IDENTIFY, READ_BLOCK, STATUS, TRACE, WATCH};
 
@@ -49,8 +49,15 @@ mod tests {
     use super::*;
 
     const HERE: [&str; 4] = ["127.0.0.1", "127.8.9.10", "::1", "::ffff:127.0.0.1"];
-    const ELSEWHERE: [&str; 7] =
-        ["192.168.1.7", "10.0.0.1", "0.0.0.0", "::", "fe80::1", "2001:db8::1", "::ffff:192.168.1.7"];
+    const ELSEWHERE: [&str; 7] = [
+        "192.168.1.7",
+        "10.0.0.1",
+        "0.0.0.0",
+        "::",
+        "fe80::1",
+        "2001:db8::1",
+        "::ffff:192.168.1.7",
+    ];
     const WRITES: [u8; 9] = [5, 6, 15, 16, 22, 23, 66, 72, 100];
 
     fn ip(text: &str) -> IpAddr {
@@ -65,8 +72,14 @@ mod tests {
         for text in ELSEWHERE {
             let address = (ip(text), 1502).into();
             assert!(!Access::default().allows_listening_at(address), "{text}");
-            assert!(!Access { anywhere: false, writes: true }.allows_listening_at(address), "{text}");
-            assert!(Access { anywhere: true, writes: false }.allows_listening_at(address), "{text}");
+            assert!(
+                !Access { anywhere: false, writes: true }.allows_listening_at(address),
+                "{text}"
+            );
+            assert!(
+                Access { anywhere: true, writes: false }.allows_listening_at(address),
+                "{text}"
+            );
         }
     }
 
@@ -79,7 +92,10 @@ mod tests {
             }
             for text in ELSEWHERE {
                 assert!(!reading.allows(ip(text), &[function, 0, 0]), "{function} from {text}");
-                assert!(Access { writes: true, ..reading }.allows(ip(text), &[function, 0, 0]), "{function}, {text}");
+                assert!(
+                    Access { writes: true, ..reading }.allows(ip(text), &[function, 0, 0]),
+                    "{function}, {text}"
+                );
             }
         }
     }

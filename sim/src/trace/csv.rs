@@ -13,7 +13,8 @@ pub enum Rows {
     Changes,
 }
 
-/// Writes the trace. `time_ms` is the start of the scan, scans count from 1, words are signed, reals have a point or exponent.
+/// Writes the trace. `time_ms` is the start of the scan, scans count from 1, words are signed,
+/// reals have a point or exponent.
 pub fn write(trace: &Trace, rows: Rows, out: &mut dyn Write) -> io::Result<()> {
     write!(out, "time_ms,scan")?;
     for signal in trace.signals() {
@@ -60,7 +61,10 @@ mod tests {
         let trace = trace(10, &[("Q0.1", &[0, 1, 1, 1]), ("MW3", &[-5, -5, -5, 7])]);
         let expected = "time_ms,scan,Q0.1,MW3\n0,1,0,-5\n10,2,1,-5\n20,3,1,-5\n30,4,1,7\n";
         assert_eq!(text(&trace, Rows::EveryScan), expected);
-        assert_eq!(text(&trace, Rows::Changes), "time_ms,scan,Q0.1,MW3\n0,1,0,-5\n10,2,1,-5\n30,4,1,7\n");
+        assert_eq!(
+            text(&trace, Rows::Changes),
+            "time_ms,scan,Q0.1,MW3\n0,1,0,-5\n10,2,1,-5\n30,4,1,7\n"
+        );
     }
 
     #[test]

@@ -1,4 +1,5 @@
-//! Traces: the values of chosen operands after every scan. Kept as changes; how they are written is for the formats.
+//! Traces: the values of chosen operands after every scan. Kept as changes; how they are written is
+//! for the formats.
 
 pub mod csv;
 pub mod svg;
@@ -29,15 +30,21 @@ impl Signal {
 
     /// Reads a signal as a user writes it, by address or symbol.
     pub fn parse(text: &str, symbols: &[Symbol]) -> Result<Signal, OperandError> {
-        Operand::parse(text, symbols).map(|operand| Signal::named(operand, text.to_string(), symbols))
+        Operand::parse(text, symbols)
+            .map(|operand| Signal::named(operand, text.to_string(), symbols))
     }
 
     fn named(operand: Operand, name: String, symbols: &[Symbol]) -> Signal {
+        let meant = operand.address();
         let is_meant =
-            |symbol: &&Symbol| matches!(symbol.value, Value::Address(address) if address == operand.address());
+            |symbol: &&Symbol| matches!(symbol.value, Value::Address(address) if address == meant);
         let description = symbols.iter().find(is_meant).map_or_else(String::new, |symbol| {
             // Whoever asked for the symbol gets the address, and the other way round.
-            let other = if symbol.name.eq_ignore_ascii_case(&name) { operand.to_string() } else { symbol.name.clone() };
+            let other = if symbol.name.eq_ignore_ascii_case(&name) {
+                operand.to_string()
+            } else {
+                symbol.name.clone()
+            };
             let separator = if symbol.comment.is_empty() { "" } else { ": " };
             format!("{other}{separator}{}", symbol.comment)
         });
@@ -86,7 +93,8 @@ impl Trace {
         &self.signals
     }
 
-    /// The changes of a signal, by its place in [`signals`](Trace::signals). The first one is that of scan 0.
+    /// The changes of a signal, by its place in [`signals`](Trace::signals). The first one is that
+    /// of scan 0.
     pub fn changes(&self, signal: usize) -> &[Change] {
         self.changes.get(signal).map_or(&[], Vec::as_slice)
     }
@@ -103,7 +111,12 @@ impl Trace {
 
     /// Goes through the scans that changed something, the first scan always.
     pub fn steps(&self) -> Steps<'_> {
-        Steps { trace: self, next: vec![0; self.signals.len()], values: vec![0; self.signals.len()], is_begun: false }
+        Steps {
+            trace: self,
+            next: vec![0; self.signals.len()],
+            values: vec![0; self.signals.len()],
+            is_begun: false,
+        }
     }
 }
 
@@ -119,7 +132,10 @@ impl Steps<'_> {
     /// The scan of the next change, counted from 0.
     pub fn next_scan(&self) -> Option<u64> {
         let upcoming = self.trace.changes.iter().zip(&self.next);
-        let first_change = upcoming.filter_map(|(changes, &next)| changes.get(next)).map(|change| change.scan).min();
+        let first_change = upcoming
+            .filter_map(|(changes, &next)| changes.get(next))
+            .map(|change| change.scan)
+            .min();
         // Without signals there is still a first scan.
         first_change.or_else(|| (!self.is_begun && self.trace.scans > 0).then_some(0))
     }
@@ -129,7 +145,9 @@ impl Steps<'_> {
         let scan = self.next_scan()?;
         self.is_begun = true;
         for (signal, next) in self.next.iter_mut().enumerate() {
-            if let Some(change) = self.trace.changes[signal].get(*next).filter(|change| change.scan == scan) {
+            if let Some(change) =
+                self.trace.changes[signal].get(*next).filter(|change| change.scan == scan)
+            {
                 self.values[signal] = change.value;
                 *next += 1;
             }
@@ -144,7 +162,11 @@ impl Steps<'_> {
 
     /// The same as people write them.
     pub fn texts(&self) -> impl Iterator<Item = String> {
-        self.trace.signals.iter().zip(&self.values).map(|(signal, &value)| signal.operand.text(value))
+        self.trace
+            .signals
+            .iter()
+            .zip(&self.values)
+            .map(|(signal, &value)| signal.operand.text(value))
     }
 }
 

@@ -1,7 +1,9 @@
-//! The trace as a timing diagram (SVG): bits as waves, words as curves with their values, over a time axis.
+//! The trace as a timing diagram (SVG): bits as waves, words as curves with their values, over a
+//! time axis.
 //!
-//! Nothing here depends on the machine it runs on: the same trace gives the same text. However long the trace is, the
-//! drawing stays small: what changes faster than the eye can follow is drawn as a shaded band.
+//! Nothing here depends on the machine it runs on: the same trace gives the same text. However long
+//! the trace is, the drawing stays small: what changes faster than the eye can follow is drawn as a
+//! shaded band.
 
 mod axis;
 mod colour;
@@ -22,7 +24,7 @@ use crate::time::format_time;
 use layout::{Layout, Row};
 use text::{Anchor, label};
 
-/// Writes the trace. `title` stands above the diagram, usually the name of the program.
+/// Writes the trace. `title` is above the diagram, usually the name of the program.
 pub fn write(trace: &Trace, title: &str, out: &mut dyn Write) -> io::Result<()> {
     let layout = Layout::new(trace);
     let (width, height) = (layout.width, layout.height);
@@ -50,8 +52,18 @@ fn heading(trace: &Trace, title: &str, layout: &Layout) -> Group {
         format_time(trace.scans() * trace.scan_ms())
     );
     Group::new()
-        .add(label(title, layout::MARGIN, 27.0, 16.0, colour::INK, Anchor::Start).set("font-weight", "bold"))
-        .add(label(&facts, layout.width - layout::MARGIN, 27.0, 12.0, colour::FAINT_INK, Anchor::End))
+        .add(
+            label(title, layout::MARGIN, 27.0, 16.0, colour::INK, Anchor::Start)
+                .set("font-weight", "bold"),
+        )
+        .add(label(
+            &facts,
+            layout.width - layout::MARGIN,
+            27.0,
+            12.0,
+            colour::FAINT_INK,
+            Anchor::End,
+        ))
 }
 
 /// Every second row is shaded, so that the eye finds from the wave to its name.
@@ -87,7 +99,8 @@ fn signal_row(trace: &Trace, index: usize, signal: &Signal, row: &Row, layout: &
             .set("font-weight", "bold"),
     );
     if has_description {
-        let shown = text::shorten(&signal.description, layout.names_width, layout::DESCRIPTION_SIZE);
+        let shown =
+            text::shorten(&signal.description, layout.names_width, layout::DESCRIPTION_SIZE);
         group = group.add(label(
             &shown,
             layout::MARGIN,

@@ -1,4 +1,5 @@
-//! The trace as a table for people: aligned columns, a row where something changed, first and last scan always.
+//! The trace as a table for people: aligned columns, a row where something changed, first and last
+//! scan always.
 
 use std::io::{self, Write};
 
@@ -8,7 +9,8 @@ use crate::operand::Width;
 /// Writes the trace. Time is in seconds, that of the start of the scan; scans count from 1.
 pub fn write(trace: &Trace, out: &mut dyn Write) -> io::Result<()> {
     let widths = widths(trace);
-    let titles = ["time/s", "scan"].into_iter().chain(trace.signals().iter().map(|signal| &*signal.name));
+    let titles =
+        ["time/s", "scan"].into_iter().chain(trace.signals().iter().map(|signal| &*signal.name));
     write_row(out, titles, &widths)?;
     let mut steps = trace.steps();
     let mut last_row = None;
@@ -28,13 +30,18 @@ fn seconds(ms: u64) -> String {
 
 fn widths(trace: &Trace) -> Vec<usize> {
     let last = trace.scans().saturating_sub(1);
-    let mut widths = vec![seconds(last * trace.scan_ms()).len().max(6), trace.scans().to_string().len().max(4)];
+    let mut widths =
+        vec![seconds(last * trace.scan_ms()).len().max(6), trace.scans().to_string().len().max(4)];
     for (index, signal) in trace.signals().iter().enumerate() {
         let values = trace.changes(index).iter().map(|change| change.value);
         let longest = match signal.operand.width() {
             Width::Real => values.map(|value| signal.operand.text(value).len()).max(),
             // The longest number is the largest or the smallest.
-            _ => [values.clone().min(), values.max()].into_iter().flatten().map(|value| value.to_string().len()).max(),
+            _ => [values.clone().min(), values.max()]
+                .into_iter()
+                .flatten()
+                .map(|value| value.to_string().len())
+                .max(),
         };
         let longest = longest.unwrap_or(0);
         widths.push(longest.max(signal.name.chars().count()));
@@ -42,13 +49,23 @@ fn widths(trace: &Trace) -> Vec<usize> {
     widths
 }
 
-fn write_scan(out: &mut dyn Write, trace: &Trace, steps: &Steps<'_>, scan: u64, widths: &[usize]) -> io::Result<()> {
+fn write_scan(
+    out: &mut dyn Write,
+    trace: &Trace,
+    steps: &Steps<'_>,
+    scan: u64,
+    widths: &[usize],
+) -> io::Result<()> {
     let mut cells = vec![seconds(scan * trace.scan_ms()), (scan + 1).to_string()];
     cells.extend(steps.texts());
     write_row(out, cells.iter().map(String::as_str), widths)
 }
 
-fn write_row<'a>(out: &mut dyn Write, cells: impl Iterator<Item = &'a str>, widths: &[usize]) -> io::Result<()> {
+fn write_row<'a>(
+    out: &mut dyn Write,
+    cells: impl Iterator<Item = &'a str>,
+    widths: &[usize],
+) -> io::Result<()> {
     for (index, (cell, &width)) in cells.zip(widths).enumerate() {
         let gap = if index == 0 { "" } else { "  " };
         write!(out, "{gap}{cell:>width$}")?;
@@ -69,7 +86,8 @@ mod tests {
 
     #[test]
     fn changes_first_and_last() {
-        let trace = trace(100, &[("Q0.1", &[0, 0, 1, 1, 1]), ("MW3", &[5, 5, -1200, -1200, -1200])]);
+        let trace =
+            trace(100, &[("Q0.1", &[0, 0, 1, 1, 1]), ("MW3", &[5, 5, -1200, -1200, -1200])]);
         let expected = "\
 time/s  scan  Q0.1    MW3
  0.000     1     0      5

@@ -7,7 +7,8 @@ use vcd::{IdCode, TimescaleUnit, Value, VarType, Writer};
 use super::{Signal, Trace};
 use crate::operand::{Width, real_of};
 
-/// Writes the trace. Values stand at the start of the scan that made them; words are two's complement.
+/// Writes the trace. Values are at the start of the scan that made them; words are two's
+/// complement.
 pub fn write(trace: &Trace, out: &mut dyn Write) -> io::Result<()> {
     let mut writer = Writer::new(out);
     writer.version("awl-sim")?;
@@ -60,12 +61,32 @@ fn declare(writer: &mut Writer<&mut dyn Write>, signals: &[Signal]) -> io::Resul
     Ok(codes)
 }
 
-/// A point would separate levels of the hierarchy, a blank would end the name.
+/// A point would separate levels of the hierarchy, a blank would end the name. Umlauts are written
+/// out, so that names stay readable and different.
 fn identifier(name: &str) -> String {
-    name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect()
+    let mut identifier = String::new();
+    for c in name.chars() {
+        match c {
+            'ä' => identifier.push_str("ae"),
+            'ö' => identifier.push_str("oe"),
+            'ü' => identifier.push_str("ue"),
+            'Ä' => identifier.push_str("Ae"),
+            'Ö' => identifier.push_str("Oe"),
+            'Ü' => identifier.push_str("Ue"),
+            'ß' => identifier.push_str("ss"),
+            c if c.is_ascii_alphanumeric() => identifier.push(c),
+            _ => identifier.push('_'),
+        }
+    }
+    identifier
 }
 
-fn change(writer: &mut Writer<&mut dyn Write>, code: IdCode, width: Width, value: i32) -> io::Result<()> {
+fn change(
+    writer: &mut Writer<&mut dyn Write>,
+    code: IdCode,
+    width: Width,
+    value: i32,
+) -> io::Result<()> {
     let bits = match width {
         Width::Bit => return writer.change_scalar(code, Value::from(value != 0)),
         Width::Byte => 8,
@@ -85,7 +106,12 @@ mod tests {
     fn exact_text() {
         let trace = trace(
             10,
-            &[("Q0.1", &[0, 1, 1]), ("MW3", &[-2, -2, 5]), ("MB9", &[255, 255, 255]), ("MD4:real", &[0x3FC0_0000; 3])],
+            &[
+                ("Q0.1", &[0, 1, 1]),
+                ("MW3", &[-2, -2, 5]),
+                ("MB9", &[255, 255, 255]),
+                ("MD4:real", &[0x3FC0_0000; 3]),
+            ],
         );
         let mut out = Vec::new();
         write(&trace, &mut out).unwrap();
@@ -123,6 +149,24 @@ b0000000000000101 \"
         let mut out = Vec::new();
         write(&trace, &mut out).unwrap();
         let text = String::from_utf8(out).unwrap();
-        assert!(text.contains("! Q0_1 $") && text.contains("\" q0_1 $") && text.contains("# Q0_1_ $"), "{text}");
+        assert!(
+            text.contains("! Q0_1 $") && text.contains("\" q0_1 $") && text.contains("# Q0_1_ $"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn umlauts_are_written_out() {
+        let mut trace = trace(1, &[("Q0.1", &[0]), ("Q0.2", &[0]), ("Q0.3", &[1]), ("Q0.4", &[1])]);
+        for (signal, name) in trace.signals.iter_mut().zip(["Füller", "Fäller", "Fueller", "Größe"])
+        {
+            signal.name = name.to_string();
+        }
+        let mut out = Vec::new();
+        write(&trace, &mut out).unwrap();
+        let text = String::from_utf8(out).unwrap();
+        for name in ["! Fueller $", "\" Faeller $", "# Fueller_ $", "$ Groesse $"] {
+            assert!(text.contains(name), "{name}: {text}");
+        }
     }
 }

@@ -1,7 +1,9 @@
-//! Optiboot, the bootloader of the Uno: compiled from the source that Debian's package arduino-core-avr brings.
+//! Optiboot, the bootloader of the Uno: compiled from the source that Debian's package
+//! arduino-core-avr brings.
 //!
-//! The package has a `.hex` of it as well, but the compiler it was made with needs 532 bytes where an Uno has 512. The
-//! part that starts the application lies beyond the end of flash there, so no programmer could write it.
+//! The package has a `.hex` of it as well, but the compiler it was made with needs 532 bytes where
+//! an Uno has 512. The part that starts the application lies beyond the end of flash there, so no
+//! programmer could write it.
 
 use std::fs;
 use std::path::Path;
@@ -15,7 +17,8 @@ pub const START: u32 = 0x7E00;
 
 const SOURCE: &str = "/usr/share/arduino/hardware/arduino/avr/bootloaders/optiboot/optiboot.c";
 
-/// As its Makefile has it for the Uno, and two options more: without them too much is put inline for 512 bytes.
+/// As its Makefile has it for the Uno, and two options more: without them too much is put inline
+/// for 512 bytes.
 const OPTIONS: [&str; 9] = [
     "-mmcu=atmega328p",
     "-DF_CPU=16000000L",
@@ -30,14 +33,21 @@ const OPTIONS: [&str; 9] = [
 
 /// The bootloader.
 pub fn build() -> Result<Elf> {
-    ensure!(Path::new(SOURCE).exists(), "{SOURCE} is not there: install the package arduino-core-avr");
+    ensure!(
+        Path::new(SOURCE).exists(),
+        "{SOURCE} is not there: install the package arduino-core-avr"
+    );
     let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
     let file = folder.path().join("optiboot.elf");
     let mut compiler = Command::new("avr-gcc");
     compiler.args(OPTIONS).arg(format!("-Wl,--relax,--section-start=.text={START:#x}"));
     let output = compiler.arg("-o").arg(&file).arg(SOURCE).output();
     let output = output.context("cannot start avr-gcc: install the package gcc-avr")?;
-    ensure!(output.status.success(), "avr-gcc failed:\n{}", String::from_utf8_lossy(&output.stderr));
+    ensure!(
+        output.status.success(),
+        "avr-gcc failed:\n{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     Elf::parse(&fs::read(&file)?).context("avr-gcc made no good ELF of the bootloader")
 }
 

@@ -1,9 +1,11 @@
-//! Keeps the simulation from running ahead of the real clock. It may fall behind: nothing is made up for.
+//! Keeps the simulation from running ahead of the real clock. It may fall after: nothing is made
+//! up for.
 
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// What is caught up with at most. A computer that slept for an hour is not to simulate it in a rush.
+/// What is caught up with at most. A computer that slept for an hour is not to simulate it in a
+/// rush.
 const BEHIND_MAX: Duration = Duration::from_millis(50);
 
 /// Real time, in steps of the simulation.

@@ -1,7 +1,7 @@
 //! An Arduino Uno with its bootloader, on a pseudo-terminal and in real time. Knows no PLC.
 //!
-//! libsimavr is GPL-3, so this crate is for tools that test and is part of nothing that is shipped. Without the feature
-//! `link` it is empty and needs no libsimavr.
+//! libsimavr is GPL-3, so this crate is for tools that test and is part of nothing that is shipped.
+//! Without the feature `link` it is empty and needs no libsimavr.
 
 #[cfg(feature = "link")]
 mod bootloader;

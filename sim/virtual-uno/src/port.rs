@@ -1,4 +1,5 @@
-//! The board's USB serial port: a pseudo-terminal. Bytes both ways, and whether another program has it open.
+//! The board's USB serial port: a pseudo-terminal. Bytes both ways, whether another program has it
+//! open, and how that has set the line.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, ErrorKind, Read, Write};
@@ -8,7 +9,19 @@ use std::path::{Path, PathBuf};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
-use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
+use rustix::termios::{ControlModes, OptionalActions, tcgetattr, tcsetattr};
+
+/// What the line is set to before anybody sets it: a new Uno's sketches and bootloader talk so.
+const USUAL_BAUD: u32 = 115_200;
+
+/// How the program that has the port open has set it, or the last one that had.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Line {
+    /// Bits a second.
+    pub baud: u32,
+    /// Whether DTR falls when the port is closed (HUPCL).
+    pub hangs_up: bool,
+}
 
 /// The board's end of the port.
 pub struct Port {
@@ -22,19 +35,23 @@ impl Port {
         let end = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY)?;
         grantpt(&end)?;
         unlockpt(&end)?;
-        let path = PathBuf::from(std::ffi::OsString::from_vec(ptsname(&end, Vec::new())?.into_bytes()));
+        let path =
+            PathBuf::from(std::ffi::OsString::from_vec(ptsname(&end, Vec::new())?.into_bytes()));
         fcntl_setfl(&end, fcntl_getfl(&end)? | OFlags::NONBLOCK)?;
         let port = Port { end: end.into(), path };
         port.make_plain()?;
         Ok(port)
     }
 
-    /// Bytes pass unchanged and without echo, as through a wire. Closing the other end again also makes that it counts as
+    /// Bytes pass unchanged and without echo, as through a wire, and the settings are those of a
+    /// serial port that nobody has set. Closing the other end again also makes that it counts as
     /// closed: one that was never open does not.
     fn make_plain(&self) -> io::Result<()> {
         let other = OpenOptions::new().read(true).write(true).open(&self.path)?;
         let mut attributes = tcgetattr(&other)?;
         attributes.make_raw();
+        attributes.control_modes.insert(ControlModes::HUPCL);
+        attributes.set_speed(USUAL_BAUD)?;
         tcsetattr(&other, OptionalActions::Now, &attributes)?;
         Ok(())
     }
@@ -51,6 +68,15 @@ impl Port {
         Ok(!ends[0].revents().contains(PollFlags::HUP))
     }
 
+    /// How it is set.
+    pub fn line(&self) -> io::Result<Line> {
+        let attributes = tcgetattr(&self.end)?;
+        Ok(Line {
+            baud: attributes.output_speed(),
+            hangs_up: attributes.control_modes.contains(ControlModes::HUPCL),
+        })
+    }
+
     /// What has been sent to the board.
     pub fn read(&mut self) -> io::Result<Vec<u8>> {
         let mut bytes = vec![0; 4096];
@@ -63,7 +89,8 @@ impl Port {
         Ok(bytes)
     }
 
-    /// Sends to whoever has it open. As on a real board, nothing waits for a program that does not read.
+    /// Sends to whoever has it open. As on a real board, nothing waits for a program that does not
+    /// read.
     pub fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         match self.end.write(bytes) {
             Err(error) if !is_idle(&error) => Err(error),
@@ -72,7 +99,8 @@ impl Port {
     }
 }
 
-/// Whether this is no error: no bytes are there, there is no room, or the other end has just been closed (EIO).
+/// Whether this is no error: no bytes are there, there is no room, or the other end has just been
+/// closed (EIO).
 fn is_idle(error: &io::Error) -> bool {
     let closed = io::Error::from(rustix::io::Errno::IO);
     error.kind() == ErrorKind::WouldBlock || error.raw_os_error() == closed.raw_os_error()
@@ -111,6 +139,19 @@ mod tests {
         other.read_exact(&mut seen).unwrap();
         assert_eq!(seen[..], all);
         assert_eq!(port.read().unwrap(), [], "an echo");
+    }
+
+    #[test]
+    fn settings_outlive_the_program_that_made_them() {
+        let port = Port::new().unwrap();
+        assert_eq!(port.line().unwrap(), Line { baud: USUAL_BAUD, hangs_up: true });
+        let other = other_end(&port);
+        let mut attributes = tcgetattr(&other).unwrap();
+        attributes.control_modes.remove(ControlModes::HUPCL);
+        attributes.set_speed(9_600).unwrap();
+        tcsetattr(&other, OptionalActions::Now, &attributes).unwrap();
+        drop(other);
+        assert_eq!(port.line().unwrap(), Line { baud: 9_600, hangs_up: false });
     }
 
     #[test]

@@ -1,19 +1,33 @@
-//! The board: chip, bootloader, port and the reset that comes with opening the port.
+//! The board: chip, bootloader, port, the reset that comes with opening the port, and what is kept
+//! while it is switched off.
 
 use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use simavr::{Avr, Reset, Stopped};
 
 use crate::bootloader;
 use crate::clock::Clock;
-use crate::port::Port;
+use crate::port::{Line, Port};
 
 /// So long the chip runs between two looks at the port: a dozen bytes at 115200 baud.
 const STEP: Duration = Duration::from_millis(1);
 const STEP_CYCLES: u64 = Avr::FREQUENCY / 1000;
+
+/// The first that avrdude sends to a bootloader: is anybody there?
+const GET_SYNC: &[u8] = b"0 ";
+
+/// Registers of the UART (data sheet of the ATmega328P, 19.10), and their bits for double speed and
+/// for a receiver that is on.
+const UCSR0A: usize = 0xC0;
+const UCSR0B: usize = 0xC1;
+const UBRR0: usize = 0xC4;
+const U2X0: u8 = 1 << 1;
+const RXEN0: u8 = 1 << 4;
+/// How far two ends may be apart. 115200 baud of 16 MHz are 2.1 % more.
+const BAUD_TOLERANCE: f64 = 0.04;
 
 /// An Uno that is plugged in.
 pub struct VirtualUno {
@@ -21,6 +35,11 @@ pub struct VirtualUno {
     port: Port,
     clock: Clock,
     was_open: bool,
+    /// As Linux has it: on from the first opening on, off again when a program closes the port that
+    /// has left HUPCL set. It resets the board by coming on.
+    dtr: bool,
+    /// Nothing has come since the port was opened without a reset.
+    may_be_avrdude: bool,
     has_crashed: bool,
 }
 
@@ -32,12 +51,39 @@ impl VirtualUno {
         avr.set_reset_pc(bootloader::START);
         avr.reset(Reset::PowerOn);
         let port = Port::new().context("cannot open a pseudo-terminal")?;
-        Ok(VirtualUno { avr, port, clock: Clock::new(), was_open: false, has_crashed: false })
+        Ok(VirtualUno {
+            avr,
+            port,
+            clock: Clock::new(),
+            was_open: false,
+            dtr: false,
+            may_be_avrdude: false,
+            has_crashed: false,
+        })
     }
 
-    /// Puts an Intel HEX file into the flash, as if it had been written before, and switches the board off and on.
+    /// What is there without power: flash and EEPROM.
+    pub fn memory(&self) -> Vec<u8> {
+        [self.avr.flash(), &self.avr.eeprom()].concat()
+    }
+
+    /// Puts in place what [`memory`](Self::memory) has given, and switches the board on.
+    pub fn set_memory(&mut self, memory: &[u8]) -> Result<()> {
+        let flash_len = self.avr.flash().len();
+        let whole = flash_len + self.avr.eeprom().len();
+        ensure!(memory.len() == whole, "{} bytes instead of {whole}", memory.len());
+        let (flash, eeprom) = memory.split_at(flash_len);
+        self.avr.write_flash(0, flash)?;
+        self.avr.write_eeprom(0, eeprom)?;
+        self.reset(Reset::PowerOn);
+        Ok(())
+    }
+
+    /// Puts an Intel HEX file into the flash, as if it had been written before, and switches the
+    /// board off and on.
     pub fn load(&mut self, file: &Path) -> Result<()> {
-        let text = fs::read_to_string(file).with_context(|| format!("cannot read {}", file.display()))?;
+        let text =
+            fs::read_to_string(file).with_context(|| format!("cannot read {}", file.display()))?;
         self.avr.load_hex(&text).with_context(|| format!("cannot load {}", file.display()))?;
         self.reset(Reset::PowerOn);
         Ok(())
@@ -59,27 +105,64 @@ impl VirtualUno {
     }
 
     /// Runs for a millisecond, and waits until it has really passed.
-    ///
-    /// A program that opens the port resets the board. On a real one that is what DTR does; a pseudo-terminal has no DTR,
-    /// and opening is when a serial port's driver would set it.
     pub fn step(&mut self) -> Result<()> {
-        let is_open = self.port.is_open()?;
-        if is_open && !self.was_open {
-            self.reset(Reset::External);
-        }
-        self.was_open = is_open;
+        let (is_open, line) = (self.port.is_open()?, self.port.line()?);
+        self.see_dtr(is_open, line);
         let received = self.port.read()?;
-        self.avr.uart_send(&received);
+        self.see_avrdude(&received);
+        let is_understood = self.has_baud(line.baud);
+        if is_understood {
+            self.avr.uart_send(&received);
+        }
         if !self.has_crashed {
             self.has_crashed = matches!(self.avr.run_for(STEP_CYCLES), Stopped::Crash { .. });
         }
         let sent = self.avr.uart_take();
         // What is sent while nobody listens is lost, as on a real board.
-        if is_open && !sent.is_empty() {
+        if is_open && is_understood && !sent.is_empty() {
             self.port.write(&sent)?;
         }
         self.clock.step(STEP);
         Ok(())
+    }
+
+    /// A pseudo-terminal has no control lines; what a serial port's driver does with DTR is known.
+    fn see_dtr(&mut self, is_open: bool, line: Line) {
+        if is_open && !self.was_open {
+            if !self.dtr {
+                self.reset(Reset::External);
+            }
+            self.may_be_avrdude = self.dtr;
+            self.dtr = true;
+        } else if self.was_open && !is_open && line.hangs_up {
+            self.dtr = false;
+        }
+        self.was_open = is_open;
+    }
+
+    /// avrdude switches DTR off and on by itself, which does not get through: it is known by the
+    /// first that it sends.
+    fn see_avrdude(&mut self, received: &[u8]) {
+        if received.is_empty() || !self.may_be_avrdude {
+            return;
+        }
+        self.may_be_avrdude = false;
+        if received.starts_with(GET_SYNC) {
+            self.reset(Reset::External);
+        }
+    }
+
+    /// Whether the chip's UART is at this rate, near enough. At another one nothing is understood.
+    /// One that is still off has no rate: what comes waits for it.
+    fn has_baud(&self, baud: u32) -> bool {
+        let data = self.avr.data();
+        if data[UCSR0B] & RXEN0 == 0 {
+            return true;
+        }
+        let divisor = u32::from(data[UBRR0]) | u32::from(data[UBRR0 + 1]) << 8;
+        let samples = if data[UCSR0A] & U2X0 != 0 { 8 } else { 16 };
+        let own = Avr::FREQUENCY as f64 / f64::from(samples * (divisor + 1));
+        (own / f64::from(baud.max(1)) - 1.0).abs() < BAUD_TOLERANCE
     }
 
     /// A chip that has crashed stands still until this.
@@ -95,6 +178,7 @@ mod tests {
     use std::io::{Read, Write};
 
     use rustix::fs::{OFlags, fcntl_setfl};
+    use rustix::termios::{ControlModes, OptionalActions, tcgetattr, tcsetattr};
 
     use super::*;
 
@@ -131,6 +215,58 @@ mod tests {
             // The end of the terminal.
             uno.step().unwrap();
         }
+    }
+
+    #[test]
+    fn a_port_that_keeps_dtr_resets_the_board_once() {
+        let mut uno = VirtualUno::new().unwrap();
+        // Loop: rjmp to itself.
+        uno.avr_mut().write_flash(0, &[0xFF, 0xCF]).unwrap();
+        uno.reset(Reset::PowerOn);
+        let terminal = open(&uno);
+        let mut attributes = tcgetattr(&terminal).unwrap();
+        attributes.control_modes.remove(ControlModes::HUPCL);
+        tcsetattr(&terminal, OptionalActions::Now, &attributes).unwrap();
+        pass(&mut uno, 2);
+        assert!(uno.avr().pc() >= bootloader::START);
+        drop(terminal);
+        pass(&mut uno, 1_500);
+        assert_eq!(uno.avr().pc(), 0);
+        let mut terminal = open(&uno);
+        pass(&mut uno, 2);
+        assert_eq!(uno.avr().pc(), 0, "it was reset again");
+        // What has DTR in its own hands resets it nevertheless.
+        terminal.write_all(GET_SYNC).unwrap();
+        pass(&mut uno, 2);
+        assert!(uno.avr().pc() >= bootloader::START);
+    }
+
+    #[test]
+    fn at_another_rate_nothing_is_understood() {
+        let mut uno = VirtualUno::new().unwrap();
+        let terminal = open(&uno);
+        let mut attributes = tcgetattr(&terminal).unwrap();
+        attributes.set_speed(9_600).unwrap();
+        tcsetattr(&terminal, OptionalActions::Now, &attributes).unwrap();
+        assert!(!is_in_sync(&mut uno));
+        attributes.set_speed(115_200).unwrap();
+        tcsetattr(&terminal, OptionalActions::Now, &attributes).unwrap();
+        drop(terminal);
+        pass(&mut uno, 1_500);
+        assert!(is_in_sync(&mut uno));
+    }
+
+    #[test]
+    fn flash_and_eeprom_are_there_after_a_new_start() {
+        let mut uno = VirtualUno::new().unwrap();
+        uno.avr_mut().write_flash(0x6000, &[1, 2, 3]).unwrap();
+        uno.avr_mut().write_eeprom(5, &[7]).unwrap();
+        let memory = uno.memory();
+        let mut again = VirtualUno::new().unwrap();
+        again.set_memory(&memory).unwrap();
+        assert_eq!(again.avr().flash()[0x6000..0x6003], [1, 2, 3]);
+        assert_eq!(again.avr().eeprom()[5], 7);
+        assert!(again.set_memory(&memory[1..]).is_err());
     }
 
     #[test]

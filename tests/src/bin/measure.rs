@@ -1,5 +1,5 @@
-//! Measures everything that `cargo xtask bench` reports about the board, and prints it line by line; with `table`, the
-//! table of awl-asm/src/cost/interpreter.rs. It judges nothing.
+//! Measures everything that `cargo xtask bench` reports about the board, and prints it line by
+//! line; with `table`, the table of awl-asm/src/output/cost/interpreter.rs. It judges nothing.
 
 use std::io::{self, Write};
 
@@ -29,7 +29,9 @@ fn main() -> io::Result<()> {
     }
     for chapter in &CHAPTERS {
         for row in chapter.rows {
-            for record in Tier::ALL.into_iter().flat_map(|tier| row_records(chapter.title, row, tier)) {
+            for record in
+                Tier::ALL.into_iter().flat_map(|tier| row_records(chapter.title, row, tier))
+            {
                 writeln!(out, "{record}")?;
             }
         }
@@ -45,7 +47,10 @@ fn main() -> io::Result<()> {
 /// The rows of modules of which one word is in the chapter's title or in the AWL, to look at them.
 fn chapter_alone(out: &mut impl Write, word: &str) -> io::Result<()> {
     for chapter in &MODULE_CHAPTERS {
-        let rows = chapter.rows.iter().filter(|row| chapter.title.contains(word) || row.awl.contains(word));
+        let rows = chapter
+            .rows
+            .iter()
+            .filter(|row| chapter.title.contains(word) || row.awl.contains(word));
         for record in rows.flat_map(|row| module_row_records(chapter.title, row)) {
             writeln!(out, "{record}")?;
         }
@@ -82,7 +87,8 @@ fn program_records(tier: Tier) -> Vec<Record> {
     all.into_iter().flat_map(|(name, text)| one_program(tier, name, &text)).collect()
 }
 
-/// Cycles of the shortest and of the longest scan over all inputs, and cycles an instruction by kind.
+/// Cycles of the shortest and of the longest scan over all inputs, and cycles an instruction by
+/// kind.
 fn one_program(tier: Tier, name: &str, text: &str) -> Vec<Record> {
     let mut meter = Meter::new(Executable::new(name, text, tier));
     let (len, bytes) = (meter.executable.len() as f64, meter.executable.code_len() as f64);
@@ -142,11 +148,18 @@ fn station_records(tier: Tier) -> Vec<Record> {
     let figures = scans::measure(executable);
     let of = |what: &str, value: f64| single("scan", tier, what, value, name);
     let (usual, mean) = figures.overhead();
-    let mut records =
-        vec![of("overhead", usual as f64), of("overhead mean", mean as f64), of("bytes an instruction", bytes / len)];
-    for (what, spread) in [("program", figures.program), ("whole scan", figures.whole), ("period", figures.period)] {
+    let mut records = vec![
+        of("overhead", usual as f64),
+        of("overhead mean", mean as f64),
+        of("bytes an instruction", bytes / len),
+    ];
+    for (what, spread) in
+        [("program", figures.program), ("whole scan", figures.whole), ("period", figures.period)]
+    {
         let scans::Spread { min, median, p99, max, mean } = spread;
-        for (which, value) in [("min", min), ("median", median), ("p99", p99), ("max", max), ("mean", mean)] {
+        for (which, value) in
+            [("min", min), ("median", median), ("p99", p99), ("max", max), ("mean", mean)]
+        {
             records.push(of(&format!("{what} {which}"), value as f64));
         }
     }
@@ -165,14 +178,17 @@ fn row_records(chapter: &'static str, row: &Row, tier: Tier) -> Vec<Record> {
     if row.is_box() {
         let on = on.map(|cycles| record("cycles", cycles, row.quoted_us()));
         let off_us = row.quoted_us().map(|us| us.min(s7_200::WITHOUT_POWER_FLOW_US));
-        return on.into_iter().chain(off.map(|cycles| record("without power flow", cycles, off_us))).collect();
+        return on
+            .into_iter()
+            .chain(off.map(|cycles| record("without power flow", cycles, off_us)))
+            .collect();
     }
     let both = on.into_iter().chain(off).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
     both.map(|cycles| record("cycles", cycles, row.quoted_us())).into_iter().collect()
 }
 
-/// Of an instruction whose time goes with values: what it takes as a rule, beside the fewest and the most. Machine code
-/// calls the interpreter for it.
+/// Of an instruction whose time goes with values: what it takes as a rule, beside the fewest and
+/// the most. Machine code calls the interpreter for it.
 fn module_row_records(chapter: &'static str, row: &Row) -> Vec<Record> {
     let tier = Tier::Interpreter;
     let name = row.name();
@@ -193,7 +209,8 @@ fn module_row_records(chapter: &'static str, row: &Row) -> Vec<Record> {
     if let Some(Count { unit, usual, many }) = row.count {
         let (longer, _) = executed(forms::measure_with(row, tier, many));
         let more = longer.map_or(0, |longer| longer.max.saturating_sub(on.max));
-        records.push(of(&format!("each {unit} of {usual}"), more.div_ceil(u64::from(many - usual))));
+        records
+            .push(of(&format!("each {unit} of {usual}"), more.div_ceil(u64::from(many - usual))));
     }
     records
 }

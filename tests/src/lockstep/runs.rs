@@ -1,8 +1,7 @@
-//! What is run side by side: cases and examples with their scenarios and plants, random programs. How often is for the
-//! environment to say, see [`effort`].
+//! What is run side by side: cases and examples with their scenarios and plants, random programs.
+//! How often is for the environment to say, see [`effort`].
 
 use std::collections::BTreeSet;
-use std::env;
 use std::ops::Range;
 
 use awl_asm::Address;
@@ -12,7 +11,7 @@ use awl_sim::machine::uno::{Code, Uno};
 use awl_sim::machine::{Machine, Mode};
 use awl_sim::operand::Operand;
 use fastrand::Rng;
-use plc_isa::{AnalogInput, Area, FREEPORT_MODULE, Group, Op, PULSES_MODULE};
+use plc_isa::{AnalogInput, Area, FREEPORT_MODULE, PULSES_MODULE};
 
 use super::{Pair, board};
 use crate::case::{Case, Prepared};
@@ -42,29 +41,15 @@ pub enum Programs {
 /// How long these are.
 const SHORT: Range<usize> = 5..100;
 
-/// Set where the board's firmware is one without its engine: it has the instructions of the interpreter alone.
-const WITHOUT_ENGINE: &str = "UNO200_WITHOUT_ENGINE";
-
-fn has_engine() -> bool {
-    env::var_os(WITHOUT_ENGINE).is_none()
-}
-
-/// Whether the board executes an instruction only with its engine.
-fn needs_engine(row: &Row) -> bool {
-    const HIDDEN: [Op; 6] = [Op::ScrAnd, Op::CallBegin, Op::BitCopy, Op::Ret, Op::Poll, Op::Aeno];
-    let Row { instruction, .. } = row;
-    let of_units = matches!(instruction.group, Group::Call | Group::Sequence | Group::Interrupt);
-    instruction.module().is_some() || of_units || HIDDEN.contains(&instruction.op)
-}
-
-/// What the board does not have of an image's instructions, by their rows. And pulses and the freeport, which have a time
-/// of their own there.
+/// What the board does not have of an image's instructions, by their rows. And pulses and the
+/// freeport, which have a time of their own there.
 fn missing(image: &[u8]) -> BTreeSet<String> {
     const OWN_TIME: [u8; 2] = [PULSES_MODULE, FREEPORT_MODULE];
-    let has_engine = has_engine();
     let is_missing = |row: &Row| {
-        let lacks = |module| OWN_TIME.contains(&module) || modules::routines(module) <= row.form.first_token;
-        row.instruction.module().is_some_and(lacks) || !has_engine && needs_engine(row)
+        let lacks = |module| {
+            OWN_TIME.contains(&module) || modules::routines(module) <= row.form.first_token
+        };
+        row.instruction.module().is_some_and(lacks)
     };
     let rows = places(image).into_iter().map(|place| place.row);
     rows.filter(is_missing).map(|row| row.name()).collect()
@@ -89,7 +74,8 @@ fn failures(uno: &mut Uno, case: &Prepared) -> Vec<String> {
 pub fn assert_cases_are_the_same(code: Code, cases: Vec<Case>) {
     assert!(!cases.is_empty(), "there are no cases");
     let mut uno = board(code);
-    let prepared = cases.into_iter().map(|case| case.prepare().unwrap_or_else(|errors| panic!("{errors}")));
+    let prepared =
+        cases.into_iter().map(|case| case.prepare().unwrap_or_else(|errors| panic!("{errors}")));
     let (mut left_out, mut found) = (BTreeSet::new(), Vec::new());
     for case in prepared {
         let mut missing = missing(&case.image);
@@ -122,16 +108,13 @@ pub fn random_image(seed: u64, programs: Programs) -> (Vec<u8>, String, Rng) {
     (image(&text), text, rng)
 }
 
-/// Runs random programs on the host and on a board that has them in this form: `RANDOM_PROGRAMS` many, from
-/// `RANDOM_SEED` on.
+/// Runs random programs on the host and on a board that has them in this form: `RANDOM_PROGRAMS`
+/// many, from `RANDOM_SEED` on.
 ///
 /// # Panics
-/// At the first difference, with seed and program; or if the test itself is worth nothing, because hardly any program
-/// fits or runs.
+/// At the first difference, with seed and program; or if the test itself is worth nothing, because
+/// hardly any program fits or runs.
 pub fn assert_random_programs_are_the_same(code: Code, programs: Programs) {
-    if programs != Programs::Core && !has_engine() {
-        return println!("not compared: {WITHOUT_ENGINE} is set");
-    }
     let (first, count) = (effort("RANDOM_SEED", 1), effort("RANDOM_PROGRAMS", 1_000));
     let (mut uno, mut scans, mut too_large) = (board(code), 0, 0);
     for seed in first..first + count {
@@ -139,7 +122,10 @@ pub fn assert_random_programs_are_the_same(code: Code, programs: Programs) {
         // Near the wrap of the clock as often as not.
         let clock_ms = if rng.bool() { u32::MAX - rng.u32(..2_000) } else { rng.u32(..) };
         match Pair::new(&mut uno, &image, clock_ms) {
-            Ok(pair) => scans += random_scans(pair, &mut rng, |scan| format!("seed {seed}, scan {scan}\n{text}")),
+            Ok(mut pair) => {
+                let place = |scan| format!("seed {seed}, scan {scan}\n{text}");
+                scans += random_scans(&mut pair, &mut rng, Pair::difference, place);
+            }
             Err(TranslateError::TooLarge { .. }) => too_large += 1,
             Err(error) => panic!("seed {seed}: {error}\n{text}"),
         }
@@ -149,15 +135,21 @@ pub fn assert_random_programs_are_the_same(code: Code, programs: Programs) {
     assert!(scans >= 2 * (count - too_large), "the programs hardly ran");
 }
 
-/// Runs a program with random inputs and times. Returns the number of scans; a difference is a panic.
-fn random_scans(mut pair: Pair<'_>, rng: &mut Rng, place: impl Fn(u32) -> String) -> u64 {
+/// Runs a program with random inputs and times. Returns the number of scans; a difference is a
+/// panic.
+pub fn random_scans<M: Machine>(
+    pair: &mut M,
+    rng: &mut Rng,
+    difference: impl Fn(&M) -> Option<&str>,
+    place: impl Fn(u32) -> String,
+) -> u64 {
     let (mut inputs, mut now_ms) = (Inputs::default(), 0);
     let count = rng.u32(3..40);
     for scan in 1..=count {
         inputs = random_inputs(rng, &inputs);
-        set_inputs(&mut pair, &inputs);
+        set_inputs(pair, &inputs);
         pair.scan(now_ms);
-        assert_eq!(pair.difference(), None, "{}", place(scan));
+        assert_eq!(difference(pair), None, "{}", place(scan));
         now_ms += u64::from(random_step_ms(rng));
         if pair.mode() == Mode::Stop {
             return scan.into();
@@ -167,9 +159,12 @@ fn random_scans(mut pair: Pair<'_>, rng: &mut Rng, place: impl Fn(u32) -> String
 }
 
 fn set_inputs(machine: &mut impl Machine, inputs: &Inputs) {
-    let bytes = (0..).zip(&inputs.digital).map(|(byte, &value)| (Address::Byte { area: Area::I, byte }, value.into()));
+    let bytes = (0..)
+        .zip(&inputs.digital)
+        .map(|(byte, &value)| (Address::Byte { area: Area::I, byte }, value.into()));
     let analog = (0..).zip(&inputs.ain);
-    let analog = analog.map(|(channel, &counts)| (Address::Analog(AnalogInput::Raw(channel)), counts.into()));
+    let analog = analog
+        .map(|(channel, &counts)| (Address::Analog(AnalogInput::Raw(channel)), counts.into()));
     for (address, value) in bytes.chain(analog) {
         let written = machine.write(Operand::At(address), value);
         assert_eq!(written, Ok(()), "inputs can be set");

@@ -1,11 +1,12 @@
-//! A program as it stands in the slot, with the places of its instructions: what a meter runs. It measures nothing.
+//! A program as it stands in the slot, with the places of its instructions: what a meter runs. It
+//! measures nothing.
 
 use std::fmt;
 use std::ops::Range;
 
 use awl_asm::assemble::{Assembly, assemble};
 use awl_asm::diagnostic::Severity;
-use awl_asm::native::{Options, translate_with};
+use awl_asm::native::{Options, TranslatedInstruction, translate_with};
 use awl_asm::source::Source;
 use plc_isa::{Decoded, Group, Header, Plan, Program, verify};
 
@@ -25,7 +26,8 @@ pub enum Tier {
 
 impl Tier {
     /// All there are.
-    pub const ALL: [Tier; 3] = [Tier::Interpreter, Tier::Native { pins: true }, Tier::Native { pins: false }];
+    pub const ALL: [Tier; 3] =
+        [Tier::Interpreter, Tier::Native { pins: true }, Tier::Native { pins: false }];
 }
 
 impl fmt::Display for Tier {
@@ -38,8 +40,8 @@ impl fmt::Display for Tier {
     }
 }
 
-/// A program for the slot. Its instructions are numbered as the bytecode has them: with those that the assembler put
-/// in, and with the end of the program.
+/// A program for the slot. Its instructions are numbered as the bytecode has them: with those that
+/// the assembler put in, and with the end of the program.
 pub struct Executable {
     /// How it is executed.
     pub tier: Tier,
@@ -51,7 +53,7 @@ pub struct Executable {
     pub assembly: Assembly,
     /// The instructions with their offsets in the bytecode.
     pub code: Vec<(u16, Decoded)>,
-    /// Where in the image each instruction stands.
+    /// Where in the image each instruction is.
     places: Vec<Range<u16>>,
 }
 
@@ -63,17 +65,22 @@ impl Executable {
     pub fn new(name: &str, text: &str, tier: Tier) -> Executable {
         let source = Source::new(name, text).unwrap_or_else(|error| panic!("{name}: {error}"));
         let assembly = assemble(&source, Vec::new());
-        let errors = assembly.diagnostics.iter().filter(|diagnostic| diagnostic.severity() == Severity::Error);
+        let errors = assembly
+            .diagnostics
+            .iter()
+            .filter(|diagnostic| diagnostic.severity() == Severity::Error);
         let errors: Vec<_> = errors.map(|error| (error.span, &error.message)).collect();
         let Some(bytecode) = assembly.image.clone() else { panic!("{name}: {errors:?}") };
-        let code: Vec<(u16, Decoded)> =
-            verify(bytecode.as_slice()).map_or(Vec::new(), |program| program.instructions().collect());
+        let code: Vec<(u16, Decoded)> = verify(bytecode.as_slice())
+            .map_or(Vec::new(), |program| program.all_instructions().collect());
         let (image, places) = match tier {
-            Tier::Interpreter => (bytecode.clone(), code.iter().map(|(at, decoded)| *at..at + decoded.len).collect()),
+            Tier::Interpreter => {
+                (bytecode.clone(), code.iter().map(|(at, decoded)| *at..at + decoded.len).collect())
+            }
             Tier::Native { pins } => {
                 let translated = translate_with(&bytecode, Options { pins });
                 let translated = translated.unwrap_or_else(|error| panic!("{name}: {error}"));
-                (translated.image, translated.instructions.into_iter().map(|one| one.native).collect())
+                (translated.image, places(&code, &translated.instructions))
             }
         };
         Executable { tier, image, bytecode, assembly, code, places }
@@ -84,7 +91,8 @@ impl Executable {
     /// # Panics
     /// Never: the assembler makes no image that is not valid.
     pub fn plan(&self) -> Plan<Vec<u8>> {
-        let program: Program<Vec<u8>> = verify(self.bytecode.clone()).expect("an image of the assembler is valid");
+        let program: Program<Vec<u8>> =
+            verify(self.bytecode.clone()).expect("an image of the assembler is valid");
         program.plan().clone()
     }
 
@@ -104,7 +112,8 @@ impl Executable {
 
     /// Whether the assembler put this instruction before the one that was written.
     pub fn is_hidden(&self, instruction: usize) -> bool {
-        let is_hidden = |(_, decoded): &(u16, Decoded)| decoded.op.instruction().group == Group::Hidden;
+        let is_hidden =
+            |(_, decoded): &(u16, Decoded)| decoded.op.instruction().group == Group::Hidden;
         self.code.get(instruction).is_some_and(is_hidden)
     }
 
@@ -128,4 +137,16 @@ impl Executable {
         let header = Header::read(&OnBoard(&self.image));
         header.map_or(0, |header| usize::from(header.code_len))
     }
+}
+
+/// Where the machine code of each instruction is; nowhere for those of interrupt routines.
+fn places(code: &[(u16, Decoded)], translated: &[TranslatedInstruction]) -> Vec<Range<u16>> {
+    let mut end = 0;
+    let place = |(at, _): &(u16, Decoded)| {
+        let found = translated.binary_search_by_key(at, |one| one.at).ok();
+        let place = found.map_or(end..end, |index| translated[index].native.clone());
+        end = place.end;
+        place
+    };
+    code.iter().map(place).collect()
 }

@@ -1,5 +1,6 @@
-//! Measures a row of the table of instructions: the cycles it takes in many situations, with and without power flow,
-//! with random bits and words and those at the ends of their ranges, with timers and counters in all their states.
+//! Measures a row of the table of instructions: the cycles it takes in many situations, with and
+//! without power flow, with random bits and words and those at the ends of their ranges, with
+//! timers and counters in all their states.
 
 use std::collections::BTreeMap;
 
@@ -59,14 +60,17 @@ pub fn measure_with(row: &Row, tier: Tier, count: u8) -> ByFlow {
             }
             let taken = hidden + step.cycles;
             hidden = 0;
-            if meter.executable.written(instruction).is_some_and(|number| numbers.contains(&number)) {
+            if meter.executable.written(instruction).is_some_and(|number| numbers.contains(&number))
+            {
                 found.entry(step.flow).or_default().push(taken);
             }
         }
     }
     // What is no machine code takes no time.
     let code = 0..meter.executable.code.len();
-    let of_row = |&instruction: &usize| meter.executable.written(instruction).is_some_and(|n| numbers.contains(&n));
+    let of_row = |&instruction: &usize| {
+        meter.executable.written(instruction).is_some_and(|n| numbers.contains(&n))
+    };
     if code.filter(of_row).all(|instruction| meter.executable.is_nothing(instruction)) {
         found.insert(true, vec![0]);
     }
@@ -74,9 +78,10 @@ pub fn measure_with(row: &Row, tier: Tier, count: u8) -> ByFlow {
 }
 
 /// Words at the ends of ranges and around the constants of the programs.
-const WORDS: [i16; 14] = [0, 1, -1, 2, 3, 4, 5, 6, 7, 500, i16::MAX, i16::MIN, i16::MAX - 500, i16::MIN + 500];
+const WORDS: [i16; 14] =
+    [0, 1, -1, 2, 3, 4, 5, 6, 7, 500, i16::MAX, i16::MIN, i16::MAX - 500, i16::MIN + 500];
 
-/// Bytes of M that become random words before a scan, and one with random bits behind them.
+/// Bytes of M that become random words before a scan, and one with random bits after them.
 const RANDOM_WORDS: u16 = 28;
 const RANDOM_BITS: u16 = 30;
 

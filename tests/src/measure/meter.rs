@@ -1,5 +1,5 @@
-//! Runs a program on the virtual Uno and takes the time of its parts, to the cycle. Interrupts are taken out of the
-//! program's time: what they cost is seen in the period of the scans.
+//! Runs a program on the virtual Uno and takes the time of its parts, to the cycle. Interrupts are
+//! taken out of the program's time: what they cost is seen in the period of the scans.
 
 use std::fs;
 use std::ops::Range;
@@ -14,15 +14,15 @@ use crate::bench_board::BenchBoard;
 
 /// End of the interrupt vectors in flash, in bytes.
 const VECTORS_END: u32 = NATIVE_VECTORS as u32;
-/// simavr tells the status register only to the program: an instruction `in r18, SREG` in the room of the bootloader,
-/// which this board has not. The T flag of the status register is S0.
+/// simavr tells the status register only to the program: an instruction `in r18, SREG` in the room
+/// of the bootloader, which this board has not. The T flag of the status register is S0.
 const READ_STATUS: u32 = SLOT_END as u32;
 const READ_STATUS_CODE: [u8; 2] = [0x2F, 0xB7];
 const STATUS: usize = 18;
 const T_FLAG: u8 = 1 << 6;
 /// The stack pointer in data memory.
 const STACK_POINTER: usize = 0x5D;
-/// Register pair Y, which stands so far behind the token at every dispatch.
+/// Register pair Y, which is so far after the token at every dispatch.
 const Y: usize = 28;
 const BEHIND_TOKEN: u16 = 2;
 /// Bytes of the engine's table: a jump for every token.
@@ -30,8 +30,8 @@ const TABLE_LEN: u32 = 512;
 /// Longest scan.
 const SCAN_MAX: u64 = 1_000 * MS;
 
-/// Where in the firmware the program's part of the scan begins and ends, and the table through which the engine jumps
-/// to the handler of every token.
+/// Where in the firmware the program's part of the scan begins and ends, and the table through
+/// which the engine jumps to the handler of every token.
 #[derive(Debug, Clone)]
 struct Probe {
     enter: u32,
@@ -41,7 +41,8 @@ struct Probe {
 
 impl Probe {
     fn of(tier: Tier, elf: &Elf) -> Probe {
-        let symbol = |name| elf.flash_symbol(name).unwrap_or_else(|| panic!("the firmware has no {name}"));
+        let symbol =
+            |name| elf.flash_symbol(name).unwrap_or_else(|| panic!("the firmware has no {name}"));
         let (enter, leave) = match tier {
             Tier::Interpreter => ("uno200_run", "uno200_run_end"),
             Tier::Native { .. } => ("uno200_run_native", "uno200_run_native_end"),
@@ -56,7 +57,7 @@ impl Probe {
 /// # Panics
 /// Without it: nothing is left out silently.
 pub fn elf() -> Elf {
-    let path = firmware::find("elf").unwrap_or_else(|error| panic!("{error:#}"));
+    let path = firmware::find_elf().unwrap_or_else(|error| panic!("{error:#}"));
     Elf::parse(&fs::read(path).expect("the firmware can be read")).expect("the firmware is an ELF")
 }
 
@@ -101,7 +102,10 @@ impl Meter {
     pub fn new(executable: Executable) -> Meter {
         let (mut board, probe) = (BenchBoard::new(), Probe::of(executable.tier, &elf()));
         board.insert(&executable.image);
-        board.avr.write_flash(READ_STATUS, &READ_STATUS_CODE).unwrap_or_else(|error| panic!("{error}"));
+        board
+            .avr
+            .write_flash(READ_STATUS, &READ_STATUS_CODE)
+            .unwrap_or_else(|error| panic!("{error}"));
         board.power_up();
         board.scan();
         assert_eq!(board.fault(), None);
@@ -134,7 +138,7 @@ impl Meter {
         }
     }
 
-    /// From the engine's first instruction to behind its last.
+    /// From the engine's first instruction to after its last.
     fn execute_program(&mut self, execution: &mut Execution) {
         let start = self.time();
         let mut step = Step { instruction: None, flow: false, count: None, cycles: start };
@@ -166,14 +170,16 @@ impl Meter {
             false => return None,
         };
         let next = self.executable.instruction_at(at.checked_sub(SLOT_START)?)?;
-        // Bytecode is dispatched once for an instruction. Machine code is in it until it is in another.
+        // Bytecode is dispatched once for an instruction. Machine code is in it until it is in
+        // another.
         (!is_native || current != Some(next)).then_some(next)
     }
 
     /// The byte that an instruction reads for a count.
     fn count(&self, instruction: usize) -> Option<u8> {
         let (_, decoded) = self.executable.code.get(instruction)?;
-        let is_range = matches!(decoded.op, Op::Set | Op::Reset | Op::ResetTimers | Op::ResetCounters);
+        let is_range =
+            matches!(decoded.op, Op::Set | Op::Reset | Op::ResetTimers | Op::ResetCounters);
         decoded.operands().find_map(|(_, operand)| match operand {
             Operand::Memory(at) if is_range => Some(self.board.byte(at)),
             _ => None,
@@ -187,7 +193,8 @@ impl Meter {
 
     /// Whether power flows, before an instruction.
     fn flow(&mut self) -> bool {
-        let (time, pc, register) = (self.time(), self.board.avr.pc(), self.board.avr.data()[STATUS]);
+        let (time, pc, register) =
+            (self.time(), self.board.avr.pc(), self.board.avr.data()[STATUS]);
         self.board.avr.set_pc(READ_STATUS);
         self.step();
         self.board.avr.set_pc(pc);
@@ -201,7 +208,7 @@ impl Meter {
         self.board.avr.cycles() - self.others
     }
 
-    /// One machine instruction of the main program, and the interrupts behind it.
+    /// One machine instruction of the main program, and the interrupts after it.
     fn step(&mut self) -> Stopped {
         let stopped = self.board.avr.step();
         assert!(!matches!(stopped, Stopped::Crash { .. }), "{stopped:?}");
@@ -216,7 +223,10 @@ impl Meter {
     fn leave_interrupt(&mut self) {
         let (start, sp) = (self.board.avr.cycles(), self.register_pair(STACK_POINTER));
         let data = self.board.avr.data();
-        let back = 2 * u32::from(u16::from_be_bytes([data[usize::from(sp) + 1], data[usize::from(sp) + 2]]));
+        let back = 2 * u32::from(u16::from_be_bytes([
+            data[usize::from(sp) + 1],
+            data[usize::from(sp) + 2],
+        ]));
         while (self.board.avr.pc(), self.register_pair(STACK_POINTER)) != (back, sp + 2) {
             let stopped = self.board.avr.step();
             assert!(stopped == Stopped::Limit, "{stopped:?} in an interrupt");

@@ -1,7 +1,8 @@
-//! Measuring on the virtual Uno with the shipped firmware: cycles of scans, of programs, of single instructions. What
-//! is fast enough is for others to say.
+//! Measuring on the virtual Uno with the shipped firmware: cycles of scans, of programs, of single
+//! instructions. What is fast enough is for others to say.
 //!
-//! simavr counts every instruction as the data sheet does, except the 4 cycles with which an interrupt begins.
+//! simavr counts every instruction as the data sheet does, except the 4 cycles with which an
+//! interrupt begins.
 
 mod executable;
 pub mod forms;

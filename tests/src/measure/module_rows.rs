@@ -1,25 +1,29 @@
-//! The rows of instructions that come in modules, of routines, of sequence control and of interrupts: the program an
-//! instruction stands in, the values that it finds, and what the S7-200 takes (reference 5.2). Nothing is measured here.
+//! The rows of instructions that come in modules, of routines, of sequence control and of
+//! interrupts: the program an instruction is in, the values that it finds, and what the S7-200
+//! takes (docs/s7-200.md 5.2). Nothing is measured here.
 //!
-//! Operands stand in V memory, counts are constants, unless the row says something else.
+//! Operands are in V memory, counts are constants, unless the row says something else.
 
 use super::rows::{Chapter, Row};
 use super::s7_200::{each, fixed};
-use super::values::Content::{Bcd, Bits, Byte, Characters, Count, Double, Real, Share, String, Table, Text, Word};
+use super::values::Content::{
+    Bcd, Bits, Byte, Characters, Count, Double, Real, Share, String, Table, Text, Word,
+};
 use super::values::Item;
 
 /// Memory for tables, blocks and strings.
 const MEMORY: &str = "//# memory VB0-VB299\n";
-/// A box behind a contact.
+/// A box after a contact.
 const BOX: &str = "LD M30.0\n{}";
 /// The same with a pointer to VB100, and with one for a count of 8 at VB290.
 const POINTER: &str = "LD SM0.0\nMOVD &VB100, AC1\nLD M30.0\n{}";
 /// The same with a pointer to the last of some counters.
 const BY_POINTER_TO_COUNTER: &str = "LD M30.0\nLD M30.1\nCTU C1, 5\nLD M30.0\nLD M30.1\nCTU C2, 5\n\
-    LD M30.0\nLD M30.1\nCTU C3, 5\nLD M30.0\nLD M30.1\nCTU C4, 5\nLD SM0.0\nMOVD &C4, AC1\nLD M30.0\n{}";
+    LD M30.0\nLD M30.1\nCTU C3, 5\nLD M30.0\nLD M30.1\nCTU C4, 5\nLD SM0.0\nMOVD &C4, AC1\n\
+    LD M30.0\n{}";
 const COUNTED: &str = "LD SM0.0\nMOVD &VB290, AC1\nLD M30.0\n{}";
 const COUNT: &[Item] = &[(290, Count)];
-/// A contact that loads, and one behind another.
+/// A contact that loads, and one after another.
 const LOADS: &str = "{}\n= M31.7";
 const BEHIND: &str = "LD M30.0\n{}\n= M31.7";
 const LOADS_BY_POINTER: &str = "LD SM0.0\nMOVD &VB100, AC1\n{}\n= M31.7";
@@ -75,7 +79,8 @@ const REALS_OF_USE: &[Item] = &[(4, Real(-1000.0, 1000.0)), (8, Real(-1000.0, 10
 const ANGLE: &[Item] = &[(4, Real(-6.3, 6.3))];
 const EXPONENT: &[Item] = &[(4, Real(-10.0, 10.0))];
 const POSITIVE: &[Item] = &[(4, Real(0.001, 1000.0))];
-/// PV, SP, M, gain, sample time, integral and derivative time, bias, PV before: one loop of a controller.
+/// PV, SP, M, gain, sample time, integral and derivative time, bias, PV before: one loop of a
+/// controller.
 const LOOP: &[Item] = &[
     (0, Share(0.3, 0.7)),
     (4, Share(0.4, 0.6)),
@@ -131,8 +136,14 @@ const LOGIC: &[Row] = &[
     row("RRW VW4, {n}").count("bit", 4, 15).quoted(each(26.0, 1.2)),
     row("RRD VD4, {n}").count("bit", 4, 31).quoted(each(28.0, 1.7)),
     row("SHRB M31.0, V10.0, {n}").count("bit", 16, 64).quoted(each(48.0, 1.0)),
-    Row::new("S V100.0, *AC1", MEMORY, COUNTED).with(COUNT).count("bit", 8, 128).quoted(each(14.0 + 14.0, 0.5)),
-    Row::new("R V100.0, *AC1", MEMORY, COUNTED).with(COUNT).count("bit", 8, 128).quoted(each(14.0 + 14.0, 0.5)),
+    Row::new("S V100.0, *AC1", MEMORY, COUNTED)
+        .with(COUNT)
+        .count("bit", 8, 128)
+        .quoted(each(14.0 + 14.0, 0.5)),
+    Row::new("R V100.0, *AC1", MEMORY, COUNTED)
+        .with(COUNT)
+        .count("bit", 8, 128)
+        .quoted(each(14.0 + 14.0, 0.5)),
 ];
 
 const MOVES: &[Row] = &[
@@ -173,9 +184,18 @@ const COMPARISONS: &[Row] = &[
     loads("LDR{x} VD4, VD8").with(REALS_OF_USE).quoted(fixed(29.0)),
     behind("AR{x} VD4, VD8").with(REALS_OF_USE).quoted(fixed(29.0)),
     behind("OR{x} VD4, VD8").with(REALS_OF_USE).quoted(fixed(29.0)),
-    loads("LDS= VB0, VB100").with(STRINGS_OF_SAME).count("character", 8, 40).quoted(each(33.0, 6.3)),
-    behind("AS= VB0, VB100").with(STRINGS_OF_SAME).count("character", 8, 40).quoted(each(33.0, 6.3)),
-    behind("OS= VB0, VB100").with(STRINGS_OF_SAME).count("character", 8, 40).quoted(each(33.0, 6.3)),
+    loads("LDS= VB0, VB100")
+        .with(STRINGS_OF_SAME)
+        .count("character", 8, 40)
+        .quoted(each(33.0, 6.3)),
+    behind("AS= VB0, VB100")
+        .with(STRINGS_OF_SAME)
+        .count("character", 8, 40)
+        .quoted(each(33.0, 6.3)),
+    behind("OS= VB0, VB100")
+        .with(STRINGS_OF_SAME)
+        .count("character", 8, 40)
+        .quoted(each(33.0, 6.3)),
 ];
 
 const TABLE: &[Item] = &[(0, Table)];
@@ -194,22 +214,27 @@ const TABLES: &[Row] = &[
 ];
 
 const STRINGS: &[Row] = &[
-    row("SLEN VB0, VB260").with(&[(0, Text("conveyor"))]).count("character", 8, 40).quoted(fixed(21.0)),
-    row("SCPY VB0, VB100").with(&[(0, Text("conveyor"))]).count("character", 8, 40).quoted(each(27.0, 4.6)),
+    row("SLEN VB0, VB260")
+        .with(&[(0, Text("conveyor"))])
+        .count("character", 8, 40)
+        .quoted(fixed(21.0)),
+    row("SCPY VB0, VB100")
+        .with(&[(0, Text("conveyor"))])
+        .count("character", 8, 40)
+        .quoted(each(27.0, 4.6)),
     row("SCAT VB0, VB100").with(STRINGS_OF_SAME).count("character", 8, 40).quoted(each(30.0, 5.3)),
     row("SSCPY VB0, 1, {n}, VB100").with(&[(0, Text("conveyor"))]).count("character", 8, 40),
     // Found at the end, or nowhere.
-    row("SFND VB0, VB100, VB260").with(&[(0, Text("conveyor")), (100, String("xzq")), (260, Byte(1, 1))]).count(
-        "character",
-        8,
-        40,
-    ),
-    row("CFND VB0, VB100, VB260").with(&[(0, Text("conveyor")), (100, String("xzq")), (260, Byte(1, 1))]).count(
-        "character",
-        8,
-        40,
-    ),
-    row("ATH VB0, VB100, {n}").with(&[(0, Characters("3EA90F17"))]).count("digit", 8, 40).quoted(each(23.0, 10.2)),
+    row("SFND VB0, VB100, VB260")
+        .with(&[(0, Text("conveyor")), (100, String("xzq")), (260, Byte(1, 1))])
+        .count("character", 8, 40),
+    row("CFND VB0, VB100, VB260")
+        .with(&[(0, Text("conveyor")), (100, String("xzq")), (260, Byte(1, 1))])
+        .count("character", 8, 40),
+    row("ATH VB0, VB100, {n}")
+        .with(&[(0, Characters("3EA90F17"))])
+        .count("digit", 8, 40)
+        .quoted(each(23.0, 10.2)),
     row("HTA VB0, VB100, {n}").count("digit", 8, 40).quoted(each(20.0, 5.2)),
     row("ITA VW4, VB100, 2").quoted(fixed(136.0)),
     row("DTA VD4, VB100, 2").quoted(fixed(302.0)),
@@ -236,8 +261,10 @@ const POINTS: &[Row] = &[
     row("BIW VB4, QB0").quoted(fixed(24.0)),
     row("DLED VB4"),
     in_frame("HDEF 0, 0", BOX).once().quoted(fixed(18.0)),
-    in_frame("HSC 0", "LD SM0.1\nHDEF 0, 0\nLD SM0.0\nMOVB 16#F8, SMB37\nLD M30.0\n{}").quoted(fixed(30.0)),
-    in_frame("PLS 1", "LD SM0.0\nMOVB 16#CB, SMB77\nMOVW 100, SMW78\nMOVW 25, SMW80\nLD M30.0\n{}").quoted(fixed(31.0)),
+    in_frame("HSC 0", "LD SM0.1\nHDEF 0, 0\nLD SM0.0\nMOVB 16#F8, SMB37\nLD M30.0\n{}")
+        .quoted(fixed(30.0)),
+    in_frame("PLS 1", "LD SM0.0\nMOVB 16#CB, SMB77\nMOVW 100, SMW78\nMOVW 25, SMW80\nLD M30.0\n{}")
+        .quoted(fixed(31.0)),
 ];
 
 /// A time of day in BCD.
@@ -253,11 +280,13 @@ const TIME: &[Item] = &[
 ];
 /// The serial line as freeport.
 const SEND: &str = "LD SM0.1\nMOVB 9, SMB30\nLD M30.0\n{}";
-const RECEIVE: &str =
-    "LD SM0.1\nMOVB 9, SMB30\nLD SM0.0\nMOVB 16#90, SMB87\nMOVW 5, SMW90\nMOVB 10, SMB94\nLD M30.0\n{}";
+const RECEIVE: &str = "LD SM0.1\nMOVB 9, SMB30\nLD SM0.0\nMOVB 16#90, SMB87\nMOVW 5, SMW90\n\
+    MOVB 10, SMB94\nLD M30.0\n{}";
 
 const CLOCK: &[Row] = &[
-    Row::new("TODR VB10", MEMORY, "LD SM0.0\nTODW VB0\nLD M30.0\n{}").with(TIME).quoted(fixed(331.0)),
+    Row::new("TODR VB10", MEMORY, "LD SM0.0\nTODW VB0\nLD M30.0\n{}")
+        .with(TIME)
+        .quoted(fixed(331.0)),
     row("TODW VB0").with(TIME).quoted(fixed(436.0)),
     row("BITIM VD4").quoted(fixed(16.0)),
     row("CITIM VD4, VD8").quoted(fixed(23.0)),

@@ -1,7 +1,9 @@
-//! The benchmark programs, written by a generator: the same text at every call. What they take is measured elsewhere.
+//! The benchmark programs, written by a generator: the same text at every call. What they take is
+//! measured elsewhere.
 //!
-//! There are no jumps: every instruction is reached in every scan. Word boxes stand behind contacts that the translator
-//! cannot know, by turns with power flow (M30.0) and without (M30.1), as in a machine not all steps are active.
+//! There are no jumps: every instruction is reached in every scan. Word boxes are after contacts
+//! that the translator cannot know, by turns with power flow (M30.0) and without (M30.1), as in a
+//! machine not all steps are active.
 
 use std::fmt::Write as _;
 
@@ -46,7 +48,7 @@ const BIT_RUNGS: [&str; 8] = [
     "LD i\nO m\nAN i\n= m\n",
     // A step of a sequence.
     "LD m\nA i\nAN m\nS m, 1\nR m, 1\n",
-    // Branches behind a common contact.
+    // Branches after a common contact.
     "LD m\nA i\nLPS\nAN m\n= q\nLPP\nA m\n= m\n",
     "LD i\nAN m\nLPS\nA i\nS q, 1\nLRD\nAN i\nR q, 1\nLPP\nA m\n= m\n",
     // Two ways to the same coil.
@@ -85,10 +87,18 @@ struct Generator {
 
 impl Generator {
     fn new(seed: u32) -> Generator {
-        Generator { state: seed, text: String::new(), networks: 0, guards: 0, wanted: 0, wanted_words: 0 }
+        Generator {
+            state: seed,
+            text: String::new(),
+            networks: 0,
+            guards: 0,
+            wanted: 0,
+            wanted_words: 0,
+        }
     }
 
-    /// A number below `end`: Marsaglia's xorshift, so that no library decides what the benchmark is.
+    /// A number below `end`: Marsaglia's xorshift, so that no library decides what the benchmark
+    /// is.
     fn below(&mut self, end: usize) -> usize {
         self.state ^= self.state << 13;
         self.state ^= self.state >> 17;
@@ -167,7 +177,11 @@ mod tests {
     /// Instructions, and word instructions among them, as the assembler counts them.
     fn counted(text: &str) -> (usize, usize) {
         let assembly = assemble(&Source::new("bench", text).unwrap(), Vec::new());
-        assert!(assembly.image.is_some_and(|image| image.len() < usize::from(SLOT_LEN)), "{:?}", assembly.diagnostics);
+        assert!(
+            assembly.image.is_some_and(|image| image.len() < usize::from(SLOT_LEN)),
+            "{:?}",
+            assembly.diagnostics
+        );
         let mnemonics = assembly.code.iter().map(|selected| selected.op.instruction().mnemonic());
         (assembly.code.len(), mnemonics.filter(|mnemonic| is_word(mnemonic)).count())
     }

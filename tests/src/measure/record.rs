@@ -5,7 +5,8 @@ use std::fmt;
 /// The first line of the file.
 pub const HEAD: &str = "section,tier,what,min,max,quoted_us,name";
 
-/// A line: section, tier, what was measured, fewest and most, what is quoted for the S7-200, and of what.
+/// A line: section, tier, what was measured, fewest and most, what is quoted for the S7-200, and of
+/// what.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record {
     /// The part of the report.

@@ -1,5 +1,6 @@
-//! The table of instructions: every form of every instruction of the core with its operands, the small program it stands
-//! in, and what the S7-200 takes. Those of modules stand in `module_rows`. Nothing is measured here.
+//! The table of instructions: every form of every instruction of the core with its operands, the
+//! small program it is in, and what the S7-200 takes. Those of modules are in `module_rows`.
+//! Nothing is measured here.
 
 use super::s7_200::{self, Quoted};
 use super::values::Item;
@@ -9,13 +10,13 @@ use super::values::Item;
 pub struct Row {
     /// Its AWL. `{b}` stands for each bit number, `{x}` for each comparison.
     pub awl: &'static str,
-    /// The program around it, which has `{}` where the instruction stands.
+    /// The program around it, which has `{}` where the instruction is.
     frame: &'static str,
     /// What the S7-200 takes, and for how many bits.
     quoted: Option<(Quoted, u32)>,
     /// A line before the program.
     settings: &'static str,
-    /// What stands in V memory before a scan.
+    /// What is in V memory before a scan.
     pub items: &'static [Item],
     /// What its time goes with.
     pub count: Option<Count>,
@@ -81,7 +82,9 @@ impl Row {
         const RELATIONS: [&str; 6] = ["=", "<>", "<", ">", "<=", ">="];
         match (self.awl.contains("{b}"), self.awl.contains("{x}")) {
             (true, _) => (0..8).map(|bit| self.awl.replace("{b}", &bit.to_string())).collect(),
-            (_, true) => RELATIONS.iter().map(|relation| self.awl.replace("{x}", relation)).collect(),
+            (_, true) => {
+                RELATIONS.iter().map(|relation| self.awl.replace("{x}", relation)).collect()
+            }
             _ => vec![self.awl.replace("{n}", &count.to_string())],
         }
     }
@@ -95,7 +98,9 @@ impl Row {
     pub fn program_with(&self, count: u8) -> (String, Vec<usize>) {
         let (mut text, mut numbers) = (self.settings.to_string(), Vec::new());
         let instructions = self.instructions(count);
-        let lines = instructions.iter().flat_map(|instruction| self.frame.lines().map(move |line| (line, instruction)));
+        let lines = instructions
+            .iter()
+            .flat_map(|instruction| self.frame.lines().map(move |line| (line, instruction)));
         let mut number = 0;
         for (line, instruction) in lines {
             if line == "{}" {
@@ -110,7 +115,7 @@ impl Row {
     }
 }
 
-/// A contact that loads; one behind another; a coil or box behind a contact; two and three values.
+/// A contact that loads; one after another; a coil or box after a contact; two and three values.
 const LOADS: &str = "{}\n= M31.7";
 const BEHIND: &str = "LD M30.0\n{}\n= M31.7";
 const BOX: &str = "LD M30.0\n{}";
@@ -282,7 +287,11 @@ const BACK: &str = "LD SM0.0\nMOVW 0, MW28\nLBL 1\nLD SM0.0\nINCW MW28\nLDW< MW2
 
 const CONTROL: &[Row] = &[
     row("FOR MW28, 1, 3", "LD M30.0\n{}\nLD SM0.0\n= M31.7\nNEXT", s7_200::FOR),
-    row("FOR MW28, VW2, VW4", "LD SM0.0\nMOVW 1, VW2\nMOVW 3, VW4\nLD M30.0\n{}\nLD SM0.0\n= M31.7\nNEXT", s7_200::FOR),
+    row(
+        "FOR MW28, VW2, VW4",
+        "LD SM0.0\nMOVW 1, VW2\nMOVW 3, VW4\nLD M30.0\n{}\nLD SM0.0\n= M31.7\nNEXT",
+        s7_200::FOR,
+    ),
     row("NEXT", "LD M30.0\nFOR MW28, 1, 3\nLD SM0.0\n= M31.7\n{}", s7_200::PASS),
     row("JMP 1 // forward", "LD M30.0\n{}\nLD SM0.0\n= M31.7\nLBL 1", s7_200::JMP),
     row("JMP 1 // back", BACK, s7_200::JMP),
@@ -321,7 +330,8 @@ mod tests {
     use crate::forms::{Row, places, rows};
     use crate::image::image;
 
-    /// What this page measures: the core, without what the assembler puts in and what comes in units.
+    /// What this page measures: the core, without what the assembler puts in and what comes in
+    /// units.
     fn is_measured(row: &Row) -> bool {
         let group = row.instruction.group;
         let is_apart = matches!(group, Group::Call | Group::Sequence | Group::Interrupt);
@@ -330,7 +340,16 @@ mod tests {
             && !NOT_WRITTEN.contains(&row.instruction.op)
     }
 
-    const NOT_WRITTEN: [Op; 7] = [Op::ScrAnd, Op::CallBegin, Op::BitCopy, Op::Ret, Op::Poll, Op::Aeno, Op::Approach];
+    const NOT_WRITTEN: [Op; 8] = [
+        Op::ScrAnd,
+        Op::CallBegin,
+        Op::BitCopy,
+        Op::Ret,
+        Op::Poll,
+        Op::NoteEno,
+        Op::Aeno,
+        Op::Approach,
+    ];
 
     #[test]
     fn every_form_of_the_core_has_a_row() {
@@ -339,7 +358,8 @@ mod tests {
             seen.extend(places(&image(&row.program().0)).iter().map(|place| place.row.name()));
         }
         let measured = rows().into_iter().filter(is_measured);
-        let missing: Vec<String> = measured.map(|row| row.name()).filter(|name| !seen.contains(name)).collect();
+        let missing: Vec<String> =
+            measured.map(|row| row.name()).filter(|name| !seen.contains(name)).collect();
         assert!(missing.is_empty(), "{missing:?}");
     }
 }

@@ -1,8 +1,8 @@
 //! Execution times of the S7-200, to be compared with. Quoted, not measured.
 //!
-//! Source: CPU 22x, release 2.x (2004 to 2008), 0.22 us a boolean. Recollected from the system manual and NOT verified
-//! against it; ratios to the verified figures of the edition before fit (reference 5.2). They must not be taken for
-//! figures of Siemens.
+//! Source: CPU 22x, release 2.x (2004 to 2008), 0.22 us a boolean. Recollected from the system
+//! manual and NOT verified against it; ratios to the verified figures of the edition before fit
+//! (docs/s7-200.md 5.2). They must not be taken for figures of Siemens.
 
 /// An execution time in microseconds: a base, and a share for each bit or pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,8 +30,8 @@ pub const fn each(base_us: f64, each_us: f64) -> Quoted {
     Quoted { base_us, each_us }
 }
 
-/// A conditional instruction without power flow: "about 1 us" for all of them. Those that are quoted with less take
-/// what they take with power flow.
+/// A conditional instruction without power flow: "about 1 us" for all of them. Those that are
+/// quoted with less take what they take with power flow.
 pub const WITHOUT_POWER_FLOW_US: f64 = 1.0;
 
 /// LD of I and SM0.0.

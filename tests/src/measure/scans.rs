@@ -46,14 +46,15 @@ impl Spread {
 pub struct ScanFigures {
     /// From entering the program to leaving it, without interrupts.
     pub program: Spread,
-    /// From before the inputs to behind the outputs.
+    /// From before the inputs to after the outputs.
     pub whole: Spread,
     /// From a scan to the next.
     pub period: Spread,
 }
 
 impl ScanFigures {
-    /// What a scan takes beside the program: a usual one, and on average. Once a millisecond a scan has more to do.
+    /// What a scan takes beside the program: a usual one, and on average. Once a millisecond a scan
+    /// has more to do.
     pub fn overhead(&self) -> (u64, u64) {
         (self.period.median - self.program.median, self.period.mean - self.program.mean)
     }

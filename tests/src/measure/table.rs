@@ -1,5 +1,6 @@
-//! Makes the table of `awl-asm/src/cost/interpreter.rs` by measuring every form of every instruction, and constants
-//! beside. Not used by tests, which hold the table against other programs.
+//! Makes the table of `awl-asm/src/output/cost/interpreter.rs` by measuring every form of every
+//! instruction, and constants beside. Not used by tests, which hold the table against other
+//! programs.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -12,7 +13,8 @@ use plc_isa::{Kind, Op, PowerFlow};
 use super::forms::situation;
 use super::rows::CHAPTERS;
 use super::{Executable, Execution, Meter, Step, Tier};
-use crate::random::random_program;
+use crate::case::Case;
+use crate::random::{random_interrupts, random_program};
 
 /// Fewest and most cycles.
 type Range = Option<(u64, u64)>;
@@ -45,15 +47,23 @@ pub fn table() -> String {
         }
     }
     for seed in 0..RANDOM {
-        random(seed, &mut found);
+        let mut rng = Rng::with_seed(1_000_000 + seed);
+        // Away from those that the tests take.
+        let text = random_program(&mut rng, 80);
+        any_inputs(&text, 150, &mut rng, &mut found);
+    }
+    for text in units() {
+        // What looks for events takes longer for each millisecond: that is apart.
+        any_inputs(&text, 2, &mut Rng::with_seed(1), &mut found);
     }
     native_constants(&found) + &text(start, &found)
 }
 
-/// What calls between the engine and machine code take: constants of `awl-asm/src/cost/mod.rs`, and of
-/// `awl-asm/src/native/vectors.rs`.
+/// What calls between the engine and machine code take: constants of
+/// `awl-asm/src/output/cost/mod.rs`, and of `awl-asm/src/output/native/vectors.rs`.
 fn native_constants(found: &BTreeMap<(Op, String), Ways>) -> String {
-    let executable = Executable::new("native", "LD T32\n= Q0.0\nTON T32, 5\n", Tier::Native { pins: false });
+    let executable =
+        Executable::new("native", "LD T32\n= Q0.0\nTON T32, 5\n", Tier::Native { pins: false });
     let translated = translate_with(&executable.bytecode, Options { pins: false });
     let translated = translated.unwrap_or_else(|error| panic!("{error}"));
     let end = translated.instructions.last().map_or(0, |end| end.cycles.max);
@@ -61,26 +71,36 @@ fn native_constants(found: &BTreeMap<(Op, String), Ways>) -> String {
     meter.board.stop_clock();
     let steps = meter.execute().steps;
     let cycles = |step: Option<&Step>| step.map_or(0, |step| step.cycles);
-    // The first instruction is the hidden one, which the firmware executes for a call with two words.
+    // The first instruction is the hidden one, which the firmware executes for a call with two
+    // words.
     let refresh = found.get(&(Op::Refresh, "[]".to_string())).and_then(|ways| ways.off.or(ways.on));
     let call = 2 + 4;
     format!(
-        "pub const NATIVE_START: u32 = {};\npub const NATIVE_END: u32 = {};\nconst BYTECODE: u32 = {};\n",
+        "pub const NATIVE_START: u32 = {};\npub const NATIVE_END: u32 = {};\n\
+            const BYTECODE: u32 = {};\n",
         cycles(steps.first()) - u64::from(translated.start.max),
         cycles(steps.last()) - u64::from(end),
         cycles(steps.get(1)).saturating_sub(refresh.map_or(0, |(least, _)| least) + call),
     )
 }
 
-fn random(seed: u64, found: &mut BTreeMap<(Op, String), Ways>) {
-    // Away from those that the tests take.
-    let mut rng = Rng::with_seed(1_000_000 + seed);
-    let text = random_program(&mut rng, 80);
-    let mut meter = Meter::new(Executable::new("random", &text, Tier::Interpreter));
+/// Programs that have routines, segments or interrupts.
+fn units() -> Vec<String> {
+    let has_units =
+        |awl: &String| ["_BLOCK", "LSCR", "AENO", "ATCH"].iter().any(|word| awl.contains(word));
+    let cases =
+        Case::examples().into_iter().chain(Case::all()).filter(|case| case.faults.is_empty());
+    let random = (0..RANDOM / 10).map(|seed| random_interrupts(&mut Rng::with_seed(seed)));
+    cases.map(|case| case.awl).filter(has_units).chain(random).collect()
+}
+
+/// Runs scans with any inputs, and less than so many milliseconds from one to the next.
+fn any_inputs(text: &str, ms_end: u32, rng: &mut Rng, found: &mut BTreeMap<(Op, String), Ways>) {
+    let mut meter = Meter::new(Executable::new("random", text, Tier::Interpreter));
     meter.board.stop_clock();
     for _ in 0..20 {
         meter.board.drive_inputs(rng.u8(..64));
-        meter.pass(rng.u32(..150));
+        meter.pass(rng.u32(..ms_end));
         let execution = meter.execute();
         enter(&meter, &execution, found);
     }
@@ -91,7 +111,9 @@ fn enter(meter: &Meter, execution: &Execution, found: &mut BTreeMap<(Op, String)
     let (code, plan) = (&meter.executable.code, meter.executable.plan());
     let mut jumps_back = 0;
     for (index, step) in execution.steps.iter().enumerate() {
-        let Some((number, (_, decoded))) = step.instruction.and_then(|number| Some((number, code.get(number)?))) else {
+        let Some((number, (_, decoded))) =
+            step.instruction.and_then(|number| Some((number, code.get(number)?)))
+        else {
             continue;
         };
         let kinds: Vec<Kind> = decoded.operands().map(|(kind, _)| kind).collect();
@@ -102,8 +124,9 @@ fn enter(meter: &Meter, execution: &Execution, found: &mut BTreeMap<(Op, String)
         let cycles = if is_off { step.cycles } else { step.cycles.saturating_sub(more.into()) };
         let next = execution.steps.get(index + 1).and_then(|next| next.instruction);
         // The first in a scan finds that time has passed.
-        jumps_back += usize::from(next.is_some_and(|next| next <= number));
-        if jumps_back == 1 && next.is_some_and(|next| next <= number) {
+        let is_back = matches!(decoded.op, Op::Jmp | Op::Next);
+        jumps_back += usize::from(is_back && next.is_some_and(|next| next <= number));
+        if is_back && jumps_back == 1 && next.is_some_and(|next| next <= number) {
             continue;
         }
         let follows = next == Some(number + 1);
@@ -121,7 +144,9 @@ fn enter(meter: &Meter, execution: &Execution, found: &mut BTreeMap<(Op, String)
 fn text(start: u64, found: &BTreeMap<(Op, String), Ways>) -> String {
     let mut text = format!("pub const START: u32 = {start};\n\nconst TABLE: &[Entry] = &[\n");
     for ((op, kinds), ways) in found {
-        let range = |range: Range| range.map_or("[0, 0]".to_string(), |(min, max)| format!("[{min}, {max}]"));
+        let range = |range: Range| {
+            range.map_or("[0, 0]".to_string(), |(min, max)| format!("[{min}, {max}]"))
+        };
         let _ = writeln!(
             text,
             "    (Op::{op:?}, &{kinds}, {}, {}, {}),",

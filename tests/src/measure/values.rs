@@ -1,4 +1,5 @@
-//! What stands in V memory when an instruction is measured: values as programs have them, and now and then any others.
+//! What is in V memory when an instruction is measured: values as programs have them, and now
+//! and then any others.
 
 use fastrand::Rng;
 
@@ -32,7 +33,8 @@ pub enum Content {
     Text(&'static str),
     /// This string.
     String(&'static str),
-    /// As many of these characters as the row counts, over and over again, without a length before them.
+    /// As many of these characters as the row counts, over and over again, without a length before
+    /// them.
     Characters(&'static str),
 }
 
@@ -52,7 +54,9 @@ impl Content {
             Content::Bits => (rng.i32(..) >> rng.u8(..32)).to_be_bytes().to_vec(),
             Content::Count => vec![count],
             Content::Real(..) if rng.u8(..ANY_REAL) == 0 => finite(rng).to_be_bytes().to_vec(),
-            Content::Real(least, most) | Content::Share(least, most) => real(rng, least, most).to_be_bytes().to_vec(),
+            Content::Real(least, most) | Content::Share(least, most) => {
+                real(rng, least, most).to_be_bytes().to_vec()
+            }
             Content::Bcd => (0..2).map(|_| rng.u8(..10) << 4 | rng.u8(..10)).collect(),
             Content::Table => [TABLE_LEN.to_be_bytes(), u16::from(count).to_be_bytes()].concat(),
             Content::Text(text) => [vec![count], repeated(text)].concat(),

@@ -36,7 +36,7 @@ impl Naive {
         let done = self.execute_box(instruction);
         self.eno = done.is_ok();
         if self.eno {
-            self.succeeded.insert(instruction.mnemonic);
+            self.succeeded.insert(instruction.mnemonic());
         }
         if done == Err(Trouble::Operand) {
             self.set_bit(Area::Sm, 4, 3, true);
@@ -45,7 +45,7 @@ impl Naive {
 
     fn execute_box(&mut self, instruction: &Instruction) -> Result<(), Trouble> {
         let operands = &instruction.operands;
-        match instruction.mnemonic {
+        match instruction.mnemonic() {
             name @ ("MOVB" | "MOVW" | "MOVD" | "MOVR") => {
                 let width = if name == "MOVR" { 4 } else { width(name) };
                 let value = self.read(&operands[0], width)?;
@@ -54,29 +54,31 @@ impl Naive {
             "+I" | "-I" | "*I" | "/I" | "+D" | "-D" | "*D" | "/D" => self.calculate(instruction),
             "MUL" => self.multiply_wide(operands),
             "DIV" => self.divide_wide(operands),
-            "INCB" | "INCW" | "INCD" => self.step(&operands[0], width(instruction.mnemonic), 1),
-            "DECB" | "DECW" | "DECD" => self.step(&operands[0], width(instruction.mnemonic), -1),
-            "INVB" | "INVW" | "INVD" | "ANDB" | "ANDW" | "ANDD" | "ORB" | "ORW" | "ORD" | "XORB" | "XORW" | "XORD" => {
-                self.combine(instruction)
-            }
-            "SLB" | "SLW" | "SLD" | "SRB" | "SRW" | "SRD" | "RLB" | "RLW" | "RLD" | "RRB" | "RRW" | "RRD" => {
-                self.shift(instruction)
-            }
+            "INCB" | "INCW" | "INCD" => self.step(&operands[0], width(instruction.mnemonic()), 1),
+            "DECB" | "DECW" | "DECD" => self.step(&operands[0], width(instruction.mnemonic()), -1),
+            "INVB" | "INVW" | "INVD" | "ANDB" | "ANDW" | "ANDD" | "ORB" | "ORW" | "ORD"
+            | "XORB" | "XORW" | "XORD" => self.combine(instruction),
+            "SLB" | "SLW" | "SLD" | "SRB" | "SRW" | "SRD" | "RLB" | "RLW" | "RLD" | "RRB"
+            | "RRW" | "RRD" => self.shift(instruction),
             "SHRB" => self.shift_register(operands),
             "SWAP" => {
                 let value = self.read(&operands[0], 2)?;
                 self.write(&operands[0], 2, (value as u16).swap_bytes().into())
             }
-            "BTI" | "ITB" | "ITD" | "DTI" | "BCDI" | "IBCD" | "DECO" | "ENCO" | "SEG" => self.convert(instruction),
-            "+R" | "-R" | "*R" | "/R" | "SQRT" | "SIN" | "COS" | "TAN" | "LN" | "EXP" | "DTR" | "ROUND" | "TRUNC" => {
-                self.real_box(instruction)
+            "BTI" | "ITB" | "ITD" | "DTI" | "BCDI" | "IBCD" | "DECO" | "ENCO" | "SEG" => {
+                self.convert(instruction)
             }
+            "+R" | "-R" | "*R" | "/R" | "SQRT" | "SIN" | "COS" | "TAN" | "LN" | "EXP" | "DTR"
+            | "ROUND" | "TRUNC" => self.real_box(instruction),
             "SLEN" | "SCPY" | "SCAT" | "SSCPY" | "SFND" | "CFND" => self.text_box(instruction),
-            "ATH" | "HTA" | "ITA" | "DTA" | "RTA" | "ITS" | "DTS" | "RTS" | "STI" | "STD" | "STR" => {
-                self.ascii_box(instruction)
+            "ATH" | "HTA" | "ITA" | "DTA" | "RTA" | "ITS" | "DTS" | "RTS" | "STI" | "STD"
+            | "STR" => self.ascii_box(instruction),
+            "ATT" | "FIFO" | "LIFO" | "FND" | "FILL" | "BMB" | "BMW" | "BMD" => {
+                self.table_box(instruction)
             }
-            "ATT" | "FIFO" | "LIFO" | "FND" | "FILL" | "BMB" | "BMW" | "BMD" => self.table_box(instruction),
-            "S" | "R" => self.set_or_reset(&operands[0], &operands[1], instruction.mnemonic == "S"),
+            "S" | "R" => {
+                self.set_or_reset(&operands[0], &operands[1], instruction.mnemonic() == "S")
+            }
             "SI" | "RI" | "BIR" | "BIW" | "DLED" | "BITIM" | "CITIM" => self.point_box(instruction),
             other => panic!("{other} is unknown here"),
         }
@@ -115,11 +117,11 @@ impl Naive {
 
     fn calculate(&mut self, instruction: &Instruction) -> Result<(), Trouble> {
         let (in1, out) = (&instruction.operands[0], &instruction.operands[1]);
-        let width = width(instruction.mnemonic);
+        let width = width(instruction.mnemonic());
         let b = self.read_signed(in1, width)?;
         self.place(out, Want::written(width))?;
         let a = self.read_signed(out, width)?;
-        let result = match instruction.mnemonic.as_bytes()[0] {
+        let result = match instruction.mnemonic().as_bytes()[0] {
             b'+' => a + b,
             b'-' => a - b,
             b'*' => {
@@ -183,10 +185,11 @@ impl Naive {
 /// Logic and shifts.
 impl Naive {
     fn combine(&mut self, instruction: &Instruction) -> Result<(), Trouble> {
-        let (mnemonic, operands) = (instruction.mnemonic, &instruction.operands);
+        let (mnemonic, operands) = (instruction.mnemonic(), &instruction.operands);
         let width = width(mnemonic);
         let out = operands.last().expect("OUT is there");
-        let in1 = if mnemonic.starts_with("INV") { u32::MAX } else { self.read(&operands[0], width)? };
+        let in1 =
+            if mnemonic.starts_with("INV") { u32::MAX } else { self.read(&operands[0], width)? };
         self.place(out, Want::written(width))?;
         let value = self.read(out, width)?;
         let result = match &mnemonic[..mnemonic.len() - 1] {
@@ -202,7 +205,7 @@ impl Naive {
 
     /// Bit by bit, as often as the count says.
     fn shift(&mut self, instruction: &Instruction) -> Result<(), Trouble> {
-        let (mnemonic, out) = (instruction.mnemonic, &instruction.operands[0]);
+        let (mnemonic, out) = (instruction.mnemonic(), &instruction.operands[0]);
         let width = width(mnemonic);
         self.place(out, Want::written(width))?;
         let (mut value, top) = (u64::from(self.read(out, width)?), 8 * width - 1);
@@ -214,7 +217,11 @@ impl Naive {
         for _ in 0..count {
             let leaving = if left { value >> top & 1 } else { value & 1 };
             let entering = if rotates { leaving } else { 0 };
-            value = if left { value << 1 & ((1 << bits) - 1) | entering } else { value >> 1 | entering << top };
+            value = if left {
+                value << 1 & ((1 << bits) - 1) | entering
+            } else {
+                value >> 1 | entering << top
+            };
             last = Some(leaving == 1);
         }
         self.write(out, width, value as u32)?;
@@ -229,7 +236,9 @@ impl Naive {
         let entering = self.bit_operand(&operands[0]);
         let n = i32::from(self.read(&operands[2], 1)? as i8);
         let len = n.unsigned_abs() as usize;
-        let Address::Bit { area, byte, bit } = address(&operands[1]) else { panic!("S_BIT has bytes") };
+        let Address::Bit { area, byte, bit } = address(&operands[1]) else {
+            panic!("S_BIT has bytes")
+        };
         let first = usize::from(byte) * 8 + usize::from(bit);
         if len > 64 || !self.has_bits(area, first, len) {
             return Err(Trouble::Operand);
@@ -238,7 +247,8 @@ impl Naive {
             return Ok(());
         }
         let at = |offset: usize| ((first + offset) / 8, ((first + offset) % 8) as u8);
-        let mut values: Vec<bool> = (0..len).map(|offset| self.bit(area, at(offset).0 as u16, at(offset).1)).collect();
+        let mut values: Vec<bool> =
+            (0..len).map(|offset| self.bit(area, at(offset).0 as u16, at(offset).1)).collect();
         let leaving = if n > 0 {
             values.insert(0, entering);
             values.pop()
@@ -257,7 +267,11 @@ impl Naive {
     pub(super) fn has_bits(&self, area: Area, first: usize, len: usize) -> bool {
         let (first_byte, end) = (first / 8, (first + len).div_ceil(8));
         match area {
-            Area::V => self.extents.v.iter().any(|v| usize::from(v.start) <= first_byte && end <= usize::from(v.end)),
+            Area::V => self
+                .extents
+                .v
+                .iter()
+                .any(|v| usize::from(v.start) <= first_byte && end <= usize::from(v.end)),
             Area::Sm => end <= 32,
             _ => end <= usize::from(area.size()),
         }

@@ -1,54 +1,13 @@
-//! Program units: the main program and subroutines, calls with their parameters, sequence segments.
+//! Calls of subroutines with their parameters, and sequence segments.
 
 use std::sync::Arc;
 
-use awl_asm::Address;
-use awl_asm::ast::{Instruction, Operand, Program, Section, Span, Statement, Type, UnitId, UnitKind, Value, Variable};
+use awl_asm::ast::{Instruction, Operand, Section, Span, Type, Value, Variable};
 use plc_isa::Area;
 
-use super::Naive;
 use super::memory::address;
 use super::places::Trouble;
-
-/// A program unit.
-#[derive(Debug, Clone)]
-pub(super) struct Unit {
-    id: UnitId,
-    variables: Vec<Variable>,
-    pub(super) code: Arc<Vec<Instruction>>,
-}
-
-/// A sequence segment that is being executed.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Segment {
-    /// Its S bit.
-    own: Address,
-    /// Whether it has power.
-    pub(super) is_active: bool,
-}
-
-/// The units of a program, the main program first. What stands outside of blocks is the main program.
-pub(super) fn units(program: &Program) -> Vec<Unit> {
-    let main = UnitId { kind: UnitKind::Main, number: 1 };
-    let mut found: Vec<(UnitId, Vec<Variable>, Vec<Instruction>)> = vec![(main, Vec::new(), Vec::new())];
-    let mut current = 0;
-    for statement in &program.statements {
-        match statement {
-            Statement::Unit(unit) if unit.id.kind == UnitKind::Main => {
-                found[0].1.clone_from(&unit.variables);
-                current = 0;
-            }
-            Statement::Unit(unit) => {
-                current = found.len();
-                found.push((unit.id, unit.variables.clone(), Vec::new()));
-            }
-            Statement::Instruction(instruction) => found[current].2.push(instruction.clone()),
-            Statement::Network(_) => {}
-        }
-    }
-    let unit = |(id, variables, code)| Unit { id, variables, code: Arc::new(code) };
-    found.into_iter().map(unit).collect()
-}
+use super::{Naive, Segment};
 
 /// The value of a parameter on its way.
 enum Parameter {
@@ -63,12 +22,18 @@ impl Naive {
         if !self.stack[0] {
             return true;
         }
-        let Value::Unit(id) = instruction.operands[0].value else { panic!("CALL names a subroutine") };
+        let Value::Unit(id) = instruction.operands[0].value else {
+            panic!("CALL names a subroutine")
+        };
         let units = Arc::clone(&self.units);
         let callee = units.iter().position(|unit| unit.id == id).expect("the subroutine is there");
-        let parameters = units[callee].variables.iter().filter(|variable| variable.section != Section::Temp);
-        let parameters: Vec<(&Variable, &Operand)> = parameters.zip(&instruction.operands[1..]).collect();
-        for &(variable, operand) in parameters.iter().filter(|(variable, _)| variable.section != Section::Out) {
+        let parameters =
+            units[callee].variables.iter().filter(|variable| variable.section != Section::Temp);
+        let parameters: Vec<(&Variable, &Operand)> =
+            parameters.zip(&instruction.operands[1..]).collect();
+        for &(variable, operand) in
+            parameters.iter().filter(|(variable, _)| variable.section != Section::Out)
+        {
             if let Some(value) = self.given(variable, operand) {
                 self.change_locals(callee);
                 self.take(variable, &local(variable), value);
@@ -76,7 +41,9 @@ impl Naive {
             }
         }
         let goes_on = self.inside(callee);
-        for &(variable, operand) in parameters.iter().filter(|(variable, _)| variable.section != Section::In) {
+        for &(variable, operand) in
+            parameters.iter().filter(|(variable, _)| variable.section != Section::In)
+        {
             self.change_locals(callee);
             let value = self.given(variable, &local(variable));
             self.change_locals(callee);
@@ -106,11 +73,15 @@ impl Naive {
         self.locals[other] = std::mem::replace(self.area(Area::L), theirs);
     }
 
-    /// What is handed over; nothing through a pointer that leads nowhere.
+    /// What is handed over as by a move, a constant bit as by S or R: they have ENO. Nothing
+    /// through a pointer that leads nowhere.
     fn given(&mut self, variable: &Variable, operand: &Operand) -> Option<Parameter> {
         if variable.kind == Type::Bool {
             return Some(Parameter::Bit(match &operand.value {
-                Value::Constant(constant) => constant.value != 0,
+                Value::Constant(constant) => {
+                    self.eno = true;
+                    constant.value != 0
+                }
                 _ => self.bit_operand(operand),
             }));
         }
@@ -132,6 +103,7 @@ impl Naive {
     }
 
     fn noticed<T>(&mut self, result: Result<T, Trouble>) -> Option<T> {
+        self.eno = result.is_ok();
         if result.is_err() {
             self.set_bit(Area::Sm, 4, 3, true);
         }
@@ -148,7 +120,7 @@ fn local(variable: &Variable) -> Operand {
 impl Naive {
     pub(super) fn sequence(&mut self, instruction: &Instruction) {
         let operands = &instruction.operands;
-        match instruction.mnemonic {
+        match instruction.mnemonic() {
             "LSCR" => {
                 let is_active = self.bit_operand(&operands[0]);
                 self.segment = Some(Segment { own: address(&operands[0]), is_active });
@@ -160,11 +132,6 @@ impl Naive {
                 if let Some(segment) = self.segment {
                     let own = Operand { span: Span::default(), value: Value::Address(segment.own) };
                     self.write_bit_operand(&own, false);
-                }
-            }
-            "CSCRE" if self.stack[0] => {
-                if let Some(segment) = &mut self.segment {
-                    segment.is_active = false;
                 }
             }
             _ => {}

@@ -25,7 +25,7 @@ impl Naive {
         self.run_unit();
     }
 
-    /// Executes the unit at hand. Returns whether the program goes on behind it.
+    /// Executes the unit at hand. Returns whether the program goes on after it.
     pub(super) fn run_unit(&mut self) -> bool {
         let code = self.code();
         let mut at = 0;
@@ -55,14 +55,14 @@ impl Naive {
     }
 
     fn execute(&mut self, at: usize, instruction: &Instruction) -> Go {
-        match instruction.mnemonic {
-            "LD" | "LDN" | "A" | "AN" | "O" | "ON" | "NOT" | "EU" | "ED" | "NOP" | "=" | "AENO" | "LDI" | "LDNI"
-            | "AI" | "ANI" | "OI" | "ONI" | "=I" => self.contact(at, instruction),
+        match instruction.mnemonic() {
+            "LD" | "LDN" | "A" | "AN" | "O" | "ON" | "NOT" | "EU" | "ED" | "NOP" | "=" | "AENO"
+            | "LDI" | "LDNI" | "AI" | "ANI" | "OI" | "ONI" | "=I" => self.contact(at, instruction),
             "ALD" | "OLD" | "LPS" | "LRD" | "LPP" | "LDS" if instruction.relation.is_none() => {
                 self.stack_operation(instruction);
             }
-            "LDB" | "AB" | "OB" | "LDW" | "AW" | "OW" | "LDD" | "AD" | "OD" | "LDR" | "AR" | "OR" | "LDS" | "AS"
-            | "OS" => {
+            "LDB" | "AB" | "OB" | "LDW" | "AW" | "OW" | "LDD" | "AD" | "OD" | "LDR" | "AR"
+            | "OR" | "LDS" | "AS" | "OS" => {
                 if let Err(fault) = self.compare(instruction) {
                     self.fail(fault);
                     return Go::Leave;
@@ -70,11 +70,17 @@ impl Naive {
             }
             "TON" | "TONR" | "TOF" => self.timer_instruction(instruction),
             "CTU" | "CTD" | "CTUD" => self.counter_instruction(instruction),
+            "CSCRE" if self.stack[0] => {
+                // The segment is left with the instruction that ends it.
+                return Go::To(self.segment_end(at));
+            }
             "LSCR" | "SCRT" | "SCRE" | "CSCRE" => self.sequence(instruction),
             "PID" => self.pid(at, instruction),
             "CALL" if self.call(instruction) => {}
             "CALL" => return Go::Leave,
-            "FOR" | "NEXT" | "JMP" | "LBL" | "END" | "STOP" | "WDR" | "CRET" => return self.control(at, instruction),
+            "FOR" | "NEXT" | "JMP" | "LBL" | "END" | "STOP" | "WDR" | "CRET" => {
+                return self.control(at, instruction);
+            }
             _ => self.powered_box(instruction),
         }
         Go::Next
@@ -84,16 +90,17 @@ impl Naive {
 /// Program control.
 impl Naive {
     fn control(&mut self, at: usize, instruction: &Instruction) -> Go {
-        match instruction.mnemonic {
+        match instruction.mnemonic() {
             "NEXT" => return self.end_of_pass(at),
             "LBL" => return Go::Next,
             _ if !self.stack[0] => {
-                let skips = instruction.mnemonic == "FOR";
+                let skips = instruction.mnemonic() == "FOR";
+                self.eno &= !skips;
                 return if skips { Go::To(self.matching_next(at) + 1) } else { Go::Next };
             }
             _ => {}
         }
-        match instruction.mnemonic {
+        match instruction.mnemonic() {
             "FOR" => self.enter_loop(at, instruction),
             "JMP" => Go::To(self.label(number(&instruction.operands[0]))),
             "STOP" => {
@@ -110,9 +117,12 @@ impl Naive {
     }
 
     fn enter_loop(&mut self, at: usize, instruction: &Instruction) -> Go {
-        let [indx, init, last] = &instruction.operands[..] else { panic!("FOR has three operands") };
+        let [indx, init, last] = &instruction.operands[..] else {
+            panic!("FOR has three operands")
+        };
         let (init, last) = (self.word_operand(init), self.word_operand(last));
         self.write_word_operand(indx, init);
+        self.eno = true;
         if init > last {
             return Go::To(self.matching_next(at) + 1);
         }
@@ -133,7 +143,7 @@ impl Naive {
     fn matching_next(&self, start: usize) -> usize {
         let mut open = 0;
         for (at, instruction) in self.code().iter().enumerate().skip(start) {
-            match instruction.mnemonic {
+            match instruction.mnemonic() {
                 "FOR" => open += 1,
                 "NEXT" => open -= 1,
                 _ => {}
@@ -145,10 +155,16 @@ impl Naive {
         panic!("FOR without NEXT")
     }
 
+    fn segment_end(&self, at: usize) -> usize {
+        let code = self.code();
+        let rest = code.iter().skip(at).position(|instruction| instruction.mnemonic() == "SCRE");
+        at + rest.expect("a segment ends with SCRE")
+    }
+
     fn matching_for(&self, end: usize) -> usize {
         let (mut open, code) = (0, self.code());
         for at in (0..=end).rev() {
-            match code[at].mnemonic {
+            match code[at].mnemonic() {
                 "NEXT" => open += 1,
                 "FOR" => open -= 1,
                 _ => {}
@@ -161,8 +177,9 @@ impl Naive {
     }
 
     fn label(&self, wanted: i64) -> usize {
-        let is_wanted =
-            |instruction: &Instruction| instruction.mnemonic == "LBL" && number(&instruction.operands[0]) == wanted;
+        let is_wanted = |instruction: &Instruction| {
+            instruction.mnemonic() == "LBL" && number(&instruction.operands[0]) == wanted
+        };
         self.code().iter().position(is_wanted).unwrap_or_else(|| panic!("no LBL {wanted}"))
     }
 }

@@ -6,15 +6,16 @@ use plc_isa::Area;
 use super::Naive;
 use super::places::{Trouble, Want};
 
-/// Segments a to g of the digits 0 to F, a in bit 0 (reference 1.6).
-const SEGMENTS: [u8; 16] =
-    [0x3F, 0x06, 0x5B, 0x4F, 0x66, 0x6D, 0x7D, 0x07, 0x7F, 0x67, 0x77, 0x7C, 0x39, 0x5E, 0x79, 0x71];
+/// Segments a to g of the digits 0 to F, a in bit 0 (docs/s7-200.md 1.6).
+const SEGMENTS: [u8; 16] = [
+    0x3F, 0x06, 0x5B, 0x4F, 0x66, 0x6D, 0x7D, 0x07, 0x7F, 0x67, 0x77, 0x7C, 0x39, 0x5E, 0x79, 0x71,
+];
 
 impl Naive {
     pub(super) fn convert(&mut self, instruction: &Instruction) -> Result<(), Trouble> {
         let operands = &instruction.operands;
         let (input, out) = (&operands[0], &operands[operands.len() - 1]);
-        match instruction.mnemonic {
+        match instruction.mnemonic() {
             "BTI" => {
                 let value = self.read(input, 1)?;
                 self.write(out, 2, value)
@@ -24,7 +25,8 @@ impl Naive {
                 self.write(out, 4, value as u32)
             }
             name @ ("ITB" | "DTI") => {
-                let (from, to, range) = if name == "ITB" { (2, 1, 0..=255) } else { (4, 2, -32_768..=32_767) };
+                let (from, to, range) =
+                    if name == "ITB" { (2, 1, 0..=255) } else { (4, 2, -32_768..=32_767) };
                 let value = self.read_signed(input, from)?;
                 self.place(out, Want::written(to))?;
                 let fits = range.contains(&value);
@@ -63,5 +65,7 @@ fn from_bcd(word: u32) -> Option<u32> {
 }
 
 fn to_bcd(word: u32) -> Option<u32> {
-    (word <= 9999).then(|| format!("{word:04}")).and_then(|digits| u32::from_str_radix(&digits, 16).ok())
+    (word <= 9999)
+        .then(|| format!("{word:04}"))
+        .and_then(|digits| u32::from_str_radix(&digits, 16).ok())
 }

@@ -22,9 +22,9 @@ impl Naive {
         let [s0, s1, s2, ..] = self.stack;
         let first_scan = self.first_scan;
         let number = counter_number(&instruction.operands[0]);
-        let preset = self.word_operand(&instruction.operands[1]);
+        let preset = self.preset(&instruction.operands[1]);
         let counter = &mut self.counters[usize::from(number)];
-        match instruction.mnemonic {
+        match instruction.mnemonic() {
             "CTU" => {
                 let up = counter.up_edge(s1) && !first_scan;
                 counter.up(s0, up, preset);

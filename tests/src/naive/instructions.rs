@@ -34,29 +34,45 @@ impl Naive {
 impl Naive {
     pub(super) fn contact(&mut self, at: usize, instruction: &Instruction) {
         let operands = &instruction.operands;
-        match instruction.mnemonic {
-            // In this model points and process image are the same.
-            "LD" | "LDI" => self.push(self.powered(self.bit_operand(&operands[0]))),
-            "LDN" | "LDNI" => self.push(self.powered(!self.bit_operand(&operands[0]))),
-            "A" | "AI" => self.stack[0] = self.stack[0] && self.bit_operand(&operands[0]),
-            "AN" | "ANI" => self.stack[0] = self.stack[0] && !self.bit_operand(&operands[0]),
-            "O" | "OI" => self.stack[0] = self.powered(self.stack[0] || self.bit_operand(&operands[0])),
-            "ON" | "ONI" => self.stack[0] = self.powered(self.stack[0] || !self.bit_operand(&operands[0])),
+        match instruction.mnemonic() {
+            "LD" | "LDI" => self.push(self.powered(self.contact_bit(instruction))),
+            "LDN" | "LDNI" => self.push(self.powered(!self.contact_bit(instruction))),
+            "A" | "AI" => self.stack[0] = self.stack[0] && self.contact_bit(instruction),
+            "AN" | "ANI" => self.stack[0] = self.stack[0] && !self.contact_bit(instruction),
+            "O" | "OI" => {
+                self.stack[0] = self.stack[0] || self.powered(self.contact_bit(instruction))
+            }
+            "ON" | "ONI" => {
+                self.stack[0] = self.stack[0] || self.powered(!self.contact_bit(instruction))
+            }
+            // In this model the process image of the outputs is their points.
             "=" | "=I" => self.write_bit_operand(&operands[0], self.stack[0]),
             "NOT" => self.stack[0] = !self.stack[0],
             "AENO" => self.stack[0] = self.stack[0] && self.eno,
             "EU" | "ED" => {
                 let before = self.edges.insert((self.unit, at), self.stack[0]).unwrap_or(false);
-                let edge =
-                    if instruction.mnemonic == "EU" { !before && self.stack[0] } else { before && !self.stack[0] };
+                let edge = if instruction.mnemonic() == "EU" {
+                    !before && self.stack[0]
+                } else {
+                    before && !self.stack[0]
+                };
                 self.stack[0] = edge && !self.first_scan;
             }
             _ => {}
         }
     }
 
+    /// The bit that a contact asks for: with an I at the end of its name, the input itself.
+    fn contact_bit(&self, instruction: &Instruction) -> bool {
+        let operand = &instruction.operands[0];
+        match instruction.mnemonic().ends_with('I') {
+            true => self.input_point(operand),
+            false => self.bit_operand(operand),
+        }
+    }
+
     pub(super) fn stack_operation(&mut self, instruction: &Instruction) {
-        match instruction.mnemonic {
+        match instruction.mnemonic() {
             "ALD" => {
                 let top = self.pop();
                 self.stack[0] = self.stack[0] && top;
@@ -79,8 +95,10 @@ impl Naive {
 
     /// A comparison. The fault is one of its operands'.
     pub(super) fn compare(&mut self, instruction: &Instruction) -> Result<(), Fault> {
-        let [first, second] = &instruction.operands[..] else { panic!("a comparison has two operands") };
-        let mnemonic = instruction.mnemonic;
+        let [first, second] = &instruction.operands[..] else {
+            panic!("a comparison has two operands")
+        };
+        let mnemonic = instruction.mnemonic();
         let order = match mnemonic.chars().last() {
             Some('R') => self.order_of_reals(first, second)?,
             Some('S') => {
@@ -90,7 +108,9 @@ impl Naive {
             }
             _ => {
                 let width = width(mnemonic);
-                let values = self.read_signed(first, width).and_then(|a| Ok((a, self.read_signed(second, width)?)));
+                let values = self
+                    .read_signed(first, width)
+                    .and_then(|a| Ok((a, self.read_signed(second, width)?)));
                 let (a, b) = values.map_err(|_| Fault::Pointer)?;
                 a.cmp(&b)
             }
@@ -107,7 +127,7 @@ impl Naive {
         match mnemonic.as_bytes()[0] {
             b'L' => self.push(self.powered(holds)),
             b'A' => self.stack[0] = self.stack[0] && holds,
-            _ => self.stack[0] = self.powered(self.stack[0] || holds),
+            _ => self.stack[0] = self.stack[0] || self.powered(holds),
         }
         Ok(())
     }
@@ -118,7 +138,12 @@ impl Naive {
         a.partial_cmp(&b).ok_or(Fault::Real)
     }
 
-    pub(super) fn set_or_reset(&mut self, first: &Operand, count: &Operand, value: bool) -> Result<(), Trouble> {
+    pub(super) fn set_or_reset(
+        &mut self,
+        first: &Operand,
+        count: &Operand,
+        value: bool,
+    ) -> Result<(), Trouble> {
         let n = self.read(count, 1)? as usize;
         match address(first) {
             Address::Bit { area, byte, bit } => {

@@ -1,4 +1,5 @@
-//! A second, deliberately naive opinion of what AWL means: evaluates the parsed source, instruction by instruction.
+//! A second, deliberately naive opinion of what AWL means: evaluates the parsed source, instruction
+//! by instruction.
 //!
 //! It is not fast, plans no memory, sees no bytecode and shares nothing with the interpreter it is
 //! compared with. Where both agree on a random program, at least two people understood the rules
@@ -18,21 +19,22 @@ mod system;
 mod tables;
 mod texts;
 mod timers;
+mod units;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
+use awl_asm::Address;
 use awl_asm::ast::Program;
 use plc_isa::Area;
 
-use calls::{Segment, Unit};
 pub use counters::Counter;
 pub use places::Extents;
-use system::Passed;
 pub use timers::Timer;
+use units::{Unit, units};
 
-/// Instructions in one scan, counted from the last WDR, after which the program counts as endless. A stand-in for
-/// the watchdog time: in this model no time passes within a scan.
+/// Instructions in one scan, counted from the last WDR, after which the program counts as endless.
+/// A are-in for the watchdog time: in this model no time passes within a scan.
 pub const INSTRUCTIONS_MAX: u32 = 200_000;
 
 /// The areas that have bytes.
@@ -69,13 +71,31 @@ pub enum Fault {
     Real,
 }
 
+/// A sequence segment that is being executed.
+#[derive(Debug, Clone, Copy)]
+struct Segment {
+    /// Its S bit.
+    own: Address,
+    /// Whether it has power.
+    is_active: bool,
+}
+
+/// Milliseconds and ticks since the start of the scan before.
+#[derive(Debug, Clone, Copy, Default)]
+struct Passed {
+    ms: u32,
+    ticks10: u32,
+    ticks100: u32,
+}
+
 /// The naive controller.
 #[derive(Debug, Clone)]
 pub struct Naive {
     units: Arc<Vec<Unit>>,
     /// The unit that is executed, by its index; the first is the main program.
     unit: usize,
-    /// Local memory of the units that are not executed at present; that of the one that is, is an area.
+    /// Local memory of the units that are not executed at present; that of the one that is, is an
+    /// area.
     locals: Vec<Vec<u8>>,
     /// The sequence segment that is executed.
     segment: Option<Segment>,
@@ -112,7 +132,7 @@ pub struct Naive {
 impl Naive {
     /// A controller that was just powered up, in RUN, with this program.
     pub fn new(program: Program) -> Naive {
-        let units = calls::units(&program);
+        let units = units(&program);
         let mut memory: BTreeMap<Area, Vec<u8>> =
             AREAS.into_iter().map(|area| (area, vec![0; usize::from(area.size())])).collect();
         for line in &program.data {
@@ -151,8 +171,8 @@ impl Naive {
         }
     }
 
-    /// Says what there is of V memory, of special memory behind SMB31, of timers and of counters: pointers lead nowhere
-    /// else.
+    /// Says what there is of V memory, of special memory behind SMB31, of timers and of counters:
+    /// pointers lead nowhere else.
     pub fn set_extents(&mut self, extents: Extents) {
         self.extents = extents;
     }
@@ -167,8 +187,8 @@ impl Naive {
         self.fault
     }
 
-    /// Changes from STOP to RUN. Memory stays as it is, but timers are at rest with their bits 0, and only
-    /// TONR keeps its current value; the next scan is a first scan.
+    /// Changes from STOP to RUN. Memory stays as it is, but timers are at rest with their bits 0,
+    /// and only TONR keeps its current value; the next scan is a first scan.
     pub fn start(&mut self) {
         if self.mode == Mode::Stop {
             self.mode = Mode::Run;

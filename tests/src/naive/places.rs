@@ -1,4 +1,5 @@
-//! Where the operands of boxes lie, pointers followed: reading and writing of bytes, words, double words and blocks.
+//! Where the operands of boxes lie, pointers followed: reading and writing of bytes, words, double
+//! words and blocks.
 
 use std::ops::Range;
 
@@ -35,13 +36,18 @@ impl Extents {
     pub(super) fn all() -> Extents {
         let numbers: Vec<u8> = (0..=255).collect();
         let one = |range: Range<u16>| vec![range];
-        Extents { v: one(0..Area::V.size()), sm: one(32..Area::Sm.size()), timers: numbers.clone(), counters: numbers }
+        Extents {
+            v: one(0..Area::V.size()),
+            sm: one(32..Area::Sm.size()),
+            timers: numbers.clone(),
+            counters: numbers,
+        }
     }
 }
 
 /// Where a value lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum ValuePlace {
     Bytes(Area, u16),
     Timer(u8),
     Counter(u8),
@@ -84,10 +90,12 @@ impl Want {
 /// Places.
 impl Naive {
     /// Where an operand lies, if as much is there as is wanted.
-    pub(super) fn place(&self, operand: &Operand, want: Want) -> Result<Place, Trouble> {
+    pub(super) fn place(&self, operand: &Operand, want: Want) -> Result<ValuePlace, Trouble> {
         let place = match &operand.value {
             Value::Address(address) => direct(*address),
-            Value::Indirect(holder) => self.pointed(self.pointer(*holder)).ok_or(Trouble::Operand)?,
+            Value::Indirect(holder) => {
+                self.pointed(self.pointer(*holder)).ok_or(Trouble::Operand)?
+            }
             other => panic!("{other:?} is no place"),
         };
         if self.is_there(place, want) { Ok(place) } else { Err(Trouble::Operand) }
@@ -98,7 +106,7 @@ impl Naive {
     }
 
     /// What a pointer leads to, whatever is there.
-    fn pointed(&self, pointer: u32) -> Option<Place> {
+    fn pointed(&self, pointer: u32) -> Option<ValuePlace> {
         let offset = u16::try_from(pointer & 0x00FF_FFFF).ok()?;
         let numbered = || (offset % 2 == 0).then_some(offset / 2);
         let area = match pointer >> 24 {
@@ -108,21 +116,26 @@ impl Naive {
             0x06 => Area::Sm,
             0x07 => Area::S,
             0x08 => Area::V,
-            0x02 => return Some(Place::Analog(AnalogInput::Scaled(u8::try_from(numbered()?).ok()?))),
-            0x03 => return numbered().filter(|&number| number < 2).map(|_| Place::Output),
-            0x09 => return u8::try_from(numbered()?).ok().map(Place::Timer),
-            0x0A => return u8::try_from(numbered()?).ok().map(Place::Counter),
+            0x02 => {
+                return Some(ValuePlace::Analog(AnalogInput::Scaled(
+                    u8::try_from(numbered()?).ok()?,
+                )));
+            }
+            0x03 => return numbered().filter(|&number| number < 2).map(|_| ValuePlace::Output),
+            0x09 => return u8::try_from(numbered()?).ok().map(ValuePlace::Timer),
+            0x0A => return u8::try_from(numbered()?).ok().map(ValuePlace::Counter),
             _ => return None,
         };
-        Some(Place::Bytes(area, offset))
+        Some(ValuePlace::Bytes(area, offset))
     }
 
-    fn is_there(&self, place: Place, want: Want) -> bool {
+    fn is_there(&self, place: ValuePlace, want: Want) -> bool {
         let is_word = want.width == 2 && want.count == 1;
         match place {
-            Place::Bytes(area, first) => {
+            ValuePlace::Bytes(area, first) => {
                 let end = u32::from(first) + want.len();
-                let holds = |range: &Range<u16>| range.contains(&first) && end <= u32::from(range.end);
+                let holds =
+                    |range: &Range<u16>| range.contains(&first) && end <= u32::from(range.end);
                 let is_whole = match area {
                     Area::V => self.extents.v.iter().any(holds),
                     Area::Sm => holds(&(0..32)) || self.extents.sm.iter().any(holds),
@@ -130,54 +143,65 @@ impl Naive {
                 };
                 is_whole && !(want.is_written && first < area.first_writable())
             }
-            Place::Timer(number) => is_word && self.extents.timers.contains(&number),
-            Place::Counter(number) => is_word && self.extents.counters.contains(&number),
-            Place::Analog(AnalogInput::Scaled(channel) | AnalogInput::Raw(channel)) => {
+            ValuePlace::Timer(number) => is_word && self.extents.timers.contains(&number),
+            ValuePlace::Counter(number) => is_word && self.extents.counters.contains(&number),
+            ValuePlace::Analog(AnalogInput::Scaled(channel) | AnalogInput::Raw(channel)) => {
                 want.width == 2 && !want.is_written && u16::from(channel) + want.count <= 6
             }
-            Place::Output => is_word && want.is_written,
-            Place::Accumulator(_) => want.count == 1,
-            Place::HighSpeed => want.width == 4 && want.count == 1 && !want.is_written,
+            ValuePlace::Output => is_word && want.is_written,
+            ValuePlace::Accumulator(_) => want.count == 1,
+            ValuePlace::HighSpeed => want.width == 4 && want.count == 1 && !want.is_written,
         }
     }
 
     /// The value at a place, zeros above it.
-    pub(super) fn value_at(&self, place: Place, width: u8) -> u32 {
+    pub(super) fn value_at(&self, place: ValuePlace, width: u8) -> u32 {
         match place {
-            Place::Bytes(area, first) => {
-                (first..first + u16::from(width)).fold(0, |value, byte| value << 8 | u32::from(self.byte(area, byte)))
+            ValuePlace::Bytes(area, first) => (first..first + u16::from(width))
+                .fold(0, |value, byte| value << 8 | u32::from(self.byte(area, byte))),
+            ValuePlace::Timer(number) => u32::from(self.timer(number).current as u16),
+            ValuePlace::Counter(number) => u32::from(self.counter(number).current as u16),
+            ValuePlace::Analog(AnalogInput::Scaled(channel)) => {
+                u32::from(self.inputs.aiw[usize::from(channel)])
             }
-            Place::Timer(number) => u32::from(self.timer(number).current as u16),
-            Place::Counter(number) => u32::from(self.counter(number).current as u16),
-            Place::Analog(AnalogInput::Scaled(channel)) => u32::from(self.inputs.aiw[usize::from(channel)]),
-            Place::Analog(AnalogInput::Raw(channel)) => u32::from(self.inputs.ain[usize::from(channel)]),
-            Place::Output | Place::HighSpeed => 0,
-            Place::Accumulator(number) => self.accumulators[usize::from(number)] & mask(width),
+            ValuePlace::Analog(AnalogInput::Raw(channel)) => {
+                u32::from(self.inputs.ain[usize::from(channel)])
+            }
+            ValuePlace::Output | ValuePlace::HighSpeed => 0,
+            ValuePlace::Accumulator(number) => self.accumulators[usize::from(number)] & mask(width),
         }
     }
 
-    pub(super) fn set_value_at(&mut self, place: Place, width: u8, value: u32) {
+    pub(super) fn set_value_at(&mut self, place: ValuePlace, width: u8, value: u32) {
         match place {
-            Place::Bytes(area, first) => {
+            ValuePlace::Bytes(area, first) => {
                 let bytes = &value.to_be_bytes()[usize::from(4 - width)..];
                 self.area(area)[usize::from(first)..][..bytes.len()].copy_from_slice(bytes);
             }
-            Place::Timer(number) => self.timers[usize::from(number)].current = value as i16,
-            Place::Counter(number) => self.counters[usize::from(number)].current = value as i16,
-            Place::Accumulator(number) => {
+            ValuePlace::Timer(number) => self.timers[usize::from(number)].current = value as i16,
+            ValuePlace::Counter(number) => {
+                self.counters[usize::from(number)].current = value as i16
+            }
+            ValuePlace::Accumulator(number) => {
                 let accumulator = &mut self.accumulators[usize::from(number)];
                 *accumulator = *accumulator & !mask(width) | value & mask(width);
             }
-            Place::Analog(_) | Place::Output | Place::HighSpeed => {}
+            ValuePlace::Analog(_) | ValuePlace::Output | ValuePlace::HighSpeed => {}
         }
     }
 
-    /// The place `number` values behind another.
-    pub(super) fn behind(place: Place, width: u8, number: u16) -> Place {
+    /// The place `number` values after another.
+    pub(super) fn behind(place: ValuePlace, width: u8, number: u16) -> ValuePlace {
         match place {
-            Place::Bytes(area, first) => Place::Bytes(area, first + u16::from(width) * number),
-            Place::Analog(AnalogInput::Scaled(channel)) => Place::Analog(AnalogInput::Scaled(channel + number as u8)),
-            Place::Analog(AnalogInput::Raw(channel)) => Place::Analog(AnalogInput::Raw(channel + number as u8)),
+            ValuePlace::Bytes(area, first) => {
+                ValuePlace::Bytes(area, first + u16::from(width) * number)
+            }
+            ValuePlace::Analog(AnalogInput::Scaled(channel)) => {
+                ValuePlace::Analog(AnalogInput::Scaled(channel + number as u8))
+            }
+            ValuePlace::Analog(AnalogInput::Raw(channel)) => {
+                ValuePlace::Analog(AnalogInput::Raw(channel + number as u8))
+            }
             other => other,
         }
     }
@@ -202,39 +226,44 @@ impl Naive {
         })
     }
 
-    pub(super) fn write(&mut self, operand: &Operand, width: u8, value: u32) -> Result<(), Trouble> {
+    pub(super) fn write(
+        &mut self,
+        operand: &Operand,
+        width: u8,
+        value: u32,
+    ) -> Result<(), Trouble> {
         let place = self.place(operand, Want::written(width))?;
         self.set_value_at(place, width, value);
         Ok(())
     }
 }
 
-fn direct(address: Address) -> Place {
+fn direct(address: Address) -> ValuePlace {
     match address {
         Address::Bit { area, byte, .. }
         | Address::Byte { area, byte }
         | Address::Word { area, byte }
-        | Address::Double { area, byte } => Place::Bytes(area, byte),
-        Address::Timer(number) => Place::Timer(number),
-        Address::Counter(number) => Place::Counter(number),
-        Address::Analog(input) => Place::Analog(input),
-        Address::AnalogOutput(_) => Place::Output,
-        Address::Accumulator(number) => Place::Accumulator(number),
-        Address::HighSpeedCounter(_) => Place::HighSpeed,
+        | Address::Double { area, byte } => ValuePlace::Bytes(area, byte),
+        Address::Timer(number) => ValuePlace::Timer(number),
+        Address::Counter(number) => ValuePlace::Counter(number),
+        Address::Analog(input) => ValuePlace::Analog(input),
+        Address::AnalogOutput(_) => ValuePlace::Output,
+        Address::Accumulator(number) => ValuePlace::Accumulator(number),
+        Address::HighSpeedCounter(_) => ValuePlace::HighSpeed,
     }
 }
 
 fn pointer_to(address: Address) -> u32 {
     let (code, offset) = match direct(address) {
-        Place::Bytes(Area::I, byte) => (0x00, byte),
-        Place::Bytes(Area::Q, byte) => (0x01, byte),
-        Place::Bytes(Area::M, byte) => (0x05, byte),
-        Place::Bytes(Area::Sm, byte) => (0x06, byte),
-        Place::Bytes(Area::S, byte) => (0x07, byte),
-        Place::Bytes(Area::V, byte) => (0x08, byte),
-        Place::Analog(AnalogInput::Scaled(channel)) => (0x02, 2 * u16::from(channel)),
-        Place::Timer(number) => (0x09, 2 * u16::from(number)),
-        Place::Counter(number) => (0x0A, 2 * u16::from(number)),
+        ValuePlace::Bytes(Area::I, byte) => (0x00, byte),
+        ValuePlace::Bytes(Area::Q, byte) => (0x01, byte),
+        ValuePlace::Bytes(Area::M, byte) => (0x05, byte),
+        ValuePlace::Bytes(Area::Sm, byte) => (0x06, byte),
+        ValuePlace::Bytes(Area::S, byte) => (0x07, byte),
+        ValuePlace::Bytes(Area::V, byte) => (0x08, byte),
+        ValuePlace::Analog(AnalogInput::Scaled(channel)) => (0x02, 2 * u16::from(channel)),
+        ValuePlace::Timer(number) => (0x09, 2 * u16::from(number)),
+        ValuePlace::Counter(number) => (0x0A, 2 * u16::from(number)),
         other => panic!("no pointer leads to {other:?}"),
     };
     code << 24 | u32::from(offset)

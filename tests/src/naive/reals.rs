@@ -1,6 +1,7 @@
 //! Reals: arithmetic, conversions, functions, PID.
 //!
-//! SIN, COS, TAN, LN and EXP are defined as sequences of operations, and PID is one: those are plc-vm's.
+//! SIN, COS, TAN, LN and EXP are defined as sequences of operations, and PID is one: those are
+//! plc-vm's.
 
 use awl_asm::ast::{Instruction, Operand, Value};
 use plc_isa::Area;
@@ -25,18 +26,18 @@ impl Naive {
 
     pub(super) fn real_box(&mut self, instruction: &Instruction) -> Result<(), Trouble> {
         let (input, out) = (&instruction.operands[0], &instruction.operands[1]);
-        if instruction.mnemonic == "DTR" {
+        if instruction.mnemonic() == "DTR" {
             let value = self.read_signed(input, 4)?;
             return self.write(out, 4, (value as f32).to_bits());
         }
         let x = self.read_real(input)?;
         self.place(out, Want::written(4))?;
-        match instruction.mnemonic {
+        match instruction.mnemonic() {
             "ROUND" => self.write_whole(out, x.round()),
             "TRUNC" => self.write_whole(out, x.trunc()),
             "+R" | "-R" | "*R" | "/R" => {
                 let value = self.read_real(out)?;
-                self.calculate_real(instruction.mnemonic, value, x, out)
+                self.calculate_real(instruction.mnemonic(), value, x, out)
             }
             name => {
                 let result = number(x).and_then(|x| match name {
@@ -52,7 +53,13 @@ impl Naive {
         }
     }
 
-    fn calculate_real(&mut self, mnemonic: &str, a: f32, b: f32, out: &Operand) -> Result<(), Trouble> {
+    fn calculate_real(
+        &mut self,
+        mnemonic: &str,
+        a: f32,
+        b: f32,
+        out: &Operand,
+    ) -> Result<(), Trouble> {
         let both = number(a).zip(number(b));
         let divides = mnemonic == "/R";
         // Whatever is divided.

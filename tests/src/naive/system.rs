@@ -1,17 +1,10 @@
-//! What happens before the program: time passes, inputs are taken in, special memory is written, timers go on.
+//! What happens before the program: time passes, inputs are taken in, special memory is written,
+//! timers go on.
 
 use plc_isa::Area;
 
 use super::timers::resolution_ms;
-use super::{Inputs, Naive};
-
-/// Milliseconds and ticks since the start of the scan before.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Passed {
-    pub(super) ms: u32,
-    pub(super) ticks10: u32,
-    pub(super) ticks100: u32,
-}
+use super::{Inputs, Naive, Passed};
 
 /// What happens before the program.
 impl Naive {
@@ -23,8 +16,11 @@ impl Naive {
         } else {
             let ms = now_ms.wrapping_sub(self.previous_start_ms);
             let (before, now) = (self.since_run_ms, self.since_run_ms + u64::from(ms));
-            self.passed =
-                Passed { ms, ticks10: (now / 10 - before / 10) as u32, ticks100: (now / 100 - before / 100) as u32 };
+            self.passed = Passed {
+                ms,
+                ticks10: (now / 10 - before / 10) as u32,
+                ticks100: (now / 100 - before / 100) as u32,
+            };
             self.since_run_ms = now;
         }
         self.previous_start_ms = now_ms;
@@ -51,7 +47,8 @@ impl Naive {
         }
         let ms = self.passed.ms;
         if self.first_scan || self.scan_number == 1 {
-            // The first scan has no scan before it; the second is the first that has a time to compare.
+            // The first scan has no scan before it; the second is the first that has a time to
+            // compare.
             self.shortest_scan_ms = ms;
             self.longest_scan_ms = ms;
         }

@@ -5,7 +5,7 @@ use plc_isa::{Area, Relation};
 
 use super::Naive;
 use super::boxes::width;
-use super::places::{Place, Trouble, Want};
+use super::places::{Trouble, ValuePlace, Want};
 
 /// Most entries of a table.
 const ENTRIES_MAX: i16 = 100;
@@ -13,7 +13,7 @@ const ENTRIES_MAX: i16 = 100;
 impl Naive {
     pub(super) fn table_box(&mut self, instruction: &Instruction) -> Result<(), Trouble> {
         let operands = &instruction.operands;
-        match instruction.mnemonic {
+        match instruction.mnemonic() {
             "ATT" => self.add_to_table(&operands[0], &operands[1]),
             "FIFO" => self.take_from_table(&operands[0], &operands[1], true),
             "LIFO" => self.take_from_table(&operands[0], &operands[1], false),
@@ -35,23 +35,24 @@ impl Naive {
         let count = self.read(&operands[2], 1)? as u16;
         let from = self.place(&operands[0], Want::read(width).of(count))?;
         let to = self.place(&operands[1], Want::written(width).of(count))?;
-        let values: Vec<u32> = (0..count).map(|at| self.value_at(Naive::behind(from, width, at), width)).collect();
+        let values: Vec<u32> =
+            (0..count).map(|at| self.value_at(Naive::behind(from, width, at), width)).collect();
         for (value, at) in values.into_iter().zip(0..) {
             self.set_value_at(Naive::behind(to, width, at), width, value);
         }
         Ok(())
     }
 
-    fn word_at(&self, first: Place, number: i16) -> i16 {
+    fn word_at(&self, first: ValuePlace, number: i16) -> i16 {
         self.value_at(Naive::behind(first, 2, number as u16), 2) as i16
     }
 
-    fn set_word_at(&mut self, first: Place, number: i16, value: i16) {
+    fn set_word_at(&mut self, first: ValuePlace, number: i16, value: i16) {
         self.set_value_at(Naive::behind(first, 2, number as u16), 2, u32::from(value as u16));
     }
 
     /// A table with as many places and entries as its first two words say.
-    fn table(&self, operand: &Operand) -> Result<(Place, i16, i16), Trouble> {
+    fn table(&self, operand: &Operand) -> Result<(ValuePlace, i16, i16), Trouble> {
         let head = self.place(operand, Want::written(2).of(2))?;
         let (most, entries) = (self.word_at(head, 0), self.word_at(head, 1));
         if !(0..=ENTRIES_MAX).contains(&most) || !(0..=most).contains(&entries) {
@@ -73,7 +74,12 @@ impl Naive {
         Ok(())
     }
 
-    fn take_from_table(&mut self, table: &Operand, data: &Operand, oldest: bool) -> Result<(), Trouble> {
+    fn take_from_table(
+        &mut self,
+        table: &Operand,
+        data: &Operand,
+        oldest: bool,
+    ) -> Result<(), Trouble> {
         let (table, _, entries) = self.table(table)?;
         self.place(data, Want::written(2))?;
         self.set_bit(Area::Sm, 1, 5, entries == 0);
@@ -93,7 +99,9 @@ impl Naive {
 
     /// The table begins with the number of entries here.
     fn find_in_table(&mut self, instruction: &Instruction) -> Result<(), Trouble> {
-        let [table, pattern, indx] = &instruction.operands[..] else { panic!("FND has three operands") };
+        let [table, pattern, indx] = &instruction.operands[..] else {
+            panic!("FND has three operands")
+        };
         let head = self.place(table, Want::read(2))?;
         let entries = self.word_at(head, 0);
         if !(0..=ENTRIES_MAX).contains(&entries) {

@@ -53,14 +53,16 @@ fn calculated(start: i16, line: &str) -> (i16, u8) {
 
 #[test]
 fn contacts_and_coils() {
-    let mut bench = bench("LD I0.0\nAN I0.1\nO I0.2\nNOT\n= M0.0\nLDN I0.0\nA I0.1\nON I0.2\n= M0.1");
+    let mut bench =
+        bench("LD I0.0\nAN I0.1\nO I0.2\nNOT\n= M0.0\nLDN I0.0\nA I0.1\nON I0.2\n= M0.1");
     let truth: Vec<u8> = (0..8).map(|ib0| bench.scan(1, ib0).mb(0)).collect();
     assert_eq!(truth, [3, 2, 3, 3, 0, 0, 2, 0]);
 }
 
 #[test]
 fn stack_operations() {
-    let source = "LD I0.0\nLD I0.1\nLD I0.2\nLPS\n= M0.0\nLPP\nLRD\n= M0.1\nLDS 2\n= M0.2\nOLD\n= M0.3\nALD\n= M0.4";
+    let source = "LD I0.0\nLD I0.1\nLD I0.2\nLPS\n= M0.0\nLPP\nLRD\n= M0.1\nLDS 2\n= M0.2\nOLD\n\
+        = M0.3\nALD\n= M0.4";
     let mut bench = bench(source);
     // LRD replaces I0.2 by I0.1; LDS 2 brings I0.0 to the top of I0.1, I0.1, I0.0.
     assert_eq!(bench.scan(1, 0b101).mb(0), 0b0_1101);
@@ -91,8 +93,8 @@ fn edges_need_two_scans() {
 
 #[test]
 fn comparisons_are_signed_for_words_only() {
-    let source =
-        "LDW< -1,1\n= M0.0\nLDB> 16#FF,1\n= M0.1\nLD SM0.0\nAW>= AIW2,Ain0\n= M0.2\nLDW<> 1,1\nOB= IB0,5\n= M0.3";
+    let source = "LDW< -1,1\n= M0.0\nLDB> 16#FF,1\n= M0.1\nLD SM0.0\nAW>= AIW2,Ain0\n= M0.2\n\
+        LDW<> 1,1\nOB= IB0,5\n= M0.3";
     let mut bench = bench(source);
     bench.inputs.aiw[1] = 7;
     bench.inputs.ain[0] = 7;
@@ -127,7 +129,8 @@ fn division_by_zero_changes_one_bit_until_the_next_division() {
 
 #[test]
 fn boxes_without_power_flow_do_nothing() {
-    let boxes = "MOVB 1,MB0\nMOVW 1,MW1\nINCW MW3\n+I 1,MW5\n/I 0,MW7\nS M9.0,8\nR T37,1\nSTOP\nEND\nLD SM0.0\n= M31.0";
+    let boxes = "MOVB 1,MB0\nMOVW 1,MW1\nINCW MW3\n+I 1,MW5\n/I 0,MW7\nS M9.0,8\nR T37,1\nSTOP\n\
+        END\nLD SM0.0\n= M31.0";
     let mut bench = bench(&format!("LD I0.0\n{boxes}"));
     bench.scan(1, 0);
     assert!((0..31).all(|byte| bench.mb(byte) == 0));
@@ -144,7 +147,9 @@ fn words_are_big_endian_at_any_byte() {
 
 #[test]
 fn set_and_reset_ranges() {
-    let mut bench = bench("LD SM0.0\nS M0.6,4\nS M31.0,IB0\nMOVB 8,VB0\nS V10239.1,VB0\nS V10238.0,VB0\nR M0.7,2");
+    let mut bench = bench(
+        "LD SM0.0\nS M0.6,4\nS M31.0,IB0\nMOVB 8,VB0\nS V10239.1,VB0\nS V10238.0,VB0\nR M0.7,2",
+    );
     bench.scan(1, 8);
     assert_eq!([bench.mb(0), bench.mb(1), bench.mb(31)], [0x40, 0x02, 0xFF]);
     assert_eq!([bench.plc.byte(Area::V, 10238), bench.plc.byte(Area::V, 10239)], [0xFF, 0]);
@@ -239,11 +244,15 @@ fn off_delay() {
 
 #[test]
 fn presets_of_nothing_act_at_once() {
-    let mut bench = bench("LD I0.0\nTON T37,0\nLD I0.0\nTONR T5,-1\nLD I0.0\nTOF T38,-3\nLD I0.0\nTOF T39,0");
+    let mut bench =
+        bench("LD I0.0\nTON T37,0\nLD I0.0\nTONR T5,-1\nLD I0.0\nTOF T38,-3\nLD I0.0\nTOF T39,0");
     bench.scan(0, 1);
     assert_eq!([37, 5, 38, 39].map(|n| bench.timer(n)), [(0, true); 4]);
     bench.scan(0, 0);
-    assert_eq!([37, 5, 38, 39].map(|n| bench.timer(n)), [(0, false), (0, true), (0, false), (0, false)]);
+    assert_eq!(
+        [37, 5, 38, 39].map(|n| bench.timer(n)),
+        [(0, false), (0, true), (0, false), (0, false)]
+    );
 }
 
 #[test]
@@ -271,8 +280,17 @@ fn count_up() {
         bench.scan(1, ib0);
         bench.counter(1)
     });
-    let expected =
-        [(0, false), (0, false), (1, false), (1, false), (1, false), (2, true), (0, false), (0, false), (0, false)];
+    let expected = [
+        (0, false),
+        (0, false),
+        (1, false),
+        (1, false),
+        (1, false),
+        (2, true),
+        (0, false),
+        (0, false),
+        (0, false),
+    ];
     assert_eq!(seen, expected, "no edge in the first scan; the edge under reset is spent");
 }
 
@@ -283,7 +301,16 @@ fn count_down() {
         bench.scan(1, ib0);
         bench.counter(1)
     });
-    let expected = [(0, true), (2, false), (2, false), (1, false), (1, false), (0, true), (0, true), (0, true)];
+    let expected = [
+        (0, true),
+        (2, false),
+        (2, false),
+        (1, false),
+        (1, false),
+        (0, true),
+        (0, true),
+        (0, true),
+    ];
     assert_eq!(seen, expected);
 }
 
@@ -312,8 +339,10 @@ fn loops() {
     bench.plc.set_byte(Area::M, 5, 4);
     bench.scan(1, 0);
     assert_eq!((bench.mw(0), bench.mw(2), bench.mb(10)), (5, 10, 1));
-    let mut skipped =
-        self::bench("LD SM0.0\nFOR MW0,3,2\nINCW MW2\nNEXT\n= M10.0\nLD I0.0\nFOR MW4,1,2\nINCW MW2\nNEXT\n= M10.1");
+    let mut skipped = self::bench(
+        "LD SM0.0\nFOR MW0,3,2\nINCW MW2\nNEXT\n= M10.0\nLD I0.0\nFOR MW4,1,2\nINCW MW2\nNEXT\n\
+            = M10.1",
+    );
     skipped.scan(1, 0);
     assert_eq!((skipped.mw(0), skipped.mw(2), skipped.mw(4), skipped.mb(10)), (3, 0, 0, 1));
     let mut top = self::bench("LD SM0.0\nFOR MW0,32766,32767\nINCW MW2\nNEXT");
@@ -330,7 +359,9 @@ fn nested_loops() {
 
 #[test]
 fn jumps_forward_and_backward() {
-    let mut bench = bench("LBL 7\nLD SM0.0\nINCW MW0\nLDW< MW0,5\nJMP 7\nLD SM0.0\nJMP 8\nINCW MW0\nLBL 8\n= M10.0");
+    let mut bench = bench(
+        "LBL 7\nLD SM0.0\nINCW MW0\nLDW< MW0,5\nJMP 7\nLD SM0.0\nJMP 8\nINCW MW0\nLBL 8\n= M10.0",
+    );
     bench.scan(1, 0);
     assert_eq!((bench.mw(0), bench.mb(10)), (5, 1));
 }
@@ -341,7 +372,10 @@ fn end_and_stop() {
     assert_eq!(bench.scan(1, 0).mw(0), 1);
     assert_eq!(bench.scan(1, 1).mw(0), 1);
     assert_eq!(bench.scan(1, 2).mw(0), 1);
-    assert_eq!((bench.plc.mode(), bench.plc.output(0), bench.plc.byte(Area::Q, 0)), (Mode::Stop, 0, 1));
+    assert_eq!(
+        (bench.plc.mode(), bench.plc.output(0), bench.plc.byte(Area::Q, 0)),
+        (Mode::Stop, 0, 1)
+    );
     assert_eq!(bench.scan(1, 0).mw(0), 1, "nothing runs in STOP");
     bench.plc.start();
     assert_eq!(bench.scan(1, 0).mw(0), 2);

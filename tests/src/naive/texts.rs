@@ -4,7 +4,7 @@ use awl_asm::ast::{Instruction, Operand, Value};
 use plc_isa::Area;
 
 use super::Naive;
-use super::places::{Place, Trouble, Want};
+use super::places::{Trouble, ValuePlace, Want};
 
 /// Most characters of a string.
 const CHARACTERS_MAX: usize = 254;
@@ -27,7 +27,8 @@ impl Naive {
         if characters.len() > CHARACTERS_MAX {
             return Err(Trouble::Operand);
         }
-        let all: Vec<u8> = [characters.len() as u8].into_iter().chain(characters.iter().copied()).collect();
+        let all: Vec<u8> =
+            [characters.len() as u8].into_iter().chain(characters.iter().copied()).collect();
         self.write_bytes(operand, &all)
     }
 
@@ -42,7 +43,7 @@ impl Naive {
     pub(super) fn text_box(&mut self, instruction: &Instruction) -> Result<(), Trouble> {
         let operands = &instruction.operands;
         let input = self.read_text(&operands[0])?;
-        match instruction.mnemonic {
+        match instruction.mnemonic() {
             "SLEN" => self.write(&operands[1], 1, input.len() as u32),
             "SCPY" => self.write_text(&operands[1], &input),
             "SCAT" => {
@@ -50,7 +51,8 @@ impl Naive {
                 self.write_text(&operands[1], &both)
             }
             "SSCPY" => {
-                let (first, n) = (self.read(&operands[1], 1)? as usize, self.read(&operands[2], 1)? as usize);
+                let (first, n) =
+                    (self.read(&operands[1], 1)? as usize, self.read(&operands[2], 1)? as usize);
                 if !(1..=input.len()).contains(&first) || first - 1 + n > input.len() {
                     return Err(Trouble::Operand);
                 }
@@ -78,16 +80,18 @@ impl Naive {
 impl Naive {
     pub(super) fn ascii_box(&mut self, instruction: &Instruction) -> Result<(), Trouble> {
         let operands = &instruction.operands;
-        match instruction.mnemonic {
+        match instruction.mnemonic() {
             "ATH" => self.digits_to_bytes(operands),
             "HTA" => self.bytes_to_digits(operands),
-            "ITA" | "DTA" | "RTA" => {
-                self.number_to_characters(instruction.mnemonic, [&operands[0], &operands[2], &operands[1]])
-            }
-            "ITS" | "DTS" | "RTS" => {
-                self.number_to_characters(instruction.mnemonic, [&operands[0], &operands[1], &operands[2]])
-            }
-            _ => self.characters_to_number(instruction.mnemonic, operands),
+            "ITA" | "DTA" | "RTA" => self.number_to_characters(
+                instruction.mnemonic(),
+                [&operands[0], &operands[2], &operands[1]],
+            ),
+            "ITS" | "DTS" | "RTS" => self.number_to_characters(
+                instruction.mnemonic(),
+                [&operands[0], &operands[1], &operands[2]],
+            ),
+            _ => self.characters_to_number(instruction.mnemonic(), operands),
         }
     }
 
@@ -124,7 +128,11 @@ impl Naive {
     }
 
     /// ITA and so on; the operands are the number, the format and the target.
-    fn number_to_characters(&mut self, mnemonic: &str, [input, format, out]: [&Operand; 3]) -> Result<(), Trouble> {
+    fn number_to_characters(
+        &mut self,
+        mnemonic: &str,
+        [input, format, out]: [&Operand; 3],
+    ) -> Result<(), Trouble> {
         let is_text = mnemonic.ends_with('S');
         let number = match mnemonic.as_bytes()[0] {
             b'I' => Number::Whole(self.read_signed(input, 2)?),
@@ -139,7 +147,9 @@ impl Naive {
             _ if format >> 4 < 3 => return Err(Trouble::Operand),
             _ => ((format >> 4) as usize, true),
         };
-        let digits = number.digits(decimals, sign).filter(|digits| is_legal && decimals <= 5 && digits.len() <= width);
+        let digits = number
+            .digits(decimals, sign)
+            .filter(|digits| is_legal && decimals <= 5 && digits.len() <= width);
         let characters = format!("{:>width$}", digits.as_deref().unwrap_or(""));
         if is_text {
             self.write_text(out, characters.as_bytes())?;
@@ -149,7 +159,11 @@ impl Naive {
         digits.map(|_| ()).ok_or(Trouble::Operand)
     }
 
-    fn characters_to_number(&mut self, mnemonic: &str, operands: &[Operand]) -> Result<(), Trouble> {
+    fn characters_to_number(
+        &mut self,
+        mnemonic: &str,
+        operands: &[Operand],
+    ) -> Result<(), Trouble> {
         let characters = self.read_text(&operands[0])?;
         let first = self.read(&operands[1], 1)? as usize;
         let width = if mnemonic == "STI" { 2 } else { 4 };
@@ -160,8 +174,12 @@ impl Naive {
         let text: String = characters[first - 1..].iter().map(|&byte| char::from(byte)).collect();
         let text = text.trim_start_matches(' ');
         let value = match mnemonic {
-            "STI" => whole(text).and_then(|value| i16::try_from(value).ok()).map(|value| value as u32),
-            "STD" => whole(text).and_then(|value| i32::try_from(value).ok()).map(|value| value as u32),
+            "STI" => {
+                whole(text).and_then(|value| i16::try_from(value).ok()).map(|value| value as u32)
+            }
+            "STD" => {
+                whole(text).and_then(|value| i32::try_from(value).ok()).map(|value| value as u32)
+            }
             _ => real(text).map(f32::to_bits),
         };
         self.set_bit(Area::Sm, 1, 1, value.is_none());
@@ -169,10 +187,12 @@ impl Naive {
     }
 }
 
-/// Digits that begin within their characters, behind the first, would be overwritten or read again.
-fn stand_apart(digits: Place, characters: Place, len: u16) -> Result<(), Trouble> {
+/// Digits that begin within their characters, after the first, would be overwritten or read again.
+fn stand_apart(digits: ValuePlace, characters: ValuePlace, len: u16) -> Result<(), Trouble> {
     match (digits, characters) {
-        (Place::Bytes(area, digits), Place::Bytes(other, characters)) if area == other => {
+        (ValuePlace::Bytes(area, digits), ValuePlace::Bytes(other, characters))
+            if area == other =>
+        {
             let is_within = digits > characters && digits < characters + len;
             if is_within { Err(Trouble::Operand) } else { Ok(()) }
         }
@@ -203,8 +223,8 @@ impl Number {
     }
 }
 
-/// The digits of a real times 10 to the power of the decimals, halves away from zero; exact, because the fraction of a
-/// single has no more than 149 digits.
+/// The digits of a real times 10 to the power of the decimals, halves away from zero; exact,
+/// because the fraction of a single has no more than 149 digits.
 fn rounded(value: f32, decimals: usize) -> Option<String> {
     if !value.is_finite() {
         return None;

@@ -1,6 +1,6 @@
 //! Timers TON, TOF and TONR.
 
-use awl_asm::ast::Instruction;
+use awl_asm::ast::{Instruction, Operand, Value};
 use plc_isa::{TimerFamily, timer_family};
 
 use super::Naive;
@@ -73,14 +73,22 @@ impl Timer {
 
 /// The instructions.
 impl Naive {
+    /// The preset of a timer or counter. A pointer is followed by a box.
+    pub(super) fn preset(&mut self, operand: &Operand) -> i16 {
+        if matches!(operand.value, Value::Indirect(_)) {
+            self.eno = self.stack[0];
+        }
+        self.word_operand(operand)
+    }
+
     pub(super) fn timer_instruction(&mut self, instruction: &Instruction) {
         let input = self.stack[0];
         let number = timer_number(&instruction.operands[0]);
-        let preset = self.word_operand(&instruction.operands[1]);
+        let preset = self.preset(&instruction.operands[1]);
         let own_ticks = if resolution_ms(number) == 100 { self.passed.ticks100 } else { 0 };
         let timer = &mut self.timers[usize::from(number)];
         timer.preset = preset;
-        match instruction.mnemonic {
+        match instruction.mnemonic() {
             "TON" => timer.on_delay(input, own_ticks),
             "TONR" => timer.retentive_on_delay(input, own_ticks),
             _ => timer.off_delay(input, own_ticks),

@@ -78,8 +78,9 @@ impl Generator<'_> {
         match self.rng.u8(..4) {
             0 => self.line(&format!("MOVD {value}, AC{number}\nAENO\n= M1.{number}")),
             1 => self.line(&format!("MOVW {value}, MW10\n+I {value}, MW10\nAENO\n= M2.{number}")),
-            2 => self
-                .line(&format!("LPS\nA I0.{number}\n= M3.{number}\nLRD\nA SM1.1\n= M4.{number}\nLPP\n= M5.{number}")),
+            2 => self.line(&format!(
+                "LPS\nA I0.{number}\n= M3.{number}\nLRD\nA SM1.1\n= M4.{number}\nLPP\n= M5.{number}"
+            )),
             _ => self.line(&format!("+I AC{number}, MW12\nINCW MW14")),
         }
     }
@@ -118,11 +119,14 @@ impl Generator<'_> {
     }
 
     fn routine(&mut self, number: usize) {
-        self.line(&format!("LD SM0.0\nBMB VB0, VB2, 46\nMOVB {number}, VB0\nMOVB SMB4, VB1\nINCW MW8"));
+        self.line(&format!(
+            "LD SM0.0\nBMB VB0, VB2, 46\nMOVB {number}, VB0\nMOVB SMB4, VB1\nINCW MW8"
+        ));
         for _ in 0..self.rng.u8(..3) {
             self.context();
         }
-        // What ends a delay here can do so only once in a scan, or routines would follow each other without end.
+        // What ends a delay here can do so only once in a scan, or routines would follow each other
+        // without end.
         match self.rng.u8(..8) {
             0 => self.line(&format!("LD SM0.0\nTON T32, {}", self.presets[0])),
             1 => self.line(&format!("LDN SM0.0\nTOF T96, {}", self.presets[1])),
@@ -149,12 +153,16 @@ impl Generator<'_> {
             self.network();
         }
         let main = std::mem::take(&mut self.text);
-        let inner = "SUBROUTINE_BLOCK Inner:SBR0\nBEGIN\nLD SM0.0\nINCW MW16\nLDN SM0.0\nLD I0.0\n= M6.0\n= M6.1\nEND_SUBROUTINE_BLOCK\n";
-        let mut text = format!("ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\n{main}END_ORGANIZATION_BLOCK\n{inner}");
+        let inner = "SUBROUTINE_BLOCK Inner:SBR0\nBEGIN\nLD SM0.0\nINCW MW16\nLDN SM0.0\nLD I0.0\n\
+            = M6.0\n= M6.1\nEND_SUBROUTINE_BLOCK\n";
+        let mut text =
+            format!("ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\n{main}END_ORGANIZATION_BLOCK\n{inner}");
         for number in 0..self.routines {
             self.routine(number);
             let routine = std::mem::take(&mut self.text);
-            text += &format!("INTERRUPT_BLOCK I{number}:INT{number}\nBEGIN\n{routine}END_INTERRUPT_BLOCK\n");
+            text += &format!(
+                "INTERRUPT_BLOCK I{number}:INT{number}\nBEGIN\n{routine}END_INTERRUPT_BLOCK\n"
+            );
         }
         text
     }

@@ -6,7 +6,13 @@ use super::{EDGES_MAX, Generator};
 use crate::forms::Row;
 
 impl Generator<'_> {
-    pub(super) fn line(&mut self, row: &Instruction, relation: Option<Relation>, operands: &[String], form: &Form) {
+    pub(super) fn line(
+        &mut self,
+        row: &Instruction,
+        relation: Option<Relation>,
+        operands: &[String],
+        form: &Form,
+    ) {
         let mut mnemonic = row.mnemonics[0];
         if self.german || self.one_in(50) {
             mnemonic = self.rng.choice(row.mnemonics).unwrap_or(&mnemonic);
@@ -51,7 +57,11 @@ impl Generator<'_> {
             return false;
         }
         for _ in 0..20 {
-            let found = if row.module().is_some() { self.values(row, form) } else { self.operands(row, form) };
+            let found = if row.module().is_some() {
+                self.values(row, form)
+            } else {
+                self.operands(row, form)
+            };
             if let Some(operands) = found {
                 let relations = Row { instruction: row, form }.relations();
                 let relation = relations[self.rng.usize(..relations.len())];

@@ -2,12 +2,12 @@
 
 use plc_isa::{AnalogInput, Op, Relation};
 
-use super::operands::Place;
+use super::operand_text::OperandText;
 use super::{Generator, PASSES_MAX};
 
 /// The first or last value of a loop.
 struct Bound {
-    place: Place,
+    place: OperandText,
     /// The values it can have.
     least: i32,
     most: i32,
@@ -19,7 +19,9 @@ struct Bound {
 impl Generator<'_> {
     /// A jump backward, bounded by a count that nothing else writes.
     pub(super) fn repeated_part(&mut self) {
-        let (Some(label), Some(count)) = (self.unused_labels.pop(), self.writable_word()) else { return };
+        let (Some(label), Some(count)) = (self.unused_labels.pop(), self.writable_word()) else {
+            return;
+        };
         let passes = self.rng.u32(1..=3);
         self.network();
         self.assign("0", &count);
@@ -30,7 +32,12 @@ impl Generator<'_> {
         self.fixed(Op::Ld, &["SM0.0"]);
         self.fixed(Op::Incw, &[&count.text]);
         let row = Op::Ldw.instruction();
-        self.line(row, Some(Relation::Less), &[count.text.clone(), passes.to_string()], &row.forms[1]);
+        self.line(
+            row,
+            Some(Relation::Less),
+            &[count.text.clone(), passes.to_string()],
+            &row.forms[1],
+        );
         self.fixed(Op::Jmp, &[&label.to_string()]);
         self.restore(before);
     }
@@ -39,7 +46,10 @@ impl Generator<'_> {
         let Some(index) = self.writable_word() else { return };
         let (init, last) = self.loop_bounds();
         let passes = (last.most - init.least + 1).max(1) as u32;
-        if self.passes * passes > PASSES_MAX || index.overlaps(&last.place) || index.overlaps(&init.place) {
+        if self.passes * passes > PASSES_MAX
+            || index.overlaps(&last.place)
+            || index.overlaps(&init.place)
+        {
             return;
         }
         self.network();
@@ -66,12 +76,12 @@ impl Generator<'_> {
     }
 
     /// Writes a constant into a word, whatever the power flow.
-    fn assign(&mut self, value: &str, word: &Place) {
+    fn assign(&mut self, value: &str, word: &OperandText) {
         self.fixed(Op::Ld, &["SM0.0"]);
         self.fixed(Op::Movw, &[value, &word.text]);
     }
 
-    fn enter(&mut self, words: &[&Place], passes: u32) -> (usize, u32) {
+    fn enter(&mut self, words: &[&OperandText], passes: u32) -> (usize, u32) {
         let before = (self.protected.len(), self.passes);
         self.protected.extend(words.iter().filter_map(|word| word.extent.clone()));
         self.passes *= passes;
@@ -109,22 +119,28 @@ impl Generator<'_> {
     fn bound(&mut self, value: i32) -> Bound {
         let small = (-3..=8).contains(&value);
         let (place, most, is_assigned) = match self.rng.u32(..8) {
-            0..=2 => (Place::constant(self.integer_text(value as i16)), value, false),
+            0..=2 => (OperandText::constant(self.integer_text(value as i16)), value, false),
             3 if small => {
                 // What random_inputs promises about them.
                 let scaled = i32::from(AnalogInput::scale(1));
-                let (text, most) = [("IW10", 0), ("SMW10", 0), ("Ain5", 1), ("AIW10", scaled)][self.rng.usize(..4)];
-                return Bound { place: Place::constant(self.localized(text)), least: 0, most, is_assigned: false };
+                let (text, most) = [("IW10", 0), ("SMW10", 0), ("Ain5", 1), ("AIW10", scaled)]
+                    [self.rng.usize(..4)];
+                return Bound {
+                    place: OperandText::constant(self.localized(text)),
+                    least: 0,
+                    most,
+                    is_assigned: false,
+                };
             }
             _ => match self.writable_word() {
                 Some(place) => (place, value, true),
-                None => (Place::constant(value.to_string()), value, false),
+                None => (OperandText::constant(value.to_string()), value, false),
             },
         };
         Bound { place, least: value, most, is_assigned }
     }
 
-    fn writable_word(&mut self) -> Option<Place> {
+    fn writable_word(&mut self) -> Option<OperandText> {
         (0..20).find_map(|_| self.word(true))
     }
 }

@@ -1,21 +1,24 @@
 //! Random valid AWL programs, and random inputs and times to run them with. Judges no result.
 //!
-//! Which instructions exist and which operands they take is read from the instruction table, so a new
-//! row takes part without a change here. Addresses come from small pools, so that the instructions of
-//! a program meddle with each other: words overlap, coils and boxes write the same bytes. Every
-//! program ends its scan soon when run with [`random_inputs`].
+//! Which instructions exist and which operands they take is read from the instruction table, so a
+//! new row takes part without a change here. Addresses come from small pools, so that the
+//! instructions of a program meddle with each other: words overlap, coils and boxes write the same
+//! bytes. Every program ends its scan soon when run with [`random_inputs`].
 //!
-//! Some of V memory is apart, so that comparisons of strings and reals find strings and numbers there: see `values.rs`.
+//! Some of V memory is apart, so that comparisons of strings and reals find strings and numbers
+//! there: see `values.rs`.
 
 mod constants;
 mod interrupts;
 mod lines;
 mod loops;
 mod offer;
+mod operand_text;
 mod operands;
 mod pointers;
 mod sequence;
 mod structure;
+mod subroutine;
 mod units;
 mod values;
 
@@ -25,8 +28,8 @@ use plc_isa::{AnalogInput, INSTRUCTIONS, Instruction, Kind, Op, TimerFamily, tim
 use crate::naive::Inputs;
 pub use interrupts::random_interrupts;
 pub use offer::Offer;
-use operands::Extent;
-use units::{Local, Subroutine};
+use operand_text::Extent;
+use subroutine::{Local, Subroutine};
 
 /// Most passes that nested loops make together.
 const PASSES_MAX: u32 = 200;
@@ -37,13 +40,17 @@ const LOOPS_MAX: usize = 3;
 /// Most EU and ED in a program.
 const EDGES_MAX: u32 = 200;
 
-/// The timers of a program are some of these: all resolutions of both families, with neighbours for R.
-const TIMERS: [u8; 28] =
-    [0, 1, 4, 5, 6, 31, 64, 65, 68, 69, 95, 32, 33, 34, 35, 36, 37, 38, 63, 96, 97, 98, 100, 101, 102, 103, 254, 255];
+/// The timers of a program are some of these: all resolutions of both families, with neighbours for
+/// R.
+const TIMERS: [u8; 28] = [
+    0, 1, 4, 5, 6, 31, 64, 65, 68, 69, 95, 32, 33, 34, 35, 36, 37, 38, 63, 96, 97, 98, 100, 101,
+    102, 103, 254, 255,
+];
 /// The counters of a program are some of these.
 const COUNTERS: [u8; 10] = [0, 1, 2, 3, 7, 8, 9, 100, 254, 255];
 
-/// A valid program of about `size` instructions of the core, in one unit, or fewer where the code would get too long.
+/// A valid program of about `size` instructions of the core, in one unit, or fewer where the code
+/// would get too long.
 pub fn random_program(rng: &mut Rng, size: usize) -> String {
     random_program_of(rng, size, Offer::core())
 }
@@ -55,8 +62,9 @@ pub fn random_program_of(rng: &mut Rng, size: usize, offer: Offer) -> String {
     generator.text
 }
 
-/// The inputs of the scan after `previous`: bits of IB0 to IB2 and IB15 toggle now and then, analog values jump now
-/// and then. IB10 and IB11 stay 0 and Ain5 stays below 2, because loops of the random programs end there.
+/// The inputs of the scan after `previous`: bits of IB0 to IB2 and IB15 toggle now and then, analog
+/// values jump now and then. IB10 and IB11 stay 0 and Ain5 stays below 2, because loops of the
+/// random programs end there.
 pub fn random_inputs(rng: &mut Rng, previous: &Inputs) -> Inputs {
     let mut inputs = previous.clone();
     for (byte, rarity) in [(0, 6), (1, 12), (2, 60), (15, 20)] {
@@ -112,7 +120,7 @@ struct Generator<'a> {
     loops: usize,
     /// Words that loops around depend on.
     protected: Vec<Extent>,
-    /// Labels that will stand further down, outside of every loop that is opened from now on.
+    /// Labels that will be further down, outside of every loop that is opened from now on.
     open_labels: Vec<u8>,
     unused_labels: Vec<u8>,
     /// Which instruction owns a timer or counter.
@@ -139,7 +147,9 @@ impl<'a> Generator<'a> {
     fn new(rng: &'a mut Rng, size: usize, offer: Offer) -> Self {
         let mut unused_labels: Vec<u8> = (0..=255).collect();
         rng.shuffle(&mut unused_labels);
-        let timers = owners(rng, &TIMERS, Kind::TimerSlot, |op, number| family_of(op) == timer_family(number));
+        let timers = owners(rng, &TIMERS, Kind::TimerSlot, |op, number| {
+            family_of(op) == timer_family(number)
+        });
         let counters = owners(rng, &COUNTERS, Kind::CounterSlot, |_, _| true);
         Generator {
             german: rng.u32(..6) == 0,
@@ -178,10 +188,18 @@ impl<'a> Generator<'a> {
 }
 
 /// Gives most of the numbers an instruction that works with such a slot.
-fn owners(rng: &mut Rng, numbers: &[u8], slot: Kind, fits: impl Fn(Op, u8) -> bool) -> Vec<(u8, Op)> {
+fn owners(
+    rng: &mut Rng,
+    numbers: &[u8],
+    slot: Kind,
+    fits: impl Fn(Op, u8) -> bool,
+) -> Vec<(u8, Op)> {
     let mut owners = Vec::new();
     for &number in numbers {
-        let ops = INSTRUCTIONS.iter().filter(|row| takes(row, slot) && fits(row.op, number)).map(|row| row.op);
+        let ops = INSTRUCTIONS
+            .iter()
+            .filter(|row| takes(row, slot) && fits(row.op, number))
+            .map(|row| row.op);
         if let Some(op) = rng.choice(ops.collect::<Vec<_>>())
             && rng.u32(..3) != 0
         {

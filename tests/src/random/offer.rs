@@ -3,11 +3,12 @@
 use awl_asm::modules;
 use fastrand::Rng;
 use plc_isa::{
-    COUNTERS_MODULE, FREEPORT_MODULE, Group, Instruction, MODULES, OPERANDS_MODULE, Op, PULSES_MODULE, SLOT_LEN,
-    needed_modules,
+    COUNTERS_MODULE, FREEPORT_MODULE, Group, Instruction, MODULES, OPERANDS_MODULE, Op,
+    PULSES_MODULE, SLOT_LEN, needed_modules,
 };
 
-/// Bytes of the image that are neither code nor modules, at most, with what the assembler puts into the code.
+/// Bytes of the image that are neither code nor modules, at most, with what the assembler puts into
+/// the code.
 const REST_LEN: u32 = 1_600;
 
 /// No module is taken that leaves less room for code.
@@ -18,8 +19,8 @@ const CODE_LEN_MIN: u32 = 900;
 pub struct Offer {
     modules: [bool; MODULES],
     units: bool,
-    /// On the board a byte of inputs has bits without a pin, which BIR reads as 0 whatever a test has put into the
-    /// process image.
+    /// On the board a byte of inputs has bits without a pin, which BIR reads as 0 whatever a test
+    /// has put into the process image.
     has_all_points: bool,
 }
 
@@ -69,8 +70,9 @@ impl Offer {
 
     /// Longest program in bytes of code.
     pub(super) fn code_len_max(&self) -> u32 {
-        let used =
-            |&module: &usize| self.modules[module] || self.has_modules() && module == usize::from(OPERANDS_MODULE);
+        let used = |&module: &usize| {
+            self.modules[module] || self.has_modules() && module == usize::from(OPERANDS_MODULE)
+        };
         let modules: u32 = (0..MODULES).filter(used).map(module_len).sum();
         u32::from(SLOT_LEN).saturating_sub(REST_LEN + modules)
     }
@@ -90,23 +92,36 @@ impl Offer {
         self.units
     }
 
-    /// Whether an instruction can stand anywhere in a rung and do no harm, and means the same to all that are compared:
-    /// what the hardware does is none of that.
+    /// Whether an instruction can be anywhere in a rung and do no harm, and means the same to
+    /// all that are compared: what the hardware does is none of that.
     pub(super) fn is_plain(&self, instruction: &Instruction) -> bool {
         let special = matches!(
             instruction.op,
-            Op::For | Op::Next | Op::Jmp | Op::Lbl | Op::End | Op::Stop | Op::Aeno | Op::Hdef | Op::Hsc | Op::Pls
+            Op::For
+                | Op::Next
+                | Op::Jmp
+                | Op::Lbl
+                | Op::End
+                | Op::Stop
+                | Op::Aeno
+                | Op::Hdef
+                | Op::Hsc
+                | Op::Pls
         );
-        let apart = matches!(instruction.group, Group::Hidden | Group::Call | Group::Sequence | Group::Interrupt);
-        let hardware = instruction.group == Group::Communication && !matches!(instruction.op, Op::Bitim | Op::Citim);
+        let apart = matches!(
+            instruction.group,
+            Group::Hidden | Group::Call | Group::Sequence | Group::Interrupt
+        );
+        let hardware = instruction.group == Group::Communication
+            && !matches!(instruction.op, Op::Bitim | Op::Citim);
         let reads_points = instruction.op == Op::Bir && !self.has_all_points;
         let is_there = instruction.module().is_none_or(|module| self.modules[usize::from(module)]);
         !special && !apart && !hardware && !reads_points && is_there
     }
 }
 
-/// The modules that no random program asks for: that of operands comes with others, and what counters, pulses and freeport do
-/// is no matter of scans.
+/// The modules that no random program asks for: that of operands comes with others, and what
+/// counters, pulses and freeport do is no matter of scans.
 fn is_apart(module: usize) -> bool {
     matches!(module as u8, OPERANDS_MODULE | COUNTERS_MODULE | PULSES_MODULE | FREEPORT_MODULE)
 }

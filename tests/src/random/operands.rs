@@ -1,58 +1,25 @@
-//! Operands of a random program: addresses from small pools, and what they occupy.
+//! Operands of a random program: addresses from small pools.
 
 use std::ops::Range;
 
 use awl_asm::ast::Type;
 use plc_isa::{Area, Form, Group, Instruction, Kind, Op};
 
+use super::operand_text::{Count, Extent, OperandText};
 use super::{COUNTERS, Generator, TIMERS};
-
-/// Bits, bytes or numbers of an area that must not be written at present. V, M and so on count in bits.
-#[derive(Clone)]
-pub(super) struct Extent {
-    area: Area,
-    range: Range<u32>,
-}
-
-impl Extent {
-    /// A local variable, by its number.
-    pub(super) fn local(number: usize) -> Extent {
-        Extent { area: Area::L, range: number as u32..number as u32 + 1 }
-    }
-
-    fn overlaps(&self, other: &Extent) -> bool {
-        self.area == other.area && self.range.start < other.range.end && other.range.start < self.range.end
-    }
-}
-
-/// An operand as text, with what it occupies.
-#[derive(Clone)]
-pub(super) struct Place {
-    pub(super) text: String,
-    pub(super) extent: Option<Extent>,
-}
-
-impl Place {
-    pub(super) fn constant(text: String) -> Place {
-        Place { text, extent: None }
-    }
-
-    pub(super) fn overlaps(&self, other: &Place) -> bool {
-        match (&self.extent, &other.extent) {
-            (Some(a), Some(b)) => a.overlaps(b),
-            _ => false,
-        }
-    }
-}
 
 impl Generator<'_> {
     /// The written operands of a form, or `None` where the dice fell badly.
     pub(super) fn operands(&mut self, row: &Instruction, form: &Form) -> Option<Vec<String>> {
-        let kinds: Vec<Kind> = form.kinds.iter().copied().filter(|kind| kind.is_written()).collect();
+        let kinds: Vec<Kind> =
+            form.kinds.iter().copied().filter(|kind| kind.is_written()).collect();
         let count = self.count(&kinds);
-        let texts: Vec<String> =
-            kinds.iter().map(|&kind| self.operand(row, kind, &count)).collect::<Option<Vec<_>>>()?;
-        // A timer or counter whose preset is its own current value: when the preset is read is not settled.
+        let texts: Vec<String> = kinds
+            .iter()
+            .map(|&kind| self.operand(row, kind, &count))
+            .collect::<Option<Vec<_>>>()?;
+        // A timer or counter whose preset is its own current value: when the preset is read is not
+        // settled.
         let owns = matches!(row.group, Group::Timer | Group::Counter);
         (!owns || texts[0] != texts[1]).then_some(texts)
     }
@@ -80,23 +47,23 @@ impl Generator<'_> {
             Kind::PageBitReset | Kind::FarBitReset => self.bit(Some(count), false)?,
             Kind::Byte => self.byte(false)?,
             Kind::ByteOut => self.byte(true)?,
-            Kind::ByteConst => Place::constant(self.byte_constant()),
-            Kind::AnyByte if self.one_in(2) => Place::constant(self.byte_constant()),
+            Kind::ByteConst => OperandText::constant(self.byte_constant()),
+            Kind::AnyByte if self.one_in(2) => OperandText::constant(self.byte_constant()),
             Kind::AnyByte => self.byte(false)?,
             Kind::Word => self.word(false)?,
             Kind::WordOut => self.word(true)?,
-            Kind::WordConst => Place::constant(self.word_constant()),
-            Kind::IntConst => Place::constant(self.integer_constant(row)),
-            Kind::AnyInt if self.one_in(2) => Place::constant(self.integer_constant(row)),
+            Kind::WordConst => OperandText::constant(self.word_constant()),
+            Kind::IntConst => OperandText::constant(self.integer_constant(row)),
+            Kind::AnyInt if self.one_in(2) => OperandText::constant(self.integer_constant(row)),
             Kind::AnyInt => self.word(false)?,
-            Kind::One => Place::constant("1".to_string()),
-            Kind::Count => Place::constant(count.at_most.to_string()),
+            Kind::One => OperandText::constant("1".to_string()),
+            Kind::Count => OperandText::constant(count.at_most.to_string()),
             Kind::TimerSlot => self.owned(&self.timers.clone(), row.op, Area::T)?,
             Kind::CounterSlot => self.owned(&self.counters.clone(), row.op, Area::C)?,
             Kind::TimerNumber => self.numbered(Area::T, Some(count))?,
             Kind::CounterNumber => self.numbered(Area::C, Some(count))?,
-            Kind::Level => Place::constant(self.rng.u8(..self.depth.max(1)).to_string()),
-            Kind::Number => Place::constant(self.rng.u8(..).to_string()),
+            Kind::Level => OperandText::constant(self.rng.u8(..self.depth.max(1)).to_string()),
+            Kind::Number => OperandText::constant(self.rng.u8(..).to_string()),
             // Labels are placed by the functions above, the others are not written.
             Kind::LabelIndex | Kind::LabelNumber => return None,
             _ => return None,
@@ -109,14 +76,24 @@ impl Generator<'_> {
     }
 
     /// The place, unless it would be written and must not be.
-    pub(super) fn place(&self, text: String, area: Area, range: Range<u32>, is_written: bool) -> Option<Place> {
+    pub(super) fn place(
+        &self,
+        text: String,
+        area: Area,
+        range: Range<u32>,
+        is_written: bool,
+    ) -> Option<OperandText> {
         let extent = Extent { area, range };
         let forbidden = is_written && self.is_protected(&extent);
-        (!forbidden).then_some(Place { text, extent: Some(extent) })
+        (!forbidden).then_some(OperandText { text, extent: Some(extent) })
     }
 
     /// A bit; `written` says how many from it on are written.
-    pub(super) fn bit(&mut self, written: Option<&Count>, timers_and_counters: bool) -> Option<Place> {
+    pub(super) fn bit(
+        &mut self,
+        written: Option<&Count>,
+        timers_and_counters: bool,
+    ) -> Option<OperandText> {
         if written.is_none_or(|count| count.at_most == 1)
             && self.one_in(3)
             && let Some(local) = self.local(Type::Bool, written.is_some())
@@ -146,7 +123,7 @@ impl Generator<'_> {
         }
     }
 
-    pub(super) fn byte(&mut self, is_written: bool) -> Option<Place> {
+    pub(super) fn byte(&mut self, is_written: bool) -> Option<OperandText> {
         if self.one_in(3)
             && let Some(local) = self.local(Type::Byte, is_written)
         {
@@ -159,11 +136,15 @@ impl Generator<'_> {
         self.place(text, area, first..first + 8, is_written)
     }
 
-    pub(super) fn word(&mut self, is_written: bool) -> Option<Place> {
+    pub(super) fn word(&mut self, is_written: bool) -> Option<OperandText> {
         if !is_written && self.one_in(10) {
             let channel = self.rng.u8(..6);
-            let text = if self.one_in(2) { format!("AIW{}", 2 * channel) } else { format!("Ain{channel}") };
-            return Some(Place::constant(self.localized(&text)));
+            let text = if self.one_in(2) {
+                format!("AIW{}", 2 * channel)
+            } else {
+                format!("Ain{channel}")
+            };
+            return Some(OperandText::constant(self.localized(&text)));
         }
         if self.one_in(3)
             && let Some(local) = self.local(Type::Int, is_written)
@@ -172,7 +153,8 @@ impl Generator<'_> {
         }
         let area = self.area(is_written, true);
         if matches!(area, Area::T | Area::C) {
-            return self.numbered(area, is_written.then_some(&Count { at_most: 1, is_certain: true }));
+            return self
+                .numbered(area, is_written.then_some(&Count { at_most: 1, is_certain: true }));
         }
         let byte = self.byte_number(area, is_written)?.min(last_byte(area) - 1);
         if is_written && byte < area.first_writable() + 1 && area == Area::Sm {
@@ -184,15 +166,17 @@ impl Generator<'_> {
     }
 
     /// A timer or counter, whoever owns it.
-    fn numbered(&mut self, area: Area, written: Option<&Count>) -> Option<Place> {
-        let number = if area == Area::T { self.rng.choice(TIMERS)? } else { self.rng.choice(COUNTERS)? };
+    fn numbered(&mut self, area: Area, written: Option<&Count>) -> Option<OperandText> {
+        let number =
+            if area == Area::T { self.rng.choice(TIMERS)? } else { self.rng.choice(COUNTERS)? };
         let end = self.end_of(u32::from(number), written, 256)?;
         let text = format!("{}{number}", self.area_name(area));
         self.place(text, area, u32::from(number)..end, written.is_some())
     }
 
-    fn owned(&mut self, owners: &[(u8, Op)], op: Op, area: Area) -> Option<Place> {
-        let own: Vec<u8> = owners.iter().filter(|owner| owner.1 == op).map(|owner| owner.0).collect();
+    fn owned(&mut self, owners: &[(u8, Op)], op: Op, area: Area) -> Option<OperandText> {
+        let own: Vec<u8> =
+            owners.iter().filter(|owner| owner.1 == op).map(|owner| owner.0).collect();
         let number = self.rng.choice(own)?;
         let text = format!("{}{number}", self.area_name(area));
         self.place(text, area, u32::from(number)..u32::from(number) + 1, true)
@@ -203,7 +187,8 @@ impl Generator<'_> {
         loop {
             let area = [I, I, Q, Q, M, M, M, M, V, V, V, S, Sm, T, C][self.rng.usize(..15)];
             let exists = timers_and_counters || !matches!(area, T | C);
-            if exists && !(is_written && area == I) {
+            // Inputs are written now and then.
+            if exists && !(is_written && area == I && !self.one_in(4)) {
                 return area;
             }
         }
@@ -218,7 +203,9 @@ impl Generator<'_> {
             // Others that can be written mean something to the hardware.
             Area::Sm if is_written => &[31],
             Area::Sm => &[0, 0, 1, 1, 22, 23, 24, 26, 29, 30, 31],
-            Area::V if self.offer.has_modules() => &[0, 0, 1, 1, 2, 3, 4, 5, 6, 7, 30, 31, 40, 62, 63],
+            Area::V if self.offer.has_modules() => {
+                &[0, 0, 1, 1, 2, 3, 4, 5, 6, 7, 30, 31, 40, 62, 63]
+            }
             Area::V => &[0, 0, 1, 1, 2, 3, 4, 5, 6, 7, 30, 62, 63, 1000, 1001, 10_238, 10_239],
             Area::T | Area::C | Area::L => &[],
         };
@@ -245,14 +232,8 @@ impl Generator<'_> {
     }
 }
 
-/// The last byte of an area that programs name here: special memory from SMB32 on means something to the hardware.
+/// The last byte of an area that programs name here: special memory from SMB32 on means something
+/// to the hardware.
 pub(super) fn last_byte(area: Area) -> u16 {
     if area == Area::Sm { 31 } else { area.size() - 1 }
-}
-
-/// How many bits or numbers are written.
-pub(super) struct Count {
-    pub(super) at_most: u32,
-    /// Whether it is a constant: then the range must exist.
-    pub(super) is_certain: bool,
 }

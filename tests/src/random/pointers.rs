@@ -1,10 +1,10 @@
-//! Pointers of a random program. AC1 leads into V memory and stays there, AC3 to a string; AC2 and VD164 lead anywhere,
-//! also to nothing, and move.
+//! Pointers of a random program. AC1 leads into V memory and stays there, AC3 to a string; AC2 and
+//! VD164 lead anywhere, also to nothing, and move.
 
 use plc_isa::Op;
 
 use super::Generator;
-use super::operands::Place;
+use super::operand_text::OperandText;
 
 /// The double word that is a pointer.
 pub(super) const MOVING: &str = "VD164";
@@ -24,12 +24,14 @@ impl Generator<'_> {
     }
 
     fn pointer_target(&mut self) -> String {
-        let areas =
-            ["&IB0", "&IB14", "&QB0", "&MB0", "&MB29", "&SB1", "&SMB5", "&SMB31", "&VB0", "&VB30", "&AIW2", "&AIW10"];
+        let areas = [
+            "&IB0", "&IB14", "&QB0", "&MB0", "&MB29", "&SB1", "&SMB5", "&SMB31", "&VB0", "&VB30",
+            "&AIW2", "&AIW10",
+        ];
         match self.rng.u32(..12) {
-            0 => {
-                ["16#0B000000", "16#08FFFFFF", "16#05000020", "16#09000001", "0", "-1"][self.rng.usize(..6)].to_string()
-            }
+            0 => ["16#0B000000", "16#08FFFFFF", "16#05000020", "16#09000001", "0", "-1"]
+                [self.rng.usize(..6)]
+            .to_string(),
             1 => self.numbered_target("T"),
             2 => self.numbered_target("C"),
             _ => areas[self.rng.usize(..areas.len())].to_string(),
@@ -64,13 +66,14 @@ impl Generator<'_> {
         }
     }
 
-    /// A value behind a pointer. Words that loops depend on must not be written by accident; comparisons stop the PLC if
-    /// a pointer leads nowhere.
-    pub(super) fn pointed(&mut self, is_written: bool, is_certain: bool) -> Option<Place> {
+    /// A value after a pointer. Words that loops depend on must not be written by accident;
+    /// comparisons stop the PLC if a pointer leads nowhere.
+    pub(super) fn pointed(&mut self, is_written: bool, is_certain: bool) -> Option<OperandText> {
         if !self.offer.has_pointers() || is_written && self.is_any_protected() {
             return None;
         }
-        let text = if is_certain { "*AC1" } else { ["*AC1", "*AC2", "*VD164"][self.rng.usize(..3)] };
-        Some(Place::constant(text.to_string()))
+        let text =
+            if is_certain { "*AC1" } else { ["*AC1", "*AC2", "*VD164"][self.rng.usize(..3)] };
+        Some(OperandText::constant(text.to_string()))
     }
 }

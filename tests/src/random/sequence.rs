@@ -22,7 +22,7 @@ impl Generator<'_> {
         }
         for _ in 0..self.rng.u32(1..=3) {
             self.rung();
-            // What the assembler puts behind the loads.
+            // What the assembler puts after the loads.
             self.code_len += 20;
         }
         self.network();

@@ -1,22 +1,12 @@
-//! What stands in a random program: rungs, jumps forward, ends.
+//! What is in a random program: rungs, jumps forward, ends.
 
-use plc_isa::{Group, INSTRUCTIONS, Instruction, Op};
+use plc_isa::{INSTRUCTIONS, Instruction, Op};
 
 use super::{Generator, LOOPS_MAX};
 
 /// Whether an instruction only works on the logic stack; the others do something with it.
 fn is_logic(instruction: &Instruction) -> bool {
-    match instruction.group {
-        Group::Contact | Group::Stack | Group::Compare => true,
-        Group::InputOutput => matches!(instruction.op, Op::Ldi | Op::Ldni | Op::Ai | Op::Ani | Op::Oi | Op::Oni),
-        _ => false,
-    }
-}
-
-/// Whether AENO behind an instruction looks at it.
-fn has_eno(instruction: &Instruction) -> bool {
-    !matches!(instruction.group, Group::Coil | Group::Timer | Group::Counter | Group::Control)
-        && !matches!(instruction.op, Op::AssignImmediate)
+    instruction.rung.is_contact()
 }
 
 impl Generator<'_> {
@@ -46,7 +36,9 @@ impl Generator<'_> {
             18 => self.leave(),
             19 => self.number_line(),
             20..=25 if self.offer.has_units() => self.call(),
-            26..=28 if self.offer.has_units() && self.loops == 0 && self.passes == 1 => self.segment(),
+            26..=28 if self.offer.has_units() && self.loops == 0 && self.passes == 1 => {
+                self.segment()
+            }
             29..=32 if self.offer.has_pointers() => self.move_pointer(),
             _ => self.rung(),
         }
@@ -64,13 +56,18 @@ impl Generator<'_> {
             let offer = self.offer;
             let rows: Vec<_> = INSTRUCTIONS
                 .iter()
-                .filter(|row| offer.is_plain(row) && !is_logic(row) && row.module().is_some() == of_modules)
+                .filter(|row| {
+                    offer.is_plain(row) && !is_logic(row) && row.module().is_some() == of_modules
+                })
                 .collect();
             let Some(row) = self.rng.choice(rows) else { return };
             while self.depth < row.stack.needs {
                 self.load();
             }
-            if self.random_line(row) && self.offer.has_units() && has_eno(row) && self.one_in(5) {
+            if self.random_line(row) && self.offer.has_units() && self.one_in(5) {
+                if self.one_in(4) {
+                    self.logic_step(false);
+                }
                 self.fixed(Op::Aeno, &[]);
             }
             if self.one_in(3) {
@@ -95,9 +92,15 @@ impl Generator<'_> {
         let offer = self.offer;
         let rows: Vec<_> = INSTRUCTIONS
             .iter()
-            .filter(|row| offer.is_plain(row) && is_logic(row) && row.stack.needs == 0 && row.stack.adds == 1)
+            .filter(|row| {
+                offer.is_plain(row) && is_logic(row) && row.stack.needs == 0 && row.stack.adds == 1
+            })
             .collect();
-        let row = if self.one_in(2) { Op::Ld.instruction() } else { self.rng.choice(rows).unwrap_or(&INSTRUCTIONS[0]) };
+        let row = if self.one_in(2) {
+            Op::Ld.instruction()
+        } else {
+            self.rng.choice(rows).unwrap_or(&INSTRUCTIONS[0])
+        };
         self.random_line(row);
     }
 
@@ -107,7 +110,10 @@ impl Generator<'_> {
         let rows: Vec<_> = INSTRUCTIONS
             .iter()
             .filter(|row| {
-                offer.is_plain(row) && is_logic(row) && row.stack.needs <= depth && (grows || row.stack.adds <= 0)
+                offer.is_plain(row)
+                    && is_logic(row)
+                    && row.stack.needs <= depth
+                    && (grows || row.stack.adds <= 0)
             })
             .collect();
         // Several pushes in a row reach the ninth level and lose what is below.
@@ -131,7 +137,7 @@ impl Generator<'_> {
         self.outputs();
     }
 
-    /// END, or STOP in few programs, behind a condition that is rarely true.
+    /// END, or STOP in few programs, after a condition that is rarely true.
     fn leave(&mut self) {
         self.network();
         self.load();

@@ -53,20 +53,13 @@ fn is_word(class: Class) -> bool {
 
 /// Of special memory only SMB31: SMB30 belongs to the serial line.
 fn is_writable(class: Class) -> bool {
-    !matches!(
-        class,
-        Class::Word(Area::Sm)
-            | Class::Bit(Area::I)
-            | Class::Byte(Area::I)
-            | Class::Word(Area::I)
-            | Class::Scaled
-            | Class::Raw
-    )
+    !matches!(class, Class::Word(Area::Sm) | Class::Scaled | Class::Raw)
 }
 
 /// Whether a form with this kind takes such an operand.
 fn takes_class(kind: Kind, (class, value): Classified) -> bool {
-    let constant_in = |range: std::ops::RangeInclusive<i64>| class == Class::Constant && range.contains(&value);
+    let constant_in =
+        |range: std::ops::RangeInclusive<i64>| class == Class::Constant && range.contains(&value);
     let in_page = class != Class::Bit(Area::V);
     match kind {
         Kind::PageBit => is_bit(class) && in_page,
@@ -85,7 +78,9 @@ fn takes_class(kind: Kind, (class, value): Classified) -> bool {
         Kind::One => constant_in(1..=1),
         Kind::Count => constant_in(1..=255),
         Kind::Level => constant_in(0..=8),
-        Kind::ByteConst | Kind::Number | Kind::LabelIndex | Kind::LabelNumber => constant_in(0..=255),
+        Kind::ByteConst | Kind::Number | Kind::LabelIndex | Kind::LabelNumber => {
+            constant_in(0..=255)
+        }
         Kind::TimerSlot | Kind::TimerNumber => class == Class::Timer,
         Kind::CounterSlot | Kind::CounterNumber => class == Class::Counter,
         _ => false,
@@ -98,13 +93,15 @@ type Usage = (Op, usize, usize, Class);
 /// The form in which an instruction would be encoded, the way the assembler looks for it.
 fn form_of(mnemonic: &str, operands: &[Classified]) -> Option<(Op, usize)> {
     let rows = core_rows().filter(|row| row.mnemonics.first() == Some(&mnemonic));
-    rows.flat_map(|row| row.forms.iter().enumerate().map(move |(index, form)| (row.op, index, form)))
-        .find(|(_, _, form)| {
-            let kinds: Vec<_> = form.kinds.iter().filter(|kind| kind.is_written()).collect();
-            kinds.len() == operands.len()
-                && kinds.iter().zip(operands).all(|(kind, operand)| takes_class(**kind, *operand))
-        })
-        .map(|(op, index, _)| (op, index))
+    rows.flat_map(|row| {
+        row.forms.iter().enumerate().map(move |(index, form)| (row.op, index, form))
+    })
+    .find(|(_, _, form)| {
+        let kinds: Vec<_> = form.kinds.iter().filter(|kind| kind.is_written()).collect();
+        kinds.len() == operands.len()
+            && kinds.iter().zip(operands).all(|(kind, operand)| takes_class(**kind, *operand))
+    })
+    .map(|(op, index, _)| (op, index))
 }
 
 fn usages(mnemonic: &str, operands: &[Classified]) -> Vec<Usage> {
@@ -115,7 +112,8 @@ fn usages(mnemonic: &str, operands: &[Classified]) -> Vec<Usage> {
 /// An operand of every class, and the constants that choose a form.
 fn samples() -> Vec<Classified> {
     let areas = [Area::I, Area::Q, Area::V, Area::M, Area::Sm, Area::S];
-    let classes = areas.into_iter().flat_map(|area| [Class::Bit(area), Class::Byte(area), Class::Word(area)]);
+    let classes =
+        areas.into_iter().flat_map(|area| [Class::Bit(area), Class::Byte(area), Class::Word(area)]);
     let others = [Class::Timer, Class::Counter, Class::Scaled, Class::Raw].into_iter();
     let constants = [1, 2].map(|value| (Class::Constant, value));
     classes.chain(others).map(|class| (class, 0)).chain(constants).collect()
@@ -123,8 +121,11 @@ fn samples() -> Vec<Classified> {
 
 /// What programs of the core consist of.
 fn core_rows() -> impl Iterator<Item = &'static Instruction> {
-    let is_apart = |group| matches!(group, Group::Hidden | Group::Call | Group::Sequence | Group::Interrupt);
-    INSTRUCTIONS.iter().filter(move |row| row.module().is_none() && row.op != Op::Aeno && !is_apart(row.group))
+    let is_apart =
+        |group| matches!(group, Group::Hidden | Group::Call | Group::Sequence | Group::Interrupt);
+    INSTRUCTIONS
+        .iter()
+        .filter(move |row| row.module().is_none() && row.op != Op::Aeno && !is_apart(row.group))
 }
 
 /// Every usage that the instruction table allows.
@@ -135,7 +136,9 @@ fn possible_usages() -> BTreeSet<Usage> {
         for form in row.forms {
             let written = form.kinds.iter().filter(|kind| kind.is_written()).count();
             for choice in 0..samples.len().pow(written as u32) {
-                let digit = |place: usize| samples[choice / samples.len().pow(place as u32) % samples.len()];
+                let digit = |place: usize| {
+                    samples[choice / samples.len().pow(place as u32) % samples.len()]
+                };
                 let operands: Vec<Classified> = (0..written).map(digit).collect();
                 possible.extend(usages(row.mnemonic(), &operands));
             }
@@ -160,10 +163,13 @@ fn programs_use_everything_the_table_offers() {
     let mut used = BTreeSet::new();
     let mut names = BTreeSet::new();
     for text in programs() {
-        names.extend(text.lines().filter_map(|line| line.split_whitespace().next().map(str::to_string)));
+        names.extend(
+            text.lines().filter_map(|line| line.split_whitespace().next().map(str::to_string)),
+        );
         for instruction in instructions(&parse(&text)) {
-            let operands: Vec<Classified> = instruction.operands.iter().map(|o| classify(&o.value)).collect();
-            let found = usages(instruction.mnemonic, &operands);
+            let operands: Vec<Classified> =
+                instruction.operands.iter().map(|o| classify(&o.value)).collect();
+            let found = usages(instruction.mnemonic(), &operands);
             let is_known = operands.is_empty() || !found.is_empty();
             assert!(is_known, "no form for {instruction:?}");
             used.extend(found);
@@ -178,7 +184,9 @@ fn programs_use_everything_the_table_offers() {
 fn assert_names(rows: impl Iterator<Item = &'static Instruction>, names: &BTreeSet<String>) {
     for row in rows {
         let relations = Row { instruction: row, form: &row.forms[0] }.relations();
-        for (mnemonic, relation) in row.mnemonics.iter().flat_map(|name| relations.iter().map(move |one| (name, one))) {
+        for (mnemonic, relation) in
+            row.mnemonics.iter().flat_map(|name| relations.iter().map(move |one| (name, one)))
+        {
             let name = format!("{mnemonic}{}", relation.map_or("", Relation::symbol));
             assert!(names.contains(&name), "{name} never occurs");
         }
@@ -199,14 +207,32 @@ fn programs_of_everything_have_every_instruction() {
     let mut names = BTreeSet::new();
     let mut text = String::new();
     for program in large_programs() {
-        names.extend(program.lines().filter_map(|line| line.split_whitespace().next().map(str::to_string)));
+        names.extend(
+            program.lines().filter_map(|line| line.split_whitespace().next().map(str::to_string)),
+        );
         text += &program;
     }
     let offer = Offer::whole();
     let units = [Op::Call, Op::Cret, Op::Lscr, Op::Scrt, Op::Scre, Op::Cscre, Op::Aeno];
-    assert_names(INSTRUCTIONS.iter().filter(|row| offer.is_plain(row) || units.contains(&row.op)), &names);
-    for part in ["*AC1", "*AC2", "*AC3", "*VD164", "AC0", "&T", "&C", "&AIW", "#p", "SBR2", "\"Motor\"", "S0.7", "1e10"]
-    {
+    assert_names(
+        INSTRUCTIONS.iter().filter(|row| offer.is_plain(row) || units.contains(&row.op)),
+        &names,
+    );
+    for part in [
+        "*AC1",
+        "*AC2",
+        "*AC3",
+        "*VD164",
+        "AC0",
+        "&T",
+        "&C",
+        "&AIW",
+        "#p",
+        "SBR2",
+        "\"Motor\"",
+        "S0.7",
+        "1e10",
+    ] {
         assert!(text.contains(part), "{part} never occurs");
     }
 }
@@ -224,13 +250,19 @@ fn programs_of_everything_end_their_scans_and_succeed() {
             inputs = random_inputs(&mut rng, &inputs);
             now_ms = now_ms.wrapping_add(random_step_ms(&mut rng));
         }
-        assert_ne!(plc.fault(), Some(Fault::Watchdog), "more than {INSTRUCTIONS_MAX} instructions:\n{text}");
+        assert_ne!(
+            plc.fault(),
+            Some(Fault::Watchdog),
+            "more than {INSTRUCTIONS_MAX} instructions:\n{text}"
+        );
         faults += u32::from(plc.fault().is_some());
         succeeded.extend(plc.succeeded().iter().copied());
     }
     assert!(faults < 60, "{faults} of 600 programs end in a fault");
     let offer = Offer::whole();
-    let boxes = INSTRUCTIONS.iter().filter(|row| row.power_flow == PowerFlow::Needed && offer.is_plain(row));
+    let boxes = INSTRUCTIONS
+        .iter()
+        .filter(|row| row.power_flow == PowerFlow::Needed && offer.is_plain(row));
     let timeless = boxes.map(Instruction::mnemonic).filter(|name| *name != "WDR");
     let failing: Vec<&str> = timeless.filter(|name| !succeeded.contains(name)).collect();
     assert!(failing.is_empty(), "never executed without error: {failing:?}");
@@ -259,7 +291,10 @@ fn stack_and_structure_are_sound() {
     for text in programs() {
         let (mut depth, mut loops) = (0, 0);
         for instruction in instructions(&parse(&text)) {
-            let row = INSTRUCTIONS.iter().find(|row| row.mnemonic() == instruction.mnemonic).expect("a row");
+            let row = INSTRUCTIONS
+                .iter()
+                .find(|row| row.mnemonic() == instruction.mnemonic())
+                .expect("a row");
             let level = match (row.op, instruction.operands.first().map(|operand| &operand.value)) {
                 (Op::Lds, Some(Value::Constant(constant))) => constant.value as u8,
                 _ => 0,
@@ -283,7 +318,8 @@ fn networks_begin_as_they_must() {
         let lines: Vec<&str> = text.lines().collect();
         assert!(lines[0].starts_with("NETWORK"));
         for pair in lines.windows(2).filter(|pair| pair[0].starts_with("NETWORK")) {
-            let name = pair[1].split_whitespace().next().unwrap_or("").trim_end_matches(['<', '>', '=']);
+            let name =
+                pair[1].split_whitespace().next().unwrap_or("").trim_end_matches(['<', '>', '=']);
             assert!(starters.contains(&name), "a network begins with {}", pair[1]);
         }
     }
@@ -294,11 +330,14 @@ fn programs_reach_the_bottom_of_the_stack_and_respect_sizes() {
     let mut deepest_run = 0;
     for text in programs() {
         let program = parse(&text);
-        let edges = instructions(&program).filter(|i| matches!(i.mnemonic, "EU" | "ED")).count();
+        let edges = instructions(&program).filter(|i| matches!(i.mnemonic(), "EU" | "ED")).count();
         assert!(edges <= 256);
         let mut run = 0;
         for instruction in instructions(&program) {
-            let row = INSTRUCTIONS.iter().find(|row| row.mnemonic() == instruction.mnemonic).expect("a row");
+            let row = INSTRUCTIONS
+                .iter()
+                .find(|row| row.mnemonic() == instruction.mnemonic())
+                .expect("a row");
             run = if row.stack.adds > 0 { run + 1 } else { 0 };
             deepest_run = deepest_run.max(run);
         }
@@ -312,7 +351,9 @@ fn inputs_keep_the_promises_that_loops_rely_on() {
     let (mut inputs, mut toggled) = (Inputs::default(), [0u8; 16]);
     for _ in 0..2000 {
         let next = random_inputs(&mut rng, &inputs);
-        for (toggled, (next, before)) in toggled.iter_mut().zip(next.digital.iter().zip(inputs.digital)) {
+        for (toggled, (next, before)) in
+            toggled.iter_mut().zip(next.digital.iter().zip(inputs.digital))
+        {
             *toggled |= next ^ before;
         }
         assert!(next.ain.iter().all(|&raw| raw <= 1023) && next.ain[5] <= 1);

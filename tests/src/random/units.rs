@@ -4,50 +4,12 @@ use awl_asm::ast::Type;
 use plc_isa::Op;
 
 use super::Generator;
-use super::operands::{Count, Extent, Place};
+use super::operand_text::{Count, Extent, OperandText};
+use super::subroutine::{Local, Section, Subroutine};
 use super::values::DATA;
 
 /// Most subroutines.
 const SUBROUTINES_MAX: u32 = 3;
-
-/// Which section a local variable is declared in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Section {
-    In,
-    InOut,
-    Out,
-    Temp,
-}
-
-impl Section {
-    const ALL: [Section; 4] = [Section::In, Section::InOut, Section::Out, Section::Temp];
-
-    fn keyword(self) -> &'static str {
-        match self {
-            Section::In => "VAR_INPUT",
-            Section::InOut => "VAR_IN_OUT",
-            Section::Out => "VAR_OUTPUT",
-            Section::Temp => "VAR",
-        }
-    }
-}
-
-/// A local variable.
-#[derive(Debug, Clone)]
-pub(super) struct Local {
-    name: String,
-    kind: Type,
-    section: Section,
-}
-
-/// A subroutine that can be called.
-#[derive(Debug, Clone)]
-pub(super) struct Subroutine {
-    number: u32,
-    parameters: Vec<Local>,
-    work: u32,
-    text: String,
-}
 
 impl Generator<'_> {
     /// The subroutines, then the main program, in blocks if there is more than that.
@@ -68,7 +30,8 @@ impl Generator<'_> {
         self.program();
         let main = std::mem::take(&mut self.text);
         let data = if self.offer.has_modules() { DATA } else { "" };
-        self.text = format!("{data}ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\n{main}END_ORGANIZATION_BLOCK\n");
+        self.text =
+            format!("{data}ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\n{main}END_ORGANIZATION_BLOCK\n");
         for subroutine in self.subroutines.iter().rev() {
             self.text += &subroutine.text;
         }
@@ -94,8 +57,12 @@ impl Generator<'_> {
         self.program();
         let body = std::mem::take(&mut self.text);
         let declared = self.declarations();
-        let text = format!("SUBROUTINE_BLOCK SBR_{number}:SBR{number}\n{declared}BEGIN\n{body}END_SUBROUTINE_BLOCK\n");
-        let parameters = self.locals.iter().filter(|local| local.section != Section::Temp).cloned().collect();
+        let text = format!(
+            "SUBROUTINE_BLOCK SBR_{number}:SBR{number}\n{declared}BEGIN\n\
+                {body}END_SUBROUTINE_BLOCK\n"
+        );
+        let parameters =
+            self.locals.iter().filter(|local| local.section != Section::Temp).cloned().collect();
         let work = self.work + 10;
         self.subroutines.push(Subroutine { number, parameters, work, text });
     }
@@ -103,7 +70,8 @@ impl Generator<'_> {
     fn declarations(&self) -> String {
         let mut text = String::new();
         for section in Section::ALL {
-            let locals: Vec<&Local> = self.locals.iter().filter(|local| local.section == section).collect();
+            let locals: Vec<&Local> =
+                self.locals.iter().filter(|local| local.section == section).collect();
             if locals.is_empty() {
                 continue;
             }
@@ -116,7 +84,8 @@ impl Generator<'_> {
         text
     }
 
-    /// Gives those variables a value that have none at the call: what they hold then is not defined.
+    /// Gives those variables a value that have none at the call: what they hold then is not
+    /// defined.
     fn write_locals(&mut self) {
         self.network();
         self.fixed(Op::Ld, &["SM0.0"]);
@@ -135,15 +104,20 @@ impl Generator<'_> {
     }
 
     /// A local variable of a type, if there is one.
-    pub(super) fn local(&mut self, kind: Type, is_written: bool) -> Option<Place> {
-        let found: Vec<usize> =
-            self.locals.iter().enumerate().filter(|(_, local)| local.kind == kind).map(|(number, _)| number).collect();
+    pub(super) fn local(&mut self, kind: Type, is_written: bool) -> Option<OperandText> {
+        let found: Vec<usize> = self
+            .locals
+            .iter()
+            .enumerate()
+            .filter(|(_, local)| local.kind == kind)
+            .map(|(number, _)| number)
+            .collect();
         let number = self.rng.choice(found)?;
         let extent = Extent::local(number);
         if is_written && self.is_protected(&extent) {
             return None;
         }
-        Some(Place { text: format!("#{}", self.locals[number].name), extent: Some(extent) })
+        Some(OperandText { text: format!("#{}", self.locals[number].name), extent: Some(extent) })
     }
 
     /// Whether there are words that loops depend on.
@@ -175,21 +149,23 @@ impl Generator<'_> {
         }
     }
 
-    fn argument(&mut self, parameter: &Local) -> Option<Place> {
+    fn argument(&mut self, parameter: &Local) -> Option<OperandText> {
         let is_written = parameter.section != Section::In;
         let is_constant = !is_written && self.one_in(3);
         match parameter.kind {
-            Type::Bool if is_constant => Some(Place::constant(self.rng.u8(..2).to_string())),
+            Type::Bool if is_constant => Some(OperandText::constant(self.rng.u8(..2).to_string())),
             // Timers and counters are handed over, not written.
-            Type::Bool => self.bit(is_written.then_some(&Count { at_most: 1, is_certain: true }), !is_written),
-            Type::Byte if is_constant => Some(Place::constant(self.byte_constant())),
+            Type::Bool => {
+                self.bit(is_written.then_some(&Count { at_most: 1, is_certain: true }), !is_written)
+            }
+            Type::Byte if is_constant => Some(OperandText::constant(self.byte_constant())),
             Type::Byte => self.byte(is_written),
             Type::Int if is_constant => {
                 let value = self.rng.i16(..);
-                Some(Place::constant(self.integer_text(value)))
+                Some(OperandText::constant(self.integer_text(value)))
             }
             Type::Int => self.word(is_written),
-            _ if is_constant => Some(Place::constant(self.rng.i32(..).to_string())),
+            _ if is_constant => Some(OperandText::constant(self.rng.i32(..).to_string())),
             _ => self.double(is_written),
         }
     }

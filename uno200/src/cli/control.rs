@@ -5,11 +5,12 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, Result, bail};
+use client::fault;
+use client::service::{Command, Forced, Identity, Object};
 use uno200::Client;
-use uno200::fault;
-use uno200::service::{Command, Identity, Object};
 
-use super::Context;
+use super::context::Context;
+use super::force;
 
 /// How long RUN takes at most: the board checks and loads the program before its first scan.
 const RUN_TIME: Duration = Duration::from_secs(3);
@@ -36,12 +37,23 @@ pub(super) fn status(context: &mut Context) -> Result<bool> {
     if let Some(before) = fault::text(identity.fault_before_reset, known) {
         row("last reset", &format!("by a fault: {before}"));
     }
-    let stack = identity.free_stack.map_or(String::new(), |bytes| format!(", {bytes} bytes of stack never used"));
+    let stack = identity
+        .free_stack
+        .map_or(String::new(), |bytes| format!(", {bytes} bytes of stack never used"));
     row("memory", &format!("{} bytes for a request{stack}", identity.room));
     print!("{text}");
-    if let Some(program) = context.program.as_ref().filter(|_| known.is_none() && identity.has_program) {
-        let why = if identity.is_native { "the program is machine code" } else { "the PLC holds another program" };
-        anstream::eprintln!("{}: {why}; lines of faults are not told (`uno200 compare`)", program.source.name);
+    if let Some(program) =
+        context.program.as_ref().filter(|_| known.is_none() && identity.has_program)
+    {
+        let why = if identity.is_native {
+            "the program is machine code"
+        } else {
+            "the PLC holds another program"
+        };
+        anstream::eprintln!(
+            "{}: {why}; lines of faults are not told (`uno200 compare`)",
+            program.source.name
+        );
     }
     Ok(fault.is_none())
 }
@@ -68,9 +80,11 @@ fn scans(identity: &Identity) -> String {
         0 => "none since RUN".to_string(),
         _ => {
             let ms = |counts| scan_ms(identity, counts);
-            let (shortest, last, longest) = (ms(identity.shortest), ms(identity.last), ms(identity.longest));
+            let (shortest, last, longest) =
+                (ms(identity.shortest), ms(identity.last), ms(identity.longest));
             format!(
-                "{} since RUN; shortest {shortest:.3} ms, last {last:.3} ms, longest {longest:.3} ms",
+                "{} since RUN; shortest {shortest:.3} ms, last {last:.3} ms, longest {longest:.3} \
+                    ms",
                 identity.scans
             )
         }
@@ -92,16 +106,36 @@ fn forced(client: &mut Client, identity: &Identity) -> Result<String> {
 }
 
 pub(super) fn run(context: &mut Context) -> Result<bool> {
-    context.client.control(Command::Run).context("the PLC does not go to RUN; has it a valid program?")?;
+    context
+        .client
+        .control(Command::Run)
+        .context("the PLC does not go to RUN; has it a valid program?")?;
     let identity = wait(&mut context.client, RUN_TIME, |identity| identity.is_running)?;
     tell(context, &identity, "RUN")
 }
 
 pub(super) fn stop(context: &mut Context) -> Result<bool> {
+    // Whatever becomes of this question: it must stop.
+    let forced = context.client.forced().unwrap_or_default();
     context.client.control(Command::Stop)?;
     let identity = wait(&mut context.client, RUN_TIME, |identity| !identity.is_running)?;
     println!("{}", mode(&identity));
+    tell_ended(context, &forced)?;
     Ok(!identity.is_running)
+}
+
+/// Says what is not forced any more. The PLC decides which of its STOPs end forcing.
+fn tell_ended(context: &mut Context, before: &[Forced]) -> Result<()> {
+    if before.is_empty() {
+        return Ok(());
+    }
+    let now = context.client.forced()?;
+    let has_ended = |one: &&Forced| now.iter().all(|other| other.reference != one.reference);
+    let ended: Vec<Forced> = before.iter().filter(has_ended).copied().collect();
+    if !ended.is_empty() {
+        println!("not forced any more: {}", force::texts(context, &ended).join(", "));
+    }
+    Ok(())
 }
 
 pub(super) fn clear(context: &mut Context) -> Result<bool> {
@@ -115,21 +149,38 @@ pub(super) fn scan(context: &mut Context, count: u16) -> Result<bool> {
     if before.is_running {
         bail!("the PLC is in RUN; single scans begin in STOP: `uno200 stop` first");
     }
-    context.client.control(Command::Scans(count)).context("the PLC makes no scans; has it a valid program?")?;
+    let forced = if before.is_forced { context.client.forced()? } else { Vec::new() };
+    context
+        .client
+        .control(Command::Scans(count))
+        .context("the PLC makes no scans; has it a valid program?")?;
     // The first one begins when the answer has been sent.
     sleep(LOOK);
-    let identity = wait(&mut context.client, Duration::MAX, |identity| !identity.is_scanning && !identity.is_running)?;
+    let identity = wait(&mut context.client, Duration::MAX, |identity| {
+        !identity.is_scanning && !identity.is_running
+    })?;
     let done = if count == 1 { "1 scan".to_string() } else { format!("{count} scans") };
     let last = scan_ms(&identity, identity.last);
-    tell(context, &identity, &format!("{done}, the last {last:.3} ms; {} since RUN", identity.scans))
+    let is_good = tell(
+        context,
+        &identity,
+        &format!("{done}, the last {last:.3} ms; {} since RUN", identity.scans),
+    )?;
+    tell_ended(context, &forced)?;
+    Ok(is_good)
 }
 
 /// Looks until it is so, the PLC has a fault, or the time is over.
-fn wait(client: &mut Client, time: Duration, is_so: impl Fn(&Identity) -> bool) -> Result<Identity> {
+fn wait(
+    client: &mut Client,
+    time: Duration,
+    is_so: impl Fn(&Identity) -> bool,
+) -> Result<Identity> {
     let begin = Instant::now();
     loop {
         let identity = client.identify()?;
-        if is_so(&identity) || fault::text(identity.fault, None).is_some() || begin.elapsed() > time {
+        if is_so(&identity) || fault::text(identity.fault, None).is_some() || begin.elapsed() > time
+        {
             return Ok(identity);
         }
         sleep(LOOK);

@@ -1,29 +1,30 @@
 //! `set`, `force`, `unforce`.
 
 use anyhow::{Error, Result};
-use uno200::service::{FORCE_MAX, Forced};
-use uno200::{Operand, Reference};
+use client::service::{FORCE_MAX, Forced};
+use client::{Operand, Reference};
 
-use super::Context;
+use super::context::Context;
 
 pub(super) fn set(context: &mut Context, assignments: &[String]) -> Result<bool> {
     let assignments = context.assignments(assignments)?;
     let values: Vec<(Reference, u32)> =
         assignments.iter().map(|(operand, value)| (operand.reference, *value)).collect();
     if let Err(error) = context.client.set(&values) {
-        if !matches!(error, uno200::Error::Refused { exception: 2, .. }) {
+        if !matches!(error, client::Error::Refused { exception: 2, .. }) {
             return Err(error.into());
         }
         // What the program does not use is told by name.
         let operands: Vec<Operand> = assignments.into_iter().map(|(operand, _)| operand).collect();
         context.client.watch_operands(&operands)?;
         return Err(Error::new(error).context(
-            "nothing was written: Q, M, S, V, AC, AQW and the current values of timers and counters can be set; inputs and \
+            "nothing was written: Q, M, S, V, AC, AQW and the current values of timers and \
+                counters can be set; inputs and \
              analog inputs can be forced",
         ));
     }
     for (operand, value) in &assignments {
-        println!("{} = {}", operand.name, operand.form.text(*value, context.base));
+        println!("{} = {}", operand.name, operand.text(*value, context.base));
     }
     Ok(true)
 }
@@ -32,7 +33,10 @@ pub(super) fn force(context: &mut Context, assignments: &[String]) -> Result<boo
     let assignments = context.assignments(assignments)?;
     let mut table = None;
     for (operand, value) in &assignments {
-        let forced = context.client.force(operand.reference, *value).map_err(|error| refusal(&operand.name, error))?;
+        let forced = context
+            .client
+            .force(operand.reference, *value)
+            .map_err(|error| refusal(&operand.name, error))?;
         table = Some(forced);
     }
     let table = match table {
@@ -43,13 +47,14 @@ pub(super) fn force(context: &mut Context, assignments: &[String]) -> Result<boo
     Ok(true)
 }
 
-fn refusal(name: &str, error: uno200::Error) -> Error {
+fn refusal(name: &str, error: client::Error) -> Error {
     let why = match &error {
-        uno200::Error::Refused { exception: 4, .. } => {
+        client::Error::Refused { exception: 4, .. } => {
             format!("{name}: {FORCE_MAX} operands are forced already; `uno200 unforce` makes room")
         }
-        uno200::Error::Refused { exception: 2, .. } => format!(
-            "{name} cannot be forced: bits, bytes and words of I and Q can, AIW, AQW, and V and M that the program uses"
+        client::Error::Refused { exception: 2, .. } => format!(
+            "{name} cannot be forced: bits, bytes and words of I and Q can, AIW, AQW, and V and M \
+                that the program uses"
         ),
         _ => return error.into(),
     };
@@ -64,8 +69,10 @@ pub(super) fn unforce(context: &mut Context, operands: &[String], all: bool) -> 
     }
     let operands = context.operands(operands)?;
     let before = context.client.forced()?;
-    let is_forced = |operand: &&Operand| !before.iter().any(|forced| forced.reference == operand.reference);
-    let missing: Vec<&str> = operands.iter().filter(is_forced).map(|operand| &*operand.name).collect();
+    let is_forced =
+        |operand: &&Operand| !before.iter().any(|forced| forced.reference == operand.reference);
+    let missing: Vec<&str> =
+        operands.iter().filter(is_forced).map(|operand| &*operand.name).collect();
     if !missing.is_empty() {
         anyhow::bail!("{} is not forced; `uno200 force` lists what is", missing.join(", "));
     }
@@ -81,13 +88,21 @@ fn print(context: &Context, table: &[Forced]) {
     if table.is_empty() {
         println!("nothing is forced");
     }
-    for &Forced { reference, value } in table {
-        let (name, form) = match reference.address() {
-            Some(address) => (named(context, address), uno200::value::Form::of(address)),
-            None => (format!("{:02X?}", reference.0), uno200::value::Form::Double),
-        };
-        println!("{name} = {}", form.text(value, context.base));
+    for text in texts(context, table) {
+        println!("{text}");
     }
+}
+
+/// Operands with what they are or were forced to.
+pub(super) fn texts(context: &Context, table: &[Forced]) -> Vec<String> {
+    let text = |&Forced { reference, value }: &Forced| {
+        let (name, form) = match reference.address() {
+            Some(address) => (named(context, address), client::value::Form::of(address)),
+            None => (format!("{:02X?}", reference.0), client::value::Form::Double),
+        };
+        format!("{name} = {}", form.text(value, context.base))
+    };
+    table.iter().map(text).collect()
 }
 
 /// An address with its symbol.

@@ -1,29 +1,33 @@
 //! The command line of `uno200`: from arguments to an exit code.
 
-mod args;
+mod build;
+mod context;
 mod control;
+mod flash;
 mod force;
 mod program;
 mod retained;
+mod shell;
+mod test;
 mod trace;
 mod watch;
 
-use std::path::Path;
+use std::path::PathBuf;
 
-use anyhow::{Error, Result};
-use awl_asm::ast::Symbol;
+use anyhow::Result;
+use awl_asm::report::ProgramErrors;
 use clap::Parser;
+use client::value::Base;
+use client::{Program, reals};
 use plc_isa::{LineSettings, Parity};
-use uno200::operand::Operand;
-use uno200::program::load_symbols;
-use uno200::service::Identity;
+use uno200::program::Files;
 use uno200::transport::{SerialSettings, Target};
-use uno200::value::Base;
-use uno200::{Client, Program, show};
+use uno200::{Client, ide, show};
 
-use args::{Arguments, Command, Connection, ParityName};
+use context::{Context, notice};
+use uno200::args::{self, Arguments, Ask, Command, Connection, Ide, ParityName, Show};
 
-/// Exit code: the PLC refuses, has a fault, or holds another program.
+/// Exit code: errors in the program; the PLC refuses, has a fault, or holds another program.
 const DIFFERS: u8 = 1;
 /// Exit code for usage, files, and where there is no connection.
 const NOT_DONE: u8 = 2;
@@ -31,109 +35,106 @@ const NOT_DONE: u8 = 2;
 /// Runs the command and gives its exit code.
 pub fn main() -> u8 {
     match run(Arguments::parse()) {
-        Ok(true) => 0,
-        Ok(false) => DIFFERS,
+        Ok(code) => code,
         Err(error) => {
             anstream::eprintln!("error: {error:#}");
-            let is_refusal =
-                error.chain().any(|cause| cause.downcast_ref::<uno200::Error>().is_some_and(uno200::Error::is_refusal));
-            if is_refusal { DIFFERS } else { NOT_DONE }
+            let is_about_the_program = error.chain().any(|cause| {
+                cause.is::<ProgramErrors>()
+                    || cause.downcast_ref::<client::Error>().is_some_and(client::Error::is_refusal)
+            });
+            if is_about_the_program { DIFFERS } else { NOT_DONE }
         }
     }
 }
 
-/// What all commands need.
-struct Context {
-    client: Client,
-    program: Option<Program>,
-    symbols: Vec<Symbol>,
-    base: Base,
-}
-
-impl Context {
-    /// The program of `--program`, if it is the one in the PLC: only then its lines are those of the fault.
-    fn known_program(&self, identity: &Identity) -> Option<&Program> {
-        self.program.as_ref().filter(|program| !identity.is_native && program.crc() == identity.image_crc)
-    }
-
-    /// Reads operands; all that are wrong are told at once.
-    fn operands(&self, texts: &[String]) -> Result<Vec<Operand>> {
-        let mut errors = Vec::new();
-        let mut operands = Vec::new();
-        // Commas are what awl-sim separates operands with.
-        for text in texts.iter().flat_map(|text| text.split(',')).filter(|text| !text.is_empty()) {
-            match Operand::parse(text, &self.symbols) {
-                Ok(operand) => operands.push(operand),
-                Err(error) => errors.push(error.to_string()),
-            }
+/// Returns the exit code.
+fn run(arguments: Arguments) -> Result<u8> {
+    let Arguments { connection, program, symbols, data, hex, command } = arguments;
+    let files = Files { symbols, data };
+    let base = if hex { Base::Hexadecimal } else { Base::Decimal };
+    let is_good = match command {
+        Command::Build(arguments) => build::build(&arguments),
+        Command::Flash(arguments) => {
+            let program = files.open(&arguments.files)?;
+            flash::flash(target(connection, Some(&program)), program, &arguments)
         }
-        match errors.is_empty() {
-            true => Ok(operands),
-            false => Err(Error::msg(errors.join("\nerror: "))),
+        Command::Show(Show { files: shown, picture, line, scan }) => {
+            let program = files.open(&shown)?;
+            let client = Client::new(target(connection, Some(&program)), notice);
+            show::run_in(base, client, show::Arguments { program, picture, line, scan })
+                .map(|()| true)
         }
-    }
-
-    /// Reads `OPERAND=VALUE`, all that are wrong at once.
-    fn assignments(&self, texts: &[String]) -> Result<Vec<(Operand, u32)>> {
-        let one = |text: &String| -> Result<(Operand, u32), String> {
-            let (name, value) = text.split_once('=').ok_or_else(|| format!("{text}: write OPERAND=VALUE"))?;
-            let operand = Operand::parse(name, &self.symbols).map_err(|error| error.to_string())?;
-            let value = operand.form.parse(value).map_err(|error| format!("{}: {error}", operand.name))?;
-            Ok((operand, value))
-        };
-        let (mut good, mut errors) = (Vec::new(), Vec::new());
-        for text in texts {
-            match one(text) {
-                Ok(assignment) => good.push(assignment),
-                Err(error) => errors.push(error),
-            }
+        Command::Ide(Ide { page, listen, no_open }) => {
+            ide::serve(&ide::Settings { page, listen, opens: !no_open }).map(|()| true)
         }
-        match errors.is_empty() {
-            true => Ok(good),
-            false => Err(Error::msg(errors.join("\nerror: "))),
+        Command::Test(arguments) => return test::test(&connection, &files, &arguments),
+        Command::Shell { script } => {
+            let mut context = connected(connection, &program, files, base)?;
+            shell::shell(&mut context, script.as_deref())
         }
-    }
-}
-
-/// Returns whether all is good.
-fn run(arguments: Arguments) -> Result<bool> {
-    let Arguments { connection, program, symbols: symbol_files, hex, command } = arguments;
-    let file = match &command {
-        Command::Compare { file } => Some(file.clone()),
-        Command::Show(show) => Some(show.file.clone()),
-        _ => program,
+        Command::Lsp => uno200::lsp::run().map(|()| true),
+        Command::Ask(ask) => {
+            // What is compared says how its line is set, too.
+            let known = match &ask {
+                Ask::Compare { files } if program.is_empty() => files,
+                _ => &program,
+            };
+            let mut context = connected(connection, known, files, base)?;
+            execute(&mut context, ask)
+        }
     };
-    let program = file.as_deref().map(|path: &Path| Program::open(path, &symbol_files)).transpose()?;
+    is_good.map(|is_good| if is_good { 0 } else { DIFFERS })
+}
+
+/// What commands need that ask the PLC. The first question opens the port: what else is wrong with
+/// the arguments is found before it.
+fn connected(
+    connection: Connection,
+    program: &[PathBuf],
+    files: Files,
+    base: Base,
+) -> Result<Context> {
+    let program = (!program.is_empty()).then(|| files.open(program)).transpose()?;
     let symbols = match &program {
         Some(program) => program.symbols().to_vec(),
-        None => load_symbols(&symbol_files)?,
+        None => files.symbols()?,
     };
-    let client = Client::connect(target(connection, program.as_ref()), &mut notice)?;
-    let base = if hex { Base::Hexadecimal } else { Base::Decimal };
-    let context = Context { client, program, symbols, base };
-    execute(context, command)
+    let reals = program.as_ref().map(|program| reals::of(&program.image)).unwrap_or_default();
+    let client = Client::new(target(connection, program.as_ref()), notice);
+    Ok(Context { client, program, symbols, reals, files, base })
 }
 
-fn execute(mut context: Context, command: Command) -> Result<bool> {
-    match command {
-        Command::Status => control::status(&mut context),
-        Command::Run => control::run(&mut context),
-        Command::Stop => control::stop(&mut context),
-        Command::Clear => control::clear(&mut context),
-        Command::Scan { count } => control::scan(&mut context, count),
-        Command::Watch(arguments) => watch::watch(&mut context, &arguments),
-        Command::Set { assignments } => force::set(&mut context, &assignments),
-        Command::Force { assignments } => force::force(&mut context, &assignments),
-        Command::Unforce { operands, all } => force::unforce(&mut context, &operands, all),
-        Command::ReadProgram { output } => program::read(&mut context, output.as_deref()),
-        Command::Compare { .. } => program::compare(&mut context),
-        Command::Trace(arguments) => trace::trace(&mut context, &arguments),
-        Command::Retained(args::Retained::Save { file }) => retained::save(&mut context, &file),
-        Command::Retained(args::Retained::Restore { file }) => retained::restore(&mut context, &file),
-        Command::Show(args::Show { picture, line, .. }) => {
-            let Context { client, program: Some(program), base, .. } = context else { return Ok(false) };
-            show::run_in(base, client, show::Arguments { program, picture, line }).map(|()| true)
+/// Whether the files can be written that are to be: before the PLC is asked for what is in them.
+fn check_outputs(ask: &Ask) -> Result<()> {
+    match ask {
+        Ask::ReadProgram { output, overwrite } => {
+            program::check_output(output.as_deref(), *overwrite)
         }
+        Ask::Trace(arguments) => trace::check_output(arguments.output.as_deref()),
+        Ask::Retained(args::Retained::Save { file, overwrite }) => {
+            retained::check_output(file, *overwrite)
+        }
+        _ => Ok(()),
+    }
+}
+
+fn execute(context: &mut Context, ask: Ask) -> Result<bool> {
+    check_outputs(&ask)?;
+    match ask {
+        Ask::Status => control::status(context),
+        Ask::Run => control::run(context),
+        Ask::Stop => control::stop(context),
+        Ask::Clear => control::clear(context),
+        Ask::Scan { count } => control::scan(context, count),
+        Ask::Watch(arguments) => watch::watch(context, &arguments),
+        Ask::Set { assignments } => force::set(context, &assignments),
+        Ask::Force { assignments } => force::force(context, &assignments),
+        Ask::Unforce { operands, all } => force::unforce(context, &operands, all),
+        Ask::ReadProgram { output, .. } => program::read(context, output.as_deref()),
+        Ask::Compare { files } => program::compare(context, &files),
+        Ask::Trace(arguments) => trace::trace(context, &arguments),
+        Ask::Retained(args::Retained::Save { file, .. }) => retained::save(context, &file),
+        Ask::Retained(args::Retained::Restore { file }) => retained::restore(context, &file),
     }
 }
 
@@ -159,10 +160,6 @@ fn target(connection: Connection, program: Option<&Program>) -> Target {
     }
 }
 
-fn notice(text: &str) {
-    anstream::eprintln!("{text}");
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -176,7 +173,8 @@ mod tests {
             let arguments = Arguments::parse_from([&["uno200"], arguments, &["status"]].concat());
             target(arguments.connection, program)
         };
-        let serial = |baud, parity, unit| Target::Serial(SerialSettings { port: None, baud, parity, unit });
+        let serial =
+            |baud, parity, unit| Target::Serial(SerialSettings { port: None, baud, parity, unit });
         assert_eq!(of(&[], None), serial(115_200, Parity::None, 1));
         assert_eq!(of(&[], Some(&program)), serial(19_200, Parity::Even, 5));
         assert_eq!(

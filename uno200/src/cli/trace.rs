@@ -6,23 +6,36 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use anyhow::{Error, Result, bail};
-use awl_asm::files::write_whole;
-use uno200::service::{Space, TracePhase, Trigger};
-use uno200::trace::Recording;
-use uno200::value::Form;
-use uno200::{Client, Operand, Reference};
+use awl_asm::files::{ending, write_whole};
+use client::service::{Space, TracePhase, Trigger};
+use client::trace::Recording;
+use client::value::Form;
+use client::{Operand, Reference};
+use uno200::Client;
 
-use super::Context;
-use super::args::Trace;
+use super::context::Context;
+use uno200::args::Trace;
 
+/// Endings of files with a trace.
+const ENDINGS: [&str; 3] = ["csv", "vcd", "svg"];
 /// Time between two looks.
 const LOOK: Duration = Duration::from_millis(50);
 /// Shortest time in which the length of scans is measured.
 const MEASURE: Duration = Duration::from_millis(300);
 
+/// Whether a trace can be written to a file of this name.
+pub(super) fn check_output(output: Option<&Path>) -> Result<()> {
+    output.map_or(Ok(()), |path| ending(path, &ENDINGS).map(drop))
+}
+
 pub(super) fn trace(context: &mut Context, arguments: &Trace) -> Result<bool> {
     let operands = context.operands(&arguments.operands)?;
-    let trigger = arguments.trigger.as_deref().map(|text| condition(context, text)).transpose()?.unwrap_or_default();
+    let trigger = arguments
+        .trigger
+        .as_deref()
+        .map(|text| condition(context, text))
+        .transpose()?
+        .unwrap_or_default();
     let references: Vec<Reference> = operands.iter().map(|operand| operand.reference).collect();
     let client = &mut context.client;
     // Whether all of them exist is told by name.
@@ -31,14 +44,31 @@ pub(super) fn trace(context: &mut Context, arguments: &Trace) -> Result<bool> {
     if !measure.is_running {
         anstream::eprintln!("the PLC is in STOP: nothing is recorded before it runs");
     }
-    let phase = client.start_trace(arguments.every, arguments.before, trigger, &references).map_err(refusal)?;
+    let mut every = arguments.every.unwrap_or(1);
+    let start = |client: &mut Client, every| {
+        client.start_trace(every, arguments.before, trigger, &references).map_err(refusal)
+    };
+    let mut phase = start(client, every)?;
+    if let Some(duration) = arguments.duration.filter(|_| measure.is_running) {
+        let fitting = fitting(client, &measure, duration)?;
+        let may_choose = arguments.every.is_none() && trigger == Trigger::None;
+        if may_choose && fitting > every {
+            every = fitting;
+            phase = start(client, every)?;
+            anstream::eprintln!("a sample every {every} scans, so that {duration:?} fit");
+        } else if fitting > every {
+            anstream::eprintln!(
+                "the memory is full before {duration:?} are over: --every {fitting} makes them fit"
+            );
+        }
+    }
     wait(client, phase, arguments.duration)?;
     let scan_us = measure.end(client)?;
     let room = client.identify()?.room;
     let state = client.trace_state()?;
     let ring_len = state.capacity.wrapping_mul(u16::from(state.sample_len));
     let ring = client.read(Space::Trace, state.ring_at, ring_len, room)?;
-    let mut recording = Recording::of_ring(operands, &ring, &state, arguments.every, scan_us)?;
+    let mut recording = Recording::of_ring(operands, &ring, &state, every, scan_us)?;
     recording.trigger = recording.trigger.filter(|_| trigger != Trigger::None);
     write(&recording, context, arguments.output.as_deref())?;
     let is_triggered = trigger == Trigger::None || recording.trigger.is_some();
@@ -46,11 +76,20 @@ pub(super) fn trace(context: &mut Context, arguments: &Trace) -> Result<bool> {
     Ok(is_triggered)
 }
 
-fn refusal(error: uno200::Error) -> Error {
+/// How many scans there must be from sample to sample for the memory to hold so long a time.
+fn fitting(client: &mut Client, measure: &Measure, duration: Duration) -> Result<u16> {
+    let scan_us = measure.end(client)?;
+    let capacity = client.trace_state()?.capacity.max(1);
+    let scans = duration.as_secs_f64() * 1e6 / scan_us.max(1.0);
+    Ok((scans / f64::from(capacity)).ceil().clamp(1.0, u16::MAX.into()) as u16)
+}
+
+fn refusal(error: client::Error) -> Error {
     let why = match &error {
-        uno200::Error::Refused { exception: 1, .. } => "this PLC records no traces",
-        uno200::Error::Refused { exception: 4, .. } => {
-            "the program leaves too little memory for this trace: fewer operands or a smaller --before may help"
+        client::Error::Refused { exception: 1, .. } => "this PLC records no traces",
+        client::Error::Refused { exception: 4, .. } => {
+            "the program leaves too little memory for this trace: fewer operands or a smaller \
+                --before may help"
         }
         _ => return error.into(),
     };
@@ -65,7 +104,10 @@ fn condition(context: &Context, text: &str) -> Result<Trigger> {
         "falling" => Trigger::Falling,
         "on" | "1" => Trigger::High,
         "off" | "0" => Trigger::Low,
-        _ => bail!("--trigger {text:?}: write a bit and rising, falling, on or off, such as \"I0.0 rising\""),
+        _ => bail!(
+            "--trigger {text:?}: write a bit and rising, falling, on or off, such as \"I0.0 \
+                rising\""
+        ),
     };
     let operand = context.operands(&[name.to_string()])?;
     match operand.first() {
@@ -103,26 +145,32 @@ fn write(recording: &Recording, context: &Context, output: Option<&Path>) -> Res
         return Ok(out.flush()?);
     };
     let mut bytes = Vec::new();
-    let is_named = |ending| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(ending));
-    match () {
-        () if is_named("vcd") => recording.write_vcd(&mut bytes)?,
-        () if is_named("svg") => recording.write_svg(&mut bytes)?,
-        () => recording.write_csv(context.base, &mut bytes)?,
+    match ending(path, &ENDINGS)? {
+        "vcd" => recording.write_vcd(&mut bytes)?,
+        "svg" => recording.write_svg(&mut bytes)?,
+        _ => recording.write_csv(context.base, &mut bytes)?,
     }
     write_whole(path, &bytes)
 }
 
 fn summary(recording: &Recording, is_triggered: bool, is_full: bool, output: Option<&Path>) {
     let place = output.map_or(String::new(), |path| format!("{}: ", path.display()));
-    let scan = |sample: usize| u64::from(recording.first_scan) + sample as u64 * u64::from(recording.every);
-    let trigger = recording.trigger.map_or(String::new(), |sample| format!(", trigger in scan {}", scan(sample)));
+    let scan = |sample: usize| {
+        u64::from(recording.first_scan) + sample as u64 * u64::from(recording.every)
+    };
+    let trigger = recording
+        .trigger
+        .map_or(String::new(), |sample| format!(", trigger in scan {}", scan(sample)));
     let end = match (is_triggered, is_full) {
         (false, _) => "; the trigger did not come",
         (true, false) => "; ended before the memory was full",
         (true, true) => "",
     };
     let scan_ms = recording.scan_us / 1000.0;
-    eprintln!("{place}{} samples{trigger}; a scan takes {scan_ms:.3} ms on average{end}", recording.samples.len());
+    eprintln!(
+        "{place}{} samples{trigger}; a scan takes {scan_ms:.3} ms on average{end}",
+        recording.samples.len()
+    );
 }
 
 /// How long scans take: the board counts them, the clock is here.
@@ -135,11 +183,15 @@ struct Measure {
 impl Measure {
     fn begin(client: &mut Client) -> Result<Measure> {
         let identity = client.identify()?;
-        Ok(Measure { begin: Instant::now(), scans: identity.scans, is_running: identity.is_running })
+        Ok(Measure {
+            begin: Instant::now(),
+            scans: identity.scans,
+            is_running: identity.is_running,
+        })
     }
 
     /// Microseconds.
-    fn end(self, client: &mut Client) -> Result<f64> {
+    fn end(&self, client: &mut Client) -> Result<f64> {
         if self.begin.elapsed() < MEASURE && self.is_running {
             sleep(MEASURE - self.begin.elapsed());
         }
@@ -147,7 +199,8 @@ impl Measure {
         let scans = identity.scans.wrapping_sub(self.scans);
         let measured = self.begin.elapsed().as_secs_f64() * 1e6 / f64::from(scans.max(1));
         // Where it went through STOP in between nothing is measured.
-        let is_usable = self.is_running && identity.is_running && scans > 0 && identity.scans >= self.scans;
+        let is_usable =
+            self.is_running && identity.is_running && scans > 0 && identity.scans >= self.scans;
         let told = f64::from(identity.last) * 1000.0 / f64::from(identity.counts_per_ms.max(1));
         Ok(if is_usable { measured } else { told })
     }

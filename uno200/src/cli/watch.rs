@@ -5,12 +5,12 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
-use uno200::Operand;
-use uno200::service::Watched;
-use uno200::trace::{write_csv_header, write_csv_row};
+use client::Operand;
+use client::service::Watched;
+use client::trace::{write_csv_header, write_csv_row};
 
-use super::Context;
-use super::args::{Watch, WatchFormat};
+use super::context::{Context, notice};
+use uno200::args::{Watch, WatchFormat};
 
 /// Longest time to wait for a cable that is plugged in again.
 const UNPLUGGED: Duration = Duration::from_secs(600);
@@ -19,8 +19,14 @@ const WIDTH: usize = 6;
 
 pub(super) fn watch(context: &mut Context, arguments: &Watch) -> Result<bool> {
     let operands = context.operands(&arguments.operands)?;
-    let mut rows =
-        Rows { operands: &operands, format: arguments.format, base: context.base, before: None, scans: None };
+    let mut rows = Rows {
+        operands: &operands,
+        format: arguments.format,
+        base: context.base,
+        before: None,
+        has_header: false,
+        scans: None,
+    };
     let begin = Instant::now();
     let is_over = || arguments.duration.is_some_and(|duration| begin.elapsed() >= duration);
     let mut next = begin;
@@ -30,8 +36,12 @@ pub(super) fn watch(context: &mut Context, arguments: &Watch) -> Result<bool> {
             Ok(watched) => rows.row(at, &watched)?,
             Err(error) if error.is_passing() => {
                 anstream::eprintln!("{error}; waiting for the connection");
-                let left = arguments.duration.map_or(UNPLUGGED, |duration| duration.saturating_sub(begin.elapsed()));
-                context.client.connect_within(left, &mut super::notice)?;
+                let left = arguments
+                    .duration
+                    .map_or(UNPLUGGED, |duration| duration.saturating_sub(begin.elapsed()));
+                context.client.connect_within(left, &mut notice)?;
+                // What answers now may have begun to count anew.
+                rows.scans = None;
             }
             Err(error) => return Err(error.into()),
         }
@@ -40,7 +50,11 @@ pub(super) fn watch(context: &mut Context, arguments: &Watch) -> Result<bool> {
         while next <= now && !arguments.every.is_zero() {
             next += arguments.every;
         }
-        if arguments.duration.is_some_and(|duration| next.saturating_duration_since(begin) >= duration) || is_over() {
+        if arguments
+            .duration
+            .is_some_and(|duration| next.saturating_duration_since(begin) >= duration)
+            || is_over()
+        {
             return Ok(true);
         }
         sleep(next.saturating_duration_since(now));
@@ -51,8 +65,9 @@ pub(super) fn watch(context: &mut Context, arguments: &Watch) -> Result<bool> {
 struct Rows<'a> {
     operands: &'a [Operand],
     format: WatchFormat,
-    base: uno200::value::Base,
+    base: client::value::Base,
     before: Option<Vec<u32>>,
+    has_header: bool,
     /// Scans since RUN: the PLC tells their low word.
     scans: Option<u64>,
 }
@@ -74,8 +89,9 @@ impl Rows<'_> {
     }
 
     fn row(&mut self, at: Duration, watched: &Watched) -> io::Result<()> {
-        if self.scans.is_none() {
+        if !self.has_header {
             self.header()?;
+            self.has_header = true;
         }
         let scan = self.count(watched.scan);
         let mut out = io::stdout().lock();
@@ -91,7 +107,7 @@ impl Rows<'_> {
                 write!(out, "{:>8.3} s {scan:>8}", at.as_secs_f64())?;
                 for (operand, &value) in self.operands.iter().zip(&watched.values) {
                     let width = operand.name.chars().count().max(WIDTH);
-                    write!(out, "  {:>width$}", operand.form.text(value, self.base))?;
+                    write!(out, "  {:>width$}", operand.text(value, self.base))?;
                 }
                 writeln!(out)?;
                 self.before = Some(watched.values.clone());

@@ -1,16 +1,16 @@
-//! What stands on the screen, without a PLC: the news are made up.
+//! What is on the screen, without a PLC: the news are made up.
 
+use client::show::Key;
 use ratatui::buffer::Buffer;
-use ratatui::crossterm::event::{KeyCode, KeyEvent};
 use ratatui::style::{Color, Modifier};
 
 use super::picture::{buffer, svg};
-use super::state::{News, State};
 use super::theme::Theme;
-use crate::program::Program;
-use crate::reference::Reference;
-use crate::service::{Executed, Forced, Identity};
 use awl_asm::source::Source;
+use client::program::Program;
+use client::reference::Reference;
+use client::service::{Executed, Forced, Identity};
+use client::show::state::{News, State};
 
 const TEXT: &str = "\
 //# symbol Start I0.0 the green button
@@ -50,7 +50,15 @@ fn state() -> State {
     let program = Program::assembled(Source::new("lamp.awl", TEXT).unwrap(), Vec::new()).unwrap();
     let mut state = State::new(program, "COM3".to_owned());
     state.hear(News::Identity(Box::new(identity(&state))));
-    let stacks = [(3, Some(1)), (4, Some(3)), (5, Some(2)), (6, Some(2)), (7, Some(1)), (8, Some(1)), (9, Some(3))];
+    let stacks = [
+        (3, Some(1)),
+        (4, Some(3)),
+        (5, Some(2)),
+        (6, Some(2)),
+        (7, Some(1)),
+        (8, Some(1)),
+        (9, Some(3)),
+    ];
     let stacks = stacks.into_iter().chain([(10, Some(1)), (11, None), (12, None), (13, Some(1))]);
     let executed = stacks.map(|(line, stack): (usize, Option<u16>)| {
         let instruction = state.model.rows[line - 1].instruction().unwrap();
@@ -101,13 +109,36 @@ fn a_whole_screen() {
 }
 
 #[test]
+fn in_stop_a_single_scan_is_shown_and_what_is_not_known_of_it() {
+    let mut state = state();
+    let stopped = Identity { is_running: false, has_scan_status: true, ..identity(&state) };
+    state.hear(News::Identity(Box::new(stopped.clone())));
+    let shown = screen(&mut state);
+    assert!(shown[1].contains("STOP: what the last scan did is not known"), "{shown:?}");
+    assert_eq!(shown[4], "  3      LD     Start      // pressed", "no guess");
+    let offset = state.model.rows[2].instruction().unwrap().offset.unwrap();
+    let executed = Executed { is_executed: true, stack: 1, value: 1 };
+    let scans = 4712;
+    state.hear(News::Scanned(Some((scans, vec![(offset, executed)]))));
+    state.hear(News::Identity(Box::new(Identity { scans: scans.into(), ..stopped.clone() })));
+    let shown = screen(&mut state);
+    assert!(shown[1].contains("scan 4712: 1 of 11 lines fit into its window"), "{shown:?}");
+    assert_eq!(shown[4], "  3 \u{25CF}    LD     Start      // pressed  1");
+    assert_eq!(shown[5], "  4 ?    LPS");
+    // The input of this line is what it is now, not what the scan saw.
+    assert_eq!(shown[12], "  11 ?    LD     I0.1".replacen("  11", " 11", 1));
+    state.hear(News::Identity(Box::new(Identity { scans: 4713, ..stopped })));
+    assert!(screen(&mut state)[1].contains("not known"), "another scan was executed");
+}
+
+#[test]
 fn hexadecimal_and_forced() {
     let mut state = state();
     state.hear(News::Forced(vec![
         Forced { reference: Reference([0x00, 0, 0]), value: 1 },
         Forced { reference: Reference([0x89, 0, 0]), value: 0xFFFF },
     ]));
-    state.key(KeyEvent::from(KeyCode::Char('x')));
+    state.key(Key::Char('x'));
     let lines = screen(&mut state);
     assert!(lines[0].contains(" 2 forced "), "{}", lines[0]);
     assert!(lines[3].ends_with("1 F"), "{}", lines[3]);
@@ -119,16 +150,16 @@ fn hexadecimal_and_forced() {
 fn without_colours_everything_is_still_there() {
     let mut state = state();
     state.hear(News::Forced(vec![Forced { reference: Reference([0x00, 0, 0]), value: 1 }]));
-    let (coloured, plain) =
-        (buffer(&mut state, 80, 18, Theme::new(true)), buffer(&mut state, 80, 18, Theme::new(false)));
+    let (coloured, plain) = (
+        buffer(&mut state, 80, 18, Theme::new(true)),
+        buffer(&mut state, 80, 18, Theme::new(false)),
+    );
     assert_eq!(lines(&coloured), lines(&plain));
     assert!(coloured.content().iter().any(|cell| cell.fg != Color::Reset));
     assert!(plain.content().iter().all(|cell| cell.fg == Color::Reset && cell.bg == Color::Reset));
-    let forced = plain
-        .content()
-        .iter()
-        .filter(|cell| cell.symbol() == "F")
-        .any(|cell| cell.modifier.contains(Modifier::REVERSED) && cell.modifier.contains(Modifier::BOLD));
+    let forced = plain.content().iter().filter(|cell| cell.symbol() == "F").any(|cell| {
+        cell.modifier.contains(Modifier::REVERSED) && cell.modifier.contains(Modifier::BOLD)
+    });
     assert!(forced);
 }
 
@@ -140,7 +171,11 @@ fn of_another_program_no_values() {
     assert!(lines[1].contains("another program: 1234ABCD"), "{}", lines[1]);
     assert_eq!(lines[4], "  3      LD     Start      // pressed");
     assert!(lines[16].ends_with("the green button") && !lines[16].contains('='), "{}", lines[16]);
-    state.hear(News::Identity(Box::new(Identity { has_program: false, image_len: 0, ..identity(&state) })));
+    state.hear(News::Identity(Box::new(Identity {
+        has_program: false,
+        image_len: 0,
+        ..identity(&state)
+    })));
     assert!(screen(&mut state)[1].contains("no program"));
 }
 
@@ -159,7 +194,12 @@ fn the_line_of_keys_fits() {
 fn machine_code_has_values_and_no_power_flow() {
     let mut state = state();
     let (image_crc, image_len) = state.model.native.unwrap();
-    state.hear(News::Identity(Box::new(Identity { is_native: true, image_crc, image_len, ..identity(&state) })));
+    state.hear(News::Identity(Box::new(Identity {
+        is_native: true,
+        image_crc,
+        image_len,
+        ..identity(&state)
+    })));
     screen(&mut state);
     let wishes = state.wishes();
     assert!(wishes.status.is_empty() && wishes.watch.contains(&Reference([0x00, 0, 0])));
@@ -212,34 +252,34 @@ fn no_screen_is_too_small() {
     }
     state.has_help = true;
     let lines = lines(&buffer(&mut state, 80, 24, Theme::new(true)));
-    assert!(lines.iter().any(|line| line.contains("power flow behind the line")), "{lines:?}");
+    assert!(lines.iter().any(|line| line.contains("power flow after the line")), "{lines:?}");
 }
 
 #[test]
 fn moving_and_searching() {
     let mut state = state();
     state.resize(4);
-    let mut press = |code: KeyCode| {
-        state.key(KeyEvent::from(code));
+    let mut press = |key: Key| {
+        state.key(key);
         (state.top + 1, state.selected + 1)
     };
-    assert_eq!(press(KeyCode::Home), (1, 1));
-    assert_eq!(press(KeyCode::Char('n')), (2, 2));
-    assert_eq!(press(KeyCode::PageDown), (2, 5));
-    assert_eq!(press(KeyCode::Down), (3, 6));
-    assert_eq!(press(KeyCode::End), (11, 14));
-    assert_eq!(press(KeyCode::Down), (11, 14));
-    assert_eq!(press(KeyCode::Char('p')), (2, 2));
-    for code in "/vw2".chars().map(KeyCode::Char).chain([KeyCode::Enter]) {
-        press(code);
+    assert_eq!(press(Key::Home), (1, 1));
+    assert_eq!(press(Key::Char('n')), (2, 2));
+    assert_eq!(press(Key::PageDown), (2, 5));
+    assert_eq!(press(Key::Down), (3, 6));
+    assert_eq!(press(Key::End), (11, 14));
+    assert_eq!(press(Key::Down), (11, 14));
+    assert_eq!(press(Key::Char('p')), (2, 2));
+    for key in "/vw2".chars().map(Key::Char).chain([Key::Enter]) {
+        press(key);
     }
-    assert_eq!(press(KeyCode::Null), (5, 8));
-    press(KeyCode::Char('/'));
-    assert_eq!(press(KeyCode::Enter), (6, 9));
-    press(KeyCode::Char('/'));
-    assert_eq!(press(KeyCode::Enter), (6, 8), "round and round");
-    for code in "/nothing".chars().map(KeyCode::Char).chain([KeyCode::Enter]) {
-        press(code);
+    assert_eq!(press(Key::Other), (5, 8));
+    press(Key::Char('/'));
+    assert_eq!(press(Key::Enter), (6, 9));
+    press(Key::Char('/'));
+    assert_eq!(press(Key::Enter), (6, 8), "round and round");
+    for key in "/nothing".chars().map(Key::Char).chain([Key::Enter]) {
+        press(key);
     }
     assert!(state.message.is_some());
 }
@@ -250,7 +290,9 @@ fn the_picture_has_the_letters_of_the_screen() {
     let screen = buffer(&mut state, 80, 18, Theme::new(true));
     let picture = svg(&screen);
     assert_eq!(picture, svg(&screen));
-    for part in ["LD\u{A0}\u{A0}\u{A0}\u{A0}\u{A0}Start", "●", "lamp", ">\nRUN\n<", "//\u{A0}pressed"] {
+    for part in
+        ["LD\u{A0}\u{A0}\u{A0}\u{A0}\u{A0}Start", "●", "lamp", ">\nRUN\n<", "//\u{A0}pressed"]
+    {
         assert!(picture.contains(part), "{part} is missing in {picture}");
     }
 }

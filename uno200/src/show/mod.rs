@@ -1,16 +1,14 @@
-//! The terminal view: a program's source with power flow and values beside every line, from the running PLC. How the PLC
-//! is reached, the client knows.
+//! The terminal view: a program's source with power flow and values beside every line, from the
+//! running PLC. What is shown
+//! and asked is in [`client::show`]; how the PLC is reached, the connection knows.
 
 mod draw;
 #[cfg(test)]
 mod draw_tests;
 mod keys;
-pub mod model;
-pub mod operands;
 pub mod picture;
 pub mod poll;
 mod rows;
-pub mod state;
 mod theme;
 
 use std::io::{IsTerminal, stdout};
@@ -21,17 +19,17 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 use awl_asm::files::write_whole;
+use client::Program;
+use client::show::state::{News, State, Wishes};
+use client::show::{Action, Key};
+use client::value::Base;
 use ratatui::DefaultTerminal;
 use ratatui::crossterm::event::{self, Event};
 
-use crate::client::Client;
-use crate::program::Program;
-use crate::value::Base;
-pub use keys::Action;
+use crate::connection::Client;
 pub use theme::Theme;
 
 use poll::{Message, Poller};
-use state::{News, State, Wishes};
 
 /// The shortest time from one drawing to the next, keys aside.
 const DRAWING: Duration = Duration::from_millis(100);
@@ -49,6 +47,8 @@ pub struct Arguments {
     pub picture: Option<PathBuf>,
     /// The line of the source that is selected first, from 1.
     pub line: Option<usize>,
+    /// A single scan is executed first, and shown.
+    pub scan: bool,
 }
 
 /// Shows a program until the user ends it.
@@ -57,39 +57,48 @@ pub fn run(client: Client, arguments: Arguments) -> Result<()> {
 }
 
 /// The same with values in this base to begin with.
-pub fn run_in(base: Base, client: Client, arguments: Arguments) -> Result<()> {
-    let Arguments { program, picture, line } = arguments;
+pub fn run_in(base: Base, mut client: Client, arguments: Arguments) -> Result<()> {
+    let Arguments { program, picture, line, scan } = arguments;
     let mut state = State::new(program, client.place());
     state.base = base;
     if let Some(line) = line {
         state.go_to(line.saturating_sub(1));
     }
     if let Some(path) = picture {
-        return write_whole(&path, snapshot(&mut state, client)?.as_bytes());
+        return write_whole(&path, snapshot(&mut state, client, scan)?.as_bytes());
     }
     if !stdout().is_terminal() {
         bail!("show draws on a terminal, and this is none");
+    }
+    if !client.is_connected() {
+        client.connect_again(&mut |text| anstream::eprintln!("{text}"))?;
     }
     let (to_poller, messages) = channel();
     let (to_view, news) = channel();
     thread::spawn(move || Poller::new(client, messages).run(&to_view));
     let mut terminal = ratatui::try_init()?;
-    let result = View { state, to_poller, news, wishes: Wishes::default() }.run(&mut terminal);
+    let view = View { state, to_poller, news, wishes: Wishes::default(), is_scan_due: scan };
+    let result = view.run(&mut terminal);
     ratatui::restore();
     result
 }
 
-/// The view as a picture, as soon as everything that is visible is known.
-pub fn snapshot(state: &mut State, client: Client) -> Result<String> {
+/// The view as a picture, as soon as everything that is visible is known; after a single scan, if
+/// that is asked for.
+pub fn snapshot(state: &mut State, client: Client, has_scan: bool) -> Result<String> {
     let (width, height) = PICTURE;
     let theme = Theme::new(true);
     let (to_poller, messages) = channel();
     let mut poller = Poller::new(client, messages);
-    // First what the PLC is, then what is asked for; the warning above the source comes or goes in between.
+    // First what the PLC is, then what is asked for; the warning above the source comes or goes in
+    // between.
     for _ in 0..3 {
         poller.round()?.into_iter().for_each(|news| state.hear(news));
         picture::buffer(state, width, height, theme);
         to_poller.send(Message::Wishes(state.wishes()))?;
+    }
+    if has_scan && let Action::Order(order) = state.key(Key::Char(' ')) {
+        to_poller.send(Message::Order(order))?;
     }
     poller.round()?.into_iter().for_each(|news| state.hear(news));
     Ok(picture::svg(&picture::buffer(state, width, height, theme)))
@@ -101,10 +110,12 @@ struct View {
     news: Receiver<News>,
     /// What the poller was told last.
     wishes: Wishes,
+    /// A single scan is to be executed as soon as the PLC has answered.
+    is_scan_due: bool,
 }
 
 impl View {
-    fn run(&mut self, terminal: &mut DefaultTerminal) -> Result<()> {
+    fn run(mut self, terminal: &mut DefaultTerminal) -> Result<()> {
         let theme = Theme::of_environment();
         let (mut is_due, mut has_news, mut drawn) = (true, false, Instant::now());
         loop {
@@ -117,18 +128,31 @@ impl View {
                 (is_due, has_news, drawn) = (false, false, Instant::now());
                 self.tell_wishes();
             }
+            if self.is_scan_due && self.state.identity.is_some() {
+                self.is_scan_due = false;
+                let action = self.state.key(Key::Char(' '));
+                self.obey(action);
+            }
             if !event::poll(WAIT)? {
                 continue;
             }
             is_due = true;
-            if let Event::Key(key) = event::read()? {
-                match self.state.key(key) {
-                    Action::None => {}
-                    // A poller that has gone has said why.
-                    Action::Order(order) => drop(self.to_poller.send(Message::Order(order))),
-                    Action::Quit => return Ok(()),
+            if let Event::Key(event) = event::read()?
+                && let Some(key) = keys::pressed(event)
+            {
+                let action = self.state.key(key);
+                if action == Action::Quit {
+                    return Ok(());
                 }
+                self.obey(action);
             }
+        }
+    }
+
+    fn obey(&self, action: Action) {
+        if let Action::Order(order) = action {
+            // A poller that has gone has said why.
+            drop(self.to_poller.send(Message::Order(order)));
         }
     }
 

@@ -1,5 +1,5 @@
-//! The view as a picture (SVG), cell by cell, from the buffer that a terminal would be drawn from. The same state gives
-//! the same text.
+//! The view as a picture (SVG), cell by cell, from the buffer that a terminal would be drawn from.
+//! The same state gives the same text.
 
 use std::convert::Infallible;
 
@@ -11,8 +11,8 @@ use svg::Document;
 use svg::node::element::{Rectangle, Text};
 
 use super::draw::draw;
-use super::state::State;
 use super::theme::Theme;
+use client::show::state::State;
 
 /// Size of a cell and of its letters.
 const CELL_WIDTH: f64 = 8.4;
@@ -42,7 +42,8 @@ fn infallible<T>(result: Result<T, Infallible>) -> Result<T, Infallible> {
 /// The cells as a picture.
 pub fn svg(buffer: &Buffer) -> String {
     let area = buffer.area;
-    let (width, height) = (f64::from(area.width) * CELL_WIDTH, f64::from(area.height) * CELL_HEIGHT);
+    let (width, height) =
+        (f64::from(area.width) * CELL_WIDTH, f64::from(area.height) * CELL_HEIGHT);
     let (width, height) = (width + 2.0 * MARGIN, height + 2.0 * MARGIN);
     let mut document = Document::new()
         .set("viewBox", format!("0 0 {width:.1} {height:.1}"))
@@ -50,7 +51,13 @@ pub fn svg(buffer: &Buffer) -> String {
         .set("height", format!("{height:.1}"))
         .set("font-family", "'DejaVu Sans Mono', Menlo, Consolas, 'Liberation Mono', monospace")
         .set("font-size", FONT_SIZE)
-        .add(Rectangle::new().set("width", "100%").set("height", "100%").set("rx", 6).set("fill", PAPER));
+        .add(
+            Rectangle::new()
+                .set("width", "100%")
+                .set("height", "100%")
+                .set("rx", 6)
+                .set("fill", PAPER),
+        );
     for y in 0..area.height {
         for ground in runs(buffer, y, |cell| look(cell).ground) {
             let Some(colour) = ground.look else { continue };

@@ -1,15 +1,16 @@
-//! The rows of the source on the screen: number, power flow, levels of the logic stack, text, values.
+//! The rows of the source on the screen: number, power flow, levels of the logic stack, text,
+//! values.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 use ratatui::text::Line;
 
-use super::model::{Content, Flow, Instruction, Row};
-use super::operands::Watched;
-use super::state::State;
 use super::theme::{Look, Theme};
-use crate::value::{Base, Form};
+use client::show::model::{Content, Flow, Instruction, Row};
+use client::show::operands::Watched;
+use client::show::state::State;
+use client::value::{Base, Form};
 
 /// Columns for further levels of the logic stack.
 const LEVELS_WIDTH: u16 = 3;
@@ -50,7 +51,8 @@ impl Page<'_> {
         for (y, index) in (self.area.y..self.area.bottom()).zip(self.state.visible()) {
             let Some(row) = self.state.model.rows.get(index) else { break };
             let is_selected = index == self.state.selected;
-            let number = format!("{:>width$}", index + 1, width = usize::from(self.mark - self.area.x - 1));
+            let number =
+                format!("{:>width$}", row.number, width = usize::from(self.mark - self.area.x - 1));
             let style = match is_selected {
                 true => self.theme.style(Look::Bar).add_modifier(Modifier::BOLD),
                 false => self.theme.style(Look::Faint),
@@ -76,6 +78,9 @@ impl Page<'_> {
             Some(Flow::On) => ("\u{25CF}", Look::On),
             Some(Flow::Off) => ("\u{25CB}", Look::Off),
             Some(Flow::NotExecuted) => ("\u{00B7}", Look::Faint),
+            None if self.state.scanned.is_some() && instruction.offset.is_some() => {
+                ("?", Look::Faint)
+            }
             None => (" ", Look::Plain),
         };
         let faint = self.theme.style(Look::Faint);
@@ -111,11 +116,14 @@ fn leading(text: &str) -> Option<usize> {
     text.chars().position(|character| character != ' ')
 }
 
-/// The levels of the logic stack behind S0 that belong to the rung.
+/// The levels of the logic stack after S0 that belong to the rung.
 fn levels(state: &State, instruction: &Instruction) -> String {
     let executed = instruction.offset.and_then(|offset| state.executed.get(&offset));
-    let Some(executed) = executed.filter(|executed| executed.is_executed) else { return String::new() };
-    let levels = (1..instruction.levels.min(1 + LEVELS_WIDTH as u8)).map(|level| executed.stack >> level & 1);
+    let Some(executed) = executed.filter(|executed| executed.is_executed) else {
+        return String::new();
+    };
+    let levels = (1..instruction.levels.min(1 + LEVELS_WIDTH as u8))
+        .map(|level| executed.stack >> level & 1);
     levels.map(|level| if level == 1 { '1' } else { '0' }).collect()
 }
 
@@ -129,7 +137,7 @@ fn value_text(watched: &Watched, value: u32, is_forced: bool, base: Base) -> (St
     }
 }
 
-/// Writes a text up to a column; what is cut off ends with a mark. Returns the column behind it.
+/// Writes a text up to a column; what is cut off ends with a mark. Returns the column after it.
 fn put(buffer: &mut Buffer, (x, y): (u16, u16), text: &str, end: u16, style: Style) -> u16 {
     let room = usize::from(end.saturating_sub(x));
     if room == 0 {

@@ -1,4 +1,5 @@
-//! How things look: the terminal's own colours, which fit dark and light ones, and without colours marks and weights.
+//! How things look: the terminal's own colours, which fit dark and light ones, and without colours
+//! marks and weights.
 
 use ratatui::style::{Color, Modifier, Style};
 

@@ -1,14 +1,15 @@
-//! Ways to the PLC: a serial port or TCP. They carry requests and answers and know nothing of what these mean.
+//! Ways to the PLC: a serial port or TCP. They carry requests and answers and know nothing of what
+//! these mean.
 
 pub mod ports;
-pub mod rtu;
 mod serial;
+mod stream;
 mod tcp;
 
 use std::fmt;
 use std::time::Duration;
 
-use crate::error::Error;
+use client::Error;
 
 pub use plc_isa::Parity;
 pub use serial::SerialSettings;
@@ -56,7 +57,10 @@ impl Target {
         match self {
             Target::Serial(settings) => settings.advice(),
             Target::Tcp { address, .. } => {
-                format!("{address} takes the connection but answers nothing: is it an uno200 (`awl-sim --serve`)?")
+                format!(
+                    "{address} takes the connection but answers nothing: is it an uno200 (`awl-sim \
+                        --serve`)?"
+                )
             }
         }
     }
@@ -68,16 +72,5 @@ impl fmt::Display for Target {
             Target::Serial(settings) => settings.fmt(f),
             Target::Tcp { address, .. } => f.write_str(address),
         }
-    }
-}
-
-/// The refusal in an answer, or the answer.
-fn accepted(request: &[u8], answer: Vec<u8>) -> Result<Vec<u8>, Error> {
-    let function = request.first().copied().unwrap_or(0);
-    match answer[..] {
-        [first, exception] if first == function | 0x80 => Err(Error::Refused { function, exception }),
-        [first, ..] if first == function => Ok(answer),
-        [first, ..] => Err(Error::BadAnswer(format!("function {first} answers function {function}"))),
-        [] => Err(Error::BadAnswer("it is empty".into())),
     }
 }

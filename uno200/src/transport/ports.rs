@@ -1,12 +1,12 @@
 //! The serial ports of this computer that an Uno can be at. Opens none.
 
+use client::Error;
 use serialport::{SerialPortInfo, SerialPortType, available_ports};
-
-use crate::error::Error;
 
 /// The USB serial ports by name.
 pub fn usb_ports() -> Vec<String> {
-    let mut names: Vec<String> = available_ports().unwrap_or_default().into_iter().filter_map(usb_name).collect();
+    let mut names: Vec<String> =
+        available_ports().unwrap_or_default().into_iter().filter_map(usb_name).collect();
     names.sort();
     names
 }
@@ -31,7 +31,8 @@ fn chosen(mut names: Vec<String>) -> Result<String, Error> {
         )),
         1 => Ok(names.swap_remove(0)),
         _ => {
-            Err(Error::NotConnected(format!("there are several serial ports, say which: --port {}", names.join(", "))))
+            Err(Error::NotConnected(format!("there are several serial ports, say which: --port \
+                {}", names.join(", "))))
         }
     }
 }

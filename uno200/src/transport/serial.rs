@@ -1,18 +1,20 @@
 //! A serial port with Modbus RTU on it.
 //!
-//! Opening an Uno's port resets the board: its DTR line falls from high to low and a capacitor carries that to the reset
-//! pin. What each system allows is done, and said in docs/uno200.md.
+//! Opening an Uno's port resets the board: its DTR line falls from high to low and a capacitor
+//! carries that to the reset pin. What each system allows is done, and said in docs/uno200.md.
 
 use std::fmt;
-use std::io;
+use std::io::{self, ErrorKind};
 use std::thread::sleep;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+use client::Error;
+use client::line::Framing;
 use plc_isa::Parity;
 use serialport::{ClearBuffer, DataBits, SerialPort, StopBits};
 
-use super::{Transport, ports, rtu};
-use crate::error::Error;
+use super::stream::{Stream, exchange, is_only_late};
+use super::{Transport, ports};
 
 /// A serial port and how it is set.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -60,7 +62,8 @@ impl SerialSettings {
             },
             self.unit
         );
-        let others: Vec<String> = ports::usb_ports().into_iter().filter(|other| *other != name).collect();
+        let others: Vec<String> =
+            ports::usb_ports().into_iter().filter(|other| *other != name).collect();
         if !others.is_empty() {
             advice += &format!("\n  there are other ports: {}", others.join(", "));
         }
@@ -76,7 +79,7 @@ impl fmt::Display for SerialSettings {
 
 pub(super) struct Serial {
     port: Box<dyn SerialPort>,
-    settings: SerialSettings,
+    framing: Framing,
 }
 
 pub(super) fn open(settings: &SerialSettings) -> Result<Serial, Error> {
@@ -94,15 +97,17 @@ pub(super) fn open(settings: &SerialSettings) -> Result<Serial, Error> {
             Parity::Odd => serialport::Parity::Odd,
         })
         .timeout(Duration::from_millis(50));
-    // Elsewhere DTR stays as the system has it: what is switched off now resets the board when it comes on again.
+    // Elsewhere DTR stays as the system has it: what is switched off now resets the board when it
+    // comes on again.
     let builder = if cfg!(windows) { builder.dtr_on_open(false) } else { builder };
     let port = builder.open().map_err(|error| not_opened(&name, &error))?;
     drop(kept);
-    Ok(Serial { port, settings: settings.clone() })
+    Ok(Serial { port, framing: Framing::Rtu { unit: settings.unit, baud: settings.baud } })
 }
 
-/// Has the system leave DTR on when the port is closed, so that the next opening is no edge of it and resets nothing.
-/// What is returned keeps the port open until it is opened for good. Not all ports can; then it stays as it is.
+/// Has the system leave DTR on when the port is closed, so that the next opening is no edge of it
+/// and resets nothing. What is returned keeps the port open until it is opened for good. Not all
+/// ports can; then it stays as it is.
 #[cfg(unix)]
 fn keep_dtr(name: &str) -> Option<std::fs::File> {
     use rustix::fs::{Mode, OFlags};
@@ -120,10 +125,11 @@ fn keep_dtr(_name: &str) {}
 
 fn not_opened(name: &str, error: &serialport::Error) -> Error {
     let hint = match error.kind() {
-        serialport::ErrorKind::Io(io::ErrorKind::PermissionDenied) => {
-            ": on Linux the group dialout may use serial ports: `sudo usermod -aG dialout $USER`, then log in again"
+        serialport::ErrorKind::Io(ErrorKind::PermissionDenied) => {
+            ": on Linux the group dialout may use serial ports: `sudo usermod -aG dialout $USER`, \
+                then log in again"
         }
-        serialport::ErrorKind::Io(io::ErrorKind::NotFound) | serialport::ErrorKind::NoDevice => {
+        serialport::ErrorKind::Io(ErrorKind::NotFound) | serialport::ErrorKind::NoDevice => {
             ": is the board plugged in, and does no other program hold the port?"
         }
         _ => "",
@@ -137,53 +143,27 @@ fn not_opened(name: &str, error: &serialport::Error) -> Error {
 
 impl Transport for Serial {
     fn exchange(&mut self, request: &[u8], patience: Duration) -> Result<Vec<u8>, Error> {
-        // What is there is the rest of an answer that nobody waits for any more.
-        self.port.clear(ClearBuffer::Input).map_err(|error| Error::Lost(error.into()))?;
-        self.port.write_all(&rtu::frame(self.settings.unit, request)).map_err(Error::Lost)?;
-        let frame = self.receive(request, patience)?;
-        match rtu::answer(self.settings.unit, &frame) {
-            Some(answer) => super::accepted(request, answer.to_vec()),
-            None => {
-                self.wait_for_silence();
-                Err(Error::BadAnswer(format!("{} bytes with a wrong checksum", frame.len())))
-            }
+        let Serial { port, framing } = self;
+        let result = exchange(port, framing, request, patience);
+        if matches!(result, Err(Error::BadAnswer(_))) {
+            sleep(Duration::from_millis(framing.silence_ms()));
         }
+        result
     }
 }
 
-impl Serial {
-    /// The bytes up to the length that the answer must have, or up to a pause.
-    fn receive(&mut self, request: &[u8], patience: Duration) -> Result<Vec<u8>, Error> {
-        let begin = Instant::now();
-        let pause = Duration::from_millis(60) + self.settings.characters(4);
-        let (mut frame, mut last) = (Vec::new(), begin);
-        loop {
-            let len = rtu::frame_len(request, &frame);
-            if len.is_some_and(|len| frame.len() >= len) {
-                return Ok(frame);
-            }
-            let mut bytes = [0; 256];
-            // Not a byte more than is known to come, at least the two that tell the function.
-            let wanted = len.unwrap_or(frame.len() + 1).saturating_sub(frame.len()).clamp(1, bytes.len());
-            match self.port.read(&mut bytes[..wanted]) {
-                Ok(0) => return Err(Error::Lost(io::ErrorKind::UnexpectedEof.into())),
-                Ok(count) => {
-                    frame.extend_from_slice(&bytes[..count]);
-                    last = Instant::now();
-                }
-                Err(error) if matches!(error.kind(), io::ErrorKind::TimedOut | io::ErrorKind::Interrupted) => {}
-                Err(error) => return Err(Error::Lost(error)),
-            }
-            match frame.is_empty() {
-                true if begin.elapsed() > patience => return Err(Error::NoAnswer),
-                false if last.elapsed() > pause => return Ok(frame),
-                _ => {}
-            }
-        }
+impl Stream for Box<dyn SerialPort> {
+    fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
+        // What is there is the rest of an answer that nobody waits for any more.
+        self.clear(ClearBuffer::Input)?;
+        self.write_all(bytes)
     }
 
-    /// So that the next request is not taken for the rest of something.
-    fn wait_for_silence(&mut self) {
-        sleep(Duration::from_millis(5) + self.settings.characters(4));
+    fn receive(&mut self, bytes: &mut [u8], _time: Duration) -> io::Result<usize> {
+        match self.read(bytes) {
+            Ok(0) => Err(ErrorKind::UnexpectedEof.into()),
+            Err(error) if is_only_late(&error) => Ok(0),
+            result => result,
+        }
     }
 }

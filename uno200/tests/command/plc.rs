@@ -18,7 +18,7 @@ pub struct Plc {
 }
 
 impl Plc {
-    /// Runs a program with a scan each millisecond.
+    /// Runs a program with a scan each millisecond, or as it says itself.
     pub fn start(program: &Path) -> Plc {
         let program = program.to_owned();
         let (sender, receiver) = channel();
@@ -26,9 +26,10 @@ impl Plc {
             let access = Access { anywhere: false, writes: false };
             let server = Server::listen(&["127.0.0.1:0".parse().unwrap()], access).unwrap();
             sender.send((server.address(), server.stopper())).unwrap();
-            let mut host = open_host(&program, &[]).unwrap().machine;
-            let scenario = Scenario::default();
-            server.run(&mut host, Course::new(&scenario, None, 1), 1, &mut |_| {}).unwrap();
+            let opened = open_host(&program, &[]).unwrap();
+            let (mut host, scan_ms) = (opened.machine, opened.scan_ms.unwrap_or(1));
+            let course = Course::new(&Scenario::default(), None, scan_ms);
+            server.run(&mut host, course, scan_ms, &mut |_| {}).unwrap();
         });
         let (address, stopper) = receiver.recv().unwrap();
         Plc { address, stopper }

@@ -1,4 +1,5 @@
-//! The same PLC behind a serial port: a pseudo-terminal, and something that does what the board does with frames.
+//! The same PLC after a serial port: a pseudo-terminal, and something that does what the board
+//! does with frames.
 
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read, Write};
@@ -11,10 +12,10 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread::{self, JoinHandle, sleep};
 use std::time::{Duration, Instant};
 
+use client::line::rtu::{answer, frame};
 use rustix::fs::{OFlags, fcntl_setfl};
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use rustix::termios::{ControlModes, OptionalActions, tcgetattr, tcsetattr};
-use uno200::transport::rtu::{answer, frame};
 
 use super::{Test, told};
 
@@ -31,8 +32,8 @@ struct Board {
 }
 
 impl Board {
-    /// Plugs a board in: `port` becomes its serial port. `spoils` says of each answer, by its number, whether it is
-    /// damaged; `None` in place of the PLC: a board that never answers.
+    /// Plugs a board in: `port` becomes its serial port. `spoils` says of each answer, by its
+    /// number, whether it is damaged; `None` in place of the PLC: a board that never answers.
     fn plug_in(port: &Path, plc: Option<SocketAddr>, spoils: fn(usize) -> bool) -> Board {
         let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
         grantpt(&master).unwrap();
@@ -57,7 +58,13 @@ impl Drop for Board {
     }
 }
 
-fn work(mut line: File, plc: Option<SocketAddr>, spoils: fn(usize) -> bool, is_over: &AtomicBool, heard: &AtomicUsize) {
+fn work(
+    mut line: File,
+    plc: Option<SocketAddr>,
+    spoils: fn(usize) -> bool,
+    is_over: &AtomicBool,
+    heard: &AtomicUsize,
+) {
     let mut plc = plc.map(|address| TcpStream::connect(address).unwrap());
     let (mut received, mut last) = (Vec::new(), Instant::now());
     while !is_over.load(Ordering::Relaxed) {
@@ -69,7 +76,8 @@ fn work(mut line: File, plc: Option<SocketAddr>, spoils: fn(usize) -> bool, is_o
                 continue;
             }
             // EIO: nobody has the port open.
-            Err(error) if error.kind() == ErrorKind::WouldBlock || error.raw_os_error() == Some(5) => {}
+            Err(error)
+                if error.kind() == ErrorKind::WouldBlock || error.raw_os_error() == Some(5) => {}
             Err(error) => panic!("{error}"),
         }
         if received.is_empty() || last.elapsed() < PAUSE {
@@ -126,7 +134,7 @@ fn every_function_goes_over_the_line() {
     good(&["read-program", "-o", image.to_str().unwrap()]);
     assert!(good(&["compare", image.to_str().unwrap()]).starts_with("the same program"));
     assert!(good(&["trace", "MW4", "--every", "1"]).starts_with("time_ms,scan,MW4\n"));
-    assert_eq!(good(&["stop"]), "STOP\n");
+    assert_eq!(good(&["stop"]), "STOP\nnot forced any more: I0.0 = 1, MW22 = 5\n");
     let (code, _, errors) = told(&output(&port, &["set", "I0.0=1"]));
     assert!(code == Some(1) && errors.contains("exception 2"), "{errors}");
 }
@@ -180,7 +188,8 @@ fn a_cable_that_is_unplugged_and_plugged_in_again() {
     let port = test.folder.path().join("port");
     let board = Board::plug_in(&port, Some(test.plc.address), |_| false);
     let watch = ["watch", "MW4", "--for", "6s", "--every", "50ms", "--format", "csv"];
-    let child = command(&port, &watch).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let child =
+        command(&port, &watch).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     sleep(Duration::from_millis(1000));
     drop(board);
     sleep(Duration::from_millis(700));
@@ -188,7 +197,8 @@ fn a_cable_that_is_unplugged_and_plugged_in_again() {
     let (code, text, errors) = told(&child.wait_with_output().unwrap());
     assert_eq!(code, Some(0), "{errors}");
     assert!(errors.contains("waiting for the connection"), "{errors}");
-    let times: Vec<f64> = text.lines().skip(1).map(|row| row.split(',').next().unwrap().parse().unwrap()).collect();
+    let times: Vec<f64> =
+        text.lines().skip(1).map(|row| row.split(',').next().unwrap().parse().unwrap()).collect();
     let is_there = |from: f64, to: f64| times.iter().any(|time| (from..to).contains(time));
     assert!(is_there(0.0, 1000.0) && is_there(3500.0, 6000.0), "{times:?}\n{errors}");
 }

@@ -1,16 +1,18 @@
-//! A controller in the test's own hands, reached through the answers that board and simulator give as well. Every
-//! question takes scans; what each scan executed is written down by an observer of its own.
+//! A controller in the test's own hands, reached through the answers that board and simulator give
+//! as well. Every question takes scans; what each scan executed is written down by an observer of
+//! its own.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::time::Duration;
 
 use awl_sim::plant::{self, Plant, parse_spec};
+use client::Error;
 use plc_isa::{AnalogInput, LogicStack};
 use plc_link::{Command, Link, ScanTimes, Station, answer, status};
 use plc_vm::{Environment, Inputs, Memory, Mode, Plc};
+use uno200::Client;
 use uno200::transport::Transport;
-use uno200::{Client, Error};
 
 /// What drives the inputs.
 pub enum Feeder {
@@ -36,7 +38,7 @@ pub struct Bench {
     scans_left: u16,
     /// Scans that have been done.
     pub scans: u32,
-    /// The logic stack behind each instruction of the last scan, by its offset.
+    /// The logic stack after each instruction of the last scan, by its offset.
     pub observed: HashMap<u16, u16>,
 }
 
@@ -114,7 +116,7 @@ impl Bench {
         match self.wanted.take() {
             Some(Command::Run) => drop(self.plc.run()),
             Some(Command::Scans(count)) => {
-                self.plc.run();
+                self.plc.go_on();
                 self.scans_left = count;
             }
             _ => {}
@@ -124,10 +126,12 @@ impl Bench {
         self.observed.clear();
         if self.plc.mode() == Mode::Run {
             let entries = self.link.status_entries();
-            // Forces are applied to what the scan reads: the inputs are taken in here, not by the scan.
+            // Forces are applied to what the scan reads: the inputs are taken in here, not by the
+            // scan.
             let mut inputs = self.inputs;
             self.force(&mut inputs);
-            let mut observer = Observer { now_ms: self.now_ms, entries, looped: 0, observed: &mut self.observed };
+            let mut observer =
+                Observer { now_ms: self.now_ms, entries, looped: 0, observed: &mut self.observed };
             self.plc.scan(&mut self.memory, &inputs, &mut observer);
             self.link.forces.apply(&mut self.memory);
             self.times.enter(1600 + 7 * (self.times.scans % 13));
@@ -137,6 +141,12 @@ impl Bench {
             }
             self.scans_left = self.scans_left.saturating_sub(1);
         }
+    }
+
+    /// A single scan that somebody else commands.
+    pub fn single_scan(&mut self) {
+        self.wanted = Some(Command::Scans(1));
+        self.scan();
     }
 
     /// A request and its answer.
@@ -168,7 +178,8 @@ impl Bench {
         match &mut self.feeder {
             Feeder::Plant(plant) => {
                 plant.step(self.now_ms.into(), outputs, &mut self.plant_inputs);
-                self.inputs.digital[0] = (0..6).map(|n| u8::from(self.plant_inputs.digital(n)) << n).sum();
+                self.inputs.digital[0] =
+                    (0..6).map(|n| u8::from(self.plant_inputs.digital(n)) << n).sum();
                 for channel in 0..6 {
                     let counts = self.plant_inputs.analog(channel);
                     self.inputs.raw[usize::from(channel)] = counts;
@@ -226,7 +237,8 @@ impl Station for Bench {
 }
 
 thread_local! {
-    /// The benches of this thread: a plant stays where it was made, but a way must be able to go elsewhere.
+    /// The benches of this thread: a plant stays where it was made, but a way must be able to go
+    /// elsewhere.
     static BENCHES: RefCell<Vec<Bench>> = const { RefCell::new(Vec::new()) };
 }
 
@@ -245,7 +257,9 @@ impl Transport for Way {
     fn exchange(&mut self, request: &[u8], _: Duration) -> Result<Vec<u8>, Error> {
         let answer = self.with(|bench| bench.exchange(request));
         match answer[..] {
-            [first, exception] if first & 0x80 != 0 => Err(Error::Refused { function: first & 0x7F, exception }),
+            [first, exception] if first & 0x80 != 0 => {
+                Err(Error::Refused { function: first & 0x7F, exception })
+            }
             _ => Ok(answer),
         }
     }

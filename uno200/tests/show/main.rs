@@ -1,5 +1,5 @@
-//! The terminal view with a controller behind it: power flow as an independent observer sees it, what the keys do to the
-//! PLC, and the picture in the documentation.
+//! The terminal view with a controller after it: power flow as an independent observer sees it,
+//! what the keys do to the PLC, and the picture in the documentation.
 
 mod bench;
 mod flow;
@@ -7,7 +7,7 @@ mod orders;
 mod picture;
 
 use awl_asm::files::read_source;
-use uno200::Program;
+use client::Program;
 
 /// A program of the examples.
 fn example(name: &str) -> Program {

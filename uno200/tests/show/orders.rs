@@ -2,11 +2,12 @@
 
 use std::sync::mpsc::{Sender, channel};
 
-use ratatui::crossterm::event::{KeyCode, KeyEvent};
-use uno200::show::Action;
+use client::Program;
+use client::show::model::Flow;
+use client::show::state::{Agreement, State};
+use client::show::{Action, Key};
+use uno200::Client;
 use uno200::show::poll::{Message, Poller};
-use uno200::show::state::{Agreement, State};
-use uno200::{Client, Program};
 
 use crate::bench::{Bench, connect};
 use crate::example;
@@ -36,9 +37,9 @@ impl View {
     }
 
     fn keys(&mut self, keys: &str) {
-        for key in keys.chars() {
-            let code = if key == '\n' { KeyCode::Enter } else { KeyCode::Char(key) };
-            if let Action::Order(order) = self.state.key(KeyEvent::from(code)) {
+        for character in keys.chars() {
+            let key = if character == '\n' { Key::Enter } else { Key::Char(character) };
+            if let Action::Order(order) = self.state.key(key) {
                 self.to_poller.send(Message::Order(order)).unwrap();
             }
         }
@@ -55,6 +56,13 @@ impl View {
     fn value(&self) -> Option<u32> {
         self.state.selected_operand().and_then(|(_, value)| value)
     }
+}
+
+/// What the view shows of a line: the mark, and whether there is a value.
+fn shown(view: &View, text: &str) -> (Option<Flow>, Option<u32>) {
+    let row = view.state.model.rows.iter().find(|row| row.text.starts_with(text)).unwrap();
+    let instruction = row.instruction().unwrap();
+    (view.state.flow(instruction), view.state.value(instruction, instruction.result))
 }
 
 fn program(text: &str) -> Program {
@@ -96,10 +104,20 @@ fn setting_and_refusing() {
     view.state.operand = 1;
     assert_eq!(view.value(), Some(0xFFF9), "it was moved on");
     view.keys("s99999\n");
-    assert!(view.state.message.as_ref().is_some_and(|(text, is_bad)| *is_bad && text.contains("-32768")));
+    assert!(
+        view.state
+            .message
+            .as_ref()
+            .is_some_and(|(text, is_bad)| *is_bad && text.contains("-32768"))
+    );
     view.select("TON");
     view.keys("f");
-    assert!(view.state.message.as_ref().is_some_and(|(text, is_bad)| *is_bad && text.contains("cannot be forced")));
+    assert!(
+        view.state
+            .message
+            .as_ref()
+            .is_some_and(|(text, is_bad)| *is_bad && text.contains("cannot be forced"))
+    );
 }
 
 #[test]
@@ -114,9 +132,96 @@ fn stop_needs_a_yes_and_scans_are_single() {
     assert!(!is_running(&view));
     let scans = view.state.identity.as_ref().unwrap().scans;
     view.keys(" ");
-    assert_eq!((view.state.identity.as_ref().unwrap().scans, is_running(&view)), (scans + 1, false));
+    assert_eq!(
+        (view.state.identity.as_ref().unwrap().scans, is_running(&view)),
+        (scans + 1, false)
+    );
     view.keys("r");
     assert!(is_running(&view));
+}
+
+#[test]
+fn a_single_scan_shows_what_it_did() {
+    let text = "LD I0.0\n= Q0.0\nLDN I0.0\nJMP 1\nLD I0.0\nMOVB IB0, VB0\nLBL 1\n";
+    let program = program(text);
+    let (bench, client) = connect(Bench::with_random(&program.image, 7));
+    let mut view = View::new(program, client);
+    view.keys("ty");
+    assert!(view.state.executed.is_empty(), "of RUN, not of the last scan");
+    let (mut on, mut off) = (0, 0);
+    for _ in 0..40 {
+        view.keys(" ");
+        assert!(view.state.scanned.is_some());
+        assert_eq!(view.state.known_of_scan(), (7, 7));
+        // The scans in STOP that the questions took have new inputs, and execute nothing.
+        let (flow, value) = shown(&view, "LD I0.0");
+        let is_on = value == Some(1);
+        assert_eq!(flow, Some(if is_on { Flow::On } else { Flow::Off }));
+        assert_eq!(shown(&view, "= Q0.0"), (flow, value));
+        let moved = if is_on { Flow::On } else { Flow::NotExecuted };
+        assert_eq!(shown(&view, "MOVB").0, Some(moved));
+        view.select("MOVB");
+        view.state.operand = 0;
+        assert_eq!(view.value(), None, "what the inputs are now was not in the scan");
+        on += usize::from(is_on);
+        off += usize::from(!is_on);
+        view.select("LD I0.0");
+    }
+    assert!(on > 5 && off > 5, "{on}, {off}");
+    // Somebody else has a scan executed: what is shown would be of another one.
+    bench.with(|bench| bench.single_scan());
+    view.go_on();
+    assert!(view.state.executed.is_empty() && view.state.scanned.is_none());
+    view.keys(" ");
+    view.keys("r");
+    assert!(view.state.scanned.is_none() && !view.state.executed.is_empty(), "RUN");
+}
+
+#[test]
+fn of_a_single_scan_one_window_is_known() {
+    let text: String = (0..40).map(|bit| format!("LD I0.{}\n= M{}.0\n", bit % 6, bit)).collect();
+    let text = text.replace("M32", "V0").replace("M33", "V1").replace("M34", "V2");
+    let text = text.replace("M35", "V3").replace("M36", "V4").replace("M37", "V5");
+    let text = text.replace("M38", "V6").replace("M39", "V7");
+    let program = program(&text);
+    let (bench, client) = connect(Bench::with_random(&program.image, 3));
+    let mut view = View::new(program, client);
+    view.state.resize(60);
+    view.keys("ty");
+    for line in [0, 30, 59] {
+        view.state.select(line);
+        let scans = bench.with(|bench| bench.scans);
+        view.keys(" ");
+        assert_eq!(bench.with(|bench| bench.scans), scans + 1, "one scan, not one a window");
+        assert_eq!(view.state.known_of_scan(), (60, 24));
+        let known = |line: usize| {
+            let instruction = view.state.model.rows[line].instruction().unwrap();
+            view.state.flow(instruction).is_some()
+        };
+        assert!(known(line), "line {line}, which is selected");
+        assert_eq!((0..60).filter(|&line| known(line)).count(), 24);
+        let rows: Vec<usize> = (0..60).filter(|&line| known(line)).collect();
+        assert_eq!(rows[23] - rows[0], 23, "side by side");
+    }
+}
+
+#[test]
+fn what_ends_with_stop_is_told() {
+    let mut view = view(TEXT);
+    view.select("LD I0.0");
+    view.keys("f");
+    view.keys("ty");
+    assert!(view.state.forced.is_empty());
+    let message = view.state.message.clone().unwrap();
+    assert_eq!(message, ("not forced any more: I0.0".to_owned(), true));
+    // Forced in STOP, it holds from one single scan to the next.
+    view.keys("f");
+    for _ in 0..3 {
+        view.keys(" ");
+        let forced = view.state.forced.values().copied().next();
+        assert!(forced.is_some());
+        assert_eq!(shown(&view, "= Q0.0").1, forced);
+    }
 }
 
 #[test]
@@ -144,8 +249,14 @@ fn every_visible_line_of_an_example_gets_its_values() {
             for row in &view.state.model.rows[view.state.visible()] {
                 let Some(instruction) = row.instruction() else { continue };
                 assert!(view.state.flow(instruction).is_some(), "{name}: {}", row.text);
-                for (index, watched) in instruction.operands.iter().enumerate().filter(|(_, one)| !one.is_local) {
-                    assert!(view.state.value(instruction, index).is_some(), "{name}: {} {watched:?}", row.text);
+                for (index, watched) in
+                    instruction.operands.iter().enumerate().filter(|(_, one)| !one.is_local)
+                {
+                    assert!(
+                        view.state.value(instruction, index).is_some(),
+                        "{name}: {} {watched:?}",
+                        row.text
+                    );
                 }
             }
         }

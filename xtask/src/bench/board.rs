@@ -1,5 +1,5 @@
-//! The board's part: runs the measuring program, holds its figures against the budgets, against the S7-200 and against
-//! those of docs/benchmarks.csv, and writes them there.
+//! The board's part: runs the measuring program, holds its figures against the budgets, against the
+//! S7-200 and against those of docs/benchmarks.csv, and writes them there.
 
 use std::fs;
 
@@ -10,25 +10,26 @@ use super::costs;
 use super::exceptions;
 use super::page;
 use super::record::{Record, parse_all, text_of};
-use crate::process::{cargo, root};
-use crate::test::WITH_BOARD;
+use crate::process::{WITH_BOARD, cargo, root};
 use crate::{firmware, packages};
 
 const FIGURES: &str = "docs/benchmarks.csv";
 const PAGE: &str = "docs/benchmarks.md";
 /// What the assembler knows about modules.
-const COSTS: &str = "awl-asm/src/cost/modules.rs";
+const COSTS: &str = "awl-asm/src/output/cost/modules.rs";
 
-/// Share by which a figure may change without being a change. What the assembler engine does is exact; another version
-/// of the compiler makes other code of the rest.
+/// Share by which a figure may change without being a change. What the assembler engine does is
+/// exact; another version of the compiler makes other code of the rest.
 const TOLERANCE: f64 = 0.03;
 
-/// Measures and writes the files, unless something has become slower. Then prints what misses its budget.
+/// Measures and writes the files, unless something has become slower. Then prints what misses its
+/// budget.
 pub fn write() -> Result<()> {
     let records = measure()?;
     if root().join(FIGURES).exists() {
-        let bad =
-            changes(&known()?, &records).into_iter().filter(|change| matches!(change.kind, Kind::Worse | Kind::Gone));
+        let bad = changes(&known()?, &records)
+            .into_iter()
+            .filter(|change| matches!(change.kind, Kind::Worse | Kind::Gone));
         report("worse than in docs/benchmarks.csv (delete the file if it has to be so)", bad)?;
     }
     put(FIGURES, &text_of(&records))?;
@@ -42,20 +43,28 @@ pub fn write() -> Result<()> {
 pub fn check() -> Result<()> {
     let (known, records) = (known()?, measure()?);
     for (file, text) in [(PAGE, page::page(&known)), (COSTS, costs::table(&known)?)] {
-        let kept = fs::read_to_string(root().join(file)).with_context(|| format!("cannot read {file}"))?;
+        let kept =
+            fs::read_to_string(root().join(file)).with_context(|| format!("cannot read {file}"))?;
         ensure!(kept == text, "{file} is not what {FIGURES} says: run `cargo xtask bench`");
     }
     let (better, bad): (Vec<_>, Vec<_>) =
         changes(&known, &records).into_iter().partition(|change| change.kind == Kind::Better);
     if !better.is_empty() {
-        println!("{} figures are better than in {PAGE}: `cargo xtask bench` writes them there", better.len());
+        println!(
+            "{} figures are better than in {PAGE}: `cargo xtask bench` writes them there",
+            better.len()
+        );
     }
-    report("not what docs/benchmarks.csv says; `cargo xtask bench` writes it, unless it is worse", bad)?;
+    report(
+        "not what docs/benchmarks.csv says; `cargo xtask bench` writes it, unless it is worse",
+        bad,
+    )?;
     judge(&records)
 }
 
 fn known() -> Result<Vec<Record>> {
-    let text = fs::read_to_string(root().join(FIGURES)).with_context(|| format!("cannot read {FIGURES}"))?;
+    let text = fs::read_to_string(root().join(FIGURES))
+        .with_context(|| format!("cannot read {FIGURES}"))?;
     parse_all(&text).with_context(|| FIGURES.to_string())
 }
 
@@ -70,7 +79,8 @@ fn measure() -> Result<Vec<Record>> {
     let mut command = cargo();
     command.args(["run", "--quiet", "--package", "tests", "--bin", "measure"]).args(WITH_BOARD);
     command.env(awl_asm::firmware::VARIABLE, elf);
-    let output = command.stderr(std::process::Stdio::inherit()).output().context("cannot start cargo")?;
+    let output =
+        command.stderr(std::process::Stdio::inherit()).output().context("cannot start cargo")?;
     ensure!(output.status.success(), "the measuring failed ({})", output.status);
     parse_all(&String::from_utf8(output.stdout)?)
 }
@@ -95,7 +105,10 @@ fn changes(known: &[Record], records: &[Record]) -> Vec<Change> {
     let mut changes = Vec::new();
     for old in known {
         let Some(new) = records.iter().find(|new| new.is_same(old)) else {
-            changes.push(Change { text: format!("{}: not measured any more", old.title()), kind: Kind::Gone });
+            changes.push(Change {
+                text: format!("{}: not measured any more", old.title()),
+                kind: Kind::Gone,
+            });
             continue;
         };
         if old.is_by_chance() {
@@ -106,10 +119,12 @@ fn changes(known: &[Record], records: &[Record]) -> Vec<Change> {
             max if max < old.max * (1.0 - TOLERANCE) => Kind::Better,
             _ => continue,
         };
-        changes.push(Change { text: format!("{}: {}, was {}", old.title(), new.max, old.max), kind });
+        changes
+            .push(Change { text: format!("{}: {}, was {}", old.title(), new.max, old.max), kind });
     }
     let added = records.iter().filter(|new| !known.iter().any(|old| old.is_same(new)));
-    changes.extend(added.map(|new| Change { text: format!("{}: new", new.title()), kind: Kind::New }));
+    changes
+        .extend(added.map(|new| Change { text: format!("{}: new", new.title()), kind: Kind::New }));
     changes
 }
 
@@ -148,16 +163,21 @@ mod tests {
 
     #[test]
     fn the_longest_scans_are_a_matter_of_chance() {
-        let of = |max: u32| records(&[&format!("scan,native,whole scan max,{max},{max},,\"station1\"")]);
+        let of =
+            |max: u32| records(&[&format!("scan,native,whole scan max,{max},{max},,\"station1\"")]);
         assert!(changes(&of(1000), &of(2000)).is_empty());
-        let of = |max: u32| records(&[&format!("scan,native,whole scan median,{max},{max},,\"station1\"")]);
+        let of = |max: u32| {
+            records(&[&format!("scan,native,whole scan median,{max},{max},,\"station1\"")])
+        };
         assert_eq!(changes(&of(1000), &of(2000)).len(), 1);
     }
 
     #[test]
     fn a_figure_that_is_three_percent_higher_is_a_change_for_the_worse() {
-        let known =
-            records(&["scan,native,program,400,400,,\"station1\"", "scan,native,period,900,1000,,\"station1\""]);
+        let known = records(&[
+            "scan,native,program,400,400,,\"station1\"",
+            "scan,native,period,900,1000,,\"station1\"",
+        ]);
         let found = |program: u32, period: u32| {
             let lines = [
                 format!("scan,native,program,{program},{program},,\"station1\""),
@@ -169,7 +189,9 @@ mod tests {
         assert!(found(400, 1000).is_empty() && found(412, 970).is_empty());
         assert_eq!(found(413, 1000), [Kind::Worse]);
         assert_eq!(found(400, 960), [Kind::Better]);
-        let kinds = |known, records| changes(known, records).iter().map(|change| change.kind).collect::<Vec<_>>();
+        let kinds = |known, records| {
+            changes(known, records).iter().map(|change| change.kind).collect::<Vec<_>>()
+        };
         assert_eq!(kinds(&known, &known[..1]), [Kind::Gone]);
         assert_eq!(kinds(&known[..1], &known), [Kind::New]);
     }

@@ -28,7 +28,11 @@ impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let value = self.value.map_or("not measured".to_string(), |value| format!("{value:.2}"));
         let verdict = if self.is_met() { "good" } else { "MISSED" };
-        write!(f, "{:<58} {value:>12} {:<18} budget <= {:<8} {verdict}", self.title, self.unit, self.budget)
+        write!(
+            f,
+            "{:<58} {value:>12} {:<18} budget <= {:<8} {verdict}",
+            self.title, self.unit, self.budget
+        )
     }
 }
 
@@ -44,12 +48,32 @@ const BUDGETS: [(About, f64, &str); 15] = [
     ((INTERPRETER, WORD, "mix"), budgets::INTERPRETER_WORD_CYCLES_MAX, "cycles"),
     ((INTERPRETER, "cycles", "1024-step 80/20"), budgets::INTERPRETER_STEPS_CYCLES_MAX, "cycles"),
     ((INTERPRETER, "program max", "station1"), budgets::INTERPRETER_STATION_CYCLES_MAX, "cycles"),
-    ((INTERPRETER, "whole scan median", "station1"), budgets::INTERPRETER_STATION_SCAN_CYCLES_MAX, "cycles"),
+    (
+        (INTERPRETER, "whole scan median", "station1"),
+        budgets::INTERPRETER_STATION_SCAN_CYCLES_MAX,
+        "cycles",
+    ),
     ((INTERPRETER, "overhead", "station1"), budgets::SCAN_OVERHEAD_CYCLES_MAX, "cycles"),
-    ((INTERPRETER, "bytes an instruction", "station1"), budgets::CODE_BYTES_PER_INSTRUCTION_MAX, "bytes"),
-    ((INTERPRETER, "bytes an instruction", "1024-step 80/20"), budgets::CODE_BYTES_PER_INSTRUCTION_MAX, "bytes"),
-    ((NATIVE_IN_SRAM, "cycles an instruction", "1K Boolean"), budgets::NATIVE_BIT_CYCLES_MAX, "cycles"),
-    ((NATIVE, "cycles an instruction", "1K Boolean"), budgets::NATIVE_PINNED_BIT_CYCLES_MAX, "cycles"),
+    (
+        (INTERPRETER, "bytes an instruction", "station1"),
+        budgets::CODE_BYTES_PER_INSTRUCTION_MAX,
+        "bytes",
+    ),
+    (
+        (INTERPRETER, "bytes an instruction", "1024-step 80/20"),
+        budgets::CODE_BYTES_PER_INSTRUCTION_MAX,
+        "bytes",
+    ),
+    (
+        (NATIVE_IN_SRAM, "cycles an instruction", "1K Boolean"),
+        budgets::NATIVE_BIT_CYCLES_MAX,
+        "cycles",
+    ),
+    (
+        (NATIVE, "cycles an instruction", "1K Boolean"),
+        budgets::NATIVE_PINNED_BIT_CYCLES_MAX,
+        "cycles",
+    ),
     ((NATIVE_IN_SRAM, BIT, "mix"), budgets::NATIVE_BIT_CYCLES_MAX, "cycles"),
     ((NATIVE, BIT, "mix"), budgets::NATIVE_PINNED_BIT_CYCLES_MAX, "cycles"),
     ((NATIVE, "cycles", "1024-step 80/20"), budgets::NATIVE_STEPS_CYCLES_MAX, "cycles"),

@@ -1,5 +1,5 @@
-//! Groups of instructions against the S7-200, for docs/benchmarks.md: how much slower or faster the board is. It
-//! measures nothing.
+//! Groups of instructions against the S7-200, for docs/benchmarks.md: how much slower or faster the
+//! board is. It measures nothing.
 
 use super::exceptions::CYCLES_A_US;
 use super::record::{INTERPRETER, NATIVE, Record, TYPICAL, find};
@@ -13,13 +13,22 @@ const GROUPS: &[Group] = &[
     ("contacts of 1 ms timers", &["LD T32"]),
     ("contacts of V", &["LD V", "LDN V", "A V", "AN V", "O V", "ON V"]),
     ("contacts of M, T, C", &["LD ", "LDN ", "A ", "AN ", "O ", "ON "]),
-    ("NOT, logic stack, LBL", &["NOT", "NOP", "ALD", "OLD", "LPS", "LRD", "LPP", "LDS 1", "LDS 8", "LBL"]),
+    (
+        "NOT, logic stack, LBL",
+        &["NOT", "NOP", "ALD", "OLD", "LPS", "LRD", "LPP", "LDS 1", "LDS 8", "LBL"],
+    ),
     ("EU ED", &["EU", "ED"]),
     ("= of Q, M, S, V", &["= "]),
-    ("S R of 1 bit", &["S Q0.{b}, 1", "S M1.{b}, 1", "S V0.{b}, 1", "R Q0.{b}, 1", "R M1.{b}, 1", "R V0.{b}, 1"]),
+    (
+        "S R of 1 bit",
+        &["S Q0.{b}, 1", "S M1.{b}, 1", "S V0.{b}, 1", "R Q0.{b}, 1", "R M1.{b}, 1", "R V0.{b}, 1"],
+    ),
     ("S R of a count that is read", &["S M1.{b}, MB29", "R M1.{b}, MB29", "S V100", "R V100"]),
     ("S R of 8 to 255 bits", &["S M", "S V0", "R M", "R V0"]),
-    ("comparisons by pointer", &["LDB{x} *", "AB{x} *", "OB{x} *", "LDW{x} *", "AW{x} *", "OW{x} *"]),
+    (
+        "comparisons by pointer",
+        &["LDB{x} *", "AB{x} *", "OB{x} *", "LDW{x} *", "AW{x} *", "OW{x} *"],
+    ),
     ("comparisons of bytes and words", &["LDB", "AB", "OB", "LDW", "AW", "OW"]),
     ("comparisons of double words", &["LDD", "AD", "OD"]),
     ("comparisons of reals", &["LDR", "AR", "OR{x}"]),
@@ -62,7 +71,8 @@ const GROUPS: &[Group] = &[
 /// The name of what no group names.
 const OTHERS: &str = "others";
 
-/// Times of the CPU 226XM, an edition before, from the German manual (reference 5.1): row, what it is there, us.
+/// Times of the CPU 226XM, an edition before, from the German manual (docs/s7-200.md 5.1): row,
+/// what it is there, us.
 const VERIFIED: &[(&str, &str, f64)] = &[
     ("R M1.{b}, 1", "R, length 1 as a constant, not of T and C", 5.0),
     ("R M1.{b}, 8", "R, 28 + 0.9 a bit", 28.0 + 8.0 * 0.9),
@@ -76,7 +86,8 @@ const VERIFIED: &[(&str, &str, f64)] = &[
     ("RCV VB0, 0", "", 80.0),
 ];
 
-/// A line of the comparison: the group, then our times and theirs in us, each the least and the most of its rows.
+/// A line of the comparison: the group, then our times and theirs in us, each the least and the
+/// most of its rows.
 pub struct Line {
     /// The group.
     pub title: &'static str,
@@ -99,7 +110,8 @@ pub fn lines(records: &[Record]) -> Vec<Line> {
 /// A verified time: row, what it is there, ours in us and theirs.
 pub fn verified(records: &[Record]) -> Vec<(&'static str, &'static str, f64, f64)> {
     let of = |&(name, what, us): &(&'static str, &'static str, f64)| {
-        let ours = find(records, INTERPRETER, TYPICAL, name).or_else(|| find(records, INTERPRETER, "cycles", name));
+        let ours = find(records, INTERPRETER, TYPICAL, name)
+            .or_else(|| find(records, INTERPRETER, "cycles", name));
         Some((name, what, ours?.max / CYCLES_A_US, us))
     };
     VERIFIED.iter().filter_map(of).collect()
@@ -113,14 +125,19 @@ fn group_of(name: &str) -> &'static str {
 fn line(records: &[Record], title: &'static str) -> Option<Line> {
     let is_row = |record: &&Record| {
         let is_time = record.what == TYPICAL || record.what == "cycles";
-        record.tier == INTERPRETER && is_time && record.quoted_us.is_some() && group_of(&record.name) == title
+        record.tier == INTERPRETER
+            && is_time
+            && record.quoted_us.is_some()
+            && group_of(&record.name) == title
     };
     let rows: Vec<&Record> = records.iter().filter(is_row).collect();
     let ours = spread(rows.iter().map(|row| row.max / CYCLES_A_US))?;
     let theirs = spread(rows.iter().filter_map(|row| row.quoted_us))?;
     let native: Vec<f64> = rows
         .iter()
-        .filter_map(|row| find(records, NATIVE, &row.what, &row.name).map(|record| record.max / CYCLES_A_US))
+        .filter_map(|row| {
+            find(records, NATIVE, &row.what, &row.name).map(|record| record.max / CYCLES_A_US)
+        })
         .collect();
     let sum = |values: &mut dyn Iterator<Item = f64>| values.sum::<f64>();
     let quoted = sum(&mut rows.iter().filter_map(|row| row.quoted_us));
@@ -138,7 +155,9 @@ fn line(records: &[Record], title: &'static str) -> Option<Line> {
 
 /// The least and the most; `None` of nothing.
 fn spread(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
-    values.map(|value| [value, value]).reduce(|[least, most], [value, _]| [least.min(value), most.max(value)])
+    values
+        .map(|value| [value, value])
+        .reduce(|[least, most], [value, _]| [least.min(value), most.max(value)])
 }
 
 #[cfg(test)]
@@ -148,8 +167,11 @@ mod tests {
 
     #[test]
     fn a_row_belongs_to_the_first_group_that_names_it() {
-        let titles = ["A I0.{b}", "A M1.{b}", "OR VD4, VD8", "ORW VW4, VW8", "MOVD *AC1, VD8", "NETR"].map(group_of);
-        let known = ["contacts of I and SM", "contacts of M, T, C", "INV AND OR XOR", "INV AND OR XOR"];
+        let titles =
+            ["A I0.{b}", "A M1.{b}", "OR VD4, VD8", "ORW VW4, VW8", "MOVD *AC1, VD8", "NETR"]
+                .map(group_of);
+        let known =
+            ["contacts of I and SM", "contacts of M, T, C", "INV AND OR XOR", "INV AND OR XOR"];
         assert_eq!(titles[..4], known);
         assert_eq!(titles[4..], ["moves by pointer", OTHERS]);
     }
@@ -157,7 +179,8 @@ mod tests {
     #[test]
     fn a_group_is_as_fast_as_all_of_it() {
         let text = format!(
-            "{HEAD}\nx,interpreter,cycles,16,16,3,\"EU\"\nx,interpreter,cycles,32,48,5,\"ED\"\nx,native,cycles,8,8,3,\"EU\"\n\
+            "{HEAD}\nx,interpreter,cycles,16,16,3,\"EU\"\nx,interpreter,cycles,32,48,5,\"ED\"\n\
+                x,native,cycles,8,8,3,\"EU\"\n\
              x,native,cycles,24,24,5,\"ED\"\n"
         );
         let lines = lines(&parse_all(&text).unwrap());

@@ -1,4 +1,5 @@
-//! No instruction is slower than what is quoted for the S7-200, except those that are listed here with their reason.
+//! No instruction is slower than what is quoted for the S7-200, except those that are listed here
+//! with their reason.
 
 use super::record::{INTERPRETER, NATIVE, NATIVE_IN_SRAM, Record, TIERS, TYPICAL};
 
@@ -9,7 +10,8 @@ pub const CYCLES_A_US: f64 = 16.0;
 pub struct Exception {
     /// How they are executed.
     pub tiers: &'static [&'static str],
-    /// `without power flow`, `cycles`, or `typical cycles` of instructions whose time goes with values.
+    /// `without power flow`, `cycles`, or `typical cycles` of instructions whose time goes with
+    /// values.
     pub what: &'static str,
     /// What the names of their rows begin with.
     pub names: &'static [&'static str],
@@ -48,12 +50,18 @@ pub static EXCEPTIONS: &[Exception] = &[
         names: &["= V0", "S V0.{b}, 1", "R V0.{b}, 1"],
         reason: "a bit of V is named by a word, from which byte and mask are made",
     },
-    Exception { tiers: BYTECODE, what: WITH, names: &["JMP"], reason: "a label is looked up in the table of labels" },
+    Exception {
+        tiers: BYTECODE,
+        what: WITH,
+        names: &["JMP"],
+        reason: "a label is looked up in the table of labels",
+    },
     Exception {
         tiers: &TIERS,
         what: WITH,
         names: &["S M1.{b}, MB29", "R M1.{b}, MB29"],
-        reason: "a count that is read in the scan is checked against the end of the area, by a module",
+        reason: "a count that is read in the scan is checked against the end of the area, by a \
+            module",
     },
     Exception {
         tiers: TRANSLATED,
@@ -90,9 +98,14 @@ pub static EXCEPTIONS: &[Exception] = &[
         tiers: TRANSLATED,
         what: WITH,
         names: &["LDN I", "A I", "AN I", "O I", "ON I"],
-        reason: "when the byte neither stands in a register nor was used just before; else 2 cycles",
+        reason: "when the byte neither is in a register nor was used just before; else 2 cycles",
     },
-    Exception { tiers: TRANSLATED, what: WITH, names: &["STOP"], reason: "with the way out of the engine" },
+    Exception {
+        tiers: TRANSLATED,
+        what: WITH,
+        names: &["STOP"],
+        reason: "with the way out of the engine",
+    },
     Exception {
         tiers: BYTECODE,
         what: TYPICAL,
@@ -103,7 +116,8 @@ pub static EXCEPTIONS: &[Exception] = &[
         tiers: BYTECODE,
         what: TYPICAL,
         names: &["SCRT", "CSCRE", "DTCH"],
-        reason: "rare: written to be small, what DTCH forgets is looked for in the queues of events",
+        reason: "rare: written to be small, what DTCH forgets is looked for in the queues of \
+            events",
     },
     Exception {
         tiers: BYTECODE,
@@ -136,7 +150,10 @@ pub fn breaches(records: &[Record]) -> Vec<String> {
         for name in exception.names {
             let mut needed = slower.iter().filter_map(|record| exception_of(record));
             if !needed.any(|(found, by)| std::ptr::eq(found, exception) && by == *name) {
-                breaches.push(format!("{name} ({}): an exception that is not needed", exception.reason));
+                breaches.push(format!(
+                    "{name} ({}): an exception that is not needed",
+                    exception.reason
+                ));
             }
         }
     }
@@ -153,14 +170,16 @@ mod tests {
     use super::*;
 
     fn record(tier: &str, what: &str, cycles: f64, us: f64, name: &str) -> Record {
-        let (section, tier, what, name) = ("x".to_string(), tier.to_string(), what.to_string(), name.to_string());
+        let (section, tier, what, name) =
+            ("x".to_string(), tier.to_string(), what.to_string(), name.to_string());
         Record { section, tier, what, min: cycles, max: cycles, quoted_us: Some(us), name }
     }
 
     #[test]
     fn only_what_is_listed_may_be_slower() {
-        let of =
-            |records: &[Record]| breaches(records).into_iter().filter(|text| text.contains("the S7-200 takes")).count();
+        let of = |records: &[Record]| {
+            breaches(records).into_iter().filter(|text| text.contains("the S7-200 takes")).count()
+        };
         assert_eq!(of(&[record(INTERPRETER, WITH, 19.0, 0.22, "LD I0.{b}")]), 0);
         assert_eq!(of(&[record(NATIVE, WITH, 19.0, 0.22, "LD I0.{b}")]), 1);
         assert_eq!(of(&[record(NATIVE, WITH, 3.5, 0.22, "LD I0.{b}")]), 0);

@@ -1,5 +1,5 @@
-//! `cargo xtask bench`: speed of the board, of the host interpreter and of the assembler, compared with their budgets
-//! and with what was measured before. Writes docs/benchmarks.md.
+//! `cargo xtask bench`: speed of the board, of the host interpreter and of the assembler, compared
+//! with their budgets and with what was measured before. Writes docs/benchmarks.md.
 
 mod board;
 mod budget;
@@ -10,9 +10,9 @@ mod host;
 mod page;
 mod record;
 mod text;
+mod yardstick;
 
 use anyhow::Result;
-pub use page::number;
 
 use crate::process::{cargo, run as run_command};
 
@@ -26,13 +26,24 @@ pub fn run() -> Result<()> {
     host
 }
 
-/// Tries of the gate. One process can be twice as slow as the next without a change of the program: where its pages
-/// and branches fall is luck. A program that has become slow is slow in all of them.
+/// Tries of the gate. One process can be twice as slow as the next without a change of the program:
+/// where its pages and branches fall is luck. A program that has become slow is slow in all of
+/// them.
 const TRIES: usize = 3;
 
 /// The budgets of the host, from an unoptimised xtask: a release build does the measuring.
 pub fn gate() -> Result<()> {
-    let measure = || run_command(cargo().args(["run", "--quiet", "--release", "--package", "xtask", "--", "bench"]));
+    let measure = || {
+        run_command(cargo().args([
+            "run",
+            "--quiet",
+            "--release",
+            "--package",
+            "xtask",
+            "--",
+            "bench",
+        ]))
+    };
     let mut result = measure();
     for _ in 1..TRIES {
         if result.is_ok() {

@@ -1,4 +1,5 @@
-//! A measured figure of the board, as `tests/src/bin/measure.rs` prints it and docs/benchmarks.csv keeps it.
+//! A measured figure of the board, as `tests/src/bin/measure.rs` prints it and docs/benchmarks.csv
+//! keeps it.
 
 use std::fmt;
 
@@ -41,7 +42,8 @@ impl Record {
         let [section, tier, what, min, max, quoted, name] = fields[..] else {
             anyhow::bail!("not a figure: {line}");
         };
-        let number = |text: &str| text.parse::<f64>().with_context(|| format!("no number in {line}"));
+        let number =
+            |text: &str| text.parse::<f64>().with_context(|| format!("no number in {line}"));
         let quoted_us = if quoted.is_empty() { None } else { Some(number(quoted)?) };
         let (section, tier, what) = (section.to_string(), tier.to_string(), what.to_string());
         let name = name.trim_matches('"').to_string();
@@ -50,18 +52,20 @@ impl Record {
 
     /// Whether both are measurements of the same thing.
     pub fn is_same(&self, other: &Record) -> bool {
-        (&self.section, &self.tier, &self.what, &self.name) == (&other.section, &other.tier, &other.what, &other.name)
+        (&self.section, &self.tier, &self.what, &self.name)
+            == (&other.section, &other.tier, &other.what, &other.name)
     }
 
-    /// Whether the figure depends on how the ticks of the clock fall among the scans: the start of a build that is
-    /// otherwise the same, at another path, shifts them.
+    /// Whether the figure depends on how the ticks of the clock fall among the scans: the start of
+    /// a build that is otherwise the same, at another path, shifts them.
     pub fn is_by_chance(&self) -> bool {
         self.section == "scan"
             && !self.what.starts_with("program")
             && ["max", "p99", "mean"].iter().any(|word| self.what.ends_with(word))
     }
 
-    /// What each of something takes, of what, and how many there are in the row: of `each word of 8`.
+    /// What each of something takes, of what, and how many there are in the row: of `each word of
+    /// 8`.
     pub fn each(&self) -> Option<(f64, &str, u32)> {
         let (unit, usual) = self.what.strip_prefix("each ")?.split_once(" of ")?;
         Some((self.max, unit, usual.parse().ok()?))
@@ -99,7 +103,7 @@ pub fn text_of(records: &[Record]) -> String {
 
 /// The figure of this name.
 pub fn find<'a>(records: &'a [Record], tier: &str, what: &str, name: &str) -> Option<&'a Record> {
-    records
-        .iter()
-        .find(|record| (record.tier.as_str(), record.what.as_str(), record.name.as_str()) == (tier, what, name))
+    records.iter().find(|record| {
+        (record.tier.as_str(), record.what.as_str(), record.name.as_str()) == (tier, what, name)
+    })
 }

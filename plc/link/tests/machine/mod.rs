@@ -9,7 +9,8 @@ use plc_vm::{Environment, Memory, Plc};
 
 /// A program with two ranges of V memory, SMB34, timers, counters and a name.
 pub const PROGRAM: &str = "//# name areas\n\
-    LDN SM0.0\nMOVB VB10, VB20\nMOVW VW100, VW120\nMOVD VD1000, VD1004\nMOVB SMB34, VB21\nFILL 0, VW200, 100\n\
+    LDN SM0.0\nMOVB VB10, VB20\nMOVW VW100, VW120\nMOVD VD1000, VD1004\nMOVB SMB34, VB21\n\
+    FILL 0, VW200, 100\n\
     LDN SM0.0\nTON T37, VW400\nLDN SM0.0\nTON T38, 10\nLDN SM0.0\nTONR T5, 10\n\
     LD I0.0\nLD I0.1\nCTU C5, 10\nLD I0.0\nLD I0.1\nCTU C7, 10\nLD I0.7\n= Q0.0\n";
 
@@ -103,7 +104,8 @@ impl Machine {
         machine
     }
 
-    /// In RUN with a program, the frame behind its memory with `room` bytes, the ring of the trace behind that.
+    /// In RUN with a program, the frame after its memory with `room` bytes, the ring of the trace
+    /// after that.
     pub fn with_room(program: &str, room: u16) -> Machine {
         let mut machine = Machine::empty();
         machine.image = image(program);
@@ -140,9 +142,20 @@ impl Machine {
         for scans in 0..200 {
             let len = answer(self, request.len() as u16);
             if len != 0 {
-                return ((frame..frame + len).map(|address| self.memory.byte(address)).collect(), scans);
+                return (
+                    (frame..frame + len).map(|address| self.memory.byte(address)).collect(),
+                    scans,
+                );
+            }
+            // A single scan that the rest of the answer waits for.
+            let is_single = self.commands.pop_if(|one| *one == Command::Scans(1)).is_some();
+            if is_single {
+                assert!(self.plc.go_on());
             }
             self.scan();
+            if is_single {
+                self.plc.stop();
+            }
         }
         panic!("no answer to {request:02X?}");
     }

@@ -90,7 +90,11 @@ fn read(rng: &mut Rng) -> Vec<u8> {
 
 fn write_one(rng: &mut Rng) -> Vec<u8> {
     let function = rng.u8(5..7);
-    let value = if function == 5 { *pick(rng, &[0, 0xFF00, 0xFF00, 0x00FF, 0x0100, 0xFE00]) } else { rng.u16(..) };
+    let value = if function == 5 {
+        *pick(rng, &[0, 0xFF00, 0xFF00, 0x00FF, 0x0100, 0xFE00])
+    } else {
+        rng.u16(..)
+    };
     [&[function][..], &word(number(rng, function == 5)), &word(value)].concat()
 }
 
@@ -105,13 +109,15 @@ fn write_many(rng: &mut Rng) -> Vec<u8> {
     let function = *pick(rng, &[15, 16]);
     let is_bits = function == 15;
     let count = count(rng, is_bits);
-    [&[function][..], &word(number(rng, is_bits)), &word(count), &values(rng, is_bits, count)].concat()
+    [&[function][..], &word(number(rng, is_bits)), &word(count), &values(rng, is_bits, count)]
+        .concat()
 }
 
 fn read_and_write(rng: &mut Rng) -> Vec<u8> {
     let written = count(rng, false);
     let read = [word(number(rng, false)), word(count(rng, false))].concat();
-    [&[23][..], &read, &word(number(rng, false)), &word(written), &values(rng, false, written)].concat()
+    [&[23][..], &read, &word(number(rng, false)), &word(written), &values(rng, false, written)]
+        .concat()
 }
 
 fn reference(rng: &mut Rng) -> [u8; 3] {
@@ -130,7 +136,12 @@ fn reference(rng: &mut Rng) -> [u8; 3] {
     [area << 4 | size, high, low]
 }
 
-fn entries(rng: &mut Rng, function: u8, most: u8, mut entry: impl FnMut(&mut Rng, &mut Vec<u8>)) -> Vec<u8> {
+fn entries(
+    rng: &mut Rng,
+    function: u8,
+    most: u8,
+    mut entry: impl FnMut(&mut Rng, &mut Vec<u8>),
+) -> Vec<u8> {
     let count = if rng.bool() { rng.u8(0..4) } else { rng.u8(0..=most) };
     let mut bytes = vec![function, count];
     (0..count).for_each(|_| entry(rng, &mut bytes));
@@ -153,7 +164,8 @@ fn force(rng: &mut Rng) -> Vec<u8> {
 
 fn status(rng: &mut Rng) -> Vec<u8> {
     let mut offset = 60;
-    entries(rng, 69, 25, |rng, bytes| {
+    let function = *pick(rng, &[69, 69, 100]);
+    entries(rng, function, 25, |rng, bytes| {
         offset += if rng.u8(0..60) == 0 { 0 } else { rng.u16(1..6) };
         bytes.extend(word(offset));
         let reference = reference(rng);
@@ -166,8 +178,14 @@ fn trace(rng: &mut Rng) -> Vec<u8> {
     if action != 1 {
         return vec![70, action];
     }
-    let mut bytes =
-        [&[70, 1][..], &word(rng.u16(0..4)), &word(rng.u16(0..30)), &[rng.u8(0..6)], &reference(rng)].concat();
+    let mut bytes = [
+        &[70, 1][..],
+        &word(rng.u16(0..4)),
+        &word(rng.u16(0..30)),
+        &[rng.u8(0..6)],
+        &reference(rng),
+    ]
+    .concat();
     let count = rng.u8(0..10);
     bytes.push(count);
     (0..count).for_each(|_| bytes.extend(reference(rng)));

@@ -1,8 +1,8 @@
-//! Integer arithmetic on any operand (reference 1.4 and 9).
+//! Integer arithmetic on any operand (docs/s7-200.md 1.4 and docs/decisions.md).
 
 use plc_isa::{Op, ProgramMemory};
 
-use super::{Execution, Failure};
+use super::execution::{Execution, Failure};
 use crate::environment::Environment;
 use crate::math;
 use crate::references::Width;
@@ -32,7 +32,11 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
     }
 
     /// OUT := `compute(OUT, IN1)`, unless that does not fit.
-    fn combine_integers(&mut self, width: Width, compute: fn(i64, i64) -> i64) -> Result<(), Failure> {
+    fn combine_integers(
+        &mut self,
+        width: Width,
+        compute: fn(i64, i64) -> i64,
+    ) -> Result<(), Failure> {
         let (in1, out) = (self.read(0, width)?, self.target(1, width, 1)?);
         let result = compute(self.get(out, width), in1);
         self.finish_integer(width, result)?;
@@ -58,21 +62,19 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
     }
 
     fn divide(&mut self, width: Width) -> Result<(), Failure> {
-        let (in1, out) = (self.read(0, width)?, self.target(1, width, 1)?);
-        let (quotient, _) = self.quotient(self.get(out, width), in1, width)?;
+        let (divisor, out) = (self.read(0, width)?, self.target(1, width, 1)?);
+        self.check_divisor(divisor)?;
+        let quotient = self.get(out, width) / divisor;
+        self.finish_integer(width, quotient)?;
         self.put(out, width, quotient);
         Ok(())
     }
 
-    /// Quotient and remainder. A zero divisor sets SM1.3 and changes nothing else.
-    fn quotient(&mut self, dividend: i64, divisor: i64, width: Width) -> Result<(i64, i64), Failure> {
+    /// A zero divisor sets SM1.3 and changes nothing else.
+    fn check_divisor(&mut self, divisor: i64) -> Result<(), Failure> {
         let by_zero = divisor == 0;
         self.interpreter.memory.set_bit(DIVISION_BY_ZERO, by_zero);
-        if by_zero {
-            return Err(Failure::Result);
-        }
-        self.finish_integer(width, dividend / divisor)?;
-        Ok((dividend / divisor, dividend % divisor))
+        if by_zero { Err(Failure::Result) } else { Ok(()) }
     }
 
     fn multiply_words(&mut self) -> Result<(), Failure> {
@@ -85,14 +87,17 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
     }
 
     fn divide_words(&mut self) -> Result<(), Failure> {
-        let (in1, out) = (self.read(0, Width::Word)?, self.target(1, Width::Double, 1)?);
-        let (quotient, remainder) = self.quotient(self.get(out + 2, Width::Word), in1, Width::Word)?;
-        self.put(out, Width::Word, remainder);
-        self.put(out + 2, Width::Word, quotient);
+        let (divisor, out) = (self.read(0, Width::Word)?, self.target(1, Width::Double, 1)?);
+        self.check_divisor(divisor)?;
+        let dividend = self.get(out + 2, Width::Word);
+        self.finish_integer(Width::Word, dividend / divisor)?;
+        self.put(out, Width::Word, dividend % divisor);
+        self.put(out + 2, Width::Word, dividend / divisor);
         Ok(())
     }
 
-    /// Increments or decrements. The end of the range is an error, but the value wraps and is written.
+    /// Increments or decrements. The end of the range is an error, but the value wraps and is
+    /// written.
     fn step(&mut self, width: Width, by: i64) -> Result<(), Failure> {
         let out = self.target(0, width, 1)?;
         let result = self.get(out, width) + by;

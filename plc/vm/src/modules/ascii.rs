@@ -1,9 +1,10 @@
-//! Conversions between numbers and their characters (reference 1.6).
+//! Conversions between numbers and their characters (docs/s7-200.md 1.6).
 
 use plc_isa::{Op, ProgramMemory};
 
+use super::INVALID_ASCII;
+use super::execution::{Execution, Failure};
 use super::numeral::{self, Format, Number};
-use super::{Execution, Failure, INVALID_ASCII};
 use crate::environment::Environment;
 use crate::references::{Text, Width};
 use crate::special::OVERFLOW;
@@ -37,7 +38,8 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
     /// With an odd LEN the lower half of the last byte keeps its value.
     fn ascii_to_hex(&mut self) -> Result<(), Failure> {
         let len = self.read(2, Width::Byte)? as u16;
-        let (from, out) = (self.source(0, Width::Byte, len)?, self.target(1, Width::Byte, len.div_ceil(2))?);
+        let (from, out) =
+            (self.source(0, Width::Byte, len)?, self.target(1, Width::Byte, len.div_ceil(2))?);
         ensure_apart(out, from, len)?;
         let mut bytes = [0; 128];
         for at in 0..len {
@@ -54,7 +56,8 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
 
     fn hex_to_ascii(&mut self) -> Result<(), Failure> {
         let len = self.read(2, Width::Byte)? as u16;
-        let (from, out) = (self.source(0, Width::Byte, len.div_ceil(2))?, self.target(1, Width::Byte, len)?);
+        let (from, out) =
+            (self.source(0, Width::Byte, len.div_ceil(2))?, self.target(1, Width::Byte, len)?);
         ensure_apart(from, out, len)?;
         let mut characters = [0; 255];
         for (at, character) in (0..len).zip(&mut characters) {
@@ -66,7 +69,8 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
         Ok(())
     }
 
-    /// The places of FMT and OUT differ between the two forms: characters alone, and with a length byte before them.
+    /// The places of FMT and OUT differ between the two forms: characters alone, and with a length
+    /// byte before them.
     fn integer_to_ascii(
         &mut self,
         width: Width,
@@ -87,11 +91,13 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
         if len < numeral::REAL_LEN_MIN {
             return Err(Failure::Operand);
         }
-        let formatted = Format::of(format).and_then(|format| Some((format, numeral::scaled(value, format.decimals)?)));
+        let formatted = Format::of(format)
+            .and_then(|format| Some((format, numeral::scaled(value, format.decimals)?)));
         self.write_number(out, as_text, len, formatted)
     }
 
-    /// Writes a number right-justified in `len` characters: spaces and an error when there is none or it is too long.
+    /// Writes a number right-justified in `len` characters: spaces and an error when there is none
+    /// or it is too long.
     fn write_number(
         &mut self,
         out: usize,
@@ -132,8 +138,8 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
     }
 }
 
-/// Digits must not begin within the `len` characters that they belong to, behind the first: what is written would be
-/// read again.
+/// Digits must not begin within the `len` characters that they belong to, after the first: what is
+/// written would be read again.
 fn ensure_apart(digits: u16, characters: u16, len: u16) -> Result<(), Failure> {
     if digits > characters && digits - characters < len { Err(Failure::Operand) } else { Ok(()) }
 }

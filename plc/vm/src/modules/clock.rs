@@ -1,4 +1,5 @@
-//! The software clock: TODR, TODW, and what sets it from outside. No instruction reads it otherwise.
+//! The software clock: TODR, TODW, and what sets it from outside. No instruction reads it
+//! otherwise.
 
 /// Seconds in a day.
 const DAY_S: u32 = 86_400;
@@ -17,9 +18,11 @@ pub struct TimeOfDay {
 }
 
 impl TimeOfDay {
-    /// From year in the century, month, day, and hour, minute, second. `None` if there is no such date or time.
+    /// From year in the century, month, day, and hour, minute, second. `None` if there is no such
+    /// date or time.
     pub fn new([year, month, day]: [u8; 3], [hour, minute, second]: [u8; 3]) -> Option<TimeOfDay> {
-        let is_date = year <= 99 && (1..=12).contains(&month) && (1..=days_in(year, month)).contains(&day);
+        let is_date =
+            year <= 99 && (1..=12).contains(&month) && (1..=days_in(year, month)).contains(&day);
         if !is_date || hour > 23 || minute > 59 || second > 59 {
             return None;
         }
@@ -28,8 +31,8 @@ impl TimeOfDay {
         Some(TimeOfDay { seconds: days * DAY_S + seconds })
     }
 
-    /// From the buffer of TODW: year, month, day, hour, minute, second, 0, day of the week in BCD. The day of the week
-    /// may be any from 0 to 7: the date tells it.
+    /// From the buffer of TODW: year, month, day, hour, minute, second, 0, day of the week in BCD.
+    /// The day of the week may be any from 0 to 7: the date tells it.
     pub(crate) fn from_buffer(buffer: [u8; 8]) -> Option<TimeOfDay> {
         let mut numbers = [0; 8];
         for (number, byte) in numbers.iter_mut().zip(buffer) {
@@ -52,11 +55,21 @@ impl TimeOfDay {
         let weekday = (days + FIRST_WEEKDAY) % 7 + 1;
         let year = (0..=99).rev().find(|&year| days_before_year(year) <= days).unwrap_or(0);
         days -= days_before_year(year);
-        let month = (1..=12).rev().find(|&month| days_before_month(year, month) <= days).unwrap_or(1);
+        let month =
+            (1..=12).rev().find(|&month| days_before_month(year, month) <= days).unwrap_or(1);
         days -= days_before_month(year, month);
         let bcd = |number: u32| (number / 10 % 10 * 16 + number % 10) as u8;
         let (hour, minute, second) = (rest / 3600, rest / 60 % 60, rest % 60);
-        [bcd(year.into()), bcd(month.into()), bcd(days + 1), bcd(hour), bcd(minute), bcd(second), 0, weekday as u8]
+        [
+            bcd(year.into()),
+            bcd(month.into()),
+            bcd(days + 1),
+            bcd(hour),
+            bcd(minute),
+            bcd(second),
+            0,
+            weekday as u8,
+        ]
     }
 }
 
@@ -82,7 +95,7 @@ fn days_in(year: u8, month: u8) -> u8 {
     }
 }
 
-/// The clock: stands at nothing until it is set.
+/// The clock: is at nothing until it is set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct SoftwareClock {
     /// The time, and the millisecond at which it was so.
@@ -124,7 +137,10 @@ mod tests {
                     assert_eq!(time.seconds, days * DAY_S + DAY_S - 2);
                     let buffer = time.to_buffer();
                     let bcd = |number: u8| number / 10 * 16 + number % 10;
-                    assert_eq!(buffer, [bcd(year), bcd(month), bcd(day), 0x23, 0x59, 0x58, 0, day_of_week]);
+                    assert_eq!(
+                        buffer,
+                        [bcd(year), bcd(month), bcd(day), 0x23, 0x59, 0x58, 0, day_of_week]
+                    );
                     assert_eq!(TimeOfDay::from_buffer(buffer), Some(time));
                     (days, day_of_week) = (days + 1, day_of_week % 7 + 1);
                 }

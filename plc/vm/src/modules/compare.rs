@@ -1,10 +1,10 @@
-//! Comparisons of any operands (reference 1.2).
+//! Comparisons of any operands (docs/s7-200.md 1.2).
 
 use plc_isa::{Op, ProgramMemory};
 
 use core::cmp::Ordering;
 
-use super::{Execution, Failure};
+use super::execution::{Execution, Failure};
 use crate::environment::Environment;
 use crate::real;
 use crate::references::Width;

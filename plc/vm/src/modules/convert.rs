@@ -1,16 +1,18 @@
-//! Conversions between bytes, words, double words, reals and BCD (reference 1.6).
+//! Conversions between bytes, words, double words, reals and BCD (docs/s7-200.md 1.6).
 
 use plc_isa::{Bit, Op, ProgramMemory};
 
-use super::{Execution, Failure, INVALID_BCD};
+use super::INVALID_BCD;
+use super::execution::{Execution, Failure};
 use crate::environment::Environment;
 use crate::real;
 use crate::references::Width;
 use crate::special::OVERFLOW;
 
 /// The segments for the digits 0 to F: bit 0 is a, bit 6 is g.
-const SEGMENTS: [u8; 16] =
-    [0x3F, 0x06, 0x5B, 0x4F, 0x66, 0x6D, 0x7D, 0x07, 0x7F, 0x67, 0x77, 0x7C, 0x39, 0x5E, 0x79, 0x71];
+const SEGMENTS: [u8; 16] = [
+    0x3F, 0x06, 0x5B, 0x4F, 0x66, 0x6D, 0x7D, 0x07, 0x7F, 0x67, 0x77, 0x7C, 0x39, 0x5E, 0x79, 0x71,
+];
 
 /// Digits of a BCD number.
 const BCD_DIGITS: u32 = 4;
@@ -25,11 +27,14 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
             Op::Bcdi => self.map_word(of_bcd),
             Op::Ibcd => self.map_word(to_bcd),
             Op::Deco => self.map(Width::Byte, Width::Word, |number| 1 << (number & 15)),
-            Op::Enco => self.map(Width::Word, Width::Byte, |word| i64::from(word.trailing_zeros() & 15)),
-            Op::Seg => self.map(Width::Byte, Width::Byte, |digit| i64::from(SEGMENTS[(digit & 15) as usize])),
-            Op::Dtr => {
-                self.map(Width::Double, Width::Double, |value| i64::from(real::from_double(value as i32).to_bits()))
+            Op::Enco => {
+                self.map(Width::Word, Width::Byte, |word| i64::from(word.trailing_zeros() & 15))
             }
+            Op::Seg => self
+                .map(Width::Byte, Width::Byte, |digit| i64::from(SEGMENTS[(digit & 15) as usize])),
+            Op::Dtr => self.map(Width::Double, Width::Double, |value| {
+                i64::from(real::from_double(value as i32).to_bits())
+            }),
             Op::Round => self.real_to_double(real::round),
             Op::Trunc => self.real_to_double(real::truncate),
             _ => Err(Failure::Undefined),
@@ -59,7 +64,13 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
     }
 
     /// Writes a value if there is one, and sets a bit of SMB1 if there is none.
-    pub(super) fn put_if(&mut self, out: u16, width: Width, value: Option<i64>, none: Bit) -> Result<(), Failure> {
+    pub(super) fn put_if(
+        &mut self,
+        out: u16,
+        width: Width,
+        value: Option<i64>,
+        none: Bit,
+    ) -> Result<(), Failure> {
         self.interpreter.memory.set_bit(none, value.is_none());
         self.put(out, width, value.ok_or(Failure::Result)?);
         Ok(())
@@ -90,6 +101,9 @@ mod tests {
             assert_eq!(to_bcd(number).and_then(of_bcd), Some(number));
         }
         assert_eq!((to_bcd(1234), to_bcd(-1), to_bcd(10_000)), (Some(0x1234), None, None));
-        assert_eq!((of_bcd(0x000A), of_bcd(-1), of_bcd(0x9999 - 0x10000)), (None, None, Some(9999)));
+        assert_eq!(
+            (of_bcd(0x000A), of_bcd(-1), of_bcd(0x9999 - 0x10000)),
+            (None, None, Some(9999))
+        );
     }
 }

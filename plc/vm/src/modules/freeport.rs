@@ -1,7 +1,8 @@
-//! The serial line in freeport mode: XMT, RCV and single characters (reference 1.9, 3.2). Port 0 only.
+//! The serial line in freeport mode: XMT, RCV and single characters (docs/s7-200.md 1.9, 3.2). Port
+//! 0 only.
 //!
-//! What is sent leaves by [`Environment::transmit`](crate::Environment::transmit); what comes in is told from outside,
-//! character by character. A break on the line is no condition here.
+//! What is sent leaves by [`Environment::transmit`](crate::Environment::transmit); what comes in is
+//! told from outside, character by character. A break on the line is no condition here.
 
 use plc_isa::{Area, Bit, Plan, ProgramMemory, SM_START};
 
@@ -19,7 +20,8 @@ const IDLE: Bit = Bit { address: SM_START + 4, bit: 5 };
 const MODE_MASK: u8 = 0b11;
 const FREEPORT: u8 = 0b01;
 
-/// Special memory of RCV: status, control, start and end character, idle time, time limit, most characters.
+/// Special memory of RCV: status, control, start and end character, idle time, time limit, most
+/// characters.
 const STATUS: u16 = 86;
 const CONTROL: u16 = 87;
 const START: u16 = 88;
@@ -89,9 +91,11 @@ pub(crate) struct Freeport {
 
 impl Freeport {
     /// Nothing is sent or received.
-    pub const QUIET: Freeport = Freeport { sending_until_ms: None, message: None, quiet_since_ms: 0 };
+    pub const QUIET: Freeport =
+        Freeport { sending_until_ms: None, message: None, quiet_since_ms: 0 };
 
-    /// XMT of so many characters. Whether it is possible: in freeport mode, when nothing is being sent or received.
+    /// XMT of so many characters. Whether it is possible: in freeport mode, when nothing is being
+    /// sent or received.
     pub fn send(&mut self, count: u8, now_ms: u32, memory: &mut Memory) -> bool {
         if !is_freeport(memory) || self.sending_until_ms.is_some() || self.message.is_some() {
             return false;
@@ -102,8 +106,8 @@ impl Freeport {
         true
     }
 
-    /// RCV to a buffer. Whether it is possible; what is wrong with control and limits, the status says, and the message ends
-    /// at once: then an event occurs.
+    /// RCV to a buffer. Whether it is possible; what is wrong with control and limits, the status
+    /// says, and the message ends at once: then an event occurs.
     pub fn receive<P: ProgramMemory>(
         &mut self,
         buffer: u16,
@@ -157,7 +161,8 @@ impl Freeport {
             None => {
                 let idle_ms = u32::from(special_word(IDLE_TIME, plan, memory));
                 let is_late = message.control & USE_IDLE == 0 || quiet_ms >= idle_ms;
-                let is_first = message.control & USE_START == 0 || character == special(START, plan, memory);
+                let is_first =
+                    message.control & USE_START == 0 || character == special(START, plan, memory);
                 if !is_late || !is_first {
                     return None;
                 }
@@ -181,18 +186,31 @@ impl Freeport {
     }
 
     /// Time has passed. The event that comes of it.
-    pub fn pass<P: ProgramMemory>(&mut self, now_ms: u32, plan: &Plan<P>, memory: &mut Memory) -> Option<u8> {
+    pub fn pass<P: ProgramMemory>(
+        &mut self,
+        now_ms: u32,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+    ) -> Option<u8> {
         if !is_freeport(memory) {
             return None;
         }
-        if self.sending_until_ms.take_if(|until_ms| now_ms.wrapping_sub(*until_ms) as i32 >= 0).is_some() {
+        if self
+            .sending_until_ms
+            .take_if(|until_ms| now_ms.wrapping_sub(*until_ms) as i32 >= 0)
+            .is_some()
+        {
             memory.set_bit(IDLE, true);
             return Some(SENT);
         }
         memory.set_bit(IDLE, self.sending_until_ms.is_none());
         let message = self.message?;
         message.count?;
-        let since_ms = if message.control & WHOLE_MESSAGE != 0 { message.begun_ms } else { self.quiet_since_ms };
+        let since_ms = if message.control & WHOLE_MESSAGE != 0 {
+            message.begun_ms
+        } else {
+            self.quiet_since_ms
+        };
         let limit_ms = u32::from(special_word(LIMIT, plan, memory));
         if message.control & USE_LIMIT == 0 || now_ms.wrapping_sub(since_ms) < limit_ms {
             return None;

@@ -1,7 +1,7 @@
-//! High-speed counters HSC0 and HSC3: what they count, and HDEF and HSC (reference 1.9, 3.2).
+//! High-speed counters HSC0 and HSC3: what they count, and HDEF and HSC (docs/s7-200.md 1.9, 3.2).
 //!
-//! The current value lives in data memory, as HC0 and HC3; control, status, preset and new current value in special
-//! memory, where the program names it.
+//! The current value lives in data memory, as HC0 and HC3; control, status, preset and new current
+//! value in special memory, where the program names it.
 
 use plc_isa::{Area, HC0, HC3, Plan, ProgramMemory};
 
@@ -52,7 +52,15 @@ const NONE: u8 = u8::MAX;
 
 const SITES: [Site; 2] = [
     Site { number: 0, clock: 0, special: 36, current: HC0, equal: 12, direction: 27, reset: 28 },
-    Site { number: 3, clock: 1, special: 136, current: HC3, equal: 32, direction: NONE, reset: NONE },
+    Site {
+        number: 3,
+        clock: 1,
+        special: 136,
+        current: HC3,
+        equal: 32,
+        direction: NONE,
+        reset: NONE,
+    },
 ];
 
 /// What a mode makes of the inputs.
@@ -119,14 +127,16 @@ pub(crate) struct HighSpeedCounters {
 
 impl HighSpeedCounters {
     /// None is defined: as after the change to RUN.
-    pub const UNDEFINED: HighSpeedCounters =
-        HighSpeedCounters { counters: [Counter { mode: None, options: 0, enabled: false, up: true, preset: 0 }; 2] };
+    pub const UNDEFINED: HighSpeedCounters = HighSpeedCounters {
+        counters: [Counter { mode: None, options: 0, enabled: false, up: true, preset: 0 }; 2],
+    };
 
     fn find(&mut self, number: u8) -> Option<(Site, &mut Counter)> {
         SITES.into_iter().zip(&mut self.counters).find(|(site, _)| site.number == number)
     }
 
-    /// HDEF. Whether it was possible: the counter has the mode, none yet, and its inputs are not those of the other.
+    /// HDEF. Whether it was possible: the counter has the mode, none yet, and its inputs are not
+    /// those of the other.
     pub fn define<P: ProgramMemory>(
         &mut self,
         number: u8,
@@ -143,7 +153,8 @@ impl HighSpeedCounters {
             .filter(|(site, _)| site.number != number)
             .filter_map(|(site, counter)| Some(inputs_of(site, counter.mode?)))
             .fold(0, |all, inputs| all | inputs);
-        let Some((site, counter)) = self.find(number).filter(|(_, counter)| counter.mode.is_none()) else {
+        let Some((site, counter)) = self.find(number).filter(|(_, counter)| counter.mode.is_none())
+        else {
             return false;
         };
         if inputs_of(site, mode) & taken != 0 {
@@ -158,7 +169,12 @@ impl HighSpeedCounters {
     }
 
     /// HSC: takes over what the control byte says. Whether there was an HDEF before.
-    pub fn activate<P: ProgramMemory>(&mut self, number: u8, plan: &Plan<P>, memory: &mut Memory) -> bool {
+    pub fn activate<P: ProgramMemory>(
+        &mut self,
+        number: u8,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+    ) -> bool {
         let Some((site, counter)) = self.find(number) else { return false };
         let Some(mode) = counter.mode else { return false };
         let control = special(site.special + 1, plan, memory);
@@ -186,8 +202,12 @@ impl HighSpeedCounters {
         memory: &mut Memory,
     ) -> [Occurred; 2] {
         let mut occurred = [[None; 2]; 2];
-        for ((site, counter), events) in SITES.into_iter().zip(&mut self.counters).zip(&mut occurred) {
-            if let (Some(mode), true, Some(offset)) = (counter.mode, counter.enabled, input.checked_sub(site.clock)) {
+        for ((site, counter), events) in
+            SITES.into_iter().zip(&mut self.counters).zip(&mut occurred)
+        {
+            if let (Some(mode), true, Some(offset)) =
+                (counter.mode, counter.enabled, input.checked_sub(site.clock))
+            {
                 *events = counter.edge(mode, site, offset, levels >> site.clock, plan, memory);
             }
         }
@@ -209,19 +229,23 @@ impl Counter {
         if offset >= INPUTS_MAX || mode.taken() >> offset & 1 == 0 {
             return [None; 2];
         }
-        let is_resetting = mode.has_reset && (levels >> 2 & 1 != 0) != (self.options & RESET_LOW != 0);
+        let is_resetting =
+            mode.has_reset && (levels >> 2 & 1 != 0) != (self.options & RESET_LOW != 0);
         let occurred = match offset {
             2 if is_resetting => {
                 set_double(memory, site.current, 0);
                 [Some(site.reset), None]
             }
             2 => [None; 2],
-            1 if mode.inputs == Inputs::ExternalDirection => [self.turn(levels & 2 != 0, site), None],
+            1 if mode.inputs == Inputs::ExternalDirection => {
+                [self.turn(levels & 2 != 0, site), None]
+            }
             _ if is_resetting => [None; 2],
             _ => match self.direction(mode.inputs, offset, levels) {
                 Some(up) => {
                     let turned = self.turn(up, site);
-                    let current = double(memory, site.current).wrapping_add(if up { 1 } else { -1 });
+                    let current =
+                        double(memory, site.current).wrapping_add(if up { 1 } else { -1 });
                     set_double(memory, site.current, current);
                     [turned, (current == self.preset).then_some(site.equal)]
                 }
@@ -239,7 +263,8 @@ impl Counter {
         match inputs {
             Inputs::InternalDirection | Inputs::ExternalDirection => rose.then_some(self.up),
             Inputs::TwoClocks => rose.then_some(offset == 0),
-            // The first track leads when it changes to what the second is not, or the second to what the first is.
+            // The first track leads when it changes to what the second is not, or the second to
+            // what the first is.
             Inputs::Quadrature => {
                 let up = (first != second) == (offset == 0);
                 let counts = self.options & ONE_FOLD == 0 || offset == 0 && !second;
@@ -256,8 +281,13 @@ impl Counter {
 
     fn write_status<P: ProgramMemory>(&self, site: Site, plan: &Plan<P>, memory: &mut Memory) {
         let current = double(memory, site.current);
-        let bits = [(self.up, IS_UP), (current == self.preset, IS_EQUAL), (current > self.preset, IS_ABOVE)];
-        let status = bits.into_iter().filter(|(is_so, _)| *is_so).fold(0, |status, (_, bit)| status | bit);
+        let bits = [
+            (self.up, IS_UP),
+            (current == self.preset, IS_EQUAL),
+            (current > self.preset, IS_ABOVE),
+        ];
+        let status =
+            bits.into_iter().filter(|(is_so, _)| *is_so).fold(0, |status, (_, bit)| status | bit);
         if let Some(address) = plan.byte_address(Area::Sm, site.special) {
             memory.set_byte(address, status);
         }
@@ -289,7 +319,7 @@ mod tests {
     //! Edges in, counts and events out. The programs that use it are tested with the machines.
 
     use super::*;
-    use plc_isa::{HEADER_LEN, Header, SM_IN_V};
+    use plc_isa::{HEADER_LEN, Header, SM_IN_V, UNO};
 
     const RANGES_LEN: usize = 8;
     const LEN: usize = HEADER_LEN as usize + RANGES_LEN;
@@ -298,7 +328,7 @@ mod tests {
     fn plan() -> Plan<[u8; LEN]> {
         let header = Header { v_ranges: 2, ..Header::default() };
         let mut image = [0; LEN];
-        image[..usize::from(HEADER_LEN)].copy_from_slice(&header.to_bytes());
+        image[..usize::from(HEADER_LEN)].copy_from_slice(&header.to_bytes(&UNO));
         let words = [SM_IN_V + 36, 10, SM_IN_V + 136, 10 + 10];
         for (place, word) in image[usize::from(HEADER_LEN)..].chunks_exact_mut(2).zip(words) {
             place.copy_from_slice(&word.to_le_bytes());
@@ -445,8 +475,12 @@ mod tests {
 
     #[test]
     fn what_cannot_be_defined() {
-        let define = |bench: &mut Bench, number, mode| bench.counters.define(number, mode, 0, &plan(), &bench.memory);
-        for (number, mode) in [(0, 2), (0, 5), (0, 11), (0, 12), (3, 1), (3, 3), (1, 0), (4, 0), (5, 0)] {
+        let define = |bench: &mut Bench, number, mode| {
+            bench.counters.define(number, mode, 0, &plan(), &bench.memory)
+        };
+        for (number, mode) in
+            [(0, 2), (0, 5), (0, 11), (0, 12), (3, 1), (3, 3), (1, 0), (4, 0), (5, 0)]
+        {
             assert!(!define(&mut Bench::new(), number, mode), "HSC{number} mode {mode}");
         }
         let mut bench = Bench::new();

@@ -1,8 +1,8 @@
-//! Logic operations, bit by bit (reference 1.5).
+//! Logic operations, bit by bit (docs/s7-200.md 1.5).
 
 use plc_isa::{Op, ProgramMemory};
 
-use super::{Execution, Failure};
+use super::execution::{Execution, Failure};
 use crate::environment::Environment;
 use crate::references::Width;
 use crate::special::ZERO;

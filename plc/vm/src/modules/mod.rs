@@ -1,13 +1,15 @@
-//! The instructions of modules: whether they are executed and how they end. What they do, the chapters hold. Not on the
-//! board, where modules are machine code.
+//! The instructions of modules: whether they are executed and how they end. What they do, the
+//! chapters hold. Not on the board, where modules are machine code.
 
 mod arithmetic;
 mod ascii;
 mod clock;
 mod compare;
 mod convert;
+pub(crate) mod execution;
 mod freeport;
-pub(crate) mod hardware;
+mod hardware;
+pub(crate) mod hardware_state;
 mod high_speed;
 mod logic;
 mod numeral;
@@ -18,8 +20,10 @@ mod shift;
 mod table;
 mod text;
 
-pub use clock::TimeOfDay;
 use plc_isa::{Bit, ENO, Flow, Group, Op, Operands, PowerFlow, ProgramMemory, SM_START};
+
+pub use clock::TimeOfDay;
+use execution::{Execution, Failure};
 
 use crate::environment::Environment;
 use crate::interpreter::{Exit, Interpreter};
@@ -36,25 +40,6 @@ const INVALID_BCD: Bit = Bit { address: SM_START + 1, bit: 6 };
 /// SM1.7, a character is no hexadecimal digit.
 const INVALID_ASCII: Bit = Bit { address: SM_START + 1, bit: 7 };
 
-/// Why an instruction was given up. It has written nothing then, unless it says otherwise.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Failure {
-    /// A pointer is illegal (0006), an operand (0091) or a count (0092) out of range: SM4.3.
-    Operand,
-    /// There is no result, as a bit of SMB1 says.
-    Result,
-    /// A comparison has read a real that is not a number.
-    ComparedReal,
-    /// The instruction is not known here. Cannot happen in a verified image.
-    Undefined,
-}
-
-/// A module instruction that is being executed.
-pub(crate) struct Execution<'a, 'i, P, E> {
-    pub interpreter: &'a mut Interpreter<'i, P, E>,
-    pub operands: &'a Operands<'a>,
-}
-
 /// Executes a module instruction.
 pub(crate) fn execute<P: ProgramMemory, E: Environment>(
     interpreter: &mut Interpreter<'_, P, E>,
@@ -63,8 +48,7 @@ pub(crate) fn execute<P: ProgramMemory, E: Environment>(
 ) -> Flow {
     let instruction = op.instruction();
     let is_executed = instruction.power_flow == PowerFlow::Always || interpreter.stack.top();
-    // What is executed without power flow is no box and has no ENO, but for PID: it only remembers that it had none.
-    if instruction.power_flow == PowerFlow::Needed || op == Op::Pid {
+    if op.has_eno() {
         interpreter.memory.set_byte(ENO, u8::from(is_executed));
     }
     if !is_executed {

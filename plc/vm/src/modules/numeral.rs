@@ -1,17 +1,18 @@
-//! Numbers as decimal characters and back. In integer steps that the board can repeat (firmware/modules/text.s).
+//! Numbers as decimal characters and back. In integer steps that the board can repeat
+//! (firmware/modules/number_to_text.inc, text_to_number.inc).
 
 /// Least characters of a real.
 pub(super) const REAL_LEN_MIN: usize = 3;
 /// Most characters of a number.
 pub(super) const LEN_MAX: usize = 15;
 
-/// Most digits behind the point.
+/// Most digits after the point.
 const DECIMALS_MAX: u8 = 5;
 
 /// How a number is written: the lower half of FMT.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Format {
-    /// Digits behind the point; without any there is no point.
+    /// Digits after the point; without any there is no point.
     pub decimals: u8,
     /// A comma or a point.
     separator: u8,
@@ -27,12 +28,13 @@ pub(super) struct Number {
 impl Format {
     /// The format in FMT, the upper half of which is not looked at. `None` with too many decimals.
     pub fn of(fmt: u8) -> Option<Format> {
-        let format = Format { decimals: fmt & 7, separator: if fmt & 8 == 0 { b'.' } else { b',' } };
+        let format =
+            Format { decimals: fmt & 7, separator: if fmt & 8 == 0 { b'.' } else { b',' } };
         (format.decimals <= DECIMALS_MAX).then_some(format)
     }
 
-    /// Writes a number right-justified, with at least one digit before the point and spaces before it. Returns whether
-    /// it fits; if not, there are only spaces.
+    /// Writes a number right-justified, with at least one digit before the point and spaces before
+    /// it. Returns whether it fits; if not, there are only spaces.
     pub fn write(self, number: &Number, characters: &mut [u8]) -> bool {
         characters.fill(b' ');
         let mut places = characters.iter_mut().rev();
@@ -56,8 +58,8 @@ impl Format {
     }
 }
 
-/// A real in units of its last decimal, halves rounded away from zero. `None` when it has more than 18 digits, or is
-/// infinite or not a number.
+/// A real in units of its last decimal, halves rounded away from zero. `None` when it has more than
+/// 18 digits, or is infinite or not a number.
 pub(super) fn scaled(x: f32, decimals: u8) -> Option<Number> {
     if !x.is_finite() {
         return None;
@@ -65,7 +67,8 @@ pub(super) fn scaled(x: f32, decimals: u8) -> Option<Number> {
     let (field, fraction) = ((x.to_bits() >> 23 & 0xFF) as i32, x.to_bits() & 0x7F_FFFF);
     let mantissa = if field == 0 { fraction } else { fraction | 0x80_0000 };
     // |x| = mantissa * 2^exponent; the product has at most 41 bits.
-    let (product, exponent) = (u64::from(mantissa) * 10_u64.pow(u32::from(decimals)), field.max(1) - 150);
+    let (product, exponent) =
+        (u64::from(mantissa) * 10_u64.pow(u32::from(decimals)), field.max(1) - 150);
     let magnitude = match exponent {
         0.. if product.leading_zeros() > exponent as u32 => product << exponent,
         0.. if product > 0 => return None,
@@ -85,8 +88,8 @@ fn signed(text: &[u8]) -> (bool, &[u8]) {
     }
 }
 
-/// An integer at the beginning of a text: spaces, a sign, digits. Beyond 64 bits it is the end of their range. `None`
-/// without digits.
+/// An integer at the beginning of a text: spaces, a sign, digits. Beyond 64 bits it is the end of
+/// their range. `None` without digits.
 pub(super) fn integer(text: &[u8]) -> Option<i64> {
     let (is_negative, text) = signed(text);
     let mut value: Option<i64> = None;
@@ -96,8 +99,8 @@ pub(super) fn integer(text: &[u8]) -> Option<i64> {
     value.map(|value| if is_negative { -value } else { value })
 }
 
-/// A real at the beginning of a text: spaces, a sign, digits, a point or comma, digits. `None` without digits, and when
-/// it is too large.
+/// A real at the beginning of a text: spaces, a sign, digits, a point or comma, digits. `None`
+/// without digits, and when it is too large.
 pub(super) fn real(text: &[u8]) -> Option<f32> {
     /// From here on another digit might not fit.
     const FULL: u64 = 1 << 60;
@@ -128,15 +131,19 @@ fn decimal_digit(character: u8) -> Option<u8> {
 
 /// `digits` * 10^`tens`, rounded to the nearest real. `None` when it is too large.
 ///
-/// In steps of a ten with a mantissa of 64 bits, each of which is exact or off by less than 2^-59 of the value.
+/// In steps of a ten with a mantissa of 64 bits, each of which is exact or off by less than 2^-59
+/// of the value.
 fn times_tens(digits: u64, tens: i32) -> Option<f32> {
     if digits == 0 {
         return Some(0.0);
     }
     let (mut mantissa, mut exponent) = normalized(digits, 63);
     for _ in 0..tens.unsigned_abs() {
-        (mantissa, exponent) =
-            if tens > 0 { normalized((mantissa >> 4) * 10, exponent + 4) } else { normalized(mantissa / 10, exponent) };
+        (mantissa, exponent) = if tens > 0 {
+            normalized((mantissa >> 4) * 10, exponent + 4)
+        } else {
+            normalized(mantissa / 10, exponent)
+        };
     }
     packed(mantissa, exponent)
 }
@@ -147,7 +154,8 @@ fn normalized(mantissa: u64, exponent: i32) -> (u64, i32) {
     (mantissa << places, exponent - places as i32)
 }
 
-/// `mantissa` / 2^63 * 2^`exponent`, rounded to the nearest real, the even one of two. `None` when it is too large.
+/// `mantissa` / 2^63 * 2^`exponent`, rounded to the nearest real, the even one of two. `None` when
+/// it is too large.
 fn packed(mantissa: u64, exponent: i32) -> Option<f32> {
     if exponent > 127 {
         return None;
@@ -159,9 +167,11 @@ fn packed(mantissa: u64, exponent: i32) -> Option<f32> {
         return Some(0.0);
     }
     let wide = u128::from(mantissa);
-    let (whole, rest, half) = ((wide >> places) as u32, wide & ((1 << places) - 1), 1 << (places - 1));
+    let (whole, rest, half) =
+        ((wide >> places) as u32, wide & ((1 << places) - 1), 1 << (places - 1));
     let rounded = whole + u32::from(rest > half || rest == half && whole & 1 == 1);
-    // The leading bit of a normal number adds one to the exponent, so does the carry of the rounding.
+    // The leading bit of a normal number adds one to the exponent, so does the carry of the
+    // rounding.
     let value = f32::from_bits((((field - 1) as u32) << 23) + rounded);
     value.is_finite().then_some(value)
 }
@@ -185,7 +195,8 @@ mod tests {
     fn random_reals_are_the_nearest() {
         let mut state = 1;
         for _ in 0..20_000 {
-            let (digits, places) = (next(&mut state) >> (next(&mut state) % 30), next(&mut state) as usize % 48);
+            let (digits, places) =
+                (next(&mut state) >> (next(&mut state) % 30), next(&mut state) as usize % 48);
             let digits = format!("{digits:0>width$}", width = places + 1);
             let (whole, decimals) = digits.split_at(digits.len() - places);
             let text = format!("{whole}{}.{decimals}", "0".repeat(next(&mut state) as usize % 29));
@@ -197,14 +208,20 @@ mod tests {
     fn random_reals_are_written_as_they_are() {
         let mut state = 2;
         for _ in 0..20_000 {
-            let (x, decimals) =
-                (next(&mut state) as f32 / (1_u32 << (next(&mut state) % 32)) as f32, next(&mut state) as u8 % 6);
+            let (x, decimals) = (
+                next(&mut state) as f32 / (1_u32 << (next(&mut state) % 32)) as f32,
+                next(&mut state) as u8 % 6,
+            );
             let expected: String = format!("{x:.*}", usize::from(decimals)).replace('.', "");
             let magnitude = expected.parse().unwrap_or(u64::MAX);
             let exact = f64::from(x) * 10_f64.powi(i32::from(decimals));
             // Halves: the standard library takes the even one.
             let magnitude = if exact.fract() == 0.5 { exact.ceil() as u64 } else { magnitude };
-            assert_eq!(scaled(x, decimals), Some(Number { is_negative: false, magnitude }), "{x} {decimals}");
+            assert_eq!(
+                scaled(x, decimals),
+                Some(Number { is_negative: false, magnitude }),
+                "{x} {decimals}"
+            );
         }
     }
 
@@ -222,7 +239,9 @@ mod tests {
     #[test]
     fn integers_are_right_justified() {
         // The manual's examples for ITA with three decimals.
-        for (value, text) in [(12, b"   0.012"), (-123, b"  -0.123"), (1234, b"   1.234"), (-12345, b" -12.345")] {
+        for (value, text) in
+            [(12, b"   0.012"), (-123, b"  -0.123"), (1234, b"   1.234"), (-12345, b" -12.345")]
+        {
             assert_eq!(written(number(value), 3), (*text, true), "{value}");
         }
         assert_eq!(written(number(0), 0), (*b"       0", true));
@@ -235,7 +254,9 @@ mod tests {
     #[test]
     fn reals_are_rounded_away_from_zero() {
         // The manual's examples for RTA: six places, one decimal.
-        for (x, text) in [(1234.5, b"1234.5"), (-0.0004, b"   0.0"), (-3.67526, b"  -3.7"), (1.95, b"   2.0")] {
+        for (x, text) in
+            [(1234.5, b"1234.5"), (-0.0004, b"   0.0"), (-3.67526, b"  -3.7"), (1.95, b"   2.0")]
+        {
             assert_eq!(scaled(x, 1).map(|x| written(x, 1)), Some((*text, true)), "{x}");
         }
         for (x, decimals, magnitude) in [

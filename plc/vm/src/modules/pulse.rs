@@ -1,8 +1,8 @@
-//! Pulse outputs: PLS with pulse-width modulation (PWM), and with trains of a number of pulses (PTO, one segment); and what
-//! analog outputs make of their pins.
+//! Pulse outputs: PLS with pulse-width modulation (PWM), and with trains of a number of pulses
+//! (PTO, one segment); and what analog outputs make of their pins.
 //!
-//! PLS 0 drives Q0.0 and PLS 1 drives Q0.1, as on the S7-200; while they do, the process image does not. Time comes in
-//! whole milliseconds, so a train ends with the first scan behind its end.
+//! PLS 0 drives Q0.0 and PLS 1 drives Q0.1, as on the S7-200; while they do, the process image does
+//! not. Time comes in whole milliseconds, so a train ends with the first scan after its end.
 
 use plc_isa::{ANALOG_OUTPUTS, AQW_START, Area, Plan, ProgramMemory};
 
@@ -105,14 +105,22 @@ pub(crate) struct PulseOutputs {
 impl PulseOutputs {
     /// No output is driven: as after the change to RUN.
     pub const NONE: PulseOutputs = PulseOutputs {
-        outputs: [Output { task: Task::None, passed_us: 0, cycle: CYCLE_MIN, width: 0, count: 1 }; PULSE_OUTPUTS],
+        outputs: [Output { task: Task::None, passed_us: 0, cycle: CYCLE_MIN, width: 0, count: 1 };
+            PULSE_OUTPUTS],
         analog: [None; ANALOG_OUTPUTS as usize],
     };
 
     /// PLS. Whether it could be done.
-    pub fn activate<P: ProgramMemory>(&mut self, number: u8, plan: &Plan<P>, memory: &mut Memory) -> bool {
+    pub fn activate<P: ProgramMemory>(
+        &mut self,
+        number: u8,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+    ) -> bool {
         let index = usize::from(number);
-        let (Some(site), Some(output)) = (SITES.get(index), self.outputs.get_mut(index)) else { return false };
+        let (Some(site), Some(output)) = (SITES.get(index), self.outputs.get_mut(index)) else {
+            return false;
+        };
         let control = special(site.control, plan, memory);
         if control & SEGMENTS != 0 && control & MODULATION == 0 {
             return false;
@@ -167,7 +175,8 @@ impl PulseOutputs {
     /// The part of the time in thousandths that a driven output is on; of a train half.
     pub fn duty(&self, number: u8) -> Option<u16> {
         let number = usize::from(number);
-        let analog = number.checked_sub(ANALOG_OUTPUT).and_then(|channel| *self.analog.get(channel)?);
+        let analog =
+            number.checked_sub(ANALOG_OUTPUT).and_then(|channel| *self.analog.get(channel)?);
         match self.outputs.get(number).map_or(Task::None, |output| output.task) {
             Task::None => analog,
             Task::Modulation { cycle_us, width_us } => {
@@ -180,8 +189,16 @@ impl PulseOutputs {
 }
 
 impl Output {
-    fn take_over<P: ProgramMemory>(&mut self, control: u8, site: &Site, plan: &Plan<P>, memory: &Memory) {
-        let word = |byte| u16::from_be_bytes([special(byte, plan, memory), special(byte + 1, plan, memory)]);
+    fn take_over<P: ProgramMemory>(
+        &mut self,
+        control: u8,
+        site: &Site,
+        plan: &Plan<P>,
+        memory: &Memory,
+    ) {
+        let word = |byte| {
+            u16::from_be_bytes([special(byte, plan, memory), special(byte + 1, plan, memory)])
+        };
         if control & TAKE_CYCLE != 0 {
             self.cycle = word(site.cycle).max(CYCLE_MIN);
         }
@@ -193,10 +210,12 @@ impl Output {
         }
     }
 
-    /// Does what the control byte says with the values taken over. Gives the status, unless it cannot be done.
+    /// Does what the control byte says with the values taken over. Gives the status, unless it
+    /// cannot be done.
     fn begin(&mut self, control: u8) -> Option<u8> {
         let unit_us = if control & MILLISECONDS != 0 { 1000 } else { 1 };
-        let (cycle_us, width_us) = (unit_us * u32::from(self.cycle), unit_us * u32::from(self.width));
+        let (cycle_us, width_us) =
+            (unit_us * u32::from(self.cycle), unit_us * u32::from(self.width));
         if control & (ENABLE | MODULATION) == ENABLE && cycle_us < TRAIN_CYCLE_MIN_US {
             return None;
         }
@@ -205,14 +224,19 @@ impl Output {
         let aborted = if is_train { ABORTED } else { 0 };
         let (task, status) = match self.task {
             _ if control & ENABLE == 0 => (Task::None, IDLE | aborted),
-            _ if control & MODULATION != 0 => (Task::Modulation { cycle_us, width_us }, IDLE | aborted),
+            _ if control & MODULATION != 0 => {
+                (Task::Modulation { cycle_us, width_us }, IDLE | aborted)
+            }
             Task::Trains(first, None) => (Task::Trains(first, Some(train)), 0),
             Task::Trains(..) => (self.task, OVERFLOW),
             _ => (Task::Trains(train, None), 0),
         };
-        // A modulation that only changes goes on in its cycle, a train that waits leaves the first one alone.
+        // A modulation that only changes goes on in its cycle, a train that waits leaves the first
+        // one alone.
         let goes_on = match (self.task, task) {
-            (Task::Modulation { cycle_us: old, .. }, Task::Modulation { cycle_us, .. }) => old == cycle_us,
+            (Task::Modulation { cycle_us: old, .. }, Task::Modulation { cycle_us, .. }) => {
+                old == cycle_us
+            }
             (Task::Trains(..), Task::Trains(..)) => true,
             _ => false,
         };
@@ -228,7 +252,9 @@ impl Output {
         self.passed_us += 1000 * u64::from(passed_ms);
         let mut ends = false;
         while let Task::Trains(train, next) = self.task {
-            let Some(rest_us) = self.passed_us.checked_sub(u64::from(train.cycle_us) * u64::from(train.count)) else {
+            let Some(rest_us) =
+                self.passed_us.checked_sub(u64::from(train.cycle_us) * u64::from(train.count))
+            else {
                 break;
             };
             self.passed_us = rest_us;
@@ -324,10 +350,21 @@ mod tests {
         outputs.outputs[1].begin(ENABLE | MODULATION);
         assert_eq!((outputs.duty(1), outputs.levels()), (Some(300), (2, 2)));
         let mut memory = Memory::new();
-        for (value, duty) in [(-1, 0), (31, 0), (32, 1), (16_000, 500), (31_999, 999), (32_000, 1000), (32_767, 1000)] {
+        for (value, duty) in [
+            (-1, 0),
+            (31, 0),
+            (32, 1),
+            (16_000, 500),
+            (31_999, 999),
+            (32_000, 1000),
+            (32_767, 1000),
+        ] {
             memory.set_int(AQW_START + 2, value);
             outputs.drive_analog(2, &memory);
-            assert_eq!((outputs.duty(1), outputs.duty(2), outputs.duty(3)), (Some(300), Some(duty), None));
+            assert_eq!(
+                (outputs.duty(1), outputs.duty(2), outputs.duty(3)),
+                (Some(300), Some(duty), None)
+            );
         }
     }
 }

@@ -1,8 +1,9 @@
-//! Arithmetic and functions of reals, and PID (reference 1.4). How they are computed, the files of those names say.
+//! Arithmetic and functions of reals, and PID (docs/s7-200.md 1.4). How they are computed, the
+//! files of those names say.
 
 use plc_isa::{Op, ProgramMemory};
 
-use super::{Execution, Failure};
+use super::execution::{Execution, Failure};
 use crate::environment::Environment;
 use crate::pid::{self, LoopTable};
 use crate::references::Width;
@@ -75,11 +76,13 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
         self.put(address, Width::Double, i64::from(value.to_bits()));
     }
 
-    /// The history bit says that power flow was missing, so that memory full of zeros is as after a change to RUN:
-    /// the first execution sees no transition.
+    /// The history bit says that power flow was missing, so that memory full of zeros is as after a
+    /// change to RUN: the first execution sees no transition.
     fn pid(&mut self) -> Result<(), Failure> {
-        let (flows, missed) =
-            (self.interpreter.stack.top(), self.interpreter.program.plan().edge(self.operands.number(2)));
+        let (flows, missed) = (
+            self.interpreter.stack.top(),
+            self.interpreter.program.plan().edge(self.operands.number(2)),
+        );
         let is_start = flows && self.interpreter.memory.bit(missed) && !self.interpreter.first_scan;
         self.interpreter.memory.set_bit(missed, !flows);
         if !flows {

@@ -1,8 +1,8 @@
-//! Shifts and rotations, and the shift register (reference 1.5).
+//! Shifts and rotations, and the shift register (docs/s7-200.md 1.5).
 
 use plc_isa::{Bit, Op, ProgramMemory};
 
-use super::{Execution, Failure};
+use super::execution::{Execution, Failure};
 use crate::environment::Environment;
 use crate::range;
 use crate::references::Width;
@@ -11,8 +11,8 @@ use crate::special::OVERFLOW;
 /// Most bits of the shift register.
 const REGISTER_MAX: u8 = 64;
 
-/// A way to move bits: of a pattern in so many bits by a count, 1 to the number of bits. Returns what becomes of the
-/// pattern, with higher bits to be ignored, and the bit that was moved last.
+/// A way to move bits: of a pattern in so many bits by a count, 1 to the number of bits. Returns
+/// what becomes of the pattern, with higher bits to be ignored, and the bit that was moved last.
 type Motion = fn(u64, u32, u32) -> (u64, u64);
 
 const LEFT: Motion = |pattern, bits, count| (pattern << count, pattern >> (bits - count));
@@ -80,7 +80,9 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
         }
         let memory = &mut *self.interpreter.memory;
         let entering = memory.bit(self.operands.bit(0));
-        let register = (0..len).rev().fold(0_u64, |bits, at| bits << 1 | u64::from(memory.bit(bit_after(first, at))));
+        let register = (0..len)
+            .rev()
+            .fold(0_u64, |bits, at| bits << 1 | u64::from(memory.bit(bit_after(first, at))));
         let (register, left) = if n > 0 {
             (register << 1 | u64::from(entering), register >> (len - 1))
         } else {
@@ -92,7 +94,7 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
     }
 }
 
-/// The bit so many behind another.
+/// The bit so many after another.
 fn bit_after(first: Bit, at: u8) -> Bit {
     let place = first.bit + at;
     Bit { address: first.address + u16::from(place / 8), bit: place % 8 }

@@ -1,8 +1,9 @@
-//! Tables and blocks of memory (reference 1.5 and 1.7).
+//! Tables and blocks of memory (docs/s7-200.md 1.5 and 1.7).
 
 use plc_isa::{Op, ProgramMemory};
 
-use super::{Execution, Failure, TABLE_EMPTY, TABLE_FULL};
+use super::execution::{Execution, Failure};
+use super::{TABLE_EMPTY, TABLE_FULL};
 use crate::environment::Environment;
 use crate::references::Width;
 
@@ -67,7 +68,8 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
         self.put(table.address + WORD, Width::Word, i64::from(count));
     }
 
-    /// Takes the oldest entry, which is the first, or the newest. The place that becomes free keeps its value.
+    /// Takes the oldest entry, which is the first, or the newest. The place that becomes free keeps
+    /// its value.
     fn take_from_table(&mut self, oldest: bool) -> Result<(), Failure> {
         let (table, data) = (self.table_at(0)?, self.target(1, Width::Word, 1)?);
         self.interpreter.memory.set_bit(TABLE_EMPTY, table.count == 0);

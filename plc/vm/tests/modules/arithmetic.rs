@@ -25,7 +25,8 @@ const DIVIDED_BY_ZERO: Status = Status { set: BY_ZERO, touched: BY_ZERO };
 
 type Case = (Op, i32, i32, i32, Status);
 
-/// `op` on IN1 in VB0 and OUT in VB10, whose lengths in bytes are given: the result and SMB1, from all bits 0 and all 1.
+/// `op` on IN1 in VB0 and OUT in VB10, whose lengths in bytes are given: the result and SMB1, from
+/// all bits 0 and all 1.
 fn check(&(op, in1, out, result, status): &Case, in1_len: usize, out_len: usize) {
     for before in [0x00, 0xFF] {
         let mut machine = Machine::new();
@@ -36,9 +37,21 @@ fn check(&(op, in1, out, result, status): &Case, in1_len: usize, out_len: usize)
         let operands: &[Operand] = if in1_len == 0 { &[v(10)] } else { &[v(0), v(10)] };
         let failed = status.set & (OVERFLOW | BY_ZERO) != 0;
         let name = format!("{op:?} {in1}, {out}");
-        assert_eq!(machine.run(op, operands), if failed { End::NoResult } else { End::Good }, "{name}");
-        assert_eq!(machine.bytes(10, out_len as u16), result.to_be_bytes()[4 - out_len..], "{name}");
-        assert_eq!(machine.sm1(), before & !status.touched | status.set, "{name} from {before:02X}");
+        assert_eq!(
+            machine.run(op, operands),
+            if failed { End::NoResult } else { End::Good },
+            "{name}"
+        );
+        assert_eq!(
+            machine.bytes(10, out_len as u16),
+            result.to_be_bytes()[4 - out_len..],
+            "{name}"
+        );
+        assert_eq!(
+            machine.sm1(),
+            before & !status.touched | status.set,
+            "{name} from {before:02X}"
+        );
         assert_eq!(machine.bytes(14, 1), [0xA5]);
 
         machine.set_bytes(10, &out.to_be_bytes()[4 - out_len..]);

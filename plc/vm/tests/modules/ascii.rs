@@ -34,7 +34,11 @@ fn characters_to_hex() {
     }
     let mut machine = Machine::new();
     machine.set_bytes(0, &[b'7'; 255]);
-    assert_eq!(machine.run(Op::Ath, &[v(0), v(1), c(255)]), End::BadOperand, "what is written would be read again");
+    assert_eq!(
+        machine.run(Op::Ath, &[v(0), v(1), c(255)]),
+        End::BadOperand,
+        "what is written would be read again"
+    );
     assert_eq!(
         (machine.run(Op::Ath, &[v(0), v(0), c(255)]), machine.bytes(0, 129)),
         (End::Good, [vec![0x77; 128], vec![b'7']].concat())
@@ -48,8 +52,14 @@ fn hex_to_characters() {
     let mut machine = Machine::new();
     machine.set_bytes(0, &[0x3E, 0xA9]);
     machine.set_sm1(0x5A);
-    assert_eq!((machine.run(Op::Hta, &[v(0), v(40), c(3)]), machine.bytes(40, 4)), (End::Good, b"3EA\0".to_vec()));
-    assert_eq!((machine.run(Op::Hta, &[v(0), v(1), c(4)]), machine.bytes(0, 5)), (End::Good, b"\x3E3EA9".to_vec()));
+    assert_eq!(
+        (machine.run(Op::Hta, &[v(0), v(40), c(3)]), machine.bytes(40, 4)),
+        (End::Good, b"3EA\0".to_vec())
+    );
+    assert_eq!(
+        (machine.run(Op::Hta, &[v(0), v(1), c(4)]), machine.bytes(0, 5)),
+        (End::Good, b"\x3E3EA9".to_vec())
+    );
     assert_eq!(
         (machine.run(Op::Hta, &[v(100), v(100), c(255)]), machine.bytes(100, 255)),
         (End::Good, vec![b'0'; 255])
@@ -62,7 +72,8 @@ fn hex_to_characters() {
     assert_eq!(machine.sm1(), 0x5A);
 }
 
-/// The characters that an instruction makes of the value at VB0, with a dot behind them to see their end.
+/// The characters that an instruction makes of the value at VB0, with a dot after them to see
+/// their end.
 fn characters(op: Op, value: &[u8], fmt: i16) -> (End, String) {
     let mut machine = Machine::new();
     machine.set_bytes(0, value);
@@ -73,7 +84,8 @@ fn characters(op: Op, value: &[u8], fmt: i16) -> (End, String) {
     let end = machine.run(op, &operands);
     assert_eq!(machine.sm1(), 0x5A);
     let bytes = machine.bytes(40, 17);
-    let written = if is_text && bytes[0] != b'.' { format!("{} ", bytes[0]) } else { String::new() };
+    let written =
+        if is_text && bytes[0] != b'.' { format!("{} ", bytes[0]) } else { String::new() };
     let rest = &bytes[usize::from(!written.is_empty())..];
     let text = String::from_utf8_lossy(rest).trim_end_matches(['.', '\0']).to_string();
     (end, written + &text)
@@ -91,7 +103,10 @@ fn integers_to_characters() {
         (0, 5, " 0.00000"),
     ] {
         assert_eq!(characters(Op::Ita, &value.to_be_bytes(), fmt), (End::Good, text.into()));
-        assert_eq!(characters(Op::Its, &value.to_be_bytes(), fmt), (End::Good, format!("8 {text}")));
+        assert_eq!(
+            characters(Op::Its, &value.to_be_bytes(), fmt),
+            (End::Good, format!("8 {text}"))
+        );
         let double = i32::from(value).to_be_bytes();
         assert_eq!(characters(Op::Dta, &double, fmt), (End::Good, format!("    {text}")));
         assert_eq!(characters(Op::Dts, &double, fmt), (End::Good, format!("12     {text}")));
@@ -101,8 +116,14 @@ fn integers_to_characters() {
     for fmt in [6, 7, 0x10, 0x83] {
         assert_eq!(characters(Op::Ita, &[0, 1], fmt), (End::BadOperand, " ".repeat(8)));
         assert_eq!(characters(Op::Dta, &[0, 1], fmt), (End::BadOperand, " ".repeat(12)));
-        assert_eq!(characters(Op::Its, &[0, 1], fmt), (End::BadOperand, format!("8 {}", " ".repeat(8))));
-        assert_eq!(characters(Op::Dts, &[0, 1], fmt), (End::BadOperand, format!("12 {}", " ".repeat(12))));
+        assert_eq!(
+            characters(Op::Its, &[0, 1], fmt),
+            (End::BadOperand, format!("8 {}", " ".repeat(8)))
+        );
+        assert_eq!(
+            characters(Op::Dts, &[0, 1], fmt),
+            (End::BadOperand, format!("12 {}", " ".repeat(12)))
+        );
     }
 }
 
@@ -118,11 +139,19 @@ fn reals_to_characters() {
         (1e14, 0xF0, "100000000376832"),
     ] {
         assert_eq!(characters(Op::Rta, &value.to_be_bytes(), fmt), (End::Good, text.into()));
-        assert_eq!(characters(Op::Rts, &value.to_be_bytes(), fmt), (End::Good, format!("{} {text}", text.len())));
+        assert_eq!(
+            characters(Op::Rts, &value.to_be_bytes(), fmt),
+            (End::Good, format!("{} {text}", text.len()))
+        );
     }
-    for (value, fmt) in
-        [(12345.6_f32, 0x61), (2e15, 0xF0), (1.0, 0x66), (f32::NAN, 0x50), (f32::INFINITY, 0x50), (1e30, 0x50)]
-    {
+    for (value, fmt) in [
+        (12345.6_f32, 0x61),
+        (2e15, 0xF0),
+        (1.0, 0x66),
+        (f32::NAN, 0x50),
+        (f32::INFINITY, 0x50),
+        (1e30, 0x50),
+    ] {
         let spaces = " ".repeat(usize::from(fmt as u8 >> 4));
         assert_eq!(
             characters(Op::Rta, &value.to_be_bytes(), fmt),
@@ -135,8 +164,14 @@ fn reals_to_characters() {
         );
     }
     for fmt in [0x00, 0x11, 0x20] {
-        assert_eq!(characters(Op::Rta, &1_f32.to_be_bytes(), fmt), (End::BadOperand, String::new()));
-        assert_eq!(characters(Op::Rts, &1_f32.to_be_bytes(), fmt), (End::BadOperand, String::new()));
+        assert_eq!(
+            characters(Op::Rta, &1_f32.to_be_bytes(), fmt),
+            (End::BadOperand, String::new())
+        );
+        assert_eq!(
+            characters(Op::Rts, &1_f32.to_be_bytes(), fmt),
+            (End::BadOperand, String::new())
+        );
     }
 }
 
@@ -154,7 +189,8 @@ fn results_need_room() {
     ] {
         assert_eq!(machine.run(op, &operands), End::BadOperand, "{op:?}");
         assert_eq!(machine.bytes(V_LEN - 20, 20), [0; 20]);
-        let shifted = operands.map(|operand| if operand == v(V_LEN - len + 1) { v(V_LEN - len) } else { operand });
+        let shifted = operands
+            .map(|operand| if operand == v(V_LEN - len + 1) { v(V_LEN - len) } else { operand });
         assert_eq!(machine.run(op, &shifted), End::Good, "{op:?}");
         machine.set_bytes(V_LEN - 20, &[0; 20]);
     }
@@ -187,9 +223,16 @@ fn characters_to_numbers() {
                 let untouched = machine.double(40) as u32;
                 machine.set_sm1(before);
                 let end = machine.run(op, &[v(0), c(index), v(40)]);
-                assert_eq!(end, if result.is_some() { End::Good } else { End::NoResult }, "{op:?} {text}");
+                assert_eq!(
+                    end,
+                    if result.is_some() { End::Good } else { End::NoResult },
+                    "{op:?} {text}"
+                );
                 assert_eq!(machine.double(40) as u32, result.unwrap_or(untouched), "{op:?} {text}");
-                assert_eq!(machine.sm1(), before & !OVERFLOW | if result.is_some() { 0 } else { OVERFLOW });
+                assert_eq!(
+                    machine.sm1(),
+                    before & !OVERFLOW | if result.is_some() { 0 } else { OVERFLOW }
+                );
             }
         }
     }
@@ -197,7 +240,11 @@ fn characters_to_numbers() {
         let mut machine = Machine::new();
         machine.set_text(0, text);
         for op in [Op::Sti, Op::Std, Op::Str] {
-            assert_eq!(machine.run(op, &[v(0), c(index), v(40)]), End::BadOperand, "{text} {index}");
+            assert_eq!(
+                machine.run(op, &[v(0), c(index), v(40)]),
+                End::BadOperand,
+                "{text} {index}"
+            );
         }
     }
 }

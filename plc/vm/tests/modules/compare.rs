@@ -17,7 +17,8 @@ fn holds(relation: Relation, ordering: std::cmp::Ordering) -> bool {
     }
 }
 
-/// Checks the values at VB0 and VB100 with all relations, and how LD, A and O combine the result with 0 and 1.
+/// Checks the values at VB0 and VB100 with all relations, and how LD, A and O combine the result
+/// with 0 and 1.
 fn check(machine: &mut Machine, ops: [Op; 3], ordering: std::cmp::Ordering) {
     for each in Relation::ALL {
         let (operands, result) = ([relation(each), v(0), v(100)], holds(each, ordering));
@@ -25,11 +26,19 @@ fn check(machine: &mut Machine, ops: [Op; 3], ordering: std::cmp::Ordering) {
         for power in [false, true] {
             let (before, now) = (u16::from(power), u16::from(result));
             let results = ops.map(|op| {
-                let end = if power { machine.run(op, &operands) } else { machine.run_without_power(op, &operands) };
+                let end = if power {
+                    machine.run(op, &operands)
+                } else {
+                    machine.run_without_power(op, &operands)
+                };
                 assert_eq!(end, End::NoBox);
                 machine.stack()
             });
-            assert_eq!(results, [before << 1 | now, before & now, before | now], "{ops:?} {each:?} {ordering:?}");
+            assert_eq!(
+                results,
+                [before << 1 | now, before & now, before | now],
+                "{ops:?} {each:?} {ordering:?}"
+            );
         }
         assert_eq!(machine.sm1(), 0x5A);
     }
@@ -61,7 +70,9 @@ fn words_and_double_words_with_sign() {
 fn reals() {
     let mut machine = Machine::new();
     let ops = [Op::LoadReal, Op::AndReal, Op::OrReal];
-    for (a, b) in [(1.5_f32, 1.5), (-0.0, 0.0), (-2.0, 1.0), (1.0, -2.0), (-1.0, -2.0), (1e-40, 0.0)] {
+    for (a, b) in
+        [(1.5_f32, 1.5), (-0.0, 0.0), (-2.0, 1.0), (1.0, -2.0), (-1.0, -2.0), (1e-40, 0.0)]
+    {
         machine.set_real(0, a);
         machine.set_real(100, b);
         check(&mut machine, ops, a.partial_cmp(&b).unwrap_or_else(|| unreachable!()));
@@ -79,7 +90,9 @@ fn reals() {
 #[test]
 fn texts() {
     let mut machine = Machine::new();
-    for (a, b) in [("", ""), ("abc", "abc"), ("abc", "abd"), ("ab", "abc"), ("abc", "ab"), ("b", "abc")] {
+    for (a, b) in
+        [("", ""), ("abc", "abc"), ("abc", "abd"), ("ab", "abc"), ("abc", "ab"), ("b", "abc")]
+    {
         machine.set_text(0, a);
         machine.set_text(100, b);
         check(&mut machine, [Op::LoadText, Op::AndText, Op::OrText], a.cmp(b));
@@ -88,7 +101,7 @@ fn texts() {
     machine.set_text(100, "ab");
     machine.run(Op::LoadText, &[relation(Relation::Equal), text, v(100)]);
     assert_eq!(machine.stack(), 3);
-    // No string has 255 characters, and none ends behind its area.
+    // No string has 255 characters, and none ends after its area.
     for (byte, len) in [(0, 255), (390, 10)] {
         machine.set_bytes(byte, &[len]);
         let end = machine.run(Op::LoadText, &[relation(Relation::Equal), v(byte), v(100)]);
@@ -102,6 +115,9 @@ fn an_illegal_pointer_is_fatal() {
     machine.set_double(0, 0xFF00_0000);
     for op in [Op::LoadByteAny, Op::AndWordAny, Op::OrDouble] {
         let end = machine.run(op, &[relation(Relation::Equal), c(0), at(0)]);
-        assert!(matches!(end, End::Faulted(Fault::ComparedPointer { at }) if at > 0), "{op:?} {end:?}");
+        assert!(
+            matches!(end, End::Faulted(Fault::ComparedPointer { at }) if at > 0),
+            "{op:?} {end:?}"
+        );
     }
 }

@@ -6,8 +6,8 @@ use crate::machine::{End, Machine, OVERFLOW, c, v};
 
 const INVALID_BCD: u8 = 1 << 6;
 
-/// `op` from VD0 to VB10; the first bytes of the result, and SMB1 from all bits 0 and from all 1. `error`: the SM bit of a
-/// value without result, which leaves OUT as it is.
+/// `op` from VD0 to VB10; the first bytes of the result, and SMB1 from all bits 0 and from all 1.
+/// `error`: the SM bit of a value without result, which leaves OUT as it is.
 fn check(op: Op, input: &[u8], result: Option<&[u8]>, error: u8) {
     for before in [0x00, 0xFF] {
         let mut machine = Machine::new();
@@ -69,7 +69,10 @@ fn patterns() {
     check(Op::Enco, &[0x82, 0x00], Some(&[9]), 0);
     check(Op::Enco, &[0x80, 0x00], Some(&[15]), 0);
     check(Op::Enco, &[0, 0], Some(&[0]), 0);
-    let segments = [0x3F, 0x06, 0x5B, 0x4F, 0x66, 0x6D, 0x7D, 0x07, 0x7F, 0x67, 0x77, 0x7C, 0x39, 0x5E, 0x79, 0x71];
+    let segments = [
+        0x3F, 0x06, 0x5B, 0x4F, 0x66, 0x6D, 0x7D, 0x07, 0x7F, 0x67, 0x77, 0x7C, 0x39, 0x5E, 0x79,
+        0x71,
+    ];
     for (digit, pattern) in (0x50..).zip(segments) {
         check(Op::Seg, &[digit], Some(&[pattern]), 0);
     }
@@ -92,9 +95,19 @@ fn bcd() {
             let mut machine = Machine::new();
             machine.set_bytes(0, &value.to_be_bytes());
             machine.set_sm1(before);
-            assert_eq!(machine.run(op, &[v(0)]), if result.is_some() { End::Good } else { End::NoResult });
-            assert_eq!(machine.bytes(0, 2), result.unwrap_or(value).to_be_bytes(), "{op:?} {value:X}");
-            assert_eq!(machine.sm1(), before & !INVALID_BCD | if result.is_some() { 0 } else { INVALID_BCD });
+            assert_eq!(
+                machine.run(op, &[v(0)]),
+                if result.is_some() { End::Good } else { End::NoResult }
+            );
+            assert_eq!(
+                machine.bytes(0, 2),
+                result.unwrap_or(value).to_be_bytes(),
+                "{op:?} {value:X}"
+            );
+            assert_eq!(
+                machine.sm1(),
+                before & !INVALID_BCD | if result.is_some() { 0 } else { INVALID_BCD }
+            );
         }
     }
 }

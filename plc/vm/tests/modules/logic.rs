@@ -23,7 +23,11 @@ fn every_operation_in_every_width() {
                 machine.set_sm1(!ZERO);
                 assert_eq!(machine.run(op, &[v(4 - len), v(14 - len)]), End::Good);
                 let mask = u32::MAX >> (32 - 8 * len);
-                assert_eq!(machine.double(10) as u32, compute(out, in1) & mask | out & !mask, "{op:?}");
+                assert_eq!(
+                    machine.double(10) as u32,
+                    compute(out, in1) & mask | out & !mask,
+                    "{op:?}"
+                );
                 let is_zero = compute(out, in1) & mask == 0;
                 assert_eq!(machine.sm1(), !ZERO | u8::from(is_zero), "{op:?}");
             }
@@ -33,9 +37,11 @@ fn every_operation_in_every_width() {
 
 #[test]
 fn inversion() {
-    for (op, len, result) in
-        [(Op::Invb, 1, 0x1234_56FF), (Op::Invw, 2, 0x1234_A9FF_u32 as i32), (Op::Invd, 4, 0xEDCB_A9FF_u32 as i32)]
-    {
+    for (op, len, result) in [
+        (Op::Invb, 1, 0x1234_56FF),
+        (Op::Invw, 2, 0x1234_A9FF_u32 as i32),
+        (Op::Invd, 4, 0xEDCB_A9FF_u32 as i32),
+    ] {
         let mut machine = Machine::new();
         machine.set_double(10, 0x1234_5600);
         machine.set_sm1(ZERO);
@@ -46,7 +52,11 @@ fn inversion() {
         );
         machine.set_double(10, u32::MAX);
         machine.run(op, &[v(14 - len)]);
-        assert_eq!((machine.bytes(14 - len, len), machine.sm1()), (vec![0; usize::from(len)], ZERO), "{op:?}");
+        assert_eq!(
+            (machine.bytes(14 - len, len), machine.sm1()),
+            (vec![0; usize::from(len)], ZERO),
+            "{op:?}"
+        );
     }
 }
 
@@ -60,9 +70,15 @@ fn moves() {
         assert_eq!(machine.run(op, &[v(0), v(10)]), End::Good, "{op:?}");
         assert_eq!(machine.double(10) as u32, 0x89AB_CDEF & u32::MAX << (32 - 8 * len), "{op:?}");
     }
-    for (op, result) in [(Op::MovbAny, 0xFE00_0000_u32), (Op::MovwAny, 0xFFFE_0000), (Op::Movd, 0xFFFF_FFFE)] {
+    for (op, result) in
+        [(Op::MovbAny, 0xFE00_0000_u32), (Op::MovwAny, 0xFFFE_0000), (Op::Movd, 0xFFFF_FFFE)]
+    {
         machine.set_double(10, 0);
-        assert_eq!((machine.run(op, &[c(-2), v(10)]), machine.double(10) as u32), (End::Good, result), "{op:?}");
+        assert_eq!(
+            (machine.run(op, &[c(-2), v(10)]), machine.double(10) as u32),
+            (End::Good, result),
+            "{op:?}"
+        );
     }
     machine.set_double(10, 0x1234_5678);
     assert_eq!((machine.run(Op::Swap, &[v(11)]), machine.double(10)), (End::Good, 0x1256_3478));

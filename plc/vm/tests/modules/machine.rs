@@ -1,14 +1,15 @@
-//! A controller for single instructions: VB0 to VB399, SMB34 and SMB35, T5, C5; memory stays from one program to the next.
+//! A controller for single instructions: VB0 to VB399, SMB34 and SMB35, T5, C5; memory stays from
+//! one program to the next.
 
 use plc_isa::{
-    AC_START, ARENA_START, Bit, CRC_LEN, Crc32, ENO, Header, LogicStack, Op, Operand, Place, Reference, Relation,
-    SM_START,
+    AC_START, ARENA_START, Bit, CRC_LEN, Crc32, ENO, Header, LogicStack, Op, Operand, Reference,
+    Referent, Relation, SM_START, UNO,
 };
 use plc_vm::{Environment, Fault, Memory, Plc};
 
 /// Bytes of V memory.
 pub const V_LEN: u16 = 400;
-/// Where SMB34 is, behind V memory.
+/// Where SMB34 is, after V memory.
 pub const SMB34: u16 = ARENA_START + V_LEN;
 /// Where the current value of T5 is.
 pub const T5: u16 = SMB34 + 2;
@@ -93,7 +94,9 @@ impl Machine {
         let image = self.image(lines);
         self.plc = Plc::new();
         // Loading clears memory, which is to stay.
-        self.plc.load(&mut Memory::new(), image).unwrap_or_else(|error| panic!("{lines:?}: {error:?}"));
+        self.plc
+            .load(&mut Memory::new(), image)
+            .unwrap_or_else(|error| panic!("{lines:?}: {error:?}"));
         self.plc.run();
     }
 
@@ -124,7 +127,10 @@ impl Machine {
     fn image(&self, lines: &[Line]) -> Vec<u8> {
         let mut code: Vec<u8> = Vec::new();
         for &(op, operands) in lines.iter().chain(&[(Op::MainEnd, &[] as &[Operand])]) {
-            let encoded = op.instruction().encode(operands).unwrap_or_else(|| panic!("{op:?} {operands:?}"));
+            let encoded = op
+                .instruction()
+                .encode(operands, &UNO)
+                .unwrap_or_else(|| panic!("{op:?} {operands:?}"));
             code.extend(encoded.bytes());
         }
         let ranges = [(0, V_LEN), (0x8000 + 34, V_LEN + 2)];
@@ -139,7 +145,7 @@ impl Machine {
             ..Header::default()
         };
         header.total_len = header.code_end() + CRC_LEN;
-        let mut image = header.to_bytes().to_vec();
+        let mut image = header.to_bytes(&UNO).to_vec();
         for (first, end) in ranges {
             image.extend(u16::to_le_bytes(first));
             image.extend(u16::to_le_bytes(end));
@@ -157,7 +163,7 @@ impl Machine {
         let tables = Header { v_ranges: 2, timers: 1, counters: 1, ..Header::default() };
         let offset = tables.constants_at() + self.constants.len() as u16;
         self.constants.extend(bytes);
-        Operand::Reference(Reference::to(Place::Pool(offset)))
+        Operand::Reference(Reference::to(Referent::Pool(offset)))
     }
 
     /// A real constant.
@@ -187,7 +193,9 @@ impl Machine {
     }
 
     pub fn set_bytes(&mut self, byte: u16, bytes: &[u8]) {
-        (ARENA_START + byte..).zip(bytes).for_each(|(address, &byte)| self.memory.set_byte(address, byte));
+        (ARENA_START + byte..)
+            .zip(bytes)
+            .for_each(|(address, &byte)| self.memory.set_byte(address, byte));
     }
 
     /// Words of V memory.
@@ -196,11 +204,15 @@ impl Machine {
     }
 
     pub fn set_words(&mut self, byte: u16, words: &[i16]) {
-        words.iter().zip(0..).for_each(|(&word, index)| self.memory.set_int(ARENA_START + byte + 2 * index, word));
+        words
+            .iter()
+            .zip(0..)
+            .for_each(|(&word, index)| self.memory.set_int(ARENA_START + byte + 2 * index, word));
     }
 
     pub fn double(&self, byte: u16) -> i32 {
-        i32::from(self.memory.int(ARENA_START + byte)) << 16 | i32::from(self.memory.word(ARENA_START + byte + 2))
+        i32::from(self.memory.int(ARENA_START + byte)) << 16
+            | i32::from(self.memory.word(ARENA_START + byte + 2))
     }
 
     pub fn set_double(&mut self, byte: u16, value: u32) {
@@ -229,7 +241,7 @@ impl Machine {
 
 /// A data address.
 pub fn data(address: u16) -> Operand {
-    Operand::Reference(Reference::to(Place::Direct(address)))
+    Operand::Reference(Reference::to(Referent::Direct(address)))
 }
 
 /// A byte of V memory, or what begins there.
@@ -239,18 +251,18 @@ pub fn v(byte: u16) -> Operand {
 
 /// What the pointer in a double word of V memory leads to.
 pub fn at(byte: u16) -> Operand {
-    Operand::Reference(Reference::to(Place::Indirect(ARENA_START + byte)))
+    Operand::Reference(Reference::to(Referent::Indirect(ARENA_START + byte)))
 }
 
 /// What the pointer in an accumulator leads to.
 pub fn at_accumulator(number: u16) -> Operand {
-    Operand::Reference(Reference::to(Place::Indirect(AC_START + 4 * number)))
+    Operand::Reference(Reference::to(Referent::Indirect(AC_START + 4 * number)))
 }
 
 /// A constant.
 pub fn c(value: i16) -> Operand {
     assert!((Reference::CONSTANT_MIN..=Reference::CONSTANT_MAX).contains(&i32::from(value)));
-    Operand::Reference(Reference::to(Place::Constant(value)))
+    Operand::Reference(Reference::to(Referent::Constant(value)))
 }
 
 /// A comparison.

@@ -1,4 +1,5 @@
-//! Every module instruction on a controller of its own: values, edges, SM bits, ENO. AWL is not needed here.
+//! Every module instruction on a controller of its own: values, edges, SM bits, ENO. AWL is not
+//! needed here.
 
 mod arithmetic;
 mod ascii;
@@ -9,6 +10,7 @@ mod machine;
 mod points;
 mod real;
 mod references;
+mod rows;
 mod shift;
 mod table;
 mod text;

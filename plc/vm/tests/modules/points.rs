@@ -20,8 +20,11 @@ fn contacts() {
                 (Op::Oni, power | off),
             ] {
                 let operands = [bit(I_START, 5)];
-                let end =
-                    if power == 1 { machine.run(op, &operands) } else { machine.run_without_power(op, &operands) };
+                let end = if power == 1 {
+                    machine.run(op, &operands)
+                } else {
+                    machine.run_without_power(op, &operands)
+                };
                 assert_eq!((end, machine.stack()), (End::NoBox, stack), "{op:?} {on} {power}");
             }
         }
@@ -31,13 +34,19 @@ fn contacts() {
 #[test]
 fn coils() {
     let mut machine = Machine::new();
-    assert_eq!((machine.run(Op::AssignImmediate, &[bit(Q_START, 3)]), machine.memory.byte(Q_START)), (End::NoBox, 8));
+    assert_eq!(
+        (machine.run(Op::AssignImmediate, &[bit(Q_START, 3)]), machine.memory.byte(Q_START)),
+        (End::NoBox, 8)
+    );
     assert_eq!(machine.run(Op::SetImmediate, &[bit(Q_START, 6), c(4)]), End::Good);
     assert_eq!((machine.memory.byte(Q_START), machine.memory.byte(Q_START + 1)), (0xC8, 3));
     assert_eq!(machine.run(Op::ResetImmediate, &[bit(Q_START, 0), c(7)]), End::Good);
     assert_eq!((machine.memory.byte(Q_START), machine.memory.byte(Q_START + 1)), (0x80, 3));
     assert_eq!(machine.run(Op::SetImmediate, &[bit(Q_START, 0), c(0)]), End::Good);
-    assert_eq!(machine.run_without_power(Op::SetImmediate, &[bit(Q_START, 0), c(3)]), End::NoResult);
+    assert_eq!(
+        machine.run_without_power(Op::SetImmediate, &[bit(Q_START, 0), c(3)]),
+        End::NoResult
+    );
     assert_eq!(machine.run(Op::SetImmediate, &[bit(Q_START, 1), c(128)]), End::BadOperand);
     assert_eq!(machine.memory.byte(Q_START), 0x80);
     assert_eq!(machine.run(Op::SetImmediate, &[bit(Q_START, 0), c(128)]), End::Good);
@@ -53,14 +62,21 @@ fn bits_with_a_count_that_is_read() {
     machine.set_bytes(300, &[11]);
     for (address, place) in [(M_START, 6), (last - 1, 5)] {
         assert_eq!(machine.run(Op::SetAny, &[bit(address, place), v(300)]), End::Good);
-        assert_eq!((machine.memory.byte(address), machine.memory.byte(address + 1)), (0xFF << place, 0xFF));
+        assert_eq!(
+            (machine.memory.byte(address), machine.memory.byte(address + 1)),
+            (0xFF << place, 0xFF)
+        );
         assert_eq!(
             machine.run(Op::ResetAny, &[bit(address, place + 1), v(300)]),
             if address == M_START { End::Good } else { End::BadOperand }
         );
     }
     assert_eq!((machine.memory.word(M_START), machine.memory.byte(M_START + 2)), (0x4000, 0));
-    assert_eq!(machine.memory.word(last - 1), 0xE0FF, "a range that leaves its area writes nothing");
+    assert_eq!(
+        machine.memory.word(last - 1),
+        0xE0FF,
+        "a range that leaves its area writes nothing"
+    );
     machine.set_bytes(300, &[0]);
     assert_eq!(machine.run(Op::ResetAny, &[bit(M_START, 6), v(300)]), End::Good);
     assert_eq!(machine.run_without_power(Op::ResetAny, &[bit(M_START, 6), c(1)]), End::NoResult);
@@ -71,8 +87,14 @@ fn bits_with_a_count_that_is_read() {
 fn bytes_of_points() {
     let mut machine = Machine::new();
     machine.memory.set_byte(I_START, 0x2A);
-    assert_eq!((machine.run(Op::Bir, &[data(I_START), v(10)]), machine.bytes(10, 1)), (End::Good, vec![0x2A]));
-    assert_eq!((machine.run(Op::Biw, &[v(10), data(Q_START)]), machine.memory.byte(Q_START)), (End::Good, 0x2A));
+    assert_eq!(
+        (machine.run(Op::Bir, &[data(I_START), v(10)]), machine.bytes(10, 1)),
+        (End::Good, vec![0x2A])
+    );
+    assert_eq!(
+        (machine.run(Op::Biw, &[v(10), data(Q_START)]), machine.memory.byte(Q_START)),
+        (End::Good, 0x2A)
+    );
     machine.set_double(0, pointer::to(0x00, 0));
     assert_eq!(machine.run(Op::Bir, &[at(0), v(11)]), End::Good);
     // Points only.

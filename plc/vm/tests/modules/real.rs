@@ -6,7 +6,8 @@ use crate::machine::{BY_ZERO, End, Machine, NEGATIVE, OVERFLOW, V_LEN, ZERO, bit
 
 const STATUS: u8 = ZERO | OVERFLOW | NEGATIVE;
 
-/// `op` on IN in VD0 and OUT in VD10: the result, or that there is none; SMB1 from all bits 0 and from all 1.
+/// `op` on IN in VD0 and OUT in VD10: the result, or that there is none; SMB1 from all bits 0 and
+/// from all 1.
 fn check(op: Op, input: f32, out: f32, result: Option<f32>, set: u8, touched: u8) {
     for before in [0x00, 0xFF] {
         let mut machine = Machine::new();
@@ -14,8 +15,16 @@ fn check(op: Op, input: f32, out: f32, result: Option<f32>, set: u8, touched: u8
         machine.set_real(10, out);
         machine.set_sm1(before);
         let end = machine.run(op, &[v(0), v(10)]);
-        assert_eq!(end, if result.is_some() { End::Good } else { End::NoResult }, "{op:?} {input} {out}");
-        assert_eq!(machine.real_at(10).to_bits(), result.unwrap_or(out).to_bits(), "{op:?} {input} {out}");
+        assert_eq!(
+            end,
+            if result.is_some() { End::Good } else { End::NoResult },
+            "{op:?} {input} {out}"
+        );
+        assert_eq!(
+            machine.real_at(10).to_bits(),
+            result.unwrap_or(out).to_bits(),
+            "{op:?} {input} {out}"
+        );
         assert_eq!(machine.sm1(), before & !touched | set, "{op:?} {input} {out}");
     }
 }
@@ -71,8 +80,14 @@ fn pid_computes_its_table() {
     let before = machine.bytes(0, 36);
     assert_eq!(machine.run(Op::Pid, &[v(0), Operand::Number(0), HISTORY]), End::NoResult);
     assert_eq!((machine.bytes(0, 36), machine.sm1()), (before, 0xFF));
-    assert_eq!(machine.run(Op::Pid, &[v(V_LEN - 35), Operand::Number(0), HISTORY]), End::BadOperand);
-    assert_eq!(machine.run_without_power(Op::Pid, &[v(0), Operand::Number(0), HISTORY]), End::NoResult);
+    assert_eq!(
+        machine.run(Op::Pid, &[v(V_LEN - 35), Operand::Number(0), HISTORY]),
+        End::BadOperand
+    );
+    assert_eq!(
+        machine.run_without_power(Op::Pid, &[v(0), Operand::Number(0), HISTORY]),
+        End::NoResult
+    );
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! Operands: what they lead to, and what is refused.
 
 use plc_isa::{
-    AC_START, AIW_START, AQW_START, HC0, I_START, L_START, M_START, Op, Q_START, S_START, SM_START, T_BITS_START,
-    pointer,
+    AC_START, AIW_START, AQW_START, HC0, I_START, L_START, M_START, Op, Q_START, S_START, SM_START,
+    T_BITS_START, pointer,
 };
 
 use crate::machine::{C5, End, Machine, SMB34, T5, V_LEN, at, at_accumulator, c, data, v};
@@ -56,7 +56,7 @@ fn pointers_lead_to_every_area() {
 fn pointers_to_what_is_only_read_or_only_written() {
     let mut machine = Machine::new();
     for (area, offset, address) in
-        [(I, 14, I_START + 14), (AI, 0, AIW_START), (AI, 10, AIW_START + 10), (SM, 28, SM_START + 28)]
+        [(AI, 0, AIW_START), (AI, 10, AIW_START + 10), (SM, 28, SM_START + 28)]
     {
         machine.set_double(0, pointer::to(area, offset));
         machine.memory.set_int(address, -1234);
@@ -69,7 +69,10 @@ fn pointers_to_what_is_only_read_or_only_written() {
         assert_eq!(machine.memory.int(address), -1234);
     }
     machine.set_double(0, pointer::to(AQ, 2));
-    assert_eq!((machine.run(Op::MovwAny, &[c(77), at(0)]), machine.memory.int(AQW_START + 2)), (End::Good, 77));
+    assert_eq!(
+        (machine.run(Op::MovwAny, &[c(77), at(0)]), machine.memory.int(AQW_START + 2)),
+        (End::Good, 77)
+    );
     assert_eq!(machine.run(Op::MovwAny, &[at(0), v(10)]), End::BadOperand);
 }
 
@@ -122,7 +125,11 @@ fn the_length_of_the_value_counts() {
         }
         // Current values are words.
         machine.set_double(0, pointer::to(T, 10));
-        assert_eq!(machine.run(op, &[at(0), v(10)]), if len == 2 { End::Good } else { End::BadOperand }, "{op:?}");
+        assert_eq!(
+            machine.run(op, &[at(0), v(10)]),
+            if len == 2 { End::Good } else { End::BadOperand },
+            "{op:?}"
+        );
     }
 }
 
@@ -138,8 +145,10 @@ fn pointers_are_held_by_accumulators_and_local_memory_too() {
         assert_eq!(machine.words(10, 1), [4321]);
     }
     let pointer = pointer::to(V, 20).to_be_bytes();
-    (L_START + 60..).zip(pointer).for_each(|(address, byte)| machine.memory.set_byte(address, byte));
-    let local = plc_isa::Reference::to(plc_isa::Place::Indirect(L_START + 60));
+    (L_START + 60..)
+        .zip(pointer)
+        .for_each(|(address, byte)| machine.memory.set_byte(address, byte));
+    let local = plc_isa::Reference::to(plc_isa::Referent::Indirect(L_START + 60));
     assert_eq!(machine.run(Op::IncwAny, &[plc_isa::Operand::Reference(local)]), End::Good);
     assert_eq!(machine.words(20, 1), [4322]);
 }
@@ -148,7 +157,7 @@ fn pointers_are_held_by_accumulators_and_local_memory_too() {
 fn direct_addresses_of_every_area() {
     let mut machine = Machine::new();
     for (address, out) in [
-        (I_START, false),
+        (I_START, true),
         (AIW_START, false),
         (AC_START + 2, true),
         (AC_START + 14, true),
@@ -159,33 +168,56 @@ fn direct_addresses_of_every_area() {
         (SMB34, true),
     ] {
         machine.memory.set_int(address, -77);
-        assert_eq!((machine.run(Op::MovwAny, &[data(address), v(10)]), machine.words(10, 1)), (End::Good, vec![-77]));
+        assert_eq!(
+            (machine.run(Op::MovwAny, &[data(address), v(10)]), machine.words(10, 1)),
+            (End::Good, vec![-77])
+        );
         if out {
-            assert_eq!((machine.run(Op::MovwAny, &[c(5), data(address)]), machine.memory.int(address)), (End::Good, 5));
+            assert_eq!(
+                (machine.run(Op::MovwAny, &[c(5), data(address)]), machine.memory.int(address)),
+                (End::Good, 5)
+            );
         }
     }
     assert_eq!(machine.run(Op::Movd, &[data(HC0), v(10)]), End::Good);
     // A byte of an accumulator is its lowest; the others keep their values.
     assert_eq!(machine.run(Op::Movd, &[c(-1), data(AC_START)]), End::Good);
     assert_eq!(machine.run(Op::MovbAny, &[c(0x12), data(AC_START + 3)]), End::Good);
-    assert_eq!((machine.memory.word(AC_START), machine.memory.word(AC_START + 2)), (0xFFFF, 0xFF12));
+    assert_eq!(
+        (machine.memory.word(AC_START), machine.memory.word(AC_START + 2)),
+        (0xFFFF, 0xFF12)
+    );
 }
 
 #[test]
 fn constants_of_the_pool_are_as_long_as_the_operand() {
     let mut machine = Machine::new();
-    let (byte, word, double) =
-        (machine.pool(&[200]), machine.pool(&[0x80, 0x01]), machine.pool(&[0x89, 0xAB, 0xCD, 0xEF]));
-    assert_eq!((machine.run(Op::MovbAny, &[byte, v(0)]), machine.bytes(0, 2)), (End::Good, vec![200, 0]));
-    assert_eq!((machine.run(Op::MovwAny, &[word, v(0)]), machine.words(0, 1)), (End::Good, vec![-32767]));
-    assert_eq!((machine.run(Op::Movd, &[double, v(0)]), machine.double(0) as u32), (End::Good, 0x89AB_CDEF));
+    let (byte, word, double) = (
+        machine.pool(&[200]),
+        machine.pool(&[0x80, 0x01]),
+        machine.pool(&[0x89, 0xAB, 0xCD, 0xEF]),
+    );
+    assert_eq!(
+        (machine.run(Op::MovbAny, &[byte, v(0)]), machine.bytes(0, 2)),
+        (End::Good, vec![200, 0])
+    );
+    assert_eq!(
+        (machine.run(Op::MovwAny, &[word, v(0)]), machine.words(0, 1)),
+        (End::Good, vec![-32767])
+    );
+    assert_eq!(
+        (machine.run(Op::Movd, &[double, v(0)]), machine.double(0) as u32),
+        (End::Good, 0x89AB_CDEF)
+    );
     assert_eq!((machine.run(Op::Itd, &[word, v(0)]), machine.double(0)), (End::Good, -32767));
 }
 
 #[test]
 fn values_behind_one_another_stay_in_their_area() {
     let mut machine = Machine::new();
-    let fill = |machine: &mut Machine, address, count| machine.run(Op::Fill, &[c(7), data(address), c(count)]);
+    let fill = |machine: &mut Machine, address, count| {
+        machine.run(Op::Fill, &[c(7), data(address), c(count)])
+    };
     for (address, most) in [
         (plc_isa::ARENA_START + V_LEN - 6, 3),
         (SMB34, 1),
@@ -203,8 +235,10 @@ fn values_behind_one_another_stay_in_their_area() {
         assert_eq!(machine.memory.word(address), before.word(address));
         assert_eq!(fill(&mut machine, address, most), End::Good, "{address:X}");
     }
-    for (address, most) in [(AIW_START, 6), (AIW_START + 10, 1), (AIW_START + 12, 6), (I_START, 8)] {
-        let copy = |machine: &mut Machine, count| machine.run(Op::Bmw, &[data(address), v(0), c(count)]);
+    for (address, most) in [(AIW_START, 6), (AIW_START + 10, 1), (AIW_START + 12, 6), (I_START, 8)]
+    {
+        let copy =
+            |machine: &mut Machine, count| machine.run(Op::Bmw, &[data(address), v(0), c(count)]);
         assert_eq!(
             (copy(&mut machine, most), copy(&mut machine, most + 1)),
             (End::Good, End::BadOperand),

@@ -29,7 +29,9 @@ fn every_count_in_every_width() {
     for (left, rotate, ops) in ops {
         for (op, bytes) in ops.into_iter().zip([1_u16, 2, 4]) {
             let bits = 8 * u32::from(bytes);
-            for (count, pattern) in (0..=35).chain([64, 255]).flat_map(|count| [(count, 0x9234_5681_u32), (count, 0)]) {
+            for (count, pattern) in
+                (0..=35).chain([64, 255]).flat_map(|count| [(count, 0x9234_5681_u32), (count, 0)])
+            {
                 let pattern = pattern >> (32 - bits);
                 for before in [0x00, 0xFF] {
                     let mut machine = Machine::new();
@@ -38,9 +40,14 @@ fn every_count_in_every_width() {
                     assert_eq!(machine.run(op, &[v(10), c(count)]), End::Good);
                     let moved = if rotate { count as u32 % bits } else { (count as u32).min(bits) };
                     let (result, last) = by_hand(pattern, bits, moved, left, rotate);
-                    let overflow = if moved == 0 { before & OVERFLOW } else { u8::from(last) * OVERFLOW };
+                    let overflow =
+                        if moved == 0 { before & OVERFLOW } else { u8::from(last) * OVERFLOW };
                     let zero = u8::from(result == 0) * ZERO;
-                    assert_eq!(machine.double(10) as u32, result << (32 - bits), "{op:?} {pattern:X}, {count}");
+                    assert_eq!(
+                        machine.double(10) as u32,
+                        result << (32 - bits),
+                        "{op:?} {pattern:X}, {count}"
+                    );
                     assert_eq!(
                         machine.sm1(),
                         before & !(ZERO | OVERFLOW) | zero | overflow,
@@ -68,7 +75,10 @@ fn shift_register() {
         machine.set_bytes(33, &(before << 4 | around).to_le_bytes());
         machine.memory.set_bit(plc_isa::Bit { address: M_START, bit: 3 }, data);
         machine.set_sm1(!OVERFLOW | (u8::from(!left) * OVERFLOW));
-        assert_eq!(machine.run(Op::Shrb, &[bit(M_START, 3), bit(ARENA_START + 33, 4), c(n)]), End::Good);
+        assert_eq!(
+            machine.run(Op::Shrb, &[bit(M_START, 3), bit(ARENA_START + 33, 4), c(n)]),
+            End::Good
+        );
         assert_eq!(machine.bytes(33, 4), (after << 4 | around).to_le_bytes(), "{n}");
         assert_eq!(machine.sm1(), !OVERFLOW | (u8::from(left) * OVERFLOW), "{n}");
     }
@@ -82,7 +92,10 @@ fn shift_register_of_64_bits_and_its_limits() {
         machine.run(Op::Shrb, &[bit(M_START, 0), bit(ARENA_START + byte, place), c(n)])
     };
     assert_eq!(shrb(&mut machine, 0, 0, 64), End::Good);
-    assert_eq!((machine.bytes(0, 9), machine.sm1()), (vec![0, 1, 0, 0, 0, 0, 0, 0, 0x55], OVERFLOW));
+    assert_eq!(
+        (machine.bytes(0, 9), machine.sm1()),
+        (vec![0, 1, 0, 0, 0, 0, 0, 0, 0x55], OVERFLOW)
+    );
     let before = machine.memory.clone();
     for n in [65, -65, -128] {
         assert_eq!(shrb(&mut machine, 0, 0, n), End::BadOperand, "{n}");

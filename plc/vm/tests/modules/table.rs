@@ -21,7 +21,10 @@ fn entries_are_added_up_to_the_length() {
             let memory = machine.memory.clone();
             machine.set_sm1(before);
             assert_eq!(machine.run(Op::Att, &[c(data), v(200)]), end);
-            assert_eq!((machine.words(200, 6), machine.sm1()), (table.to_vec(), before & !FULL | full));
+            assert_eq!(
+                (machine.words(200, 6), machine.sm1()),
+                (table.to_vec(), before & !FULL | full)
+            );
             if before == 0x00 {
                 machine.memory = memory;
             }
@@ -31,24 +34,35 @@ fn entries_are_added_up_to_the_length() {
 
 #[test]
 fn the_oldest_and_the_newest_are_taken() {
-    for (op, taken, table) in [(Op::Fifo, 11, [4, 2, 22, 33, 33, 44]), (Op::Lifo, 33, [4, 2, 11, 22, 33, 44])] {
+    for (op, taken, table) in
+        [(Op::Fifo, 11, [4, 2, 22, 33, 33, 44]), (Op::Lifo, 33, [4, 2, 11, 22, 33, 44])]
+    {
         let mut machine = Machine::new();
         machine.set_words(200, &[4, 3, 11, 22, 33, 44]);
         machine.set_sm1(0xFF);
         assert_eq!(machine.run(op, &[v(200), v(300)]), End::Good);
-        assert_eq!((machine.words(300, 1), machine.words(200, 6)), (vec![taken], table.to_vec()), "{op:?}");
+        assert_eq!(
+            (machine.words(300, 1), machine.words(200, 6)),
+            (vec![taken], table.to_vec()),
+            "{op:?}"
+        );
         assert_eq!(machine.sm1(), !EMPTY);
         machine.set_words(200, &[4, 0, 11]);
         machine.set_sm1(0);
         assert_eq!(machine.run(op, &[v(200), v(300)]), End::NoResult);
-        assert_eq!((machine.words(300, 1), machine.words(200, 3), machine.sm1()), (vec![taken], vec![4, 0, 11], EMPTY));
+        assert_eq!(
+            (machine.words(300, 1), machine.words(200, 3), machine.sm1()),
+            (vec![taken], vec![4, 0, 11], EMPTY)
+        );
     }
 }
 
 #[test]
 fn tables_that_are_none() {
     let last = V_LEN - 2 * 102;
-    for (byte, len, count) in [(0, 101, 0), (0, -1, 0), (0, 4, 5), (0, 4, -1), (last + 2, 100, 1), (V_LEN - 2, 0, 0)] {
+    for (byte, len, count) in
+        [(0, 101, 0), (0, -1, 0), (0, 4, 5), (0, 4, -1), (last + 2, 100, 1), (V_LEN - 2, 0, 0)]
+    {
         let mut machine = Machine::new();
         machine.set_words(byte, &[len]);
         if byte + 2 < V_LEN {
@@ -56,7 +70,11 @@ fn tables_that_are_none() {
         }
         let before = machine.memory.clone();
         for op in [Op::Fifo, Op::Lifo] {
-            assert_eq!(machine.run(op, &[v(byte), v(300)]), End::BadOperand, "{byte} {len} {count}");
+            assert_eq!(
+                machine.run(op, &[v(byte), v(300)]),
+                End::BadOperand,
+                "{byte} {len} {count}"
+            );
         }
         assert_eq!(machine.run(Op::Att, &[c(5), v(byte)]), End::BadOperand, "{byte} {len} {count}");
         let mut after = Machine::new();
@@ -95,12 +113,17 @@ fn find() {
             "{relation_:?} {pattern}"
         );
     }
-    for (byte, count, start) in [(0, 101, 0), (0, -1, 0), (0, 3, 4), (0, 3, -1), (V_LEN - 4, 2, 0)] {
+    for (byte, count, start) in [(0, 101, 0), (0, -1, 0), (0, 3, 4), (0, 3, -1), (V_LEN - 4, 2, 0)]
+    {
         let mut machine = Machine::new();
         machine.set_words(byte, &[count]);
         machine.set_words(300, &[start]);
         let end = machine.run(Op::Fnd, &[relation(Relation::Equal), v(byte), c(7), v(300)]);
-        assert_eq!((end, machine.words(300, 1)), (End::BadOperand, vec![start]), "{byte} {count} {start}");
+        assert_eq!(
+            (end, machine.words(300, 1)),
+            (End::BadOperand, vec![start]),
+            "{byte} {count} {start}"
+        );
     }
 }
 
@@ -128,8 +151,16 @@ fn blocks() {
             machine.set_bytes(0, &bytes);
             assert_eq!(machine.run(op, &[v(from), v(to), c(5)]), End::Good);
             let copied = machine.bytes(to, 5 * len);
-            assert_eq!(copied, bytes[usize::from(from)..usize::from(from + 5 * len)], "{op:?} {from} {to}");
-            assert_eq!(machine.bytes(to + 5 * len, 1), if to == 100 { [0] } else { [(to + 5 * len) as u8] }, "{op:?}");
+            assert_eq!(
+                copied,
+                bytes[usize::from(from)..usize::from(from + 5 * len)],
+                "{op:?} {from} {to}"
+            );
+            assert_eq!(
+                machine.bytes(to + 5 * len, 1),
+                if to == 100 { [0] } else { [(to + 5 * len) as u8] },
+                "{op:?}"
+            );
         }
         let mut machine = Machine::new();
         machine.set_bytes(0, &bytes);

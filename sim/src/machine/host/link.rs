@@ -1,17 +1,19 @@
 //! The host machine's line: what `plc-link` needs of it, and requests that come one at a time.
 
-use std::time::Instant;
-
-use plc_isa::{ARENA_START, DATA_END, ProgramMemory};
-use plc_link::{Command, Link, PDU_MAX, ScanTimes, Station};
+use plc_isa::{ARENA_START, ProgramMemory, UNO};
+use plc_link::{Command, Link, PDU_MAX, ScanTimes, Station, TEXTS};
 use plc_vm::{Memory, Mode, Plc};
 
 use super::Host;
 
-/// The board also puts the checksum of a request in the frame. The host has the same room, so that it answers the same.
+/// The board also puts the checksum of a request in the frame. The host has the same room, so that
+/// it answers the same.
 const CHECKSUM_LEN: u16 = 2;
-/// Bytes of data memory for the frame, where there are so many; the memory of traces is behind it.
+/// Bytes of data memory for the frame, where there are so many; the memory of traces is after it.
 const FRAME_LEN: u16 = PDU_MAX + CHECKSUM_LEN;
+
+/// The product code of a simulator; no longer than a board's, for which there is room.
+const SIMULATOR: &str = "simulator";
 
 /// What a machine keeps for its line.
 pub(super) struct Line {
@@ -25,30 +27,39 @@ pub(super) struct Line {
     command: Option<Command>,
     /// Single scans to come, with the one that is under way; 0 without.
     scans_left: u16,
+    product: &'static str,
 }
 
 impl Line {
     pub fn new(slot: Vec<u8>) -> Line {
         let link = Link::new();
-        Line { link, times: ScanTimes::NONE, slot, request_len: 0, command: None, scans_left: 0 }
+        let (times, product) = (ScanTimes::NONE, TEXTS[1]);
+        Line { link, times, slot, request_len: 0, command: None, scans_left: 0, product }
     }
 }
 
 impl Host {
-    /// Finds the place of the frame: behind the program's memory and the copy of what it retains.
+    /// Finds the place of the frame: after the program's memory and the copy of what it retains.
     pub(super) fn place_frame(&mut self) {
         let (frame, end) = match self.plc.program() {
             Some(program) => {
                 let (plan, image) = (program.plan(), program.memory());
-                (plan.end() + plan.retained_len(), image.modules_end().unwrap_or(DATA_END))
+                (plan.end() + plan.retained_len(), image.modules_end().unwrap_or(UNO.data_end))
             }
-            None => (ARENA_START, DATA_END),
+            None => (ARENA_START, UNO.data_end),
         };
         let frame_len = (end - frame).min(FRAME_LEN);
         self.line.link.place(frame, frame_len - CHECKSUM_LEN, frame + frame_len, end);
     }
 
-    /// Takes a request (function code and data). The one before has been answered. `false`: there is no room for it.
+    /// Says that it is a simulator to whoever asks. Otherwise it answers as the board does, byte by
+    /// byte.
+    pub fn call_itself_simulator(&mut self) {
+        self.line.product = SIMULATOR;
+    }
+
+    /// Takes a request (function code and data). The one before has been answered. `false`: there
+    /// is no room for it.
     pub fn take_request(&mut self, pdu: &[u8]) -> bool {
         if pdu.is_empty() || pdu.len() > usize::from(self.line.link.room()) {
             return false;
@@ -60,11 +71,17 @@ impl Host {
         true
     }
 
-    /// The answer to the request that was taken, at the end of a scan; `None` where it takes another scan.
+    /// The answer to the request that was taken, at the end of a scan; `None` where it takes
+    /// another scan.
     pub fn answer(&mut self) -> Option<Vec<u8>> {
         let len = plc_link::answer(self, self.line.request_len);
-        // As before outputs are written: what a client has just written does not show where it is forced.
+        // As before outputs are written: what a client has just written does not show where it is
+        // forced.
         self.line.link.forces.apply(&mut self.memory);
+        if len == 0 {
+            // What the rest of the answer waits for does not wait for the answer.
+            self.carry_out();
+        }
         let frame = self.line.link.frame();
         (len > 0).then(|| (frame..frame + len).map(|address| self.memory.byte(address)).collect())
     }
@@ -80,24 +97,26 @@ impl Host {
         }
     }
 
-    /// A scan that began at `start` has executed the program.
-    pub(super) fn end_scan(&mut self, start: Instant) {
+    /// A scan that began at `start_us` has executed the program.
+    pub(super) fn end_scan(&mut self, start_us: u64) {
+        let length_us = (self.clock)().saturating_sub(start_us);
         // 0 would be no scan.
-        let length = u32::try_from(start.elapsed().as_micros()).unwrap_or(u32::MAX).max(1);
+        let length = u32::try_from(length_us).unwrap_or(u32::MAX).max(1);
         self.line.times.enter(length);
         self.line.link.trace_step(&mut self.memory, self.line.times.scans as u16);
+        if self.plc.mode() == Mode::Stop {
+            return self.end_run();
+        }
         if self.line.scans_left > 0 {
             self.line.scans_left -= 1;
             if self.line.scans_left == 0 {
+                // Forces hold from one single scan to the next.
                 self.plc.stop();
             }
         }
-        if self.plc.mode() == Mode::Stop {
-            self.end_run();
-        }
     }
 
-    /// RUN has ended, for whatever reason.
+    /// RUN has ended, for whatever reason but the end of single scans.
     pub(super) fn end_run(&mut self) {
         self.line.scans_left = 0;
         self.line.link.forces.clear(&mut self.memory);
@@ -123,6 +142,10 @@ impl Station for Host {
 
     fn slot_byte(&self, offset: u16) -> u8 {
         self.line.slot.get(usize::from(offset)).copied().unwrap_or(0xFF)
+    }
+
+    fn product(&self) -> &'static str {
+        self.line.product
     }
 
     fn has_scans_left(&self) -> bool {

@@ -1,8 +1,12 @@
-//! The simulated board with its firmware: power, program slot, marks, pins, clock, status. It knows no operands.
+//! The simulated board with its firmware: power, program slot, marks, pins, clock, status. It knows
+//! no operands.
 
 use std::ops::Range;
 
-use plc_isa::{DATA_END, DATA_START, DIGITAL_INPUTS, DIGITAL_OUTPUTS, PULSES_MODULE, SLOT_END, SLOT_START, state_at};
+use plc_isa::{
+    DATA_END, DATA_START, DIGITAL_INPUTS, DIGITAL_OUTPUTS, PULSES_MODULE, SLOT_END, SLOT_START,
+    state_at,
+};
 use plc_vm::{Fault, Inputs, TimeOfDay};
 use simavr::{Avr, LoadError, Pin, Reset, Stopped};
 
@@ -28,14 +32,15 @@ const TICK_INTERRUPT: (usize, u8) = (0x6E, 1 << 1);
 const TIMER_1_INTERRUPTS: u16 = 0x6F;
 const TIMER_1_MODE: u16 = 0x80;
 const TIMER_1_TOP: u16 = 0x86;
-/// For Q0.1 and Q0.2 where in TCCR1A the two bits are that connect the pin, and the compare register. The pin is high up to
-/// that, or, if both are set, from there on.
+/// For Q0.1 and Q0.2 where in TCCR1A the two bits are that connect the pin, and the compare
+/// register. The pin is high up to that, or, if both are set, from there on.
 const MODULATED: [(u8, u16); 2] = [(6, 0x88), (4, 0x8A)];
-/// Where the module of pulse outputs has the ticks of a cycle that the output is on, and behind them those that it is off,
-/// while the interrupt makes the edges.
+/// Where the module of pulse outputs has the ticks of a cycle that the output is on, and after
+/// them those that it is off, while the interrupt makes the edges.
 const TICKS: u16 = state_at(PULSES_MODULE) + 6;
 
-/// A flag of the modules in GPIOR1: analog outputs are on. And the levels that the process image gives the pins, PORTB.
+/// A flag of the modules in GPIOR1: analog outputs are on. And the levels that the process image
+/// gives the pins, PORTB.
 const ANALOG_OUTPUTS_ON: (u16, u8) = (0x4A, 1 << 4);
 const IMAGE_LEVELS: u16 = 0x25;
 
@@ -113,7 +118,8 @@ impl Board {
         self.run_to(Mark::ScanStart, BOOT_MAX)
     }
 
-    /// Runs for so many cycles, to the next mark if that comes first. Whether it has come to one: its number.
+    /// Runs for so many cycles, to the next mark if that comes first. Whether it has come to one:
+    /// its number.
     pub fn run(&mut self, cycles: u64) -> Result<Option<u8>, Broken> {
         let end = self.avr.cycles() + cycles;
         loop {
@@ -152,7 +158,12 @@ impl Board {
             match self.run(end.saturating_sub(self.avr.cycles()))? {
                 Some(found) if found == mark as u8 => return Ok(()),
                 Some(_) => {}
-                None => return Err(format!("the board comes to no {mark:?} for {} ms", cycles_max / MS)),
+                None => {
+                    return Err(format!(
+                        "the board comes to no {mark:?} for {} ms",
+                        cycles_max / MS
+                    ));
+                }
             }
         }
     }
@@ -190,7 +201,8 @@ impl Board {
         self.write(at, &[year, month, day, hour, minute, second, a, b, c, d]);
     }
 
-    /// Switches the interrupt off that lets the millisecond clock go on, and that serves the analog inputs.
+    /// Switches the interrupt off that lets the millisecond clock go on, and that serves the analog
+    /// inputs.
     pub fn stop_clock(&mut self) {
         let (register, bit) = TICK_INTERRUPT;
         self.avr.data_mut()[register] &= !bit;
@@ -215,8 +227,8 @@ impl Board {
         (0..DIGITAL_OUTPUTS).filter(is_driven).fold(0, |bits, output| bits | 1 << output)
     }
 
-    /// The level of each output pin that is driven, Q0.0 in bit 0; of one that is released the level for off, and of an analog
-    /// output the one that the process image would give it.
+    /// The level of each output pin that is driven, Q0.0 in bit 0; of one that is released the
+    /// level for off, and of an analog output the one that the process image would give it.
     pub fn output_levels(&self, off_levels: u8) -> u8 {
         let driven = self.driven_outputs();
         let is_high = |output: &u8| self.avr.level(Pin::of_uno(FIRST_OUTPUT + output));
@@ -227,19 +239,25 @@ impl Board {
         levels & driven | off_levels & !driven
     }
 
-    /// The part of the time in thousandths that the pin of output Q0.`output` is high, or with trains and modulation in
-    /// milliseconds the output is on, where timer 1 modulates it up to ICR1.
+    /// The part of the time in thousandths that the pin of output Q0.`output` is high, or with
+    /// trains and modulation in milliseconds the output is on, where timer 1 modulates it up to
+    /// ICR1.
     pub fn duty(&self, output: u8) -> Option<u16> {
         let (mode_at, compare) = *MODULATED.get(usize::from(output).checked_sub(1)?)?;
         let word = |low: u16| u32::from(u16::from_le_bytes([self.byte(low), self.byte(low + 1)]));
-        let (on, off) = match (self.byte(TIMER_1_MODE) >> mode_at & 3, self.byte(TIMER_1_INTERRUPTS) & 1) {
-            (0, _) => return None,
-            (_, 1) => (word(TICKS), word(TICKS + 2)),
-            (mode, _) => {
-                let (top, compare) = (word(TIMER_1_TOP), word(compare).min(word(TIMER_1_TOP)));
-                if mode == 3 { (top - compare, compare + 1) } else { (compare + 1, top - compare) }
-            }
-        };
+        let (on, off) =
+            match (self.byte(TIMER_1_MODE) >> mode_at & 3, self.byte(TIMER_1_INTERRUPTS) & 1) {
+                (0, _) => return None,
+                (_, 1) => (word(TICKS), word(TICKS + 2)),
+                (mode, _) => {
+                    let (top, compare) = (word(TIMER_1_TOP), word(compare).min(word(TIMER_1_TOP)));
+                    if mode == 3 {
+                        (top - compare, compare + 1)
+                    } else {
+                        (compare + 1, top - compare)
+                    }
+                }
+            };
         Some((1000 * on / (on + off).max(1)) as u16)
     }
 

@@ -1,5 +1,5 @@
-//! Characters on the board's serial line from a scenario: each at its cycle of the board's own clock. What the board sends
-//! is told apart here: a program in freeport mode, or the firmware.
+//! Characters on the board's serial line from a scenario: each at its cycle of the board's own
+//! clock. What the board sends is told apart here: a program in freeport mode, or the firmware.
 
 use std::collections::VecDeque;
 
@@ -39,7 +39,8 @@ impl BoardCharacters {
 
     /// What XMT has sent since the last call.
     pub(super) fn take_sent(avr: &mut Avr) -> Vec<u8> {
-        let sent = avr.uart_take_with_control().into_iter().filter(|[_, control]| control & FREEPORT != 0);
+        let sent =
+            avr.uart_take_with_control().into_iter().filter(|[_, control]| control & FREEPORT != 0);
         sent.map(|[character, _]| character).collect()
     }
 }

@@ -1,4 +1,5 @@
-//! The firmware's file, and where in data memory it keeps what a harness needs. Nothing is run here.
+//! The firmware's file, and where in data memory it keeps what a harness needs. Nothing is run
+//! here.
 
 use std::path::Path;
 
@@ -25,8 +26,8 @@ pub(super) struct Places {
     pub analog_fresh: u16,
     /// Mode, and fault in four bytes.
     pub status: u16,
-    /// The time of day: year in the century, month, day, hour, minute, second, and the millisecond clock then. Only in a
-    /// firmware with modules.
+    /// The time of day: year in the century, month, day, hour, minute, second, and the millisecond
+    /// clock then. Only in a firmware with modules.
     pub time_of_day: Option<u16>,
     /// One past its variables: from here on SRAM is for the stack.
     pub free: u16,
@@ -35,7 +36,7 @@ pub(super) struct Places {
 impl Firmware {
     /// The firmware where it is built, beside the program, or where the environment says.
     pub fn find() -> Result<Firmware> {
-        Firmware::read(&firmware::find("elf")?)
+        Firmware::read(&firmware::find_elf()?)
     }
 
     /// Reads an ELF. Without the symbols that a harness needs it is an error.
@@ -45,12 +46,18 @@ impl Firmware {
 
     fn parse(bytes: &[u8]) -> Result<Firmware> {
         let elf = Elf::parse(bytes)?;
-        let names = ["UNO200_TICK", "UNO200_ANALOG", "UNO200_ANALOG_FRESH", "UNO200_STATUS", "_end"];
-        let missing: Vec<_> = names.into_iter().filter(|name| elf.data_symbol(name).is_none()).collect();
+        let names =
+            ["UNO200_TICK", "UNO200_ANALOG", "UNO200_ANALOG_FRESH", "UNO200_STATUS", "_end"];
+        let missing: Vec<_> =
+            names.into_iter().filter(|name| elf.data_symbol(name).is_none()).collect();
         ensure!(missing.is_empty(), "no firmware of uno200: it lacks {}", missing.join(", "));
-        let [tick, analog, analog_fresh, status, free] = names.map(|name| elf.data_symbol(name).unwrap_or_default());
+        let [tick, analog, analog_fresh, status, free] =
+            names.map(|name| elf.data_symbol(name).unwrap_or_default());
         let time_of_day = elf.data_symbol("TIME_OF_DAY");
-        Ok(Firmware { elf, places: Places { tick, analog, analog_fresh, status, time_of_day, free } })
+        Ok(Firmware {
+            elf,
+            places: Places { tick, analog, analog_fresh, status, time_of_day, free },
+        })
     }
 }
 

@@ -5,12 +5,13 @@ use plc_vm::SCAN_MS_MAX;
 use super::board::{Broken, MS, Mark};
 use super::{At, Uno};
 
-/// Longest time from mark to mark: the longest scan, the longest period, the slowest start after a reset.
+/// Longest time from mark to mark: the longest scan, the longest period, the slowest start after a
+/// reset.
 const PAUSE_MAX: u64 = 2 * SCAN_MS_MAX as u64 * MS;
 
 impl Uno {
-    /// Runs all scans that start before `now_ms`, takes what was written since, and runs those that start within this
-    /// millisecond.
+    /// Runs all scans that start before `now_ms`, takes what was written since, and runs those that
+    /// start within this millisecond.
     pub(super) fn scan_free(&mut self, now_ms: u64) {
         if self.at == At::Off {
             self.prepare_power();
@@ -29,7 +30,8 @@ impl Uno {
 
     /// Runs all scans that start before this time.
     pub(super) fn run_free(&mut self, until_ms: u64) {
-        while self.at == At::ScanStart && self.board.scan_start() - self.first_scan < until_ms * MS {
+        while self.at == At::ScanStart && self.board.scan_start() - self.first_scan < until_ms * MS
+        {
             let scanned = self.one_free_scan();
             self.arrive(At::ScanStart, scanned);
             self.inputs.digital[0] = self.board.pulses.changed(self.inputs.digital[0]);

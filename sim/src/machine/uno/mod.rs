@@ -1,7 +1,7 @@
 //! The Uno: the firmware as it is shipped, in a simulated board, with a program in its slot.
 //!
-//! Inputs are levels at pins and voltages, outputs are read at the pins; everything else is read and written in the
-//! board's memory, at the addresses of the program's plan.
+//! Inputs are levels at pins and voltages, outputs are read at the pins; everything else is read
+//! and written in the board's memory, at the addresses of the program's plan.
 
 mod board;
 mod characters;
@@ -35,15 +35,16 @@ const OUTPUT_PINS: u8 = INPUT_PINS;
 /// Whose time it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Clock {
-    /// The harness holds the clock of the board and gives it the time of each scan: a call of [`Machine::scan`] is one
-    /// scan of the firmware, which can be compared with any other machine byte by byte. Inputs without a pin and
-    /// analog values between two steps of the converter can be set; the harness writes them to memory.
+    /// The harness holds the clock of the board and gives it the time of each scan: a call of
+    /// [`Machine::scan`] is one scan of the firmware, which can be compared with any other machine
+    /// byte by byte. Inputs without a pin and analog values between two steps of the converter can
+    /// be set; the harness writes them to memory.
     LockStep,
     /// The board runs by its own clock, scan after scan, as fast as it is.
     FreeRunning,
 }
 
-/// In which form the program stands in the slot.
+/// In which form the program is in the slot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Code {
     /// Bytecode, which the firmware interprets.
@@ -98,8 +99,8 @@ pub struct Uno {
 }
 
 impl Uno {
-    /// A board with an empty slot, without power: that comes with the first scan, so that inputs which are set before
-    /// are there from the start.
+    /// A board with an empty slot, without power: that comes with the first scan, so that inputs
+    /// which are set before are there from the start.
     pub fn new(firmware: &Firmware, code: Code, clock: Clock, place_of: PlaceOf) -> Result<Uno> {
         let mut board = Board::new(firmware)?;
         board.renew();
@@ -121,8 +122,9 @@ impl Uno {
         })
     }
 
-    /// A program, given as bytecode, in the same board as if it were new: nothing of before is left. A bad image leaves
-    /// it in STOP with a fault. One that is too large when it is translated is an error, and everything stays.
+    /// A program, given as bytecode, in the same board as if it were new: nothing of before is
+    /// left. A bad image leaves it in STOP with a fault. One that is too large when it is
+    /// translated is an error, and everything stays.
     pub fn load(&mut self, image: Vec<u8>) -> Result<(), TranslateError> {
         let program = verify(image.clone()).ok();
         // What is wrong with a bad image is for the board to say.
@@ -130,7 +132,10 @@ impl Uno {
         let translated = if translates { Some(translate(&image)?) } else { None };
         self.board.renew();
         self.board.insert(translated.as_ref().map_or(&image, |translated| &translated.image));
-        self.loops = program.as_ref().zip(translated.as_ref()).map(|(program, translated)| loops(program, translated));
+        self.loops = program
+            .as_ref()
+            .zip(translated.as_ref())
+            .map(|(program, translated)| loops(program, translated));
         self.program = program;
         self.board.pulses = BoardPulses::default();
         self.board.characters = BoardCharacters::default();
@@ -154,7 +159,8 @@ impl Uno {
         self.board.fault()
     }
 
-    /// What is wrong with the board itself, not with its program, so that no scan can be run any more.
+    /// What is wrong with the board itself, not with its program, so that no scan can be run any
+    /// more.
     pub fn broken(&self) -> Option<&str> {
         match &self.at {
             At::Broken(text) => Some(text),
@@ -162,7 +168,7 @@ impl Uno {
         }
     }
 
-    /// Cycles of the last scan, from before the inputs to behind the outputs.
+    /// Cycles of the last scan, from before the inputs to after the outputs.
     pub fn scan_cycles(&self) -> u64 {
         self.scan_cycles
     }
@@ -232,15 +238,19 @@ impl Uno {
     fn output_byte(&self, address: u16, byte: u8) -> u8 {
         let image = if self.mode() == Mode::Run { self.board.byte(address) } else { 0 };
         match byte {
-            0 => replaced(image, OUTPUT_PINS, self.board.output_levels(self.off_levels()) ^ self.off_levels()),
+            0 => replaced(
+                image,
+                OUTPUT_PINS,
+                self.board.output_levels(self.off_levels()) ^ self.off_levels(),
+            ),
             _ => image,
         }
     }
 }
 
-/// Where the watchdog ends machine code, by offsets of the bytecode image: the jumps back. What the translated image
-/// keeps as bytecode, interrupt routines and the look for their events, is ended at an offset of that image: an offset
-/// that could be either is left out.
+/// Where the watchdog ends machine code, by offsets of the bytecode image: the jumps back. What the
+/// translated image keeps as bytecode, interrupt routines and the look for their events, is ended
+/// at an offset of that image: an offset that could be either is left out.
 fn loops(program: &Program<Vec<u8>>, translated: &Translated) -> Vec<u16> {
     let header = &program.plan().header;
     // Before the machine code; it begins earlier in an image that has lost its labels.
@@ -249,10 +259,15 @@ fn loops(program: &Program<Vec<u8>>, translated: &Translated) -> Vec<u16> {
     let kept = kept_at..kept_end.filter(|_| header.events > 0).unwrap_or(kept_at);
     let ends_kept = |at: u16| {
         kept.contains(&at)
-            && decode(&translated.image, at).is_ok_and(|decoded| matches!(decoded.op, Op::Jmp | Op::Next | Op::Poll))
+            && decode(&translated.image, at)
+                .is_ok_and(|decoded| matches!(decoded.op, Op::Jmp | Op::Next | Op::Poll))
     };
-    let is_translated = |at: u16| translated.instructions.iter().any(|instruction| instruction.at == at);
-    let back = program.instructions().filter(|(_, decoded)| matches!(decoded.op, Op::Jmp | Op::Next)).map(|(at, _)| at);
+    let is_translated =
+        |at: u16| translated.instructions.iter().any(|instruction| instruction.at == at);
+    let back = program
+        .instructions()
+        .filter(|(_, decoded)| matches!(decoded.op, Op::Jmp | Op::Next))
+        .map(|(at, _)| at);
     back.filter(|&at| is_translated(at) && !ends_kept(at)).collect()
 }
 
@@ -271,7 +286,7 @@ impl Points for Uno {
 
     fn byte(&self, address: u16) -> u8 {
         match (input_byte(address), output_byte(address)) {
-            (Some(byte), _) => self.inputs.digital[byte],
+            (Some(0), _) => self.inputs.digital[0],
             (_, Some(byte)) => self.output_byte(address, byte),
             _ => self.board.byte(address),
         }
@@ -289,9 +304,14 @@ impl Points for Uno {
         let pins = if byte == 0 { INPUT_PINS } else { 0 };
         if value & mask & !pins != 0 && self.clock == Clock::FreeRunning {
             let bit = (value & mask & !pins).trailing_zeros();
-            return Err(MachineError(format!("I{byte}.{bit} has no pin on the Uno, which has I0.0 to I0.5")));
+            return Err(MachineError(format!(
+                "I{byte}.{bit} has no pin on the Uno, which has I0.0 to I0.5"
+            )));
         }
-        self.inputs.digital[byte] = replaced(self.inputs.digital[byte], mask, value);
+        match byte {
+            0 => self.inputs.digital[0] = replaced(self.inputs.digital[0], mask, value),
+            _ => self.writes.push(Write { address, mask, value }),
+        }
         Ok(())
     }
 }
@@ -315,9 +335,15 @@ impl Machine for Uno {
                 self.time_of_day = Some(time);
                 Ok(())
             }
-            _ if self.clock == Clock::LockStep => error("only a board with its own clock takes pulses and characters"),
-            Action::Pulse(pulse) if (0..8).any(|input| pulse.drives(input) && INPUT_PINS >> input & 1 == 0) => {
-                error("the inputs with a pin on the Uno, which pulses can come at, are I0.0 to I0.5")
+            _ if self.clock == Clock::LockStep => {
+                error("only a board with its own clock takes pulses and characters")
+            }
+            Action::Pulse(pulse)
+                if (0..8).any(|input| pulse.drives(input) && INPUT_PINS >> input & 1 == 0) =>
+            {
+                error(
+                    "the inputs with a pin on the Uno, which pulses can come at, are I0.0 to I0.5",
+                )
             }
             Action::Pulse(pulse) => {
                 self.board.pulses.begin(pulse);
@@ -359,7 +385,8 @@ impl Machine for Uno {
             return Some(text.to_string());
         }
         let limit_ms = u64::from(self.settings().watchdog_ms);
-        let in_translated: PlaceOf = Box::new(|at| format!("offset {at:#06x} of the translated image"));
+        let in_translated: PlaceOf =
+            Box::new(|at| format!("offset {at:#06x} of the translated image"));
         let names_bytecode = |kind| match (&self.loops, kind) {
             (None, _) => true,
             (Some(loops), Fault::Watchdog { at }) => loops.contains(&at),

@@ -1,4 +1,5 @@
-//! The statements for what happens beside values that are set: `pulse`, `clock`, `receive`, `expect sent`.
+//! The statements for what happens beside values that are set: `pulse`, `clock`, `receive`, `expect
+//! sent`.
 
 use awl_asm::Address;
 use plc_isa::Area;
@@ -6,17 +7,20 @@ use plc_vm::TimeOfDay;
 
 use super::super::SentExpectation;
 use super::super::value::text_bytes;
-use super::{Parser, Piece};
+use super::Parser;
+use super::piece::Piece;
 use crate::action::Action;
 use crate::operand::Operand;
 use crate::problem::Problem;
 use crate::pulse::{FREQUENCY_MAX_HZ, Pulse};
 
-const PULSE_FORM: &str = "write pulse I0.0 1000Hz for 2s, pulse I0.0 50Hz 10 times, or pulse I0.0, I0.1 500Hz for 1s";
+const PULSE_FORM: &str =
+    "write pulse I0.0 1000Hz for 2s, pulse I0.0 50Hz 10 times, or pulse I0.0, I0.1 500Hz for 1s";
 const CLOCK_FORM: &str = "write clock 2026-11-21 15:00:00";
 
 impl<'a> Parser<'a, '_> {
-    /// `pulse I0.0 1000Hz for 2s`; with two inputs the tracks of an encoder, `reverse` for its other direction.
+    /// `pulse I0.0 1000Hz for 2s`; with two inputs the tracks of an encoder, `reverse` for its
+    /// other direction.
     pub(super) fn pulse(&mut self, rest: Piece<'a>, at_ms: u64) {
         let Some((inputs, frequency, after)) = around_frequency(rest) else {
             let problem = Problem::new(rest.span(), "a frequency such as 1000Hz is missing");
@@ -31,7 +35,9 @@ impl<'a> Parser<'a, '_> {
         let millihertz = self.millihertz(frequency);
         let (length, reverse) = without_reverse(after);
         let count = self.pulse_count(length, millihertz.unwrap_or(1000));
-        let (Some(mut input), Some(millihertz), Some(count)) = (first, millihertz, count) else { return };
+        let (Some(mut input), Some(millihertz), Some(count)) = (first, millihertz, count) else {
+            return;
+        };
         let mut second = match second {
             Some((_, None)) => return,
             Some((piece, Some(second))) if second == input => {
@@ -42,10 +48,18 @@ impl<'a> Parser<'a, '_> {
         };
         match (reverse, &mut second) {
             (Some(_), Some(second)) => std::mem::swap(&mut input, second),
-            (Some(word), None) => return self.fail(word, "only pulses at two inputs have a direction"),
+            (Some(word), None) => {
+                return self.fail(word, "only pulses at two inputs have a direction");
+            }
             (None, _) => {}
         }
-        self.scenario.actions.push(Action::Pulse(Pulse { at_ms, input, second, millihertz, count }));
+        self.scenario.actions.push(Action::Pulse(Pulse {
+            at_ms,
+            input,
+            second,
+            millihertz,
+            count,
+        }));
         self.action_spans.push(inputs.span());
     }
 
@@ -54,7 +68,12 @@ impl<'a> Parser<'a, '_> {
         match self.operand(name)? {
             Operand::At(Address::Bit { area: Area::I, byte: 0, bit }) => Some(bit),
             operand => {
-                self.fail(name, format!("{operand} is none of the inputs I0.0 to I0.7, which pulses can come at"));
+                self.fail(
+                    name,
+                    format!(
+                        "{operand} is none of the inputs I0.0 to I0.7, which pulses can come at"
+                    ),
+                );
                 None
             }
         }
@@ -70,11 +89,21 @@ impl<'a> Parser<'a, '_> {
         let fraction = fraction.trim_end_matches('0');
         let digits = format!("{whole}{fraction:0<decimals$}");
         match digits.parse::<u64>() {
-            Ok(millihertz) if fraction.len() <= decimals && (1..=FREQUENCY_MAX_HZ * 1000).contains(&millihertz) => {
+            Ok(millihertz)
+                if fraction.len() <= decimals
+                    && (1..=FREQUENCY_MAX_HZ * 1000).contains(&millihertz) =>
+            {
                 Some(millihertz)
             }
             _ => {
-                self.fail(word, format!("{}: a frequency is 0.001Hz to {}kHz", word.text, FREQUENCY_MAX_HZ / 1000));
+                self.fail(
+                    word,
+                    format!(
+                        "{}: a frequency is 0.001Hz to {}kHz",
+                        word.text,
+                        FREQUENCY_MAX_HZ / 1000
+                    ),
+                );
                 None
             }
         }
@@ -134,21 +163,23 @@ impl<'a> Parser<'a, '_> {
             parts.next().is_none().then_some(three)
         };
         let date = date.text.strip_prefix("20").and_then(|date| numbers(date, '-'));
-        let found = date.zip(numbers(time.text, ':')).and_then(|(date, time)| TimeOfDay::new(date, time));
+        let found =
+            date.zip(numbers(time.text, ':')).and_then(|(date, time)| TimeOfDay::new(date, time));
         match found {
             Some(time) => {
                 self.scenario.actions.push(Action::SetClock { at_ms, time });
                 self.action_spans.push(rest.span());
             }
             None => {
-                let problem = Problem::new(rest.span(), "this is no date of 2000 to 2099 with a time");
+                let problem =
+                    Problem::new(rest.span(), "this is no date of 2000 to 2099 with a time");
                 self.problems.push(problem.help(CLOCK_FORM));
             }
         }
     }
 }
 
-/// What stands before the frequency, the frequency, and what stands behind it.
+/// What is before the frequency, the frequency, and what is after it.
 fn around_frequency(piece: Piece<'_>) -> Option<(Piece<'_>, Piece<'_>, Piece<'_>)> {
     let mut quoted = false;
     let mut from = 0;
@@ -158,9 +189,11 @@ fn around_frequency(piece: Piece<'_>) -> Option<(Piece<'_>, Piece<'_>, Piece<'_>
             continue;
         }
         let word = &piece.text[from..at];
-        let is_frequency = word.to_ascii_lowercase().ends_with("hz") && word.starts_with(|c: char| c.is_ascii_digit());
+        let is_frequency = word.to_ascii_lowercase().ends_with("hz")
+            && word.starts_with(|c: char| c.is_ascii_digit());
         if is_frequency {
-            let (before, behind) = (piece.part(0..from).trim(), piece.part(at..piece.text.len()).trim());
+            let (before, behind) =
+                (piece.part(0..from).trim(), piece.part(at..piece.text.len()).trim());
             return Some((before, piece.part(from..at), behind));
         }
         from = at + c.len_utf8().min(piece.text.len() - at);
@@ -171,7 +204,9 @@ fn around_frequency(piece: Piece<'_>) -> Option<(Piece<'_>, Piece<'_>, Piece<'_>
 /// The text without `reverse` at its end, and that word.
 fn without_reverse(piece: Piece<'_>) -> (Piece<'_>, Option<Piece<'_>>) {
     const WORD: &str = "reverse";
-    let Some(at) = piece.text.len().checked_sub(WORD.len()).filter(|&at| piece.text.is_char_boundary(at)) else {
+    let Some(at) =
+        piece.text.len().checked_sub(WORD.len()).filter(|&at| piece.text.is_char_boundary(at))
+    else {
         return (piece, None);
     };
     match piece.text[at..].eq_ignore_ascii_case(WORD) {

@@ -94,7 +94,7 @@ impl Unit {
     }
 }
 
-/// The shortest step whose labels stand far enough apart.
+/// The shortest step whose labels are far enough apart.
 fn step(total_ms: u64, plot_width: f64) -> u64 {
     let fits = |step: &&u64| **step as f64 / total_ms as f64 * plot_width >= DISTANCE;
     STEPS.iter().find(fits).copied().unwrap_or(total_ms)
@@ -116,7 +116,14 @@ pub(super) fn draw(layout: &Layout) -> Group {
         let x = round(layout.x(ms));
         group = group.add(line(x, x, layout.top - 5.0, layout.bottom + 5.0, colour::GRID));
         for y in [above, below] {
-            group = group.add(label(&unit.format(ms, step_ms), x, y, SIZE, colour::FAINT_INK, Anchor::Middle));
+            group = group.add(label(
+                &unit.format(ms, step_ms),
+                x,
+                y,
+                SIZE,
+                colour::FAINT_INK,
+                Anchor::Middle,
+            ));
         }
     }
     group
@@ -132,9 +139,15 @@ mod tests {
 
     #[test]
     fn steps_are_round_and_far_apart() {
-        for (total_ms, expected) in
-            [(1, 1), (20, 2), (1000, 100), (12_000, SECOND), (60_000, 5 * SECOND), (HOUR, 5 * MINUTE), (DAY, 2 * HOUR)]
-        {
+        for (total_ms, expected) in [
+            (1, 1),
+            (20, 2),
+            (1000, 100),
+            (12_000, SECOND),
+            (60_000, 5 * SECOND),
+            (HOUR, 5 * MINUTE),
+            (DAY, 2 * HOUR),
+        ] {
             assert_eq!(step(total_ms, 1000.0), expected, "{total_ms}");
         }
         assert!(step(1000 * DAY, 1000.0) >= 76 * DAY);

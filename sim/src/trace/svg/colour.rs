@@ -1,4 +1,5 @@
-//! Colours of the diagram, one for each kind of operand. Dark enough to read on white, also in grey.
+//! Colours of the diagram, one for each kind of operand. Dark enough to read on white, also in
+//! grey.
 
 use awl_asm::Address;
 use plc_isa::Area;

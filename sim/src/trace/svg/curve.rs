@@ -1,4 +1,5 @@
-//! A word or real as a step curve: the limits of its scale at the left, values where they stand long enough to be read.
+//! A word or real as a step curve: the limits of its scale at the left, values where they are
+//! long enough to be read.
 
 use svg::node::element::{Group, Path as Shape};
 
@@ -31,7 +32,8 @@ struct Scale {
 
 impl Scale {
     fn y(&self, value: i32) -> f64 {
-        let [number, lowest, highest] = [value, self.lowest, self.highest].map(|value| self.number(value));
+        let [number, lowest, highest] =
+            [value, self.lowest, self.highest].map(|value| self.number(value));
         // What never changes runs along the bottom.
         let span = if highest > lowest { highest - lowest } else { 1.0 };
         self.bottom - (self.bottom - self.top) * (number - lowest) / span
@@ -40,7 +42,9 @@ impl Scale {
     fn number(&self, value: i32) -> f64 {
         match self.operand.width() {
             // The curve has no place for infinity.
-            Width::Real => Some(real_of(rank(value))).filter(|real| real.is_finite()).map_or(0.0, f64::from),
+            Width::Real => {
+                Some(real_of(rank(value))).filter(|real| real.is_finite()).map_or(0.0, f64::from)
+            }
             _ => f64::from(value),
         }
     }
@@ -58,18 +62,33 @@ fn rank(bits: i32) -> i32 {
     if bits < 0 { bits ^ i32::MAX } else { bits }
 }
 
-pub(super) fn draw(operand: Operand, changes: &[Change], trace: &Trace, row: &Row, layout: &Layout) -> Group {
+pub(super) fn draw(
+    operand: Operand,
+    changes: &[Change],
+    trace: &Trace,
+    row: &Row,
+    layout: &Layout,
+) -> Group {
     if operand.width() != Width::Real {
         return draw_ranked(operand, changes, trace, row, layout);
     }
-    let ranked: Vec<_> = changes.iter().map(|change| Change { value: rank(change.value), ..*change }).collect();
+    let ranked: Vec<_> =
+        changes.iter().map(|change| Change { value: rank(change.value), ..*change }).collect();
     draw_ranked(operand, &ranked, trace, row, layout)
 }
 
-fn draw_ranked(operand: Operand, changes: &[Change], trace: &Trace, row: &Row, layout: &Layout) -> Group {
+fn draw_ranked(
+    operand: Operand,
+    changes: &[Change],
+    trace: &Trace,
+    row: &Row,
+    layout: &Layout,
+) -> Group {
     let ink = colour::of(operand);
     let values = changes.iter().map(|change| change.value);
-    let (Some(lowest), Some(highest)) = (values.clone().min(), values.max()) else { return Group::new() };
+    let (Some(lowest), Some(highest)) = (values.clone().min(), values.max()) else {
+        return Group::new();
+    };
     let (top, bottom) = (row.top + PADDING_TOP, row.top + row.height - PADDING_BOTTOM);
     let scale = Scale { operand, lowest, highest, top, bottom };
     let list = stretches(changes, |scan| layout.scan_x(scan), layout.scan_x(trace.scans()), COLUMN);
@@ -80,7 +99,14 @@ fn draw_ranked(operand: Operand, changes: &[Change], trace: &Trace, row: &Row, l
     for (x, stretch_width, value) in plateaus(&list) {
         let text = scale.text(value);
         if width(&text, VALUE_SIZE) + VALUE_ROOM <= stretch_width {
-            group = group.add(label(&text, x + 5.0, scale.y(value) - 5.0, VALUE_SIZE, ink, Anchor::Start));
+            group = group.add(label(
+                &text,
+                x + 5.0,
+                scale.y(value) - 5.0,
+                VALUE_SIZE,
+                ink,
+                Anchor::Start,
+            ));
         }
     }
     group
@@ -89,10 +115,15 @@ fn draw_ranked(operand: Operand, changes: &[Change], trace: &Trace, row: &Row, l
 fn limits(scale: &Scale, layout: &Layout) -> Group {
     let x = layout.left - 6.0;
     let mut group = Group::new();
-    let limits = if scale.lowest == scale.highest { vec![scale.lowest] } else { vec![scale.lowest, scale.highest] };
+    let limits = if scale.lowest == scale.highest {
+        vec![scale.lowest]
+    } else {
+        vec![scale.lowest, scale.highest]
+    };
     for value in limits {
         let y = scale.y(value) + 4.0;
-        group = group.add(label(&scale.text(value), x, y, VALUE_SIZE, colour::FAINT_INK, Anchor::End));
+        group =
+            group.add(label(&scale.text(value), x, y, VALUE_SIZE, colour::FAINT_INK, Anchor::End));
     }
     group
 }
@@ -122,7 +153,9 @@ fn shapes(list: &[Stretch], scale: &Scale, ink: &str) -> Vec<Shape> {
     let mut shapes = Vec::new();
     for (path, opacity) in [(fill, 0.08), (band, 0.5), (slope, 1.0)] {
         if !path.is_empty() {
-            shapes.push(Shape::new().set("d", path.finish()).set("fill", ink).set("fill-opacity", opacity));
+            shapes.push(
+                Shape::new().set("d", path.finish()).set("fill", ink).set("fill-opacity", opacity),
+            );
         }
     }
     shapes.push(outline(line, ink));

@@ -1,4 +1,4 @@
-//! Where everything of the diagram stands, in pixels. Draws nothing.
+//! Where everything of the diagram is, in pixels. Draws nothing.
 
 use super::text;
 use crate::operand::Width;
@@ -48,7 +48,10 @@ impl Layout {
         let widest = signals
             .iter()
             .flat_map(|signal| {
-                [text::width(&signal.name, NAME_SIZE), text::width(&signal.description, DESCRIPTION_SIZE)]
+                [
+                    text::width(&signal.name, NAME_SIZE),
+                    text::width(&signal.description, DESCRIPTION_SIZE),
+                ]
             })
             .fold(0.0, f64::max);
         let names_width = widest.clamp(*NAMES_WIDTH.start(), *NAMES_WIDTH.end()).ceil();
@@ -57,7 +60,8 @@ impl Layout {
         let mut bottom = HEAD_HEIGHT;
         let mut rows = Vec::new();
         for signal in signals {
-            let height = if signal.operand.width() == Width::Bit { BIT_HEIGHT } else { WORD_HEIGHT };
+            let height =
+                if signal.operand.width() == Width::Bit { BIT_HEIGHT } else { WORD_HEIGHT };
             rows.push(Row { top: bottom, height });
             bottom += height;
         }
@@ -75,12 +79,12 @@ impl Layout {
         }
     }
 
-    /// Where a time stands.
+    /// Where a time is.
     pub(super) fn x(&self, ms: u64) -> f64 {
         self.left + PLOT_WIDTH * ms as f64 / self.total_ms as f64
     }
 
-    /// Where the start of a scan stands.
+    /// Where the start of a scan is.
     pub(super) fn scan_x(&self, scan: u64) -> f64 {
         self.x(scan * self.scan_ms)
     }

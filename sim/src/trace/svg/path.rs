@@ -1,4 +1,5 @@
-//! Paths of horizontal and vertical lines, and the squeezing of changes into columns a few pixels wide.
+//! Paths of horizontal and vertical lines, and the squeezing of changes into columns a few pixels
+//! wide.
 
 use std::fmt::Write;
 
@@ -64,8 +65,14 @@ pub(super) enum Stretch {
 /// Most changes that are drawn one by one in a column.
 const CHANGES_MAX: usize = 2;
 
-/// Cuts the changes of a signal into stretches. `x` gives the place of a scan, `right` is the edge of the plot.
-pub(super) fn stretches(changes: &[Change], x: impl Fn(u64) -> f64, right: f64, column: f64) -> Vec<Stretch> {
+/// Cuts the changes of a signal into stretches. `x` gives the place of a scan, `right` is the edge
+/// of the plot.
+pub(super) fn stretches(
+    changes: &[Change],
+    x: impl Fn(u64) -> f64,
+    right: f64,
+    column: f64,
+) -> Vec<Stretch> {
     let mut list: Vec<Stretch> = Vec::new();
     let Some(first) = changes.first() else { return list };
     let (mut value, mut left) = (first.value, x(first.scan));
@@ -113,7 +120,12 @@ mod tests {
 
     #[test]
     fn fast_changes_become_a_band() {
-        let list = stretches(&changes(&[(0, 5), (9, 1), (10, 9), (11, 2), (20, 3)]), |scan| scan as f64, 30.0, 3.0);
+        let list = stretches(
+            &changes(&[(0, 5), (9, 1), (10, 9), (11, 2), (20, 3)]),
+            |scan| scan as f64,
+            30.0,
+            3.0,
+        );
         let expected = [
             Stretch::Steady { left: 0.0, right: 9.0, value: 5 },
             Stretch::Busy { left: 9.0, right: 12.0, low: 1, high: 9 },
@@ -125,7 +137,8 @@ mod tests {
 
     #[test]
     fn a_million_changes_give_few_stretches() {
-        let many: Vec<_> = (0..1_000_000).map(|scan| Change { scan, value: (scan % 2) as i32 }).collect();
+        let many: Vec<_> =
+            (0..1_000_000).map(|scan| Change { scan, value: (scan % 2) as i32 }).collect();
         let list = stretches(&many, |scan| scan as f64 / 1000.0, 1000.0, 3.0);
         assert!(list.len() < 1100, "{}", list.len());
     }

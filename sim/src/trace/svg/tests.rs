@@ -12,7 +12,15 @@ fn text(trace: &Trace) -> String {
 #[test]
 fn names_values_and_title_are_in_it() {
     let text = text(&trace(100, &[("Q0.1", &[0, 1, 1, 0]), ("MW3", &[7, 7, -450, -450])]));
-    for part in ["Q0.1", "MW3", "\n-450\n", "\n7\n", "a &lt;test&gt;", "4 scans of 100ms, 400ms in all", "time in ms"] {
+    for part in [
+        "Q0.1",
+        "MW3",
+        "\n-450\n",
+        "\n7\n",
+        "a &lt;test&gt;",
+        "4 scans of 100ms, 400ms in all",
+        "time in ms",
+    ] {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }
 }

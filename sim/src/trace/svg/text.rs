@@ -1,8 +1,9 @@
-//! Texts of the diagram and an estimate of how wide they come out. No font is measured: the estimate is on the safe side.
+//! Texts of the diagram and an estimate of how wide they come out. No font is measured: the
+//! estimate is on the safe side.
 
 use svg::node::element::Text;
 
-/// Which end of the text stands at its x.
+/// Which end of the text is at its x.
 #[derive(Clone, Copy)]
 pub(super) enum Anchor {
     Start,

@@ -13,7 +13,13 @@ const COLUMN: f64 = 3.0;
 /// Width of a line.
 pub(super) const LINE: f64 = 1.6;
 
-pub(super) fn draw(changes: &[Change], trace: &Trace, row: &Row, layout: &Layout, ink: &str) -> Group {
+pub(super) fn draw(
+    changes: &[Change],
+    trace: &Trace,
+    row: &Row,
+    layout: &Layout,
+    ink: &str,
+) -> Group {
     let (high, low) = (row.top + PADDING, row.top + row.height - PADDING);
     let right = layout.scan_x(trace.scans());
     let (mut line, mut fill, mut band) = (Path::default(), Path::default(), Path::default());
@@ -42,7 +48,9 @@ pub(super) fn draw(changes: &[Change], trace: &Trace, row: &Row, layout: &Layout
     let mut group = Group::new();
     for (path, opacity) in [(fill, 0.22), (band, 0.5)] {
         if !path.is_empty() {
-            group = group.add(Shape::new().set("d", path.finish()).set("fill", ink).set("fill-opacity", opacity));
+            group = group.add(
+                Shape::new().set("d", path.finish()).set("fill", ink).set("fill-opacity", opacity),
+            );
         }
     }
     group.add(outline(line, ink))
@@ -50,5 +58,9 @@ pub(super) fn draw(changes: &[Change], trace: &Trace, row: &Row, layout: &Layout
 
 /// The line of a wave or curve.
 pub(super) fn outline(line: Path, ink: &str) -> Shape {
-    Shape::new().set("d", line.finish()).set("fill", "none").set("stroke", ink).set("stroke-width", LINE)
+    Shape::new()
+        .set("d", line.finish())
+        .set("fill", "none")
+        .set("stroke", ink)
+        .set("stroke-width", LINE)
 }

@@ -1,0 +1,98 @@
+//! What a language says about its texts: one implementation of [`Text`] each. How texts belong
+//! together, and what is made of the answers, is said elsewhere.
+
+use awl_asm::assemble::Assembly;
+use awl_asm::ast::Symbol;
+use diagnostics::{Source, Span};
+
+use crate::answer::{Completion, Outline, Problem, Refusal, floor};
+use crate::subject::Mention;
+
+/// The languages of a project.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Language {
+    /// A program in AWL.
+    Awl,
+    /// A scenario of the simulator.
+    Scenario,
+    /// A symbol table.
+    Symbols,
+}
+
+impl Language {
+    /// The language of a text of this name, by its ending: `.awl`, `.scn`; `.csv` and `.txt` are
+    /// symbol tables.
+    pub fn of_name(name: &str) -> Option<Language> {
+        let (_, ending) = name.rsplit_once('.')?;
+        match ending.to_ascii_lowercase().as_str() {
+            "awl" => Some(Language::Awl),
+            "scn" => Some(Language::Scenario),
+            "csv" | "txt" => Some(Language::Symbols),
+            _ => None,
+        }
+    }
+}
+
+/// A program with the tables that belong to it.
+#[derive(Debug)]
+pub(crate) struct Model {
+    /// What the assembler made of it.
+    pub assembly: Assembly,
+}
+
+impl Model {
+    /// A symbol by its name in lower case.
+    pub(crate) fn symbol(&self, name: &str) -> Option<&Symbol> {
+        self.assembly.program.symbols.iter().find(|symbol| symbol.name.to_lowercase() == name)
+    }
+}
+
+/// A text that is asked about.
+#[derive(Clone, Copy)]
+pub(crate) struct View<'p> {
+    /// The text.
+    pub source: &'p Source,
+    /// The program that it is, or belongs to.
+    pub model: Option<&'p Model>,
+}
+
+impl<'p> View<'p> {
+    /// All of the text.
+    pub(crate) fn text(self) -> &'p str {
+        &self.source.text
+    }
+}
+
+/// What a language says about a text of it.
+pub(crate) trait Text {
+    /// What is wrong with it.
+    fn problems(&self, view: View<'_>) -> Vec<Problem>;
+
+    /// The names, addresses and instructions in it, in their order.
+    fn mentions(&self, view: View<'_>) -> Vec<Mention>;
+
+    /// The word at an offset that means something by itself.
+    fn word_at(&self, view: View<'_>, offset: usize) -> Option<Mention>;
+
+    /// What can be written at an offset. Not all of it fits what is typed: that is the editor's
+    /// business.
+    fn completions(&self, view: View<'_>, offset: usize) -> Vec<Completion>;
+
+    /// Its parts.
+    fn outline(&self, view: View<'_>) -> Vec<Outline>;
+
+    /// The text in canonical layout.
+    fn formatted(&self, view: View<'_>) -> Result<String, Refusal>;
+
+    /// A symbol's name as it is written in this language.
+    fn written(&self, name: &str) -> String;
+}
+
+/// The word of letters, digits and `_` around an offset.
+pub(crate) fn word_around(text: &str, offset: usize) -> Span {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let (before, after) = text.split_at_checked(floor(offset, text)).unwrap_or((text, ""));
+    let start = before.trim_end_matches(is_word).len();
+    let end = text.len() - after.trim_start_matches(is_word).len();
+    Span::new(start, end)
+}

@@ -1,0 +1,7 @@
+//! From a checked and planned program to the bytes of its image.
+
+pub mod encode;
+mod eno;
+pub mod hex;
+mod too_large;
+pub mod tools;

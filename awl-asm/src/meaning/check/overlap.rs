@@ -1,0 +1,73 @@
+//! Words and double words that share some of their bytes: VW0 and VW1. That a value has parts with
+//! names of their own, VD0 and VW2, is common and no mistake.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use plc_isa::Area;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::meaning::check::usage::{Access, Usage};
+use crate::meaning::selected::{Selected, operand_span};
+use crate::text::address::Address;
+use crate::text::ast::Program;
+
+/// A value that a program names.
+struct Named {
+    address: Address,
+    bytes: Range<u16>,
+    access: Access,
+}
+
+/// Warns of values that overlap in part, one of which is written: the later of both in the text.
+pub fn overlap(
+    program: &Program,
+    code: &[Selected],
+    usage: &Usage,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let mut areas: BTreeMap<Area, Vec<Named>> = BTreeMap::new();
+    for (&address, accesses) in &usage.accesses {
+        let (area, bytes) = match address {
+            Address::Word { area, byte } => (area, byte..byte + 2),
+            Address::Double { area, byte } => (area, byte..byte + 4),
+            _ => continue,
+        };
+        let write = accesses.iter().find(|access| access.writes);
+        if let (Some(&access), Area::V | Area::M) = (write.or(accesses.first()), area) {
+            areas.entry(area).or_default().push(Named { address, bytes, access });
+        }
+    }
+    let span = |of: &Named| operand_span(program, &code[of.access.instruction], of.access.operand);
+    for named in areas.values_mut() {
+        named.sort_by_key(|one| one.bytes.start);
+        let pairs = named.iter().enumerate().flat_map(|(index, one)| {
+            let after = named[index + 1..].iter();
+            let inside = after.take_while(|next| next.bytes.start < one.bytes.end);
+            inside.map(move |next| (one, next))
+        });
+        for (one, next) in pairs {
+            // The next begins inside the one and goes on after it.
+            let crosses = one.bytes.start < next.bytes.start && one.bytes.end < next.bytes.end;
+            if !crosses || !(one.access.writes || next.access.writes) {
+                continue;
+            }
+            let (first, second) = match one.access.instruction <= next.access.instruction {
+                true => (one, next),
+                false => (next, one),
+            };
+            let (a, b) = (first.address, second.address);
+            let message =
+                format!("{b} and {a} share bytes: what is written to one changes the other");
+            let use_of = if first.access.writes { "written" } else { "read" };
+            let len = if matches!(b, Address::Word { .. }) { "two" } else { "four" };
+            diagnostics.push(
+                Diagnostic::new(Code::Overlap, span(second), message)
+                    .related(span(first), format!("{a} is {use_of} here"))
+                    .help(format!(
+                        "{b} takes {len} bytes; numbers of words go by two, of double words by four"
+                    )),
+            );
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! What the instructions of a syntax tree are, and what is wrong with them. Nothing has a place in
+//! memory yet.
+
+mod calls;
+pub mod check;
+pub(crate) mod extent;
+mod fit;
+pub(crate) mod free_places;
+pub(crate) mod hardware;
+pub(crate) mod limits;
+mod misfit;
+mod operands;
+mod pick;
+mod pointers;
+pub mod promises;
+pub(crate) mod segments;
+pub mod select;
+pub mod selected;
+pub(crate) mod special;
+pub mod units;
+mod values;

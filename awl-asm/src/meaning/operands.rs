@@ -1,0 +1,167 @@
+//! What is behind operands that are missing, too many or of another kind: mostly the habit of a
+//! controller with accumulators or with boxes. That they are wrong is known already.
+
+use plc_isa::Area;
+
+use crate::text::address::Address;
+use crate::text::ast::{Instruction, Value};
+
+const NO_PULSE: &str = "an S7-200 has no pulse timers: set a bit with `EU` and `S M0.0, 1`, let \
+     `TON T37, 20` run while it is 1, and reset it with `R M0.0, 1` when T37 is";
+
+/// How an instruction is written that has not as many operands as it takes.
+pub(crate) fn way(source: &Instruction, wanted: usize) -> Option<String> {
+    let name = source.mnemonic();
+    let first = source.operands.first().and_then(|operand| match operand.value {
+        Value::Address(address) => Some(address),
+        _ => None,
+    });
+    if let (true, Some(Address::Timer(_))) = (name == "SI", first) {
+        return Some(NO_PULSE.to_owned());
+    }
+    match (name, source.operands.len()) {
+        ("S" | "R" | "SI" | "RI", 1) => {
+            let bit = first.map_or("Q0.0".to_owned(), |address| address.to_string());
+            Some(format!("the number of bits is named, too: `{name} {bit}, 1`"))
+        }
+        ("A" | "AN", 0) => Some("two branches are joined by `ALD`".to_owned()),
+        ("O" | "ON", 0) => {
+            Some("two branches that begin with LD are joined by `OLD`".to_owned())
+        }
+        ("EU" | "ED", 1..) => {
+            Some(format!("`{name}` is after the contact whose edge it tells: `LD I0.0`, `{name}`"))
+        }
+        ("NOT", 1..) => Some("of one bit `LDN`, `AN` or `ON` take the inverted value".to_owned()),
+        ("TON" | "TOF" | "TONR", 1) => {
+            let timer = first.map_or("T37".to_owned(), |address| address.to_string());
+            let base = match first {
+                Some(Address::Timer(number)) => plc_isa::timer_resolution(number).ms(),
+                _ => 100,
+            };
+            Some(format!(
+                "the preset is named, too: `{name} {timer}, {}` is 2 s, {timer} counts {base} ms",
+                2000 / base
+            ))
+        }
+        ("CTU" | "CTD" | "CTUD", 1) => {
+            let counter = first.map_or("C1".to_owned(), |address| address.to_string());
+            Some(format!("the preset is named, too: `{name} {counter}, 10`"))
+        }
+        // Two constants side by side are none that an instruction has.
+        (_, given) if given == wanted + 1 => {
+            fraction(source).or_else(|| (wanted == 2).then(|| two_operands(name)).flatten())
+        }
+        (_, 0) if wanted == 2 && is_calculating(name) => Some(
+            "an S7-200 has no accumulators between load and transfer: both operands are named, the \
+             second is the result, too"
+                .to_owned(),
+        ),
+        _ => None,
+    }
+}
+
+/// A number with a comma.
+fn fraction(source: &Instruction) -> Option<String> {
+    let number = |index: usize| match source.operands.get(index)?.value {
+        Value::Constant(constant) => Some(constant.value),
+        _ => None,
+    };
+    let (whole, digits) = (0..source.operands.len())
+        .find_map(|index| Some((number(index)?, number(index + 1).filter(|&one| one >= 0)?)))?;
+    Some(format!("a real number has a point: `{whole}.{digits}`"))
+}
+
+/// What has two operands where others have three.
+fn two_operands(name: &str) -> Option<String> {
+    is_calculating(name).then(|| {
+        format!(
+            "the second operand is the result, too: copy the first there, then `{name}` with the \
+             other"
+        )
+    })
+}
+
+/// Whether an instruction calculates with its first operand and the result.
+fn is_calculating(name: &str) -> bool {
+    name.starts_with(['+', '-', '*', '/'])
+        || ["AND", "OR", "XOR", "MUL", "DIV", "SL", "SR", "RL", "RR", "BTI", "ITB", "ITD", "DTI"]
+            .iter()
+            .chain(&["DTR", "ROUND", "TRUNC", "SQRT", "SIN", "COS", "TAN", "LN", "EXP", "MOV"])
+            .any(|start| name.starts_with(start))
+}
+
+/// A constant that is too large, or where the result goes.
+fn way_of_constant(source: &Instruction, position: usize, value: i64) -> Option<String> {
+    let name = source.mnemonic();
+    let fits = |least: i64, most: i64| (least..=most).contains(&value);
+    match (name, position) {
+        ("MOVB", 0) if fits(-0x8000, 0xFFFF) => {
+            Some(format!("a byte has 0 to 255; a word takes it: `MOVW {value}, VW0`"))
+        }
+        ("MOVB" | "MOVW", 0) if fits(-0x8000_0000, 0xFFFF_FFFF) => {
+            Some(format!("a double word takes it: `MOVD {value}, VD0`"))
+        }
+        (_, 1) if name.starts_with(['+', '-', '*', '/']) => Some(format!(
+            "the second operand is the result, the constant comes first: `{name} {value}, VW0`"
+        )),
+        _ => None,
+    }
+}
+
+/// A real number where whole ones are.
+fn way_of_real(name: &str, value: f32) -> Option<String> {
+    let real = match name {
+        "MOVB" | "MOVW" | "MOVD" => "MOVR".to_owned(),
+        "+I" | "-I" | "*I" | "/I" | "+D" | "-D" | "*D" | "/D" => format!("{}R", &name[..1]),
+        _ => return None,
+    };
+    Some(format!("real numbers are in double words: `{real} {value:?}, VD0`"))
+}
+
+/// What the kind of an operand tells that does not fit.
+pub(crate) fn way_of_kind(source: &Instruction, position: usize) -> Option<String> {
+    let name = source.mnemonic();
+    let address = match source.operands.get(position)?.value {
+        Value::Address(address) => address,
+        Value::Constant(constant) => return way_of_constant(source, position, constant.value),
+        Value::Real(bits) => return way_of_real(name, f32::from_bits(bits)),
+        _ => return None,
+    };
+    match (name, address) {
+        ("MOVB" | "MOVW" | "MOVD" | "MOVR", Address::Bit { .. }) => {
+            Some(format!("a bit is copied by a contact and a coil, as in `LD {address}`, `= M0.0`"))
+        }
+        ("ATCH" | "DTCH" | "CEVNT", Address::Bit { area: Area::I, byte: 0, bit: bit @ 0..4 }) => {
+            let (rises, falls) = (2 * bit, 2 * bit + 1);
+            Some(format!(
+                "event {rises} is the rising edge of {address}, event {falls} the falling one"
+            ))
+        }
+        ("MUL" | "DIV", Address::Word { .. }) if position == 1 => {
+            let (sign, what) = if name == "MUL" { ('*', "product") } else { ('/', "quotient") };
+            Some(format!(
+                "a {what} that is a word, too, is made by `{sign}I`, as in `{sign}I VW0, {address}`"
+            ))
+        }
+        ("SI", Address::Timer(_)) => Some(NO_PULSE.to_owned()),
+        ("LD" | "A" | "O" | "LDN" | "AN" | "ON", _) => {
+            let letter = match address {
+                Address::Byte { .. } => "B",
+                Address::Word { .. } => "W",
+                Address::Double { .. } => "D",
+                _ => return None,
+            };
+            let contact = name.trim_end_matches('N');
+            let way = format!("a value is compared, as in `{contact}{letter}> {address}, 5`");
+            Some(match name {
+                "A" | "O" => {
+                    let logic = if name == "A" { "AND" } else { "OR" };
+                    let other = address.to_string();
+                    format!("{way}, or its bits are combined by `{logic}{letter} {other}, {other}`")
+                }
+                _ => way,
+            })
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,224 @@
+//! Expressions of structured text as the instructions that they would be: contacts of AND and OR,
+//! one step of arithmetic. What is more than that is no line of AWL.
+
+use super::width::Width;
+use crate::text::address::Address;
+
+/// A word or sign of an expression.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Token {
+    And,
+    Or,
+    Not,
+    /// `+ - * /` and all other signs.
+    Sign(char),
+    Operand(String),
+}
+
+impl Token {
+    pub(super) fn is_logic(&self) -> bool {
+        matches!(self, Token::And | Token::Or | Token::Not)
+            || matches!(self, Token::Operand(text) if truth(text).is_some())
+    }
+
+    pub(super) fn text(&self) -> &str {
+        match self {
+            Token::Operand(text) => text,
+            _ => "",
+        }
+    }
+
+    fn of_word(word: &str) -> Token {
+        match word.to_uppercase().as_str() {
+            "AND" | "UND" => Token::And,
+            "OR" | "ODER" => Token::Or,
+            "NOT" | "NICHT" => Token::Not,
+            _ => Token::Operand(written(word)),
+        }
+    }
+}
+
+/// An operand as it is written here.
+fn written(word: &str) -> String {
+    let bare = word.trim_start_matches('%');
+    if Address::parse(bare).is_ok() { bare.to_uppercase() } else { bare.to_owned() }
+}
+
+fn truth(text: &str) -> Option<bool> {
+    match text.to_ascii_uppercase().as_str() {
+        "TRUE" => Some(true),
+        "FALSE" => Some(false),
+        _ => None,
+    }
+}
+
+pub(super) fn tokens(text: &str) -> Vec<Token> {
+    let mut tokens = Vec::new();
+    let mut rest = text.trim_start();
+    while let Some(first) = rest.chars().next() {
+        let in_word =
+            |c: char| c.is_alphanumeric() || matches!(c, '_' | '.' | '"' | '#' | '%' | '[' | ']');
+        let len = match rest.strip_prefix('"').and_then(|inside| inside.find('"')) {
+            Some(quoted) => quoted + 2,
+            None => rest.find(|c| !in_word(c)).unwrap_or(rest.len()),
+        };
+        let (token, len) = match first {
+            _ if len > 0 => (Token::of_word(&rest[..len]), len),
+            '&' => (Token::And, if rest.starts_with("&&") { 2 } else { 1 }),
+            '|' => (Token::Or, if rest.starts_with("||") { 2 } else { 1 }),
+            '!' => (Token::Not, 1),
+            other => (Token::Sign(other), other.len_utf8()),
+        };
+        tokens.push(token);
+        rest = rest[len..].trim_start();
+    }
+    tokens
+}
+
+/// The contacts of an expression without brackets: an OR of ANDs.
+pub(super) fn contacts(tokens: &[Token]) -> Option<Vec<String>> {
+    let mut code = Vec::new();
+    for (number, product) in tokens.split(|token| *token == Token::Or).enumerate() {
+        let parts: Vec<&[Token]> = product.split(|token| *token == Token::And).collect();
+        let is_single = parts.len() == 1;
+        for (index, part) in parts.into_iter().enumerate() {
+            let contact = match (number, index) {
+                (1.., 0) if is_single => "O",
+                (_, 0) => "LD",
+                _ => "A",
+            };
+            code.push(one_contact(contact, part)?);
+        }
+        if number > 0 && !is_single {
+            code.push("OLD".to_owned());
+        }
+    }
+    Some(code)
+}
+
+fn one_contact(contact: &str, part: &[Token]) -> Option<String> {
+    let (inverted, name) = match part {
+        [Token::Operand(name)] => (false, name),
+        [Token::Not, Token::Operand(name)] => (true, name),
+        _ => return None,
+    };
+    let (inverted, name) = match truth(name) {
+        Some(value) => (inverted == value, "SM0.0"),
+        None => (inverted, name.as_str()),
+    };
+    // What is no bit, such as a number, is no contact.
+    let is_bit = match Address::parse(name) {
+        Ok(address) => {
+            matches!(address, Address::Bit { .. } | Address::Timer(_) | Address::Counter(_))
+        }
+        Err(_) => !name.starts_with(|c: char| c.is_ascii_digit()),
+    };
+    is_bit.then(|| format!("{contact}{} {name}", if inverted { "N" } else { "" }))
+}
+
+/// A rung that writes a bit.
+pub(super) fn coil(target: &str, tokens: &[Token]) -> Option<Vec<String>> {
+    let mut code = match tokens {
+        [Token::Operand(one)] if one == "1" => vec!["LD SM0.0".to_owned()],
+        [Token::Operand(zero)] if zero == "0" => vec!["LDN SM0.0".to_owned()],
+        tokens => contacts(tokens)?,
+    };
+    code.push(format!("= {target}"));
+    Some(code)
+}
+
+/// The instructions that write a value.
+pub(super) fn value(target: &str, width: Width, tokens: &[Token]) -> Option<Vec<String>> {
+    let is_real = |token: &Token| {
+        token.text().starts_with(|c: char| c.is_ascii_digit()) && token.text().contains('.')
+    };
+    let width = match width {
+        Width::Double if tokens.iter().any(is_real) => Width::Real,
+        width => width,
+    };
+    let copy = |from: &str| format!("MOV{} {from}, {target}", width.letter());
+    match tokens {
+        [Token::Operand(from)] => Some(vec![copy(from)]),
+        [Token::Sign('-'), Token::Operand(from)] if from.parse::<u32>().is_ok() => {
+            Some(vec![copy(&format!("-{from}"))])
+        }
+        [Token::Operand(left), Token::Sign(sign), Token::Operand(right)] => {
+            arithmetic(target, width, left, *sign, right)
+        }
+        _ => None,
+    }
+}
+
+fn arithmetic(
+    target: &str,
+    width: Width,
+    left: &str,
+    sign: char,
+    right: &str,
+) -> Option<Vec<String>> {
+    let is_target = |name: &str| name.eq_ignore_ascii_case(target);
+    let counts = match (sign, right) {
+        ('+', "1") => Some("INC"),
+        ('-', "1") => Some("DEC"),
+        _ => None,
+    };
+    if let (Some(count), true) = (counts.filter(|_| width != Width::Real), is_target(left)) {
+        return Some(vec![format!("{count}{} {target}", width.letter())]);
+    }
+    let letter = width.of_all(["", "", "I", "D", "R"]);
+    if letter.is_empty() || !matches!(sign, '+' | '-' | '*' | '/') {
+        return None;
+    }
+    let step = |operand: &str| format!("{sign}{letter} {operand}, {target}");
+    Some(if is_target(left) {
+        vec![step(right)]
+    } else if !is_target(right) {
+        vec![format!("MOV{} {left}, {target}", width.letter()), step(right)]
+    } else if matches!(sign, '+' | '*') {
+        vec![step(left)]
+    } else {
+        return None;
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn coil_of(text: &str) -> String {
+        coil("Q0.0", &tokens(text)).map_or_else(String::new, |code| code.join("; "))
+    }
+
+    fn value_of(target: &str, text: &str) -> String {
+        let width = Width::of_operand(target).unwrap_or(Width::Word);
+        value(target, width, &tokens(text)).map_or_else(String::new, |code| code.join("; "))
+    }
+
+    #[test]
+    fn contacts_of_and_and_or() {
+        assert_eq!(coil_of("I0.0"), "LD I0.0; = Q0.0");
+        assert_eq!(coil_of("i0.0 AND NOT %I0.1"), "LD I0.0; AN I0.1; = Q0.0");
+        assert_eq!(coil_of("Start OR Q0.0 AND !Stop"), "LD Start; LD Q0.0; AN Stop; OLD; = Q0.0");
+        assert_eq!(coil_of("I0.0 & I0.1 || I0.2"), "LD I0.0; A I0.1; O I0.2; = Q0.0");
+        assert_eq!(coil_of("NOT FALSE"), "LD SM0.0; = Q0.0");
+        assert_eq!(coil_of("TRUE"), "LD SM0.0; = Q0.0");
+        assert_eq!(coil_of("(I0.0 OR I0.1) AND I0.2"), "");
+        assert_eq!(coil_of("VW0 AND I0.2"), "");
+        assert_eq!(coil_of("I0.0 AND"), "");
+    }
+
+    #[test]
+    fn one_step_of_arithmetic() {
+        assert_eq!(value_of("VW0", "5"), "MOVW 5, VW0");
+        assert_eq!(value_of("VW0", "-5"), "MOVW -5, VW0");
+        assert_eq!(value_of("VW0", "VW0 + 1"), "INCW VW0");
+        assert_eq!(value_of("VB0", "VB0-1"), "DECB VB0");
+        assert_eq!(value_of("VW0", "VW0+2"), "+I 2, VW0");
+        assert_eq!(value_of("VW0", "2 + VW0"), "+I 2, VW0");
+        assert_eq!(value_of("VW0", "VW2 / VW4"), "MOVW VW2, VW0; /I VW4, VW0");
+        assert_eq!(value_of("VD0", "VD4 * 2.5"), "MOVR VD4, VD0; *R 2.5, VD0");
+        assert_eq!(value_of("VW0", "VW2 - VW0"), "");
+        assert_eq!(value_of("VB0", "VB1 + VB2"), "");
+        assert_eq!(value_of("VW0", "VW2 + VW4 * 3"), "");
+    }
+}

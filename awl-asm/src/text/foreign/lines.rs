@@ -1,0 +1,386 @@
+//! Lines that are no instruction as a whole: expressions of structured text, calls with brackets,
+//! drawings of ladders, an operand by itself.
+
+use plc_isa::{Area, Op, TimerKind};
+
+use super::expression::{self, Token};
+use super::operands;
+use super::row::{Instead, Meant};
+use super::width::{self, Width};
+use super::words::find;
+use crate::text::address::Address;
+use crate::text::ast::{Type, UnitId, UnitKind};
+use crate::text::mnemonics::{self, Meaning};
+
+const DRAWING: &str = "a drawn ladder cannot be read: a contact is `LD I0.0` or `A I0.0`, a \
+     contact that is normally closed `AN I0.0`, a branch `O I0.1`, a coil `= Q0.0`";
+const COMMENT: &str = "a comment begins with //";
+const COMPARE: &str = "a comparison is a contact with both operands, such as `LDW>= VW0, 5`; \
+     `AW>=` and `OW>=` go on from there";
+const EXPRESSION_OF_BITS: &str = "AWL has no expressions: each contact is an instruction on a line \
+     of its own, such as `LD I0.0`, `A I0.1`, then `= Q0.0`";
+const EXPRESSION: &str = "AWL has no expressions: `MOVW VW2, VW0` copies, `+I 1, VW0` adds to VW0, \
+     `LDW> VW0, 5` compares, each on a line of its own";
+const COMMAS: &str = "operands are separated by commas, and the target is the last: `MOVW 5, VW0`";
+const NEEDS_CONTACT: &str = "it executes while the contact before it is 1; `LD SM0.0` always is";
+const LOOP: &str = "AWL loops with `FOR VW0, 1, 10` and `NEXT`, after a contact such as `LD SM0.0`";
+
+/// Whether an instruction of the S7-200 is written as in structured text: with brackets or `:=`
+/// after its name.
+pub(crate) fn is_structured(rest: &str) -> bool {
+    let rest = rest.trim_start();
+    rest.starts_with('(') && !rest.starts_with("(*") || rest.contains(":=") && !rest.contains('"')
+}
+
+/// What a line was meant to be; `None` where its first word says it.
+pub(super) fn meant(word: &str, rest: &str) -> Option<Meant> {
+    let line = format!("{word}{rest}");
+    let line = line.trim();
+    if let Some(help) = drawing(line) {
+        return Some(told(help));
+    }
+    if rest.trim_start().starts_with('(') {
+        return Some(called(word, rest.trim()));
+    }
+    if word.eq_ignore_ascii_case("FOR") && is_structured(rest) {
+        return Some(told(LOOP));
+    }
+    loaded_time(word, rest)
+        .or_else(|| joined(word, rest))
+        .or_else(|| declared(line))
+        .or_else(|| assignment(line))
+        .or_else(|| compared(line))
+        .or_else(|| operand_first(line))
+        .or_else(|| (find(word).is_none() && is_structured(rest)).then(|| told(COMMAS)))
+}
+
+/// `L S5T#2S` before the start of a timer.
+fn loaded_time(word: &str, rest: &str) -> Option<Meant> {
+    let (timer, op) = (Address::Timer(37), Op::Ton);
+    let (counts, _) = word
+        .eq_ignore_ascii_case("L")
+        .then(|| operands::preset(op, timer, rest.trim()))
+        .flatten()?;
+    Some(told(format!(
+        "on an S7-200 the time is the preset of the timer, in its counts: `TON {timer}, {}` with \
+         100 ms each",
+        counts.as_deref().unwrap_or("20")
+    )))
+}
+
+/// Two words that are one mnemonic here: `AND NOT I0.0`, `OR LD`.
+fn joined(word: &str, rest: &str) -> Option<Meant> {
+    let rest = rest.trim();
+    let (second, operand) = rest.split_once([' ', '\t']).unwrap_or((rest, ""));
+    let first = match expression::tokens(word).as_slice() {
+        [Token::And] => "A",
+        [Token::Or] => "O",
+        _ => return None,
+    };
+    let line = match expression::tokens(second).as_slice() {
+        [Token::Not] => format!("{first}N {operand}"),
+        _ if second.eq_ignore_ascii_case("LD") && first == "A" => "ALD".to_owned(),
+        _ if second.eq_ignore_ascii_case("LD") => "OLD".to_owned(),
+        _ => return None,
+    };
+    let stand_in = line.split(' ').next().map(str::to_owned);
+    Some(Meant { instead: Some(Instead::Line(line)), help: Vec::new(), stand_in })
+}
+
+fn told(help: impl Into<String>) -> Meant {
+    Meant { help: vec![help.into()], ..Meant::default() }
+}
+
+/// Lines of a drawn ladder, and of comments with the sign of another language.
+fn drawing(line: &str) -> Option<&'static str> {
+    let is_drawn = line.starts_with(['|', '-', '[', '(', '├', '│', '─', '┤']);
+    let has = |part: &&str| line.contains(*part);
+    let wires = ["--", "| |", "|/|", "[ ]", "]-", "-[", "-(", "──", "|-", "-|"];
+    if is_drawn && wires.iter().any(has) && line.contains(['|', '[', '(', '─']) {
+        return Some(DRAWING);
+    }
+    let signs = ["--", "**", "==", "##", "# ", "'", "%%", "!"];
+    let is_comment = signs.iter().any(|sign| line.starts_with(sign))
+        && find(line.split([' ', '\t']).next().unwrap_or_default()).is_none();
+    is_comment.then_some(COMMENT)
+}
+
+/// An operand as it is written here: without the sign of an address, addresses in upper case.
+fn operand(text: &str) -> Option<String> {
+    let bare = text.trim_start_matches('%');
+    let is_name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.' | '"' | '#' | '[' | ']');
+    let starts = bare.starts_with(|c: char| c.is_alphabetic() || matches!(c, '"' | '#' | '_'));
+    let is_quoted = bare.len() > 2 && bare.starts_with('"') && bare.ends_with('"');
+    (is_quoted || starts && bare.chars().all(is_name)).then(|| match Address::parse(bare) {
+        Ok(_) => bare.to_uppercase(),
+        Err(_) => bare.to_owned(),
+    })
+}
+
+/// `Speed : INT;`
+fn declared(line: &str) -> Option<Meant> {
+    let (name, kind) = line.split_once(':')?;
+    let kind = kind.trim().split([' ', ';', ':', '(', '[']).next()?;
+    let is_type = Type::NAMES.iter().any(|(known, _)| known.eq_ignore_ascii_case(kind))
+        || ["TIME", "ARRAY", "TON", "TOF"].iter().any(|known| known.eq_ignore_ascii_case(kind));
+    let name = operand(name.trim())?;
+    is_type.then(|| {
+        told(format!(
+            "a variable is declared by `//# var {name} {}`, in a subroutine between VAR and \
+             END_VAR",
+            kind.to_uppercase()
+        ))
+    })
+}
+
+/// `VW0 := VW0 + 1` and `Q0.0 = I0.0 AND I0.1`.
+fn assignment(line: &str) -> Option<Meant> {
+    let (target, value) = match line.split_once(":=") {
+        Some(parts) => parts,
+        None => {
+            let at = line.find('=')?;
+            let is_relation = line[..at].ends_with(['<', '>', '=', '!'])
+                || line[at + 1..].starts_with(['=', '>', '<']);
+            if is_relation {
+                return None;
+            }
+            (&line[..at], &line[at + 1..])
+        }
+    };
+    let target = operand(target.trim())?;
+    // `TITLE = Motor`
+    if target.len() > 2 && find(&target).is_some() {
+        return None;
+    }
+    if value.trim().is_empty() {
+        return Some(told(
+            "an instruction begins with its mnemonic, and operands follow: `MOVW 5, VW0`",
+        ));
+    }
+    let tokens = expression::tokens(value.trim_end_matches(';'));
+    let is_logic = tokens.iter().any(Token::is_logic);
+    let width = match Width::of_operand(&target) {
+        // The bit of a timer is not written.
+        Some(width) => Some(width),
+        None if is_logic => Some(Width::Bit),
+        None => width::of(value),
+    };
+    let code = match width {
+        Some(Width::Bit) => expression::coil(&target, &tokens),
+        Some(width) => expression::value(&target, width, &tokens),
+        None => None,
+    };
+    Some(match code.as_deref() {
+        Some([one]) => Meant {
+            instead: Some(Instead::Line(one.clone())),
+            help: vec![NEEDS_CONTACT.to_owned()],
+            stand_in: None,
+        },
+        Some(code) => told(listed(code)),
+        None if width == Some(Width::Bit) => told(EXPRESSION_OF_BITS),
+        None => told(EXPRESSION),
+    })
+}
+
+fn listed(code: &[String]) -> String {
+    let quoted: Vec<String> = code.iter().map(|line| format!("`{line}`")).collect();
+    format!("on an S7-200 that is {}: one instruction on a line", quoted.join(", "))
+}
+
+/// `VW0 >= 5`
+fn compared(line: &str) -> Option<Meant> {
+    let at = line.find(['<', '>', '=', '!'])?;
+    let sign_len = line[at..].bytes().take_while(|byte| b"<>=!".contains(byte)).count();
+    let (left, relation, right) =
+        (line[..at].trim(), &line[at..at + sign_len], line[at + sign_len..].trim());
+    let width = Width::of_operand(left);
+    // A misspelt mnemonic of a comparison is no operand.
+    width?;
+    let is_number = right.starts_with(|c: char| c.is_ascii_digit() || c == '-');
+    if relation == "=" || right.contains([' ', ',']) || operand(right).is_none() && !is_number {
+        return Some(told(COMPARE));
+    }
+    let left = operand(left)?;
+    Some(Meant {
+        instead: Some(Instead::Line(comparison(width::of(line), relation, &left, right))),
+        help: vec![COMPARE.to_owned()],
+        stand_in: None,
+    })
+}
+
+/// What a comparison is that other controllers have in another form, such as `VW0 >= 5`.
+fn comparison(width: Option<Width>, relation: &str, left: &str, right: &str) -> String {
+    let relation = match relation {
+        "==" => "=",
+        "!=" => "<>",
+        "=>" => ">=",
+        "=<" => "<=",
+        other => other,
+    };
+    let letter = width.map_or("W", Width::letter);
+    format!("LD{letter}{relation} {left}, {right}")
+}
+
+/// A line that begins with an operand, or is only one.
+fn operand_first(line: &str) -> Option<Meant> {
+    let tokens = expression::tokens(line);
+    let [first, rest @ ..] = tokens.as_slice() else { return None };
+    let address = Address::parse(first.text().trim_start_matches('%')).ok();
+    let name = operand(first.text())?;
+    if let (true, Some(unit)) = (rest.is_empty(), UnitId::parse(&name)) {
+        return routine(unit);
+    }
+    if rest.is_empty() {
+        return Some(told(single(&name, address?)));
+    }
+    if address.is_none() && (!rest.iter().any(Token::is_logic) || find(&name).is_some()) {
+        return None;
+    }
+    Some(told(match expression::contacts(&tokens) {
+        Some(code) => listed(&code),
+        None => format!(
+            "an instruction begins with its mnemonic and operands follow, such as {}",
+            example(&name, address)
+        ),
+    }))
+}
+
+fn example(name: &str, address: Option<Address>) -> String {
+    match address.and_then(Width::of_address) {
+        Some(Width::Bit) | None => format!("`LD {name}`"),
+        Some(width) => format!("`LD{}> {name}, 5`", width.letter()),
+    }
+}
+
+/// A subroutine or interrupt routine by itself.
+fn routine(unit: UnitId) -> Option<Meant> {
+    match unit.kind {
+        UnitKind::Subroutine => Some(told(format!(
+            "a subroutine is called by `CALL {unit}`; its text begins with \
+             `SUBROUTINE_BLOCK Name:{unit}`"
+        ))),
+        UnitKind::Interrupt => Some(told(format!(
+            "an interrupt routine is attached by `ATCH {unit}, 0`; its text begins with \
+             `INTERRUPT_BLOCK Name:{unit}`"
+        ))),
+        UnitKind::Main => None,
+    }
+}
+
+/// What to write for an operand by itself.
+fn single(name: &str, address: Address) -> String {
+    let ways = match address {
+        Address::Bit { area: Area::I, .. } => format!("`LD {name}`"),
+        Address::Bit { .. } => format!("`LD {name}` to read it or `= {name}` to write it"),
+        Address::Timer(number) => {
+            let mnemonic = if TimerKind::OnDelay.fits(number) { "TON" } else { "TONR" };
+            format!("`LD {name}` to read it or `{mnemonic} {name}, 20` to start it")
+        }
+        Address::Counter(_) => format!("`LD {name}` to read it or `CTU {name}, 10` to count"),
+        Address::Analog(_) => {
+            format!("`LDW> {name}, 16000` to compare it or `MOVW {name}, VW0` to copy it")
+        }
+        Address::AnalogOutput(_) => format!("`MOVW 16000, {name}` to write it"),
+        Address::HighSpeedCounter(_) => {
+            format!("`LDD> {name}, 5` to compare it or `MOVD {name}, VD0` to copy it")
+        }
+        Address::Byte { .. }
+        | Address::Word { .. }
+        | Address::Double { .. }
+        | Address::Accumulator(_) => {
+            let letter = Width::of_address(address).map_or("W", Width::letter);
+            format!("`LD{letter}> {name}, 5` to compare it or `MOV{letter} 5, {name}` to write it")
+        }
+    };
+    format!("an instruction begins with its mnemonic, such as {ways}")
+}
+
+/// A word with a bracket after it: `A(`, `TON(IN := I0.0, PT := 20)`.
+fn called(word: &str, rest: &str) -> Meant {
+    let inside = rest.trim_start_matches('(').trim_end_matches(';').trim_end_matches(')').trim();
+    let bracket = find(&format!("{word}("));
+    if let Some(row) = bracket.filter(|_| inside.is_empty()) {
+        return row.meant("");
+    }
+    let upper = word.to_ascii_uppercase();
+    match (upper.as_str(), Address::parse(word)) {
+        ("TON" | "TOF" | "TONR", _) => timer(&upper, None, inside),
+        (_, Ok(timer_bit @ Address::Timer(_))) => timer("TON", Some(timer_bit), inside),
+        ("CTU" | "CTD" | "CTUD", _) => counter(&upper, "C1", inside),
+        (_, Ok(Address::Counter(_))) => counter("CTU", &upper, inside),
+        _ => plain_call(word, inside),
+    }
+}
+
+/// The value of a parameter in `IN := I0.0, PT := 20`.
+fn argument(inside: &str, names: &[&str]) -> Option<String> {
+    inside.split(',').find_map(|argument| {
+        let (name, value) = argument.split_once(":=")?;
+        let is = names.iter().any(|known| known.eq_ignore_ascii_case(name.trim()));
+        is.then(|| operand(value.trim()).unwrap_or_else(|| value.trim().to_owned()))
+    })
+}
+
+fn timer(mnemonic: &str, named: Option<Address>, inside: &str) -> Meant {
+    let op = match mnemonic {
+        "TOF" => Op::Tof,
+        "TONR" => Op::Tonr,
+        _ => Op::Ton,
+    };
+    let timer = named.unwrap_or(Address::Timer(if op == Op::Tonr { 5 } else { 37 }));
+    let input = argument(inside, &["IN"]).unwrap_or_else(|| "I0.0".to_owned());
+    let counts = argument(inside, &["PT"]).and_then(|preset| match preset.parse::<u16>() {
+        Ok(_) => Some(preset),
+        Err(_) => operands::preset(op, timer, &preset)?.0,
+    });
+    told(format!(
+        "AWL has no brackets, and the input of a timer is the contact before it: `LD {input}`, \
+         `{mnemonic} {timer}, {}`",
+        counts.as_deref().unwrap_or("20")
+    ))
+}
+
+fn counter(mnemonic: &str, name: &str, inside: &str) -> Meant {
+    let input = |names: &[&str], otherwise: &str| {
+        argument(inside, names).unwrap_or_else(|| otherwise.to_owned())
+    };
+    let up = input(&["CU"], "I0.0");
+    let down = input(&["CD"], if mnemonic == "CTUD" { "I0.1" } else { "I0.0" });
+    let preset = input(&["PV"], "10");
+    let loads = match mnemonic {
+        "CTD" => format!("`LD {down}` counts, `LD {}` loads", input(&["LD", "LOAD"], "I0.1")),
+        "CTUD" => format!(
+            "`LD {up}` counts up, `LD {down}` down, `LD {}` resets",
+            input(&["R", "RESET"], "I0.2")
+        ),
+        _ => format!("`LD {up}` counts, `LD {}` resets", input(&["R", "RESET"], "I0.1")),
+    };
+    told(format!(
+        "AWL has no brackets, and the inputs of a counter are the contacts before it: {loads}, \
+         `{mnemonic} {name}, {preset}`"
+    ))
+}
+
+/// An instruction or routine whose operands are in brackets.
+fn plain_call(word: &str, inside: &str) -> Meant {
+    const NO_BRACKETS: &str = "operands follow after a blank, without brackets";
+    let is_plain = !inside.is_empty() && !inside.contains([':', '(', ')']);
+    if let Some(Meaning::Instruction(entry, _)) = mnemonics::meaning(word) {
+        let instead = is_plain.then(|| format!("{} {inside}", word.to_uppercase()));
+        return Meant {
+            instead: instead.map(Instead::Line),
+            help: vec![NO_BRACKETS.to_owned()],
+            stand_in: Some(entry.mnemonic().to_owned()),
+        };
+    }
+    match find(word) {
+        Some(row) => {
+            let mut meant = row.meant(inside);
+            meant.help.push(NO_BRACKETS.to_owned());
+            meant
+        }
+        None => told(
+            "a subroutine is called by `CALL SBR0`, and its parameters follow: `CALL SBR0, 5, VW0`",
+        ),
+    }
+}

@@ -1,0 +1,234 @@
+//! Operands as other systems of the family write them: data blocks, periphery, function blocks,
+//! times.
+
+use plc_isa::{Op, TimerKind, timer_resolution};
+
+use crate::text::address::Address;
+
+/// The operand of an S7-200 that is the same: `DB1.DBW2` is VW2, `PEW4` is AIW4, `T37.Q` is T37.
+pub(crate) fn same(text: &str) -> Option<String> {
+    let upper = text.trim_start_matches('%').to_ascii_uppercase();
+    let meant = data_block(&upper)
+        .or_else(|| peripheral(&upper))
+        .or_else(|| member(&upper))
+        .or_else(|| first_module(&upper))
+        .or_else(|| numbered_point(&upper))?;
+    Address::parse(&meant).ok().map(|address| address.to_string())
+}
+
+/// V memory is data block 1: `DB1.W0`, `DB1.DBX0.1`; or an open one: `DBW0`.
+fn data_block(upper: &str) -> Option<String> {
+    let place = upper.strip_prefix("DB1.").or(upper.starts_with("DB").then_some(upper))?;
+    let place = place.strip_prefix("DB").unwrap_or(place);
+    Some(format!("V{}", place.strip_prefix('X').unwrap_or(place)))
+}
+
+/// Analog points: `PEW0`, `PIW2`, `PAW0`, `PQW2`, also with `:P`.
+fn peripheral(upper: &str) -> Option<String> {
+    let kinds = [
+        ("PEW", "AIW"),
+        ("PIW", "AIW"),
+        ("PAW", "AQW"),
+        ("PQW", "AQW"),
+        ("PAB", "QB"),
+        ("PQB", "QB"),
+        ("PEB", "IB"),
+        ("PIB", "IB"),
+    ];
+    let letters = kinds.iter().find_map(|(theirs, ours)| {
+        upper.strip_prefix(theirs).map(|number| format!("{ours}{number}"))
+    });
+    letters.or_else(|| upper.strip_suffix(":P").map(str::to_owned))
+}
+
+/// What a timer or counter is made of: `T37.Q`, `C1.CV`.
+fn member(upper: &str) -> Option<String> {
+    let (name, member) = upper.rsplit_once('.')?;
+    let is_timed = matches!(Address::parse(name), Ok(Address::Timer(_) | Address::Counter(_)));
+    let is_known = matches!(member, "Q" | "ET" | "CV" | "QU" | "QD" | "DN" | "ACC" | "BIT");
+    (is_timed && is_known).then(|| name.to_owned())
+}
+
+/// `X0` and `Y0` of other makers, as far as they are in the first byte.
+fn numbered_point(upper: &str) -> Option<String> {
+    let (letter, number) = upper.split_at_checked(1)?;
+    let area = [("X", "I"), ("Y", "Q")].iter().find(|(theirs, _)| *theirs == letter)?.1;
+    number.parse::<u8>().ok().filter(|bit| *bit < 8).map(|bit| format!("{area}0.{bit}"))
+}
+
+/// The first points of an S7-300 are in byte 124.
+fn first_module(upper: &str) -> Option<String> {
+    let (letters, number) = upper.split_at_checked(1)?;
+    let (byte, bit) = number.split_once('.')?;
+    let byte = byte.parse::<u8>().ok()?.checked_sub(124)?;
+    matches!(letters, "I" | "E" | "Q" | "A").then(|| format!("{letters}{byte}.{bit}"))
+}
+
+/// How to write an operand that is no address of an S7-200.
+pub(crate) fn way(text: &str) -> Option<&'static str> {
+    let upper = text.trim_start_matches('%').to_ascii_uppercase();
+    let begins = |letters: &str| {
+        let rest = upper.strip_prefix(letters);
+        rest.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+    };
+    Some(match () {
+        _ if upper.starts_with("P#") => {
+            "on an S7-200 a pointer is `&VB100`, with the address of a byte, word or double word"
+        }
+        _ if begins("PEW") || begins("PIW") || begins("PED") || begins("PID") => {
+            "analog inputs are `AIW0`, `AIW2`, ... `AIW10`"
+        }
+        _ if begins("PAW") || begins("PQW") || begins("PAD") || begins("PQD") => {
+            "analog outputs are `AQW0` and `AQW2`"
+        }
+        _ if begins("DB")
+            || begins("DI")
+            || upper.starts_with("DBX")
+            || upper.starts_with("DI") =>
+        {
+            "an S7-200 has no data blocks but V memory: `V0.0`, `VB0`, `VW0`, `VD0`"
+        }
+        _ if begins("FC") || begins("FB") || begins("SFC") || begins("SFB") || begins("UP") => {
+            "on an S7-200 subroutines are `SBR0` to `SBR255`: `CALL SBR1`, and the block begins \
+             with `SUBROUTINE_BLOCK Name:SBR1`"
+        }
+        _ if matches!(upper.as_str(), "IN" | "OUT" | "PT" | "PV" | "CU" | "CD" | "EN" | "ENO") => {
+            "operands have an order and no names: `TON T37, 20`, `CTU C1, 10`, `MOVW VW0, VW2`"
+        }
+        _ if matches!(upper.as_str(), "AR1" | "AR2") => {
+            "on an S7-200 a pointer is in AC1, AC2, AC3 or a double word of V: `MOVD &VB100, AC1`"
+        }
+        _ if matches!(upper.as_str(), "STW" | "OV" | "OS" | "UO" | "BR" | "BIE") => {
+            "on an S7-200 flags are bits: SM1.0 zero, SM1.1 overflow, SM1.2 negative"
+        }
+        _ => return None,
+    })
+}
+
+/// Whether a word may be a number with the letter H after it: `0FFH`, `FFh`. `BACH` is a name.
+fn is_with_h(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_digit())
+        || text.ends_with('h') && !text.contains(|c: char| ('a'..='g').contains(&c))
+}
+
+/// A number in the notation of another system: `0xFF`, `0b101`, `FFh`, `C#10`.
+pub(crate) fn number(text: &str) -> Option<String> {
+    let upper = text.to_ascii_uppercase();
+    let (base, digits) = if let Some(digits) = upper.strip_prefix("0X") {
+        (16, digits)
+    } else if let Some(digits) = upper.strip_prefix("0B") {
+        (2, digits)
+    } else if let (true, Some(digits)) = (is_with_h(text), upper.strip_suffix('H')) {
+        (16, digits)
+    } else {
+        (10, upper.strip_prefix("C#").or(upper.strip_prefix('K'))?)
+    };
+    let is_number = !digits.is_empty() && digits.chars().all(|digit| digit.is_digit(base));
+    is_number.then(|| match base {
+        10 => digits.to_owned(),
+        base => format!("{base}#{digits}"),
+    })
+}
+
+const UNITS: [(&str, f64); 9] = [
+    ("ms", 1.0),
+    ("sec", 1000.0),
+    ("s", 1000.0),
+    ("minutes", 60_000.0),
+    ("min", 60_000.0),
+    ("m", 60_000.0),
+    ("hours", 3_600_000.0),
+    ("h", 3_600_000.0),
+    ("d", 86_400_000.0),
+];
+
+/// A time in milliseconds: `2s`, `T#1m30s`, `S5T#2S500MS`.
+fn milliseconds(text: &str) -> Option<f64> {
+    let lower = text.to_ascii_lowercase();
+    let (kind, mut rest) = lower.split_once('#').unwrap_or(("t", &lower));
+    if !matches!(kind, "t" | "time" | "s5t" | "s5time" | "ltime" | "lt") || rest.is_empty() {
+        return None;
+    }
+    let mut sum = 0.0;
+    while !rest.is_empty() {
+        let digits = rest.find(|c: char| !c.is_ascii_digit() && c != '.')?;
+        let (number, unit) = rest.split_at(digits);
+        let (name, factor) = UNITS.iter().find(|(name, _)| unit.starts_with(name))?;
+        sum += number.parse::<f64>().ok()? * factor;
+        rest = unit[name.len()..].trim_start_matches(['_', ' ']);
+    }
+    Some(sum)
+}
+
+/// A time where the preset of a timer should be: the preset, if there is one for it, and why.
+pub(crate) fn preset(op: Op, timer: Address, text: &str) -> Option<(Option<String>, String)> {
+    let (Some(_), Address::Timer(number)) = (TimerKind::started_by(op), timer) else { return None };
+    let time = milliseconds(text)?;
+    let base = timer_resolution(number).ms();
+    let counts = (time / f64::from(base)).round();
+    if !(1.0..=f64::from(i16::MAX)).contains(&counts) {
+        let most = f64::from(i16::MAX) * f64::from(base) / 1000.0;
+        let why = format!(
+            "a preset is a number of counts, not a time: T{number} counts {base} ms, at most \
+             32767 times, which are {most} s"
+        );
+        return Some((None, why));
+    }
+    let why = format!(
+        "a preset is a number of counts, not a time: T{number} counts {base} ms, so it is {counts}"
+    );
+    Some((Some(counts.to_string()), why))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn operands_that_are_the_same() {
+        let same = |text| same(text).unwrap_or_default();
+        assert_eq!(same("DB1.DBX0.3"), "V0.3");
+        assert_eq!(same("%DB1.DBW2"), "VW2");
+        assert_eq!(same("dbd8"), "VD8");
+        assert_eq!(same("DB2.DBW2"), "");
+        assert_eq!(same("PEW4"), "AIW4");
+        assert_eq!(same("PQW2"), "AQW2");
+        assert_eq!(same("PEW256"), "");
+        assert_eq!(same("T37.Q"), "T37");
+        assert_eq!(same("C1.CV"), "C1");
+        assert_eq!(same("E124.3"), "I0.3");
+        assert_eq!(same("X3"), "I0.3");
+        assert_eq!(same("Y8"), "");
+        assert_eq!(same("Motor"), "");
+    }
+
+    #[test]
+    fn numbers_of_other_notations() {
+        let number = |text| number(text).unwrap_or_default();
+        assert_eq!(number("0xFF"), "16#FF");
+        assert_eq!(number("0b101"), "2#101");
+        assert_eq!(number("0FFh"), "16#0FF");
+        assert_eq!(number("FFh"), "16#FF");
+        assert_eq!(number("each"), "");
+        assert_eq!(number("C#10"), "10");
+        assert_eq!(number("K20"), "20");
+        assert_eq!(number("BACH"), "");
+        assert_eq!(number("0b12"), "");
+        assert_eq!(number("2h30"), "");
+    }
+
+    #[test]
+    fn times_as_presets_of_the_timer_at_hand() {
+        let preset = |timer, text| {
+            let preset = preset(Op::Ton, Address::Timer(timer), text);
+            preset.map(|(preset, _)| preset.unwrap_or_default())
+        };
+        assert_eq!(preset(37, "2s"), Some("20".into()));
+        assert_eq!(preset(33, "T#2s"), Some("200".into()));
+        assert_eq!(preset(32, "S5T#2S_500MS"), Some("2500".into()));
+        assert_eq!(preset(37, "1.5s"), Some("15".into()));
+        assert_eq!(preset(32, "2h"), Some(String::new()));
+        assert_eq!(preset(37, "20"), None);
+        assert_eq!(preset(37, "C#20"), None);
+    }
+}

@@ -1,0 +1,30 @@
+//! From text to syntax tree and back to canonical layout. What an instruction does is not known
+//! here.
+
+pub mod address;
+pub mod ast;
+mod blocks;
+pub mod cursor;
+pub mod data_block;
+pub mod declared;
+pub mod directive_table;
+mod directives;
+pub(crate) mod foreign;
+pub mod format;
+pub(crate) mod german;
+mod instructions;
+mod lexer;
+mod literal;
+pub mod locals;
+pub(crate) mod mnemonic_set;
+pub mod mnemonics;
+pub mod operand;
+pub mod parser;
+mod piece;
+mod qualified;
+pub mod refused;
+mod resolve;
+pub mod suggest;
+pub mod symbols;
+pub(crate) mod tree;
+mod variables;

@@ -1,0 +1,532 @@
+//! What the operands of a program mean: constants and addresses at once, symbols when all of them
+//! are known.
+
+use plc_isa::{AnalogInput, Area, Op};
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::text::address::{Address, AddressError};
+use crate::text::ast::{
+    Instruction, Name, Named, Program, Span, Statement, Unit, UnitId, UnitKind, Value, Variable,
+};
+use crate::text::foreign::{self, operands as foreign_operands};
+use crate::text::literal;
+use crate::text::locals::is_same_name;
+use crate::text::mnemonics::{meaning, takes_text, written_operands};
+use crate::text::qualified;
+use crate::text::suggest::{Suggester, nearby_address};
+use crate::text::symbols::{Found, SymbolTable, written};
+
+/// An operand that is a symbol, or wrong.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Pending {
+    /// Index of its statement.
+    pub(crate) statement: usize,
+    /// Its index among the operands.
+    pub(crate) operand: usize,
+}
+
+/// Reads an operand that needs no symbol; `None` if it may be a symbol, or is wrong.
+pub(crate) fn read_plain(text: &str) -> Option<Value> {
+    if literal::looks_like_literal(text) {
+        return literal::parse(text).ok();
+    }
+    if !text.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        return None;
+    }
+    match Address::parse(text) {
+        // A symbol may have the name of a German address: that is decided when all symbols are
+        // known.
+        Ok(address) if address.is_german(text) => None,
+        Ok(address) => Some(Value::Address(address)),
+        Err(_) => literal::truth_value(text).map(Value::Constant),
+    }
+}
+
+/// The kind of routine that this operand of an instruction names, if it names one.
+pub(crate) fn routine_kind(op: Op, operand: usize) -> Option<UnitKind> {
+    match (op, operand) {
+        (Op::Call, 0) => Some(UnitKind::Subroutine),
+        (Op::Atch, 0) => Some(UnitKind::Interrupt),
+        _ => None,
+    }
+}
+
+/// What the place of an operand says about it.
+struct OperandPosition<'p> {
+    /// All units with the indices of their statements.
+    units: &'p [(usize, Unit)],
+    /// The unit that it is in, if the text has blocks.
+    own: Option<&'p (usize, Unit)>,
+    routine: Option<UnitKind>,
+    takes_text: bool,
+}
+
+impl OperandPosition<'_> {
+    /// A local variable, and its address.
+    fn local(&self, name: &str) -> Option<(Named, Value)> {
+        let (statement, unit) = self.own?;
+        let index =
+            unit.variables.iter().position(|variable| is_same_name(&variable.name, name))?;
+        let address = unit.variables.get(index)?.address;
+        Some((Named::Local(*statement as u32, index as u32), Value::Address(address)))
+    }
+
+    fn variables(&self) -> impl Iterator<Item = &Variable> {
+        self.own.into_iter().flat_map(|(_, unit)| &unit.variables)
+    }
+}
+
+/// What is kept from operand to operand.
+#[derive(Debug, Default)]
+struct Notes {
+    /// Room for a name in lower case.
+    buffer: String,
+    /// The names that were found.
+    names: Vec<Name>,
+}
+
+impl Notes {
+    fn name(&mut self, span: Span, of: Named) {
+        self.names.push(Name { span, of, declares: false });
+    }
+}
+
+/// What is after `*`.
+fn pointer(span: Span, inner: Value) -> Result<Value, Box<Diagnostic>> {
+    let error = |message: &str| Diagnostic::new(Code::Pointer, span, message);
+    let double = |area, byte: u16| format!("*{}", Address::Double { area, byte });
+    Err(Box::new(match inner {
+        Value::Address(address @ Address::Double { area: Area::V | Area::L, .. }) => {
+            return Ok(Value::Indirect(address));
+        }
+        Value::Address(address @ Address::Accumulator(1..)) => return Ok(Value::Indirect(address)),
+        Value::Address(Address::Accumulator(_)) => error("AC0 cannot hold a pointer")
+            .suggest("*AC1")
+            .help("pointers are held by AC1, AC2 and AC3"),
+        Value::Address(
+            Address::Byte { area: area @ (Area::V | Area::L), byte }
+            | Address::Word { area: area @ (Area::V | Area::L), byte },
+        ) => error("a pointer is a double word").suggest(double(area, byte)),
+        Value::Invalid => return Ok(Value::Invalid),
+        _ => error("a pointer is held by V or L memory or by AC1, AC2 or AC3")
+            .help("such as *VD10, *LD0 or *AC1"),
+    }))
+}
+
+/// What is after `&`.
+fn pointer_to(span: Span, inner: Value) -> Result<Value, Box<Diagnostic>> {
+    let error = |message: String| Diagnostic::new(Code::Pointer, span, message);
+    Err(Box::new(match inner {
+        Value::Address(
+            Address::Byte { area: Area::L, .. }
+            | Address::Word { area: Area::L, .. }
+            | Address::Double { area: Area::L, .. },
+        ) => error("no pointer can lead to local memory".into()).help("keep the value in V memory"),
+        Value::Address(
+            Address::Byte { area, byte }
+            | Address::Word { area, byte }
+            | Address::Double { area, byte },
+        ) => {
+            return Ok(Value::AddressOf(Address::Byte { area, byte }));
+        }
+        Value::Address(
+            address @ (Address::Timer(_)
+            | Address::Counter(_)
+            | Address::Analog(AnalogInput::Scaled(_))
+            | Address::AnalogOutput(_)),
+        ) => return Ok(Value::AddressOf(address)),
+        Value::Address(address @ Address::Bit { area, byte, .. }) if area != Area::L => {
+            let byte = Address::Byte { area, byte };
+            error(format!("no pointer can lead to the bit {address}")).suggest(format!("&{byte}"))
+        }
+        Value::Address(address) => error(format!("no pointer can lead to {address}")),
+        Value::Invalid => return Ok(Value::Invalid),
+        _ => error("after & is an address, such as &VB100".into()),
+    }))
+}
+
+/// What `*` or `&` before a value makes of it; `None` where that means nothing.
+pub fn with_sign(sign: char, value: Value) -> Option<Value> {
+    let anywhere = Span::default();
+    match sign {
+        '*' => pointer(anywhere, value).ok(),
+        '&' => pointer_to(anywhere, value).ok(),
+        _ => None,
+    }
+}
+
+/// Settles the operands that were left open.
+pub(crate) struct Resolver<'p> {
+    pub(crate) text: &'p str,
+    pub(crate) symbols: &'p SymbolTable,
+    pub(crate) suggester: &'p Suggester,
+}
+
+impl Resolver<'_> {
+    /// Gives every pending operand its value, or an error.
+    pub(crate) fn resolve(
+        &self,
+        program: &mut Program,
+        pending: &[Pending],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        let mut notes = Notes::default();
+        let mut settled = None;
+        let units: Vec<(usize, Unit)> =
+            program.units().map(|(index, unit)| (index, unit.clone())).collect();
+        // From the end, because joining two operands moves those after them.
+        for &pending in pending.iter().rev() {
+            let Some(Statement::Instruction(instruction)) =
+                program.statements.get_mut(pending.statement)
+            else {
+                continue;
+            };
+            if settled == Some(pending) {
+                continue;
+            }
+            if let Some((first, diagnostic)) = self.join(instruction, pending.operand) {
+                settled = Some(Pending { operand: first, ..pending });
+                diagnostics.push(diagnostic);
+                continue;
+            }
+            let own = units.partition_point(|&(start, _)| start < pending.statement).checked_sub(1);
+            let place = OperandPosition {
+                units: &units,
+                own: own.and_then(|own| units.get(own)),
+                routine: routine_kind(instruction.entry.op, pending.operand),
+                takes_text: takes_text(instruction.entry, pending.operand),
+            };
+            let timer = instruction.operands.first().map(|operand| operand.value.clone());
+            let Some(operand) = instruction.operands.get_mut(pending.operand) else { continue };
+            if let (1, Some(Value::Address(timer))) = (pending.operand, timer)
+                && let Some(diagnostic) =
+                    self.time_as_preset(instruction.entry.op, timer, operand.span)
+            {
+                diagnostics.push(diagnostic);
+                continue;
+            }
+            match self.value(operand.span, &place, &mut notes) {
+                Ok(value) => operand.value = value,
+                Err(diagnostic) if matches!(instruction.entry.op, Op::Jmp | Op::Lbl) => {
+                    diagnostics.push(label(*diagnostic, operand.span.text(self.text)));
+                }
+                Err(diagnostic) => diagnostics.push(*diagnostic),
+            }
+        }
+        program.names.append(&mut notes.names);
+    }
+
+    /// A time where a timer has its preset.
+    fn time_as_preset(&self, op: Op, timer: Address, span: Span) -> Option<Diagnostic> {
+        let text = span.text(self.text);
+        let (preset, why) = foreign_operands::preset(op, timer, text)?;
+        let mut diagnostic = Diagnostic::new(Code::ConstantRange, span, format!("{text}: {why}"));
+        if preset.is_none() {
+            diagnostic = diagnostic.help(
+                "count the rounds of a timer with `CTU`, or take one that counts 100 ms, such as \
+                 T37",
+            );
+        }
+        diagnostic.suggestion = preset;
+        Some(diagnostic)
+    }
+
+    /// Joins two operands that are one address with a comma or blank in it, such as `I0,0` and `I
+    /// 0.0`.
+    fn join(&self, instruction: &mut Instruction, index: usize) -> Option<(usize, Diagnostic)> {
+        let has_more = instruction.operands.len() > written_operands(instruction.entry);
+        if !has_more || routine_kind(instruction.entry.op, 0).is_some() {
+            return None;
+        }
+        let firsts = [index.checked_sub(1), Some(index)];
+        let (first, span, diagnostic) = firsts.into_iter().flatten().find_map(|first| {
+            let left = instruction.operands.get(first)?.span;
+            let right = instruction.operands.get(first + 1)?.span;
+            let span = Span { start: left.start, end: right.end };
+            Some((first, span, self.joined(left, right, span)?))
+        })?;
+        instruction.operands.remove(first + 1);
+        let operand = instruction.operands.get_mut(first)?;
+        operand.span = span;
+        operand.value = Value::Invalid;
+        Some((first, diagnostic))
+    }
+
+    fn joined(&self, left: Span, right: Span, span: Span) -> Option<Diagnostic> {
+        let between = Span { start: left.end, end: right.start }.text(self.text);
+        let (left, right) = (left.text(self.text), right.text(self.text));
+        let (link, why) = match between.trim() {
+            "," if between == "," => (".", "a point is before the number of the bit"),
+            "" => ("", "no blank is inside an address"),
+            _ => return None,
+        };
+        // Only what has no meaning of its own: `Q0.0 1` is an address and a count.
+        if Address::parse(left).is_ok() || Address::parse(right).is_ok() {
+            return None;
+        }
+        let address = Address::parse(&format!("{left}{link}{right}")).ok()?;
+        let message = format!("{}: {why}", span.text(self.text));
+        Some(Diagnostic::new(Code::AddressRange, span, message).suggest(address.to_string()))
+    }
+
+    fn value(
+        &self,
+        span: Span,
+        place: &OperandPosition<'_>,
+        notes: &mut Notes,
+    ) -> Result<Value, Box<Diagnostic>> {
+        let text = span.text(self.text);
+        let quoted = text.strip_prefix('"').and_then(|inside| inside.strip_suffix('"'));
+        let error = |code, message: String| Err(Box::new(Diagnostic::new(code, span, message)));
+        if let Some(kind) = place.routine {
+            return self.routine(span, quoted.unwrap_or(text), kind, place, notes);
+        }
+        if let Some(qualified) = qualified::address(text) {
+            let found = self.symbols.find(qualified.name, &mut notes.buffer);
+            return qualified.checked(span, found);
+        }
+        let bare = text.strip_prefix('#').unwrap_or(text);
+        if let Some((of, value)) = place.local(bare) {
+            notes.name(Span { start: span.end - bare.len() as u32, ..span }, of);
+            return Ok(value);
+        }
+        match self.symbols.find(quoted.unwrap_or(text), &mut notes.buffer) {
+            Some(Found::Symbol(index, symbol)) => {
+                notes.name(span, Named::Symbol(index));
+                return Ok(symbol.value.clone());
+            }
+            Some(Found::Ambiguous) => {
+                return error(
+                    Code::SymbolDefinition,
+                    format!("{text}: symbol files give it different values"),
+                );
+            }
+            Some(Found::Unusable) => {
+                let message =
+                    format!("{text}: the symbol stands for something that uno200 does not have");
+                return error(Code::NotSupported, message);
+            }
+            None => {}
+        }
+        if let Some(name) = quoted {
+            if place.takes_text {
+                return literal::parse(text).or_else(|message| error(Code::ConstantRange, message));
+            }
+            return Err(self.unknown_symbol(span, name, true));
+        }
+        match text.as_bytes() {
+            [b'*', _, ..] => {
+                let inner = self.value(Span { start: span.start + 1, ..span }, place, notes)?;
+                pointer(span, inner)
+            }
+            [b'&', _, ..] => {
+                let inner = self.value(Span { start: span.start + 1, ..span }, place, notes)?;
+                pointer_to(span, inner)
+            }
+            [b'P' | b'p', b'#', ..] => Err(self.unknown_symbol(span, text, false)),
+            [b'#', _, ..] => Err(self.unknown_local(span, place)),
+            _ if literal::looks_like_literal(text) => match literal::parse(text) {
+                Ok(value) => Ok(value),
+                Err(message) => {
+                    let mut diagnostic = Diagnostic::new(Code::ConstantRange, span, message);
+                    diagnostic.suggestion = foreign_operands::number(text);
+                    Err(Box::new(diagnostic))
+                }
+            },
+            _ => self.address(span, text),
+        }
+    }
+
+    /// A subroutine or interrupt routine: by number, by its name, or by a symbol.
+    fn routine(
+        &self,
+        span: Span,
+        name: &str,
+        kind: UnitKind,
+        place: &OperandPosition<'_>,
+        notes: &mut Notes,
+    ) -> Result<Value, Box<Diagnostic>> {
+        let units = || place.units.iter().map(|(_, unit)| unit).filter(|unit| unit.id.kind == kind);
+        if let Some(qualified) = qualified::routine(name, kind)
+            && let Some(unit) = units().find(|unit| Value::Unit(unit.id) == qualified.value)
+        {
+            return match self.symbols.find(qualified.name, &mut notes.buffer) {
+                _ if is_same_name(&unit.name, qualified.name) => Ok(qualified.value),
+                None if unit.name.is_empty() => Ok(qualified.value),
+                None => Err(qualified.other_name(span, unit)),
+                found => qualified.checked(span, found),
+            };
+        }
+        let numbered =
+            || UnitId::parse(name).or_else(|| Some(UnitId { kind, number: name.parse().ok()? }));
+        let by_symbol = match self.symbols.find(name, &mut notes.buffer) {
+            Some(Found::Symbol(index, symbol)) => match symbol.value {
+                Value::Unit(id) => Some((Named::Symbol(index), id)),
+                _ => None,
+            },
+            _ => None,
+        };
+        let plain = |id: UnitId| (Named::Unit(id), id);
+        let named = units().find(|unit| is_same_name(&unit.name, name)).map(|unit| plain(unit.id));
+        let found = named.or(by_symbol).or_else(|| numbered().map(plain));
+        if let Some((of, id)) = found.filter(|(_, id)| units().any(|unit| unit.id == *id)) {
+            notes.name(span, of);
+            return Ok(Value::Unit(id));
+        }
+        let what = if kind == UnitKind::Interrupt { "interrupt routine" } else { "subroutine" };
+        let message = format!("{}: there is no such {what}", span.text(self.text));
+        let mut diagnostic = Diagnostic::new(Code::UnknownRoutine, span, message);
+        let known: Vec<String> =
+            units().flat_map(|unit| [unit.name.clone(), unit.id.to_string()]).collect();
+        let near = self
+            .suggester
+            .nearest(name, known.iter().map(String::as_str).filter(|name| !name.is_empty()));
+        diagnostic.suggestion = near.map(str::to_owned);
+        if known.is_empty() {
+            diagnostic.help.push(format!("the program has no {what}"));
+        }
+        diagnostic.help.extend(foreign_operands::way(name).map(str::to_owned));
+        Err(Box::new(diagnostic))
+    }
+
+    fn unknown_local(&self, span: Span, place: &OperandPosition<'_>) -> Box<Diagnostic> {
+        let text = span.text(self.text);
+        let mut diagnostic =
+            Diagnostic::new(Code::UnknownSymbol, span, format!("{text}: no such local variable"));
+        let names = place.variables().map(|variable| variable.name.as_str());
+        let near = self.suggester.nearest(text.trim_start_matches('#'), names);
+        diagnostic.suggestion = near.map(|near| format!("#{near}"));
+        if near.is_none() {
+            diagnostic.help.push(match place.own {
+                Some(_) => {
+                    "declare it between VAR and END_VAR at the beginning of its block".into()
+                }
+                None => "a variable of the whole program is written without #, and declared by \
+                         `//# var Speed INT`"
+                    .into(),
+            });
+        }
+        Box::new(diagnostic)
+    }
+
+    fn address(&self, span: Span, text: &str) -> Result<Value, Box<Diagnostic>> {
+        if let Some(diagnostic) = part_of_analog(span, text) {
+            return Err(Box::new(diagnostic));
+        }
+        match Address::parse(text) {
+            Ok(address) => Ok(Value::Address(address)),
+            Err(AddressError::OutOfRange(message, suggestion)) => {
+                let mut diagnostic = Diagnostic::new(Code::AddressRange, span, message);
+                diagnostic.suggestion = suggestion
+                    .or_else(|| foreign_operands::same(text))
+                    .or_else(|| nearby_address(text));
+                Err(Box::new(diagnostic))
+            }
+            Err(AddressError::NotAnAddress) if !text.contains(|c: char| c.is_alphanumeric()) => {
+                let message = format!("{text}: neither an address nor a constant nor a symbol");
+                let mut diagnostic = Diagnostic::new(Code::Syntax, span, message);
+                diagnostic.help.extend(sign_hint(text).map(str::to_owned));
+                Err(Box::new(diagnostic))
+            }
+            Err(AddressError::NotAnAddress) => Err(self.unknown_symbol(span, text, false)),
+        }
+    }
+
+    fn unknown_symbol(&self, span: Span, name: &str, is_quoted: bool) -> Box<Diagnostic> {
+        let message = format!("{}: no such symbol", span.text(self.text));
+        let mut diagnostic = Diagnostic::new(Code::UnknownSymbol, span, message);
+        let near = self.suggester.nearest(name, self.symbols.names());
+        diagnostic.suggestion = match near {
+            Some(near) if is_quoted => Some(format!("\"{near}\"")),
+            Some(near) => Some(written(near)),
+            None => foreign_operands::same(name)
+                .or_else(|| foreign_operands::number(name))
+                .or_else(|| bare_fraction(name))
+                .or_else(|| nearby_address(name)),
+        };
+        if !is_quoted {
+            let way = foreign_operands::way(name).filter(|_| diagnostic.suggestion.is_none());
+            diagnostic.help.extend(way.or_else(|| word_hint(name)).map(str::to_owned));
+        }
+        if diagnostic.suggestion.is_none() && diagnostic.help.is_empty() {
+            let name = written(name.trim_matches('"'));
+            diagnostic.help.push(format!(
+                "a symbol is declared by `//# symbol {name} M0.0`, with its own address, or in a \
+                 table for --symbols"
+            ));
+        }
+        Box::new(diagnostic)
+    }
+}
+
+/// What is wrong with the number of a label.
+fn label(mut diagnostic: Diagnostic, text: &str) -> Diagnostic {
+    diagnostic.suggestion = label_number(text);
+    diagnostic.help = vec!["labels are numbers: `JMP 1` goes to `LBL 1`".to_owned()];
+    diagnostic
+}
+
+/// A bit, byte or double word of an analog input or output, which are words.
+fn part_of_analog(span: Span, text: &str) -> Option<Diagnostic> {
+    let (letters, number) = text.split_at(text.find(|c: char| c.is_ascii_digit())?);
+    let letters = letters.to_ascii_uppercase();
+    let has_bit = number.contains('.');
+    let (what, prefix) = match (letters.as_str(), has_bit) {
+        ("AI" | "AIW" | "AE" | "AEW", true) | ("AIB" | "AID" | "AEB" | "AED", _) => {
+            ("input", "AIW")
+        }
+        ("AQ" | "AQW" | "AA" | "AAW", true) | ("AQB" | "AQD" | "AAB" | "AAD", _) => {
+            ("output", "AQW")
+        }
+        _ => return None,
+    };
+    let word = Address::parse(&format!("{prefix}{}", number.split('.').next()?)).ok()?;
+    let diagnostic = |message: String| Diagnostic::new(Code::AddressRange, span, message);
+    if !has_bit {
+        return Some(
+            diagnostic(format!("{text}: an analog {what} is a word")).suggest(word.to_string()),
+        );
+    }
+    let diagnostic = diagnostic(format!("{text}: an analog {what} is a word and has no bits"));
+    Some(match what {
+        "input" => diagnostic.help(format!("compare it, for example `LDW>= {word}, 16000`")),
+        _ => diagnostic.help(format!("write all of it, for example `MOVW 16000, {word}`")),
+    })
+}
+
+const ONE_A_LINE: &str = "one instruction is on a line";
+
+/// What was probably meant by a sign where an operand should be.
+fn sign_hint(text: &str) -> Option<&'static str> {
+    match text {
+        ":=" => Some("operands are separated by commas, without signs between them"),
+        "=" | "==" => Some(ONE_A_LINE),
+        "<" | ">" | "<=" | ">=" | "<>" => Some("words are compared by LDW> MW0, 5 and its like"),
+        "+" => Some("a number is behind its sign, such as +5"),
+        _ if text.starts_with(['#', '-', '–', '—']) => Some("a comment begins with //"),
+        _ => None,
+    }
+}
+
+/// What was probably meant by a word where an operand should be.
+fn word_hint(name: &str) -> Option<&'static str> {
+    if name.eq_ignore_ascii_case("NOT") {
+        return Some("LDN, AN and ON take the inverted bit");
+    }
+    (foreign::is_known(name) || meaning(name).is_some()).then_some(ONE_A_LINE)
+}
+
+/// A real without the digit before its point: `-.5` as `-0.5`.
+fn bare_fraction(text: &str) -> Option<String> {
+    let (sign, fraction) = text.split_at(text.find('.')?);
+    let meant = format!("{sign}0{fraction}");
+    let is_real = matches!(literal::parse(&meant), Ok(Value::Real(_)));
+    (matches!(sign, "" | "+" | "-") && is_real).then_some(meant)
+}
+
+/// Labels have numbers, not names: LBL1 is 1.
+fn label_number(name: &str) -> Option<String> {
+    let (letters, digits) = name.split_at_checked(3)?;
+    let is_number = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    (letters.eq_ignore_ascii_case("LBL") && is_number).then(|| digits.to_owned())
+}

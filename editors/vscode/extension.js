@@ -1,0 +1,23 @@
+// Starts the language server of uno200 for programs, scenarios and symbol tables.
+
+const { workspace } = require("vscode");
+const { LanguageClient } = require("vscode-languageclient/node");
+
+let client;
+
+exports.activate = async () => {
+  const command = workspace.getConfiguration("uno200").get("path");
+  const server = { command, args: ["lsp"] };
+  client = new LanguageClient("uno200", "uno200", { run: server, debug: server }, {
+    documentSelector: [
+      { language: "awl" },
+      { language: "uno200-scenario" },
+      // Of a table that belongs to no program the server says nothing.
+      { scheme: "file", pattern: "**/*.csv" },
+    ],
+    synchronize: { fileEvents: workspace.createFileSystemWatcher("**/*.{awl,scn,csv,txt}") },
+  });
+  await client.start();
+};
+
+exports.deactivate = () => client?.stop();

@@ -1,0 +1,138 @@
+//! Runs apart from the target, as fast as possible: simulations with their recording, and scenarios
+//! as tests.
+
+use awl_sim::machine::Machine;
+use awl_sim::machine::host::Host;
+use awl_sim::open::{Opened, open};
+use awl_sim::run::{Job, Length, Outcome, run};
+use awl_sim::scenario::{Context, Scenario};
+use awl_sim::trace::{Signal, Trace, csv, vcd};
+
+use crate::build::Files;
+use crate::protocol::{Recording, TestResult};
+use crate::scope::number;
+use crate::simulator::plant_of;
+
+/// A wish to simulate.
+pub struct Wanted<'a> {
+    /// Signals to record.
+    pub signals: &'a [String],
+    /// For how long.
+    pub for_ms: u32,
+    /// Time from scan start to scan start; 0: as the program says.
+    pub scan_ms: u32,
+    /// What is wired to the PLC.
+    pub plant: Option<&'a str>,
+}
+
+/// Runs the program for some time.
+pub fn simulate(files: &Files, wanted: &Wanted<'_>) -> Result<Recording, String> {
+    let Opened { mut machine, symbols, scan_ms, .. } = opened(files)?;
+    let scan_ms = match wanted.scan_ms {
+        0 => scan_ms.unwrap_or(1),
+        scan_ms => u64::from(scan_ms),
+    };
+    let parse = |name: &String| Signal::parse(name, &symbols).map_err(|error| error.to_string());
+    let signals = wanted.signals.iter().map(parse).collect::<Result<Vec<_>, _>>()?;
+    let plant = wanted.plant.map(plant_of).transpose()?;
+    let length = Length::For(u64::from(wanted.for_ms));
+    let job = Job { scan_ms, length, signals, plant, progress: None };
+    let outcome =
+        run(&mut *machine, &Scenario::default(), job).map_err(|error| error.to_string())?;
+    recording(&outcome)
+}
+
+fn opened(files: &Files) -> Result<Opened<Host>, String> {
+    open(&files.program, &files.tables).map_err(|error| error.to_string())
+}
+
+fn recording(outcome: &Outcome) -> Result<Recording, String> {
+    let trace = &outcome.trace;
+    let mut texts = [Vec::new(), Vec::new()];
+    let [table, dump] = &mut texts;
+    csv::write(trace, csv::Rows::EveryScan, table).map_err(|error| error.to_string())?;
+    vcd::write(trace, dump).map_err(|error| error.to_string())?;
+    let [csv, vcd] = texts.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+    let (times, columns) = columns(trace);
+    Ok(Recording {
+        names: trace.signals().iter().map(|signal| signal.name.clone()).collect(),
+        figures: columns.iter().map(|column| figures(&times, column)).collect(),
+        times,
+        columns,
+        csv,
+        vcd,
+        plant: plant(outcome),
+    })
+}
+
+/// The times at which something changed, and the values from then on; at the end once more.
+fn columns(trace: &Trace) -> (Vec<f64>, Vec<Vec<f64>>) {
+    let mut times = Vec::new();
+    let mut columns = vec![Vec::new(); trace.signals().len()];
+    let mut steps = trace.steps();
+    while let Some(scan) = steps.advance() {
+        times.push((scan * trace.scan_ms()) as f64);
+        for ((column, &value), signal) in
+            columns.iter_mut().zip(steps.values()).zip(trace.signals())
+        {
+            column.push(number(signal.operand, value));
+        }
+    }
+    times.push((trace.scans() * trace.scan_ms()) as f64);
+    for column in &mut columns {
+        column.extend(column.last().copied());
+    }
+    (times, columns)
+}
+
+/// Least, greatest and mean value over the time.
+fn figures(times: &[f64], column: &[f64]) -> (f64, f64, f64) {
+    let least = column.iter().copied().fold(f64::INFINITY, f64::min);
+    let greatest = column.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let spans = times.windows(2).zip(column);
+    let area: f64 = spans.map(|(span, value)| (span[1] - span[0]) * value).sum();
+    let whole = times.last().copied().unwrap_or(0.0);
+    (least, greatest, if whole > 0.0 { area / whole } else { least })
+}
+
+/// What the plant counted.
+fn plant(outcome: &Outcome) -> Option<String> {
+    let report = outcome.plant.as_ref()?;
+    let counts = report.summary.iter().map(|(name, count)| format!("{name} {count}"));
+    Some(counts.collect::<Vec<_>>().join(", "))
+}
+
+/// Runs a scenario with its program.
+pub fn test(files: &Files, name: &str, text: &str) -> Result<TestResult, String> {
+    let Opened { mut machine, symbols, scan_ms, .. } = opened(files)?;
+    let mut has_operand = |operand| machine.read(operand).map(drop);
+    let context = Context { symbols: &symbols, plant: None, has_operand: &mut has_operand };
+    let scenario = Scenario::parse(name, text, context).map_err(|problems| problems.to_string())?;
+    let wired = scenario.plant.as_ref().map(|spec| spec.build()).transpose();
+    let job = Job {
+        scan_ms: scenario.scan_ms.or(scan_ms).unwrap_or(1),
+        length: Length::Scenario,
+        signals: Vec::new(),
+        plant: wired.map_err(|error| error.message)?,
+        progress: None,
+    };
+    let outcome = run(&mut *machine, &scenario, job).map_err(|error| error.to_string())?;
+    let failures =
+        outcome.failures.iter().map(|failure| (failure.line as u32, failure.to_string()));
+    let mut failures: Vec<(u32, String)> = failures.collect();
+    if let Some(fault) = &outcome.fault {
+        failures.push((0, format!("the PLC stopped: {}", fault.text)));
+    }
+    if outcome.unreached_expectations > 0 {
+        let count = outcome.unreached_expectations;
+        failures.push((0, format!("the run was too short for {count} expectations")));
+    }
+    let counts = plant(&outcome);
+    Ok(TestResult {
+        passed: failures.is_empty(),
+        scans: outcome.scans,
+        met: outcome.met as u64,
+        failures,
+        plant: counts,
+    })
+}

@@ -1,0 +1,254 @@
+//! A PLC at the other end of a line: what is asked of it round by round, and what is known of it.
+//! Bytes in, bytes out; the same for a simulator and for a board.
+
+use awl_asm::ast::Symbol;
+use client::line::{Framing, Line};
+use client::operand::{Operand, OperandError};
+use client::show::Rounds;
+use client::show::model::Flow;
+use client::show::rounds::{PAUSE_MS, ROUND_MS};
+use client::show::state::{Link, News, Order, State, can_force};
+use client::value::{Base, Form};
+use client::{Error, Program};
+
+use crate::protocol::{Event, Line as Live, Value};
+
+/// How long an answer may take, in milliseconds.
+const PATIENCE_MS: u64 = 1000;
+
+/// An operand of the watch table.
+#[derive(Debug)]
+struct Watched {
+    name: String,
+    operand: Result<Operand, OperandError>,
+}
+
+/// The connection, and what is known.
+#[derive(Debug)]
+pub struct Plc {
+    line: Line,
+    rounds: Rounds,
+    /// The program on the screen, with the values that belong to it.
+    pub state: State,
+    watched: Vec<Watched>,
+    /// Whether a request is on its way.
+    is_asking: bool,
+    next_round_ms: u64,
+    /// First and last line that can be seen, from 1.
+    view: Option<(u32, u32)>,
+}
+
+impl Plc {
+    /// A PLC that has not answered yet.
+    pub fn new(framing: Framing, program: Program, place: &str) -> Plc {
+        Plc {
+            line: Line::new(framing, PATIENCE_MS),
+            rounds: Rounds::default(),
+            state: State::new(program, place.to_owned()),
+            watched: Vec::new(),
+            is_asking: false,
+            next_round_ms: 0,
+            view: None,
+        }
+    }
+
+    /// The program on the screen is another one. Whether it is the one in the PLC, its next answer
+    /// tells.
+    pub fn show(&mut self, program: Program) {
+        let mut state = State::new(program, self.state.place.clone());
+        (state.link, state.identity) = (self.state.link.clone(), self.state.identity.clone());
+        self.state = state;
+        let names: Vec<String> = self.watched.iter().map(|watched| watched.name.clone()).collect();
+        self.watch(&names);
+        self.look();
+        self.next_round_ms = 0;
+    }
+
+    /// What the watch table has.
+    pub fn watch(&mut self, names: &[String]) {
+        let reals = client::reals::of(&self.state.program.image);
+        let symbols: &[Symbol] = self.state.program.symbols();
+        let parse = |name: &String| Watched {
+            name: name.clone(),
+            operand: Operand::parse(name, symbols).map(|operand| operand.in_program(&reals)),
+        };
+        self.watched = names.iter().map(parse).collect();
+        self.next_round_ms = 0;
+    }
+
+    /// Which lines can be seen; none are `(0, 0)`.
+    pub fn view(&mut self, from: u32, to: u32) {
+        self.view = (from > 0).then_some((from, to));
+        self.look();
+        self.next_round_ms = 0;
+    }
+
+    fn look(&mut self) {
+        let Some((from, to)) = self.view else { return };
+        self.state.resize((to.saturating_sub(from) + 1) as usize);
+        self.state.go_to(from as usize - 1);
+    }
+
+    /// Has something done.
+    pub fn order(&mut self, order: Order) {
+        self.rounds.order(order);
+        self.next_round_ms = 0;
+    }
+
+    /// An operand as it is written.
+    pub fn operand(&self, name: &str) -> Result<Operand, String> {
+        let reals = client::reals::of(&self.state.program.image);
+        let operand = Operand::parse(name, self.state.program.symbols());
+        Ok(operand.map_err(|error| error.to_string())?.in_program(&reals))
+    }
+
+    /// Has everything asked anew, now.
+    pub fn hurry(&mut self) {
+        self.next_round_ms = 0;
+    }
+
+    /// Bytes have come.
+    pub fn receive(&mut self, bytes: &[u8], now_ms: u64) {
+        self.line.receive(bytes, now_ms);
+    }
+
+    /// The next bytes to be sent, if any are due. To be asked again after each answer.
+    pub fn transmit(&mut self, now_ms: u64) -> Option<Vec<u8>> {
+        self.line.expire(now_ms);
+        if let Some(answer) = self.line.answer() {
+            self.is_asking = false;
+            let news = self.rounds.answer(answer);
+            self.hear(news, now_ms);
+        }
+        while !self.is_asking {
+            match self.rounds.request() {
+                Ok(Some(request)) => {
+                    self.line.request(request.bytes, request.is_repeatable, now_ms);
+                    self.is_asking = true;
+                }
+                Ok(None) if now_ms < self.next_round_ms => return None,
+                Ok(None) => self.begin(now_ms),
+                Err(error) => self.hear(Err(error), now_ms),
+            }
+        }
+        self.line.transmit(now_ms)
+    }
+
+    fn begin(&mut self, now_ms: u64) {
+        let mut wishes = match self.view {
+            Some(_) => self.state.wishes(),
+            None => Default::default(),
+        };
+        let watched = self.watched.iter().filter_map(|watched| watched.operand.as_ref().ok());
+        wishes.watch.extend(watched.map(|operand| operand.reference));
+        wishes.watch.sort();
+        wishes.watch.dedup();
+        self.rounds.wish(wishes);
+        self.rounds.begin();
+        self.next_round_ms = now_ms + ROUND_MS;
+    }
+
+    fn hear(&mut self, news: Result<Vec<News>, Error>, now_ms: u64) {
+        match news {
+            Ok(news) => news.into_iter().for_each(|one| self.state.hear(one)),
+            Err(error) => {
+                let lost = self.rounds.failed(&error);
+                self.state.hear(lost);
+                self.next_round_ms = now_ms + PAUSE_MS;
+            }
+        }
+    }
+
+    /// Live values beside the lines that can be seen.
+    pub fn live(&self) -> Event {
+        let mut lines = Vec::new();
+        if self.view.is_some() && self.state.link == Link::Up {
+            let first = self.state.visible().start;
+            for (number, row) in
+                (first as u32 + 1..).zip(&self.state.model.rows[self.state.visible()])
+            {
+                let Some(instruction) = row.instruction() else { continue };
+                let flow = self.state.flow(instruction).map(|flow| match flow {
+                    Flow::On => "on",
+                    Flow::Off => "off",
+                    Flow::NotExecuted => "skipped",
+                });
+                let values = instruction.operands.iter().enumerate().map(|(index, watched)| {
+                    let raw = self.state.value(instruction, index);
+                    let text = raw.map(|raw| watched.text(raw, Base::Decimal));
+                    Value { text: text.unwrap_or_default(), ..self.value(&watched.operand, raw) }
+                });
+                let values = values.collect();
+                lines.push(Live { line: number, flow: flow.map(str::to_owned), values });
+            }
+        }
+        Event::Live { lines }
+    }
+
+    /// The watch table.
+    pub fn watched(&self) -> Event {
+        let of = |watched: &Watched| match &watched.operand {
+            Ok(operand) => self.value(operand, self.state.values.get(&operand.reference).copied()),
+            Err(error) => Value {
+                name: watched.name.clone(),
+                text: String::new(),
+                number: None,
+                form: String::new(),
+                forced: false,
+                can_force: false,
+                problem: Some(error.to_string()),
+            },
+        };
+        Event::Watched { values: self.watched.iter().map(of).collect() }
+    }
+
+    /// What is forced, under the names that are known for it.
+    pub fn forced(&self) -> Event {
+        let all = self.state.model.rows.iter().filter_map(|row| row.instruction());
+        let all = all.flat_map(|instruction| &instruction.operands).map(|watched| &watched.operand);
+        let all: Vec<&Operand> = all
+            .chain(self.watched.iter().filter_map(|watched| watched.operand.as_ref().ok()))
+            .collect();
+        let mut values: Vec<Value> = Vec::new();
+        for (&reference, &raw) in &self.state.forced {
+            let known = all.iter().find(|operand| operand.reference == reference);
+            values.push(match known {
+                Some(operand) => self.value(operand, Some(raw)),
+                None => Value {
+                    name: format!("{reference:?}"),
+                    text: raw.to_string(),
+                    number: Some(f64::from(raw)),
+                    form: "word".to_owned(),
+                    forced: true,
+                    can_force: true,
+                    problem: None,
+                },
+            });
+        }
+        values.sort_by(|one, other| one.name.cmp(&other.name));
+        Event::Forced { values }
+    }
+
+    fn value(&self, operand: &Operand, raw: Option<u32>) -> Value {
+        let form = operand.form;
+        Value {
+            name: operand.name.clone(),
+            text: raw.map_or(String::new(), |raw| operand.text(raw, Base::Decimal)),
+            number: raw.map(|raw| match form {
+                Form::Real => f64::from(f32::from_bits(raw)),
+                Form::Bit | Form::Byte | Form::Word | Form::Double => f64::from(form.number(raw)),
+            }),
+            form: match form {
+                Form::Bit => "bit",
+                Form::Byte => "byte",
+                Form::Word => "word",
+                Form::Double => "double",
+                Form::Real => "real",
+            }
+            .to_owned(),
+            forced: self.state.forced.contains_key(&operand.reference),
+            can_force: can_force(operand),
+            problem: None,
+        }
+    }
+}

@@ -1,0 +1,399 @@
+//! What the page asks and what it is told, as JSON. Offsets in texts count UTF-16 code units, as a
+//! browser does. Times are milliseconds.
+
+use serde::{Deserialize, Serialize};
+
+/// What the page wants. `id` comes back in the answer, where there is one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Request {
+    /// Chosen by the page.
+    pub id: u32,
+    /// What it is.
+    #[serde(flatten)]
+    pub wish: Wish,
+}
+
+/// A file of the project.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct File {
+    /// Its name, with its ending and perhaps folders, `/` between them.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// The wishes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Wish {
+    /// About the files.
+    Project(ProjectWish),
+    /// A question about a text.
+    Text(TextWish),
+    /// What is to be done with the target.
+    Target(TargetWish),
+    /// What is to be seen of it.
+    Look(LookWish),
+    /// What is done apart from it.
+    Apart(ApartWish),
+}
+
+/// Wishes about the files of the project.
+#[expect(missing_docs, reason = "the fields are told with their variant")]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "do", rename_all = "camelCase", rename_all_fields = "camelCase")]
+pub enum ProjectWish {
+    /// Replaces the project. `main` is the program; without it the first one there is.
+    Open { files: Vec<File>, main: Option<String> },
+    /// A file has another text, or is new.
+    Edit { file: String, text: String },
+    /// A file is gone.
+    Remove { file: String },
+    /// A file has another name.
+    Rename { file: String, to: String },
+    /// Another program is the one that is run.
+    Choose { main: String },
+}
+
+/// Questions about a text; `at` is an offset in it.
+#[expect(missing_docs, reason = "the fields are told with their variant")]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "do", rename_all = "camelCase", rename_all_fields = "camelCase")]
+pub enum TextWish {
+    /// What could be written there. Answer: [`Completion`]s.
+    Complete { file: String, at: u32 },
+    /// What is there. Answer: [`Hover`] or null.
+    Hover { file: String, at: u32 },
+    /// Where that is declared. Answer: [`Place`] or null.
+    Definition { file: String, at: u32 },
+    /// Where it is used, its declaration included. Answer: [`Place`]s.
+    References { file: String, at: u32 },
+    /// Gives it another name. Answer: [`Edits`].
+    RenameSymbol { file: String, at: u32, to: String },
+    /// The file in its layout. Answer: [`Edits`].
+    Format { file: String },
+    /// Networks, units, labels. Answer: [`Item`]s.
+    Outline { file: String },
+    /// The page of a diagnostic's code. Answer: text in Markdown.
+    Explain { code: String },
+}
+
+/// What is to be done with the target.
+#[expect(missing_docs, reason = "the fields are told with their variant")]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "do", rename_all = "camelCase", rename_all_fields = "camelCase")]
+pub enum TargetWish {
+    /// Chooses what the program runs on.
+    Target { kind: TargetKind },
+    /// Opens the way to it.
+    Connect,
+    /// Closes it.
+    Disconnect,
+    /// Puts the program on it, which starts.
+    Download,
+    /// Connects and downloads if need be, and goes to RUN.
+    Run,
+    /// Goes to STOP: outputs are off.
+    Stop,
+    /// The simulator stands still, with all values and outputs as they are; or goes on.
+    Pause { on: bool },
+    /// One scan; a simulator that runs pauses before it.
+    SingleScan,
+    /// As switched on again.
+    Reset,
+    /// How fast the simulator's time goes: 1 is real time, 0 as fast as it can.
+    Speed { factor: f64 },
+    /// The plant that is wired to the simulator, as `awl-sim --plant` takes it; none without it.
+    Plant { spec: Option<String> },
+    /// The simulator's input gets a value: `I0.0` to `I0.5` logically, `Ain0` to `Ain5` in counts.
+    Drive { operand: String, value: i32 },
+    /// Writes a value once. `value` as people write it.
+    Set { operand: String, value: String },
+    /// Forces an operand until it is released.
+    Force { operand: String, value: String },
+    /// Releases an operand, or all of them.
+    Unforce { operand: Option<String> },
+}
+
+/// What is to be seen of the target.
+#[expect(missing_docs, reason = "the fields are told with their variant")]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "do", rename_all = "camelCase", rename_all_fields = "camelCase")]
+pub enum LookWish {
+    /// What the watch table shows.
+    Watch { operands: Vec<String> },
+    /// Which lines of the program can be seen, from 1; live values come for these alone. Both 0:
+    /// none.
+    View { from: u32, to: u32 },
+    /// What the oscilloscope shows, and how often a sample is taken; 0: after each scan.
+    Scope { signals: Vec<String>, every_ms: u32 },
+}
+
+/// What is done apart from the target, as fast as possible.
+#[expect(missing_docs, reason = "the fields are told with their variant")]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "do", rename_all = "camelCase", rename_all_fields = "camelCase")]
+pub enum ApartWish {
+    /// Runs the program. `scan_ms` 0: as it says itself. Answer: [`Recording`].
+    Simulate { signals: Vec<String>, for_ms: u32, scan_ms: u32, plant: Option<String> },
+    /// Runs a scenario of the project. Answer: [`TestResult`].
+    Test { file: String },
+}
+
+/// What a program can run on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum TargetKind {
+    /// The reference interpreter, in the page.
+    #[default]
+    Simulator,
+    /// The firmware on an emulated chip, in the page.
+    VirtualUno,
+    /// A board at a port of this computer, by Web Serial.
+    Usb,
+    /// A board or PLC that `uno200 ide` reaches.
+    Bridge,
+}
+
+/// What the page is told.
+#[expect(missing_docs, reason = "the fields are told with their variant")]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "is", rename_all = "camelCase", rename_all_fields = "camelCase")]
+pub enum Event {
+    /// The answer to a question.
+    Answer { id: u32, answer: serde_json::Value },
+    /// A request that cannot be carried out, and what helps.
+    Refused { id: u32, message: String },
+    /// What is wrong in the files, all of it.
+    Problems { problems: Vec<Problem> },
+    /// What the program takes, after it was assembled; `None` while it has errors.
+    Program { program: Option<Summary> },
+    /// How the target is.
+    Status { status: Status },
+    /// Live values beside the lines that can be seen.
+    Live { lines: Vec<Line> },
+    /// The watch table, in its order.
+    Watched { values: Vec<Value> },
+    /// What is forced, wherever it was done.
+    Forced { values: Vec<Value> },
+    /// Levels at the simulator's pins. Outputs are logical.
+    Pins { inputs: u8, outputs: u8, analog: Vec<u16>, pwm: Vec<u16> },
+    /// How the plant is: what its picture needs.
+    Plant { name: String, state: Vec<(String, f64)>, news: Vec<String> },
+    /// Samples of the oscilloscope, in its order of signals; `lost` where some could not be taken.
+    Samples { times: Vec<f64>, columns: Vec<Vec<f64>>, lost: bool },
+    /// Bytes for the target's line; the page sends them.
+    Send { bytes: Vec<u8> },
+    /// Something to tell, for a moment.
+    Notice { message: String, bad: bool },
+}
+
+/// An error or a warning.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Problem {
+    /// The file.
+    pub file: String,
+    /// `E0012`; empty where it has none.
+    pub code: String,
+    /// Or a warning.
+    pub is_error: bool,
+    /// Where it is.
+    pub from: u32,
+    /// Where it ends.
+    pub to: u32,
+    /// Line, from 1.
+    pub line: u32,
+    /// Column, from 1.
+    pub column: u32,
+    /// What is wrong.
+    pub message: String,
+    /// How to mend it, a sentence each.
+    pub help: Vec<String>,
+    /// What would be right in place of `from` to `to`.
+    pub suggestion: Option<String>,
+    /// Other places that have to do with it.
+    pub related: Vec<(Place, String)>,
+}
+
+/// A place in a file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Place {
+    /// The file.
+    pub file: String,
+    /// Where it begins.
+    pub from: u32,
+    /// Where it ends.
+    pub to: u32,
+}
+
+/// Something that could be written.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Completion {
+    /// What is written.
+    pub label: String,
+    /// Its kind: `instruction`, `keyword`, `symbol`, `variable`, `address`, `routine`, `label`,
+    /// `value`.
+    pub kind: String,
+    /// A few words beside it.
+    pub detail: String,
+    /// Its documentation, in Markdown.
+    pub info: String,
+    /// What comes in the place of `from` to the cursor.
+    pub insert: String,
+    /// Where the text begins that it replaces; that ends at the cursor.
+    pub from: u32,
+}
+
+/// What something is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Hover {
+    /// In Markdown.
+    pub text: String,
+    /// Where it begins.
+    pub from: u32,
+    /// Where it ends.
+    pub to: u32,
+}
+
+/// Changes of files.
+pub type Edits = Vec<Edit>;
+
+/// A change of a file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Edit {
+    /// What is replaced.
+    #[serde(flatten)]
+    pub place: Place,
+    /// By what.
+    pub text: String,
+}
+
+/// A part of a file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Item {
+    /// Its name, or title.
+    pub name: String,
+    /// `network`, `unit`, `label`, `symbol`.
+    pub kind: String,
+    /// Line, from 1.
+    pub line: u32,
+    /// Where it begins.
+    pub from: u32,
+}
+
+/// What a program takes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Summary {
+    /// The main file.
+    pub file: String,
+    /// Instructions.
+    pub instructions: u32,
+    /// Bytes of the image.
+    pub bytes: u32,
+    /// As many as the Uno has room for.
+    pub bytes_max: u32,
+    /// Bytes of data memory.
+    pub data: u32,
+    /// As many as the Uno has.
+    pub data_max: u32,
+    /// The longest scan on the Uno in microseconds, where it is known.
+    pub longest_us: Option<f64>,
+    /// Whether it fits the Uno.
+    pub fits_uno: bool,
+    /// Its symbols and what they are: what watch table and oscilloscope suggest.
+    pub operands: Vec<(String, String)>,
+}
+
+/// How the target is.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Status {
+    /// What it is.
+    pub target: TargetKind,
+    /// `OFFLINE`, `RUN`, `STOP`, `PAUSE`, `LOST`.
+    pub mode: String,
+    /// How the program in it relates to the one on the screen: `same`, `native`, `other`, `none`,
+    /// `unknown`.
+    pub agreement: String,
+    /// Scans since RUN.
+    pub scans: u32,
+    /// Time of the simulator, from its first scan.
+    pub time_ms: u64,
+    /// Shortest, last and longest scan in microseconds, where they are measured.
+    pub scan_us: Option<(f64, f64, f64)>,
+    /// Why it stopped by itself.
+    pub fault: Option<String>,
+    /// Where in the project that is.
+    pub fault_at: Option<Place>,
+    /// Why the link is lost.
+    pub lost: Option<String>,
+}
+
+/// Live values beside a line.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Line {
+    /// From 1.
+    pub line: u32,
+    /// Power flow after it: `on`, `off`, `skipped`; none where it is not known.
+    pub flow: Option<String>,
+    /// The values of its operands.
+    pub values: Vec<Value>,
+}
+
+/// A value of an operand.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Value {
+    /// The operand as it was written.
+    pub name: String,
+    /// The value as people read it; empty where it is not known.
+    pub text: String,
+    /// The value.
+    pub number: Option<f64>,
+    /// `bit`, `byte`, `word`, `double`, `real`.
+    pub form: String,
+    /// Whether it is forced.
+    pub forced: bool,
+    /// Whether it can be.
+    pub can_force: bool,
+    /// What is wrong with the operand.
+    pub problem: Option<String>,
+}
+
+/// What was recorded: a column for each signal, a row for each scan.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Recording {
+    /// Signals.
+    pub names: Vec<String>,
+    /// Times of the scans.
+    pub times: Vec<f64>,
+    /// Values.
+    pub columns: Vec<Vec<f64>>,
+    /// Least, greatest and mean value of each.
+    pub figures: Vec<(f64, f64, f64)>,
+    /// The file that awl-sim would write.
+    pub csv: String,
+    /// The same as a value change dump.
+    pub vcd: String,
+    /// What the plant has to say.
+    pub plant: Option<String>,
+}
+
+/// How a scenario went.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct TestResult {
+    /// Whether all was as expected.
+    pub passed: bool,
+    /// Scans that were run.
+    pub scans: u64,
+    /// Expectations that were met.
+    pub met: u64,
+    /// Those that were not: line in the scenario, and expected and got in words.
+    pub failures: Vec<(u32, String)>,
+    /// Of the plant.
+    pub plant: Option<String>,
+}

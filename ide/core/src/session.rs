@@ -1,0 +1,480 @@
+//! Everything together: takes the page's requests, lets time pass, tells what is new.
+
+use awl_asm::diagnostic::Code;
+use awl_sim::operand::Operand;
+use client::line::Framing;
+use client::show::state::{Agreement, Link, Order};
+use serde::Serialize;
+
+use crate::apart::{self, Wanted};
+use crate::build;
+use crate::editor::Editor;
+use crate::plc::Plc;
+use crate::protocol::{
+    ApartWish, Event, LookWish, Place, ProjectWish, Request, Status, TargetKind, TargetWish,
+    TextWish, Wish,
+};
+use crate::pulse::Pulse;
+use crate::scope::{Scope, signals};
+use crate::simulator::{Bench, Simulator};
+use crate::told::Told;
+
+/// How often the page is told what is live, in milliseconds.
+const LIVE_MS: u64 = 50;
+/// Most requests that a simulator answers in one go: no more are in a round.
+const EXCHANGES_MAX: usize = 1000;
+
+/// An IDE.
+#[derive(Default)]
+pub struct Session {
+    editor: Editor,
+    /// Whether the texts have changed since the page was told what is wrong with them.
+    is_edited: bool,
+    kind: TargetKind,
+    plc: Option<Plc>,
+    simulator: Option<Simulator>,
+    bench: Bench,
+    scope: Scope,
+    scope_names: (Vec<String>, u32),
+    watched: Vec<String>,
+    view: (u32, u32),
+    plant_events: usize,
+    told: Told,
+    live: Option<Pulse>,
+    now_ms: u64,
+}
+
+/// Events as JSON.
+pub fn json(value: &impl Serialize) -> String {
+    serde_json::to_string(value).unwrap_or_else(|_| "[]".to_owned())
+}
+
+/// What comes of a wish: an answer, or nothing to say, or why not.
+type Done = Result<Option<serde_json::Value>, String>;
+
+impl Session {
+    /// With an empty project.
+    pub fn new() -> Session {
+        Session::default()
+    }
+
+    /// A [`Request`] as JSON, with the time since any beginning; [`Event`]s as JSON.
+    pub fn request_json(&mut self, request: &str, now_ms: u64) -> String {
+        match serde_json::from_str(request) {
+            Ok(request) => json(&self.request(request, now_ms)),
+            Err(error) => json(&[Event::Refused { id: 0, message: error.to_string() }]),
+        }
+    }
+
+    /// Carries a request out. Times never decrease.
+    pub fn request(&mut self, request: Request, now_ms: u64) -> Vec<Event> {
+        let Request { id, wish } = request;
+        let mut events = match self.fulfil(wish) {
+            Ok(None) => Vec::new(),
+            Ok(Some(answer)) => vec![Event::Answer { id, answer }],
+            Err(message) => vec![Event::Refused { id, message }],
+        };
+        events.extend(self.tick(now_ms, 0));
+        events
+    }
+
+    /// Bytes have come on the line of a target outside.
+    pub fn receive(&mut self, bytes: &[u8], now_ms: u64) -> Vec<Event> {
+        if let Some(plc) = &mut self.plc {
+            plc.receive(bytes, now_ms);
+        }
+        self.tick(now_ms, 0)
+    }
+
+    /// Time has passed: a simulator runs so many scans at most. To be called often.
+    pub fn tick(&mut self, now_ms: u64, scans_max: u32) -> Vec<Event> {
+        let elapsed_ms = now_ms.saturating_sub(self.now_ms);
+        self.now_ms = self.now_ms.max(now_ms);
+        let mut events = Vec::new();
+        if std::mem::take(&mut self.is_edited) {
+            events.extend(self.checked());
+        }
+        if scans_max > 0
+            && let Some(simulator) = &mut self.simulator
+        {
+            let answers = simulator.go_on(elapsed_ms, scans_max, &self.bench, &mut self.scope);
+            if let Some(plc) = &mut self.plc {
+                plc.receive(&answers, now_ms);
+            }
+        } else if scans_max == 0 {
+            // This time is still to be gone through.
+            self.now_ms = self.now_ms.saturating_sub(elapsed_ms);
+        }
+        if !self.bench.is_paused {
+            events.extend(self.exchange(now_ms));
+        }
+        if self.live.get_or_insert_with(|| Pulse::every(LIVE_MS)).is_due(now_ms) {
+            let states = self.states();
+            events.extend(states.into_iter().filter_map(|state| self.told.news(state)));
+            events.extend(self.scope.take());
+        }
+        events
+    }
+
+    /// Requests and answers, as far as the target answers at once.
+    fn exchange(&mut self, now_ms: u64) -> Vec<Event> {
+        let Some(plc) = &mut self.plc else { return Vec::new() };
+        let mut events = Vec::new();
+        for _ in 0..EXCHANGES_MAX {
+            let Some(bytes) = plc.transmit(now_ms) else { break };
+            match &mut self.simulator {
+                Some(simulator) => plc.receive(&simulator.receive(&bytes), now_ms),
+                None => events.push(Event::Send { bytes }),
+            }
+        }
+        events
+    }
+
+    /// What is wrong with the texts, and what the program takes; the target is shown with it.
+    fn checked(&mut self) -> Vec<Event> {
+        let problems = Event::Problems { problems: self.editor.problems() };
+        let program = build::program(&self.editor).ok();
+        let summary = program.as_ref().map(build::summary);
+        if let (Some(plc), Some(program)) = (&mut self.plc, program) {
+            plc.show(program);
+        }
+        let events = [problems, Event::Program { program: summary }];
+        events.into_iter().filter_map(|event| self.told.news(event)).collect()
+    }
+
+    /// What the page is told if it is new.
+    fn states(&mut self) -> Vec<Event> {
+        let mut events = vec![Event::Status { status: self.status() }];
+        if let Some(plc) = &self.plc {
+            events.extend([plc.live(), plc.watched(), plc.forced()]);
+        }
+        if let Some(simulator) = &mut self.simulator {
+            events.push(simulator.pins());
+            let spec = self.bench.plant.as_deref().unwrap_or_default();
+            let name = spec.split_whitespace().next().unwrap_or_default();
+            events.extend(simulator.plant(name, &mut self.plant_events));
+        }
+        events
+    }
+
+    fn status(&self) -> Status {
+        let status = Status { target: self.kind, ..Status::default() };
+        let Some(plc) = &self.plc else {
+            return Status {
+                mode: "OFFLINE".to_owned(),
+                agreement: "unknown".to_owned(),
+                ..status
+            };
+        };
+        let state = &plc.state;
+        let identity = state.identity.as_ref();
+        let mode = match (&state.link, identity) {
+            (Link::Lost(_), _) => "LOST",
+            _ if self.bench.is_paused => "PAUSE",
+            (_, Some(identity)) if identity.is_running => "RUN",
+            (_, Some(_)) => "STOP",
+            (_, None) => "OFFLINE",
+        };
+        let agreement = match state.agreement() {
+            Agreement::Same => "same",
+            Agreement::Native => "native",
+            Agreement::Other => "other",
+            Agreement::NoProgram => "none",
+            Agreement::Unknown => "unknown",
+        };
+        let lost = match &state.link {
+            Link::Lost(why) => Some(why.clone()),
+            Link::Up | Link::Connecting => None,
+        };
+        let fault = state.fault();
+        let measured = identity.filter(|one| self.simulator.is_none() && one.counts_per_ms > 0);
+        Status {
+            mode: mode.to_owned(),
+            agreement: agreement.to_owned(),
+            scans: identity.map_or(0, |identity| identity.scans),
+            time_ms: self.simulator.as_ref().map_or(0, Simulator::time_ms),
+            scan_us: measured.map(|one| {
+                let us = |counts: u32| f64::from(counts) * 1000.0 / f64::from(one.counts_per_ms);
+                (us(one.shortest), us(one.last), us(one.longest))
+            }),
+            fault_at: fault.as_deref().and_then(|fault| self.place_in(fault)),
+            fault,
+            lost,
+            ..status
+        }
+    }
+
+    /// The place that a fault names: `file:line`.
+    fn place_in(&self, fault: &str) -> Option<Place> {
+        let main = self.editor.main()?;
+        let (_, after) = fault.split_once(&format!("{main}:"))?;
+        let digits: String = after.chars().take_while(char::is_ascii_digit).collect();
+        self.editor.line(main, digits.parse().ok()?)
+    }
+
+    fn fulfil(&mut self, wish: Wish) -> Done {
+        match wish {
+            Wish::Project(wish) => self.change(wish).map(|()| None),
+            Wish::Text(wish) => self.tell(wish),
+            Wish::Target(wish) => self.act(wish).map(|()| None),
+            Wish::Look(wish) => self.look(wish).map(|()| None),
+            Wish::Apart(ApartWish::Simulate { signals, for_ms, scan_ms, plant }) => {
+                let wanted = Wanted { signals: &signals, for_ms, scan_ms, plant: plant.as_deref() };
+                answer(apart::simulate(&build::files(&self.editor)?, &wanted)?)
+            }
+            Wish::Apart(ApartWish::Test { file }) => self.test(&file),
+        }
+    }
+
+    /// The files.
+    fn change(&mut self, wish: ProjectWish) -> Result<(), String> {
+        self.is_edited = true;
+        match wish {
+            ProjectWish::Open { files, main } => {
+                self.disconnect();
+                self.editor.open(files, main)
+            }
+            ProjectWish::Edit { file, text } => self.editor.set(&file, text),
+            ProjectWish::Remove { file } => {
+                self.editor.remove(&file);
+                Ok(())
+            }
+            ProjectWish::Rename { file, to } => self.editor.rename(&file, &to),
+            ProjectWish::Choose { main } => {
+                self.editor.choose(main);
+                Ok(())
+            }
+        }
+    }
+
+    /// Questions about the texts.
+    fn tell(&self, wish: TextWish) -> Done {
+        let editor = &self.editor;
+        match wish {
+            TextWish::Complete { file, at } => answer(editor.complete(&file, at)),
+            TextWish::Hover { file, at } => answer(editor.hover(&file, at)),
+            TextWish::Definition { file, at } => answer(editor.definition(&file, at)),
+            TextWish::References { file, at } => answer(editor.references(&file, at)),
+            TextWish::RenameSymbol { file, at, to } => {
+                answer(editor.rename_symbol(&file, at, &to)?)
+            }
+            TextWish::Format { file } => answer(editor.format(&file)?),
+            TextWish::Outline { file } => answer(editor.outline(&file)),
+            TextWish::Explain { code } => {
+                let found = Code::find(&code).ok_or_else(|| format!("{code}: no such code"))?;
+                answer(found.page())
+            }
+        }
+    }
+
+    fn test(&self, file: &str) -> Done {
+        let text = self.editor.text(file).ok_or_else(|| format!("there is no file {file}"))?;
+        let program = self.editor.program_of(file).ok_or("the project has no program")?;
+        answer(apart::test(&build::files_of(&self.editor, &program), file, text)?)
+    }
+
+    /// What is done with the target.
+    fn act(&mut self, wish: TargetWish) -> Result<(), String> {
+        match wish {
+            TargetWish::Target { kind } => {
+                self.disconnect();
+                self.kind = kind;
+            }
+            TargetWish::Connect => self.connect()?,
+            TargetWish::Disconnect => self.disconnect(),
+            TargetWish::Download | TargetWish::Reset => self.download()?,
+            TargetWish::Run => {
+                self.bench.is_paused = false;
+                if self.has_program() {
+                    self.order(Order::Run)?;
+                } else {
+                    self.download()?;
+                }
+            }
+            TargetWish::Stop => {
+                self.bench.is_paused = false;
+                self.order(Order::Stop)?;
+            }
+            TargetWish::Pause { on } => self.pause(on)?,
+            TargetWish::SingleScan => self.single_scan()?,
+            TargetWish::Speed { factor } => {
+                if !(0.0..=1000.0).contains(&factor) {
+                    return Err(format!("{factor}: time goes 0 to 1000 times as fast"));
+                }
+                self.bench.speed = factor;
+            }
+            TargetWish::Plant { spec } => self.wire(spec)?,
+            TargetWish::Drive { operand, value } => self.drive(&operand, value)?,
+            TargetWish::Set { operand, value } => {
+                let (operand, raw) = self.value(&operand, &value)?;
+                self.order(Order::Set(operand, raw))?;
+            }
+            TargetWish::Force { operand, value } => {
+                let (operand, raw) = self.value(&operand, &value)?;
+                self.order(Order::Force(operand, raw))?;
+            }
+            TargetWish::Unforce { operand: Some(operand) } => {
+                let operand = self.connected()?.operand(&operand)?;
+                self.order(Order::Unforce(operand))?;
+            }
+            TargetWish::Unforce { operand: None } => self.order(Order::UnforceAll)?,
+        }
+        Ok(())
+    }
+
+    /// What is to be seen.
+    fn look(&mut self, wish: LookWish) -> Result<(), String> {
+        match wish {
+            LookWish::Watch { operands } => {
+                self.watched = operands;
+                if let Some(plc) = &mut self.plc {
+                    plc.watch(&self.watched);
+                }
+            }
+            LookWish::View { from, to } => {
+                self.view = (from, to);
+                if let Some(plc) = &mut self.plc {
+                    plc.view(from, to);
+                }
+            }
+            LookWish::Scope { signals, every_ms } => {
+                self.scope_names = (signals, every_ms);
+                self.choose_signals()?;
+            }
+        }
+        Ok(())
+    }
+
+    fn connected(&mut self) -> Result<&mut Plc, String> {
+        self.plc.as_mut().ok_or_else(|| "not connected: press Run or Connect".to_owned())
+    }
+
+    fn order(&mut self, order: Order) -> Result<(), String> {
+        self.connected()?.order(order);
+        Ok(())
+    }
+
+    fn value(&mut self, operand: &str, value: &str) -> Result<(client::Operand, u32), String> {
+        let operand = self.connected()?.operand(operand)?;
+        let raw = operand.form.parse(value)?;
+        Ok((operand, raw))
+    }
+
+    fn has_program(&self) -> bool {
+        self.plc.as_ref().is_some_and(|plc| plc.state.agreement() == Agreement::Same)
+    }
+
+    fn connect(&mut self) -> Result<(), String> {
+        match self.kind {
+            TargetKind::Simulator => self.download(),
+            TargetKind::VirtualUno | TargetKind::Usb | TargetKind::Bridge => {
+                Err("this target cannot be reached from here yet; choose Simulator".to_owned())
+            }
+        }
+    }
+
+    /// Puts the program on the target, which starts with it.
+    fn download(&mut self) -> Result<(), String> {
+        if self.kind != TargetKind::Simulator {
+            return self.connect();
+        }
+        let program = build::program(&self.editor)?;
+        let files = build::files(&self.editor)?;
+        self.simulator = Some(Simulator::new(&files, &self.bench)?);
+        let mut plc = Plc::new(Framing::Tcp { unit: 1, transaction: 0 }, program, "the simulator");
+        plc.watch(&self.watched);
+        plc.view(self.view.0, self.view.1);
+        self.plc = Some(plc);
+        (self.plant_events, self.bench.is_paused) = (0, false);
+        self.scope.restart();
+        // Signals of the last program may not be in this one.
+        if self.choose_signals().is_err() {
+            self.scope.choose(Vec::new(), 0);
+        }
+        Ok(())
+    }
+
+    fn disconnect(&mut self) {
+        // Whoever connects again is told everything again.
+        self.told = Told::default();
+        (self.plc, self.simulator) = (None, None);
+        self.bench.is_paused = false;
+    }
+
+    fn pause(&mut self, on: bool) -> Result<(), String> {
+        if self.simulator.is_none() {
+            return Err("only the simulator can pause; a board has Stop and Single scan".to_owned());
+        }
+        self.bench.is_paused = on;
+        Ok(())
+    }
+
+    /// One scan: of a simulator that runs, which pauses then, or of a PLC in STOP.
+    fn single_scan(&mut self) -> Result<(), String> {
+        if self.plc.is_none() {
+            self.download()?;
+            self.bench.is_paused = true;
+        }
+        let is_running = |plc: &Plc| plc.state.identity.as_ref().is_none_or(|one| one.is_running);
+        match (&mut self.plc, &mut self.simulator) {
+            (Some(plc), Some(simulator)) if self.bench.is_paused || is_running(plc) => {
+                self.bench.is_paused = true;
+                let now_ms = self.now_ms;
+                plc.hurry();
+                // Questions that are answered by what a scan executes are asked before it; those
+                // that another scan would answer stay open.
+                let mut has_scanned = false;
+                for _ in 0..EXCHANGES_MAX {
+                    let Some(bytes) = plc.transmit(now_ms) else { break };
+                    let mut answers = simulator.receive(&bytes);
+                    if answers.is_empty() && !std::mem::replace(&mut has_scanned, true) {
+                        answers = simulator.scan(&mut self.scope);
+                    }
+                    plc.receive(&answers, now_ms);
+                }
+                if !has_scanned {
+                    let answers = simulator.scan(&mut self.scope);
+                    plc.receive(&answers, now_ms);
+                }
+            }
+            (Some(plc), _) => {
+                let scan = plc.state.single_scan();
+                plc.order(scan);
+            }
+            (None, _) => return Err("not connected: press Run or Connect".to_owned()),
+        }
+        Ok(())
+    }
+
+    /// Another plant: the simulator is switched on anew with it.
+    fn wire(&mut self, spec: Option<String>) -> Result<(), String> {
+        let before = std::mem::replace(&mut self.bench.plant, spec);
+        if let Err(message) = self.bench.new_plant() {
+            self.bench.plant = before;
+            return Err(message);
+        }
+        if self.simulator.is_some() { self.download() } else { Ok(()) }
+    }
+
+    fn drive(&mut self, name: &str, value: i32) -> Result<(), String> {
+        let operand = Operand::parse(name, &[]).map_err(|error| error.to_string())?;
+        if let Some(simulator) = &mut self.simulator {
+            simulator.drive(operand, value)?;
+        }
+        self.bench.driven.insert(operand, value);
+        Ok(())
+    }
+
+    fn choose_signals(&mut self) -> Result<(), String> {
+        let (names, every_ms) = &self.scope_names;
+        let Some(simulator) = &mut self.simulator else { return Ok(()) };
+        let operands = signals(names, &simulator.symbols)?;
+        operands.iter().try_for_each(|&operand| simulator.has(operand))?;
+        self.scope.choose(operands, u64::from(*every_ms));
+        Ok(())
+    }
+}
+
+fn answer(value: impl Serialize) -> Done {
+    serde_json::to_value(value).map(Some).map_err(|error| error.to_string())
+}

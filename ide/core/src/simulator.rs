@@ -1,0 +1,193 @@
+//! The simulator: a PLC of the reference interpreter with its plant, in a time that can be slower,
+//! faster, or stand still. It answers on its line like a board.
+
+use core::net::Ipv4Addr;
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use awl_asm::ast::Symbol;
+use awl_sim::machine::Machine;
+use awl_sim::machine::host::Host;
+use awl_sim::open::{Opened, open};
+use awl_sim::operand::Operand;
+use awl_sim::plant::{Plant, parse_spec};
+use awl_sim::run::Course;
+use awl_sim::scenario::Scenario;
+use awl_sim::serve::{Access, Endpoint, Frames, Request};
+
+use crate::build::Files;
+use crate::protocol::Event;
+use crate::scope::Scope;
+
+/// Time from scan start to scan start where the program does not say it, in milliseconds.
+const SCAN_MS: u64 = 1;
+
+/// What is wired to the PLC and how fast its time goes: stays when another program comes.
+#[derive(Debug)]
+pub struct Bench {
+    /// The plant.
+    pub plant: Option<String>,
+    /// What people have set the inputs to.
+    pub driven: BTreeMap<Operand, i32>,
+    /// 1 is real time, 0 as fast as it can.
+    pub speed: f64,
+    /// Whether time stands still.
+    pub is_paused: bool,
+}
+
+impl Default for Bench {
+    fn default() -> Bench {
+        Bench { plant: None, driven: BTreeMap::new(), speed: 1.0, is_paused: false }
+    }
+}
+
+impl Bench {
+    /// The plant before anything has happened.
+    pub fn new_plant(&self) -> Result<Option<Box<dyn Plant>>, String> {
+        self.plant.as_deref().map(plant_of).transpose()
+    }
+}
+
+/// The plant of a line as `awl-sim --plant` takes it.
+pub fn plant_of(spec: &str) -> Result<Box<dyn Plant>, String> {
+    let spec = parse_spec(spec).map_err(|problems| {
+        let messages: Vec<String> = problems.into_iter().map(|problem| problem.message).collect();
+        messages.join("; ")
+    })?;
+    spec.build().map_err(|error| error.message)
+}
+
+/// A PLC that is switched on.
+pub struct Simulator {
+    host: Host,
+    endpoint: Endpoint<()>,
+    frames: Frames,
+    /// Names that the program gives to addresses.
+    pub symbols: Vec<Symbol>,
+    scan_ms: u64,
+    /// How far its time is, and how far it is to be.
+    now_ms: u64,
+    due_ms: f64,
+}
+
+impl Simulator {
+    /// A PLC that is switched on with this program.
+    pub fn new(files: &Files, bench: &Bench) -> Result<Simulator, String> {
+        let opened = open(&files.program, &files.tables).map_err(|error| error.to_string())?;
+        let Opened { machine, symbols, scan_ms, .. } = opened;
+        let scan_ms = scan_ms.unwrap_or(SCAN_MS);
+        let course = Course::new(&Scenario::default(), bench.new_plant()?, scan_ms);
+        let endpoint = Endpoint::new(course, scan_ms, Access::default(), Duration::ZERO);
+        let mut host = *machine;
+        host.call_itself_simulator();
+        let mut simulator = Simulator {
+            host,
+            endpoint,
+            frames: Frames::default(),
+            symbols,
+            scan_ms,
+            now_ms: 0,
+            due_ms: 0.0,
+        };
+        for (&operand, &value) in &bench.driven {
+            simulator.drive(operand, value)?;
+        }
+        Ok(simulator)
+    }
+
+    /// Sets an input.
+    pub fn drive(&mut self, operand: Operand, value: i32) -> Result<(), String> {
+        self.host.write(operand, value).map_err(|error| error.to_string())
+    }
+
+    /// Goes on for so long, at most so many scans; gives the bytes that it answers meanwhile.
+    pub fn go_on(
+        &mut self,
+        elapsed_ms: u64,
+        scans_max: u32,
+        bench: &Bench,
+        scope: &mut Scope,
+    ) -> Vec<u8> {
+        let mut answers = Vec::new();
+        if bench.is_paused {
+            return answers;
+        }
+        self.due_ms += elapsed_ms as f64 * bench.speed;
+        for _ in 0..scans_max {
+            if bench.speed > 0.0 && self.due_ms < self.scan_ms as f64 {
+                return answers;
+            }
+            self.due_ms -= self.scan_ms as f64;
+            answers.extend(self.scan(scope));
+        }
+        // Time that it could not keep up with is lost, not made up for later.
+        self.due_ms = 0.0;
+        answers
+    }
+
+    /// One scan; gives the bytes that it answers at its end.
+    pub fn scan(&mut self, scope: &mut Scope) -> Vec<u8> {
+        // It fails where an input has no pin, and was checked before.
+        let _ = self.endpoint.go_on(&mut self.host, Duration::from_millis(self.now_ms));
+        scope.sample(self.endpoint.time_ms(), &mut self.host);
+        self.now_ms += self.scan_ms;
+        self.answers()
+    }
+
+    /// Bytes come on its line; gives those that it answers at once.
+    pub fn receive(&mut self, bytes: &[u8]) -> Vec<u8> {
+        self.frames.receive(bytes);
+        while let Ok(Some(pdu)) = self.frames.request() {
+            let request = Request { client: Ipv4Addr::LOCALHOST.into(), pdu, from: () };
+            self.endpoint.ask(&mut self.host, request);
+        }
+        self.answers()
+    }
+
+    fn answers(&mut self) -> Vec<u8> {
+        let answers: Vec<_> = self.endpoint.answers().collect();
+        answers.into_iter().flat_map(|answer| self.frames.answer(&answer.pdu)).collect()
+    }
+
+    /// Milliseconds since it was switched on.
+    pub fn time_ms(&self) -> u64 {
+        self.endpoint.time_ms()
+    }
+
+    /// Whether this operand can be read.
+    pub fn has(&mut self, operand: Operand) -> Result<(), String> {
+        self.host.read(operand).map(drop).map_err(|error| error.to_string())
+    }
+
+    /// The points.
+    pub fn pins(&mut self) -> Event {
+        let mut bits = |letter: char| {
+            let value = |bit: u8| {
+                let operand = Operand::parse(&format!("{letter}0.{bit}"), &[]).ok()?;
+                self.host.read(operand).ok().map(|value| (value as u8) << bit)
+            };
+            (0..6).filter_map(value).fold(0, |all, bit| all | bit)
+        };
+        let (inputs, outputs) = (bits('I'), bits('Q'));
+        let analog = self.host.inputs().raw.to_vec();
+        let pwm = [1, 3]
+            .iter()
+            .filter_map(|&bit| self.host.read(Operand::Duty(bit)).ok().map(|duty| duty as u16))
+            .collect();
+        Event::Pins { inputs, outputs, analog, pwm }
+    }
+
+    /// The plant as a picture needs it; `told`: events that were told before.
+    pub fn plant(&self, name: &str, told: &mut usize) -> Option<Event> {
+        let plant = self.endpoint.plant()?;
+        let state = plant.view().into_iter().map(|(key, value)| (key.to_owned(), value)).collect();
+        let events = plant.report().events;
+        let news = events
+            .iter()
+            .skip(*told)
+            .map(|event| format!("{:.3} s: {}", event.time_ms as f64 / 1000.0, event.text));
+        let news = news.collect();
+        *told = events.len();
+        Some(Event::Plant { name: name.to_owned(), state, news })
+    }
+}

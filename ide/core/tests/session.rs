@@ -1,0 +1,290 @@
+//! A session as the page uses it: requests in, events out, with time passed in.
+
+use ide_core::Session;
+use ide_core::protocol::{
+    ApartWish, Event, File, LookWish, Problem, ProjectWish, Recording, Request, Status, TargetWish,
+    TestResult, TextWish, Value, Wish,
+};
+
+const STATION: &str = include_str!("../../../examples/station1.awl");
+const SCENARIO: &str = include_str!("../../../examples/station1.scn");
+const PLANT: &str =
+    "station1 pieces=normal,small,normal,large,small,normal noise=3 seed=7 button=auto";
+
+/// A page without pixels.
+#[derive(Default)]
+struct Page {
+    session: Session,
+    now_ms: u64,
+    id: u32,
+    events: Vec<Event>,
+}
+
+impl Page {
+    fn with(name: &str, text: &str) -> Page {
+        let mut page = Page::default();
+        let files = vec![File { name: name.to_owned(), text: text.to_owned() }];
+        page.wish(Wish::Project(ProjectWish::Open { files, main: None }));
+        page
+    }
+
+    fn wish(&mut self, wish: Wish) -> Vec<Event> {
+        self.id += 1;
+        let events = self.session.request(Request { id: self.id, wish }, self.now_ms);
+        self.events.extend(events.clone());
+        events
+    }
+
+    fn target(&mut self, wish: TargetWish) {
+        let events = self.wish(Wish::Target(wish));
+        assert!(!events.iter().any(|event| matches!(event, Event::Refused { .. })), "{events:?}");
+    }
+
+    fn answer<T: serde::de::DeserializeOwned>(&mut self, wish: Wish) -> T {
+        let id = self.id + 1;
+        let events = self.wish(wish);
+        let found = events.iter().find_map(|event| match event {
+            Event::Answer { id: of, answer } if *of == id => Some(answer.clone()),
+            _ => None,
+        });
+        let found = found.unwrap_or_else(|| panic!("no answer in {events:?}"));
+        serde_json::from_value(found).unwrap()
+    }
+
+    fn refusal(&mut self, wish: Wish) -> String {
+        let events = self.wish(wish);
+        let found = events.iter().find_map(|event| match event {
+            Event::Refused { message, .. } => Some(message.clone()),
+            _ => None,
+        });
+        found.unwrap_or_else(|| panic!("not refused: {events:?}"))
+    }
+
+    /// Time passes, 10 ms at a time.
+    fn pass(&mut self, ms: u64) {
+        for _ in 0..ms / 10 {
+            self.now_ms += 10;
+            let events = self.session.tick(self.now_ms, 1000);
+            self.events.extend(events);
+        }
+    }
+
+    /// The last event that this finds something in.
+    fn last<T>(&self, find: impl Fn(&Event) -> Option<T>) -> Option<T> {
+        self.events.iter().rev().find_map(find)
+    }
+
+    fn status(&self) -> Status {
+        let status = |event: &Event| match event {
+            Event::Status { status } => Some(status.clone()),
+            _ => None,
+        };
+        self.last(status).unwrap()
+    }
+
+    fn watched(&self) -> Vec<Value> {
+        let values = |event: &Event| match event {
+            Event::Watched { values } => Some(values.clone()),
+            _ => None,
+        };
+        self.last(values).unwrap()
+    }
+
+    fn problems(&self) -> Vec<Problem> {
+        let problems = |event: &Event| match event {
+            Event::Problems { problems } => Some(problems.clone()),
+            _ => None,
+        };
+        self.last(problems).unwrap()
+    }
+}
+
+fn look(operands: &[&str]) -> Wish {
+    let operands = operands.iter().map(|name| (*name).to_owned()).collect();
+    Wish::Look(LookWish::Watch { operands })
+}
+
+#[test]
+fn the_station_sorts_six_pieces_while_it_is_looked_at() {
+    let mut page = Page::with("station1.awl", STATION);
+    assert_eq!(page.problems(), []);
+    page.target(TargetWish::Plant { spec: Some(PLANT.to_owned()) });
+    page.wish(look(&["Push", "Height"]));
+    page.wish(Wish::Look(LookWish::View { from: 1, to: 60 }));
+    page.target(TargetWish::Run);
+    page.target(TargetWish::Speed { factor: 10.0 });
+    page.pass(6_400);
+    let status = page.status();
+    assert_eq!((status.mode.as_str(), status.agreement.as_str()), ("RUN", "same"));
+    assert!(status.time_ms >= 63_000, "{} ms", status.time_ms);
+    let state = |event: &Event| match event {
+        Event::Plant { state, .. } => Some(state.clone()),
+        _ => None,
+    };
+    let state = page.last(state).unwrap();
+    let value = |name: &str| state.iter().find(|(key, _)| key == name).unwrap().1;
+    assert_eq!((value("good"), value("rejected"), value("collisions")), (3.0, 3.0, 0.0));
+    let flows: Vec<String> = page
+        .last(|event| match event {
+            Event::Live { lines } => {
+                Some(lines.iter().filter_map(|line| line.flow.clone()).collect())
+            }
+            _ => None,
+        })
+        .unwrap();
+    assert!(flows.len() > 10, "{flows:?}");
+    assert!(flows.iter().any(|flow| flow == "on") && flows.iter().any(|flow| flow == "off"));
+    assert!(page.watched().iter().all(|value| value.number.is_some()));
+}
+
+#[test]
+fn a_mistake_is_told_with_what_mends_it() {
+    let mut page = Page::with("lamp.awl", "LD I0.0\n= Q0.9\n");
+    let problems = page.problems();
+    let problem = &problems[0];
+    assert!(problem.is_error && problem.line == 2 && (problem.from, problem.to) == (10, 14));
+    assert_eq!(page.refusal(Wish::Target(TargetWish::Run)), "lamp.awl has an error");
+    let text = "LD I0.0\n= Q0.1\n".to_owned();
+    page.wish(Wish::Project(ProjectWish::Edit { file: "lamp.awl".to_owned(), text }));
+    assert_eq!(page.problems(), []);
+    page.target(TargetWish::Run);
+    let page_of: String = page.answer(Wish::Text(TextWish::Explain { code: problem.code.clone() }));
+    assert!(page_of.contains(&problem.code), "{page_of}");
+}
+
+#[test]
+fn inputs_are_set_and_forced_and_the_program_answers() {
+    let mut page = Page::with("lamp.awl", "LD I0.0\n= Q0.1\n");
+    page.wish(look(&["Q0.1", "I0.0", "MX"]));
+    page.target(TargetWish::Run);
+    page.pass(300);
+    let texts = |page: &Page| -> Vec<String> {
+        page.watched().into_iter().map(|value| value.text).collect()
+    };
+    assert_eq!(texts(&page), ["0", "0", ""]);
+    assert!(page.watched()[2].problem.is_some(), "no such operand");
+    page.target(TargetWish::Drive { operand: "I0.0".to_owned(), value: 1 });
+    page.pass(300);
+    assert_eq!(texts(&page), ["1", "1", ""]);
+    let force =
+        |value: &str| TargetWish::Force { operand: "I0.0".to_owned(), value: value.to_owned() };
+    page.target(force("0"));
+    page.pass(300);
+    assert_eq!(texts(&page), ["0", "0", ""]);
+    assert!(page.watched()[1].forced);
+    assert!(page.refusal(Wish::Target(force("5"))).contains('5'));
+    page.target(TargetWish::Unforce { operand: None });
+    page.pass(300);
+    assert_eq!(texts(&page), ["1", "1", ""]);
+    page.target(TargetWish::Stop);
+    page.pass(300);
+    assert_eq!(page.status().mode, "STOP");
+    let outputs = |event: &Event| match event {
+        Event::Pins { outputs, .. } => Some(*outputs),
+        _ => None,
+    };
+    assert_eq!(page.last(outputs), Some(0), "outputs are off in STOP");
+}
+
+#[test]
+fn a_pause_stands_still_and_single_scans_go_on() {
+    let mut page = Page::with("count.awl", "LD SM0.0\nINCW MW0\n");
+    page.wish(look(&["MW0"]));
+    page.target(TargetWish::Run);
+    page.pass(500);
+    page.target(TargetWish::Pause { on: true });
+    page.pass(100);
+    let time_ms = page.status().time_ms;
+    page.pass(1000);
+    assert_eq!((page.status().mode.as_str(), page.status().time_ms), ("PAUSE", time_ms));
+    page.target(TargetWish::SingleScan);
+    page.pass(100);
+    let first: f64 = page.watched()[0].number.unwrap();
+    page.target(TargetWish::SingleScan);
+    page.pass(100);
+    assert_eq!(page.watched()[0].number, Some(first + 1.0));
+    assert_eq!(page.status().time_ms, time_ms + 2);
+    page.target(TargetWish::Pause { on: false });
+    page.pass(300);
+    assert_eq!(page.status().mode, "RUN");
+    assert!(page.status().time_ms >= time_ms + 290);
+}
+
+#[test]
+fn the_oscilloscope_has_every_scan() {
+    let mut page = Page::with("count.awl", "LD SM0.0\nINCW MW0\n");
+    page.target(TargetWish::Run);
+    page.wish(Wish::Look(LookWish::Scope { signals: vec!["MW0".to_owned()], every_ms: 0 }));
+    page.pass(1000);
+    let (mut times, mut values) = (Vec::new(), Vec::new());
+    for event in &page.events {
+        if let Event::Samples { times: more, columns, lost } = event {
+            assert!(!lost);
+            times.extend(more);
+            values.extend(&columns[0]);
+        }
+    }
+    assert!(times.len() > 900, "{}", times.len());
+    let steps = |column: &[f64]| column.windows(2).all(|pair| pair[1] == pair[0] + 1.0);
+    assert!(steps(&times) && steps(&values), "a sample for each scan, none twice");
+    let unknown = LookWish::Scope { signals: vec!["nonsense".to_owned()], every_ms: 0 };
+    assert!(page.refusal(Wish::Look(unknown)).contains("nonsense"));
+}
+
+#[test]
+fn simulations_and_tests_are_what_awl_sim_does() {
+    let mut page = Page::with("station1.awl", STATION);
+    let text = SCENARIO.to_owned();
+    page.wish(Wish::Project(ProjectWish::Edit { file: "station1.scn".to_owned(), text }));
+    assert_eq!(page.problems(), []);
+    let wanted = ApartWish::Simulate {
+        signals: vec!["Push".to_owned(), "Height".to_owned()],
+        for_ms: 20_000,
+        scan_ms: 1,
+        plant: Some(PLANT.to_owned()),
+    };
+    let recording: Recording = page.answer(Wish::Apart(wanted));
+    assert_eq!(recording.csv.lines().count(), 20_001);
+    assert!(recording.csv.starts_with("time_ms,scan,Push,Height\n0,1,0,"));
+    let (least, greatest, mean) = recording.figures[0];
+    assert!(least == 0.0 && greatest == 1.0 && mean > 0.0 && mean < 0.5, "{mean}");
+    assert_eq!(recording.columns[0].len(), recording.times.len());
+    let test = || Wish::Apart(ApartWish::Test { file: "station1.scn".to_owned() });
+    let result: TestResult = page.answer(test());
+    assert!(result.passed && result.met > 0, "{result:?}");
+    let wrong = "at 0ms I0.5 = 1\nat 1s expect Q0.0 = 5\n".to_owned();
+    page.wish(Wish::Project(ProjectWish::Edit { file: "station1.scn".to_owned(), text: wrong }));
+    let failed = page.refusal(test());
+    assert!(failed.contains("station1.scn:2"), "{failed}");
+}
+
+#[test]
+fn what_is_not_right_is_answered() {
+    let mut page = Page::default();
+    let json = page.session.request_json("{\"id\": 7, \"do\": \"dance\"}", 0);
+    assert!(json.contains("\"is\":\"refused\""), "{json}");
+    let message = page.refusal(Wish::Target(TargetWish::Run));
+    assert!(message.contains(".awl"), "{message}");
+    assert!(page.refusal(Wish::Target(TargetWish::Stop)).contains("Run or Connect"));
+    let spec = Some("station2".to_owned());
+    assert!(page.refusal(Wish::Target(TargetWish::Plant { spec })).contains("station2"));
+    let wish = TargetWish::Speed { factor: -1.0 };
+    assert!(page.refusal(Wish::Target(wish)).contains("-1"));
+}
+
+#[test]
+fn an_edit_that_changes_nothing_keeps_the_values_and_another_program_ends_them() {
+    let mut page = Page::with("lamp.awl", "LD I0.0\n= Q0.1\n");
+    page.target(TargetWish::Run);
+    page.wish(Wish::Look(LookWish::View { from: 1, to: 3 }));
+    page.pass(300);
+    let mut edit = |text: &str| {
+        let file = "lamp.awl".to_owned();
+        page.wish(Wish::Project(ProjectWish::Edit { file, text: text.to_owned() }));
+        page.pass(300);
+        page.status().agreement
+    };
+    assert_eq!(edit("// a lamp\nLD I0.0\n= Q0.1\n"), "same");
+    assert_eq!(edit("LD I0.1\n= Q0.1\n"), "other");
+    assert_eq!(edit("LD I0.1\n= Q0.\n"), "other", "of a program with errors nothing is known");
+}

@@ -1,0 +1,67 @@
+// A server for trials: dist, the examples of this repository, and a pretended core unless the real
+// one is in target/ide. Not the product's server.
+import { createServer } from "node:http";
+import { readFile, readdir } from "node:fs/promises";
+import { fileURLToPath } from "node:url";
+
+const at = (path) => fileURLToPath(new URL(path, import.meta.url));
+const TYPES = {
+  html: "text/html; charset=utf-8",
+  js: "text/javascript",
+  css: "text/css",
+  wasm: "application/wasm",
+  json: "application/json",
+};
+const POLICY =
+  "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; " +
+  "connect-src 'self' ws:; img-src 'self' data: blob:";
+const EXAMPLES = at("../../../examples/");
+const PLANTS = { station1: "station1", tank: "tank" };
+
+async function example(name) {
+  const files = (await readdir(EXAMPLES)).filter((file) => file.replace(/\.\w+$/, "") === name);
+  const read = async (file) => ({ name: file, text: await readFile(EXAMPLES + file, "utf8") });
+  const plant = PLANTS[name] ?? null;
+  const content = { files: await Promise.all(files), main: `${name}.awl`, plant };
+  content.files = await Promise.all(files.map(read));
+  return JSON.stringify({ ...content, view: plant ? "plant" : "problems" });
+}
+
+async function exampleNames() {
+  const names = (await readdir(EXAMPLES)).filter((file) => file.endsWith(".awl"));
+  return JSON.stringify(names.map((name) => name.replace(".awl", "")));
+}
+
+async function answer(path) {
+  if (path === "/examples/list.json") return exampleNames();
+  const name = /^\/examples\/(\w+)\.json$/.exec(path)?.[1];
+  if (name) return example(name);
+  const file = path === "/" ? "/index.html" : path;
+  if (/^\/ide_core/.test(file)) {
+    const real = at(`../../../target/ide${file}`);
+    return readFile(real).catch(() => readFile(at("./fake_core.js")));
+  }
+  if (!/^\/[\w.]+$/.test(file)) throw new Error("no such file");
+  return readFile(at(`../dist${file}`));
+}
+
+/** Serves at a port; 0 takes a free one. */
+export function serve(port) {
+  const server = createServer(async (request, response) => {
+    const path = new URL(request.url, "http://localhost").pathname;
+    try {
+      const body = await answer(path);
+      const ending = path === "/" ? "html" : path.split(".").pop();
+      const headers = { "Content-Type": TYPES[ending] ?? "text/plain" };
+      response.writeHead(200, { ...headers, "Content-Security-Policy": POLICY }).end(body);
+    } catch {
+      response.writeHead(404).end();
+    }
+  });
+  return new Promise((resolve) => server.listen(port, "127.0.0.1", () => resolve(server)));
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const server = await serve(Number(process.argv[2] ?? 8201));
+  console.log(`http://127.0.0.1:${server.address().port}/`);
+}

@@ -1,0 +1,96 @@
+// The core as the rest of the page sees it: orders, questions, events. Where it runs is known here
+// alone.
+import type { Event, EventKind, EventOf, Orders, Questions } from "./protocol";
+
+type Listener = (event: never) => void;
+type Order = { [K in keyof Orders]: { do: K } & Orders[K] }[keyof Orders];
+type Question<K extends keyof Questions> = { do: K } & Questions[K]["wish"];
+
+/** The answer to a question that was refused. */
+export class Refusal extends Error {}
+
+interface Open {
+  answered(answer: unknown): void;
+  refused(message: string): void;
+}
+
+/** How many orders can be refused late. */
+const ORDERS_MAX = 256;
+
+export class Core {
+  /** Called before a question: what was written and not yet sent has to come first. */
+  beforeQuestion: () => void = () => {};
+  private worker = new Worker("worker.js", { type: "module" });
+  private lastId = 0;
+  private open = new Map<number, Open>();
+  private orders = new Map<number, Order["do"]>();
+  private listeners = new Map<EventKind, Listener[]>();
+  private refusedListeners: ((what: Order["do"], message: string) => void)[] = [];
+
+  constructor(broken: (message: string) => void) {
+    this.worker.onerror = (event) => broken(event.message);
+    this.worker.onmessage = ({ data }: MessageEvent<Event[] | { broken: string }>) => {
+      if (!Array.isArray(data)) return broken(data.broken);
+      for (const event of data) this.take(event);
+    };
+  }
+
+  /** Has something done. */
+  tell(order: Order): void {
+    const id = this.send(order);
+    this.orders.set(id, order.do);
+    const oldest = this.orders.keys().next();
+    if (this.orders.size > ORDERS_MAX && !oldest.done) this.orders.delete(oldest.value);
+  }
+
+  /** Asks; the promise fails with a [`Refusal`]. */
+  ask<K extends keyof Questions>(question: Question<K>): Promise<Questions[K]["answer"]> {
+    this.beforeQuestion();
+    return new Promise((resolve, reject) => {
+      this.open.set(this.send(question), {
+        answered: (answer) => resolve(answer as Questions[K]["answer"]),
+        refused: (message) => reject(new Refusal(message)),
+      });
+    });
+  }
+
+  /** Listens to events of a kind, in the order in which listeners came. */
+  on<K extends EventKind>(kind: K, listener: (event: EventOf<K>) => void): void {
+    this.listeners.set(kind, [...(this.listeners.get(kind) ?? []), listener]);
+  }
+
+  /** Listens to orders that are refused. */
+  onRefused(listener: (what: Order["do"], message: string) => void): void {
+    this.refusedListeners.push(listener);
+  }
+
+  /** Bytes came from the target's line. */
+  receive(bytes: Uint8Array): void {
+    this.worker.postMessage(bytes);
+  }
+
+  private send(wish: object): number {
+    const id = ++this.lastId;
+    this.worker.postMessage(JSON.stringify({ id, ...wish }));
+    return id;
+  }
+
+  private take(event: Event): void {
+    if (event.is === "answer") this.close(event.id)?.answered(event.answer);
+    if (event.is === "refused") this.refuse(event.id, event.message);
+    for (const listener of this.listeners.get(event.is) ?? []) listener(event as never);
+  }
+
+  private refuse(id: number, message: string): void {
+    const question = this.close(id);
+    const order = this.orders.get(id);
+    if (question) question.refused(message);
+    else if (order) for (const listener of this.refusedListeners) listener(order, message);
+  }
+
+  private close(id: number): Open | undefined {
+    const open = this.open.get(id);
+    this.open.delete(id);
+    return open;
+  }
+}

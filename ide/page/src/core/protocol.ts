@@ -1,0 +1,180 @@
+// What the page asks of the core and what it is told, as ide/core/src/protocol.rs has it; what each
+// means is written there.
+
+export type TargetKind = "simulator" | "virtualUno" | "usb" | "bridge";
+
+export interface File {
+  name: string;
+  text: string;
+}
+
+export interface Place {
+  file: string;
+  from: number;
+  to: number;
+}
+
+export interface Problem extends Place {
+  code: string;
+  isError: boolean;
+  line: number;
+  column: number;
+  message: string;
+  help: string[];
+  suggestion: string | null;
+  related: [Place, string][];
+}
+
+export interface Completion {
+  label: string;
+  kind: string;
+  detail: string;
+  info: string;
+  from: number;
+}
+
+export interface Hover {
+  text: string;
+  from: number;
+  to: number;
+}
+
+export interface Edit extends Place {
+  text: string;
+}
+
+export interface Item {
+  name: string;
+  kind: string;
+  line: number;
+  from: number;
+}
+
+export interface Summary {
+  file: string;
+  instructions: number;
+  bytes: number;
+  bytesMax: number;
+  data: number;
+  dataMax: number;
+  longestUs: number | null;
+  fitsUno: boolean;
+  operands: [string, string][];
+}
+
+export interface Status {
+  target: TargetKind;
+  mode: string;
+  agreement: string;
+  scans: number;
+  timeMs: number;
+  scanUs: [number, number, number] | null;
+  fault: string | null;
+  faultAt: Place | null;
+  lost: string | null;
+}
+
+export interface Value {
+  name: string;
+  text: string;
+  number: number | null;
+  form: string;
+  forced: boolean;
+  canForce: boolean;
+  problem: string | null;
+}
+
+export interface Line {
+  line: number;
+  flow: string | null;
+  values: Value[];
+}
+
+export interface Recording {
+  names: string[];
+  times: number[];
+  columns: number[][];
+  figures: [number, number, number][];
+  csv: string;
+  vcd: string;
+  plant: string | null;
+}
+
+export interface TestResult {
+  passed: boolean;
+  scans: number;
+  met: number;
+  failures: [number, string][];
+  plant: string | null;
+}
+
+interface At {
+  file: string;
+  at: number;
+}
+
+/** What is answered, and with what. */
+export interface Questions {
+  complete: { wish: At; answer: Completion[] };
+  hover: { wish: At; answer: Hover | null };
+  definition: { wish: At; answer: Place | null };
+  references: { wish: At; answer: Place[] };
+  renameSymbol: { wish: At & { to: string }; answer: Edit[] };
+  format: { wish: { file: string }; answer: Edit[] };
+  outline: { wish: { file: string }; answer: Item[] };
+  explain: { wish: { code: string }; answer: string };
+  simulate: {
+    wish: { signals: string[]; forMs: number; scanMs: number; plant: string | null };
+    answer: Recording;
+  };
+  test: { wish: { file: string }; answer: TestResult };
+}
+
+/** What is done without an answer, unless it is refused. */
+export interface Orders {
+  open: { files: File[]; main: string | null };
+  edit: { file: string; text: string };
+  remove: { file: string };
+  rename: { file: string; to: string };
+  choose: { main: string };
+  target: { kind: TargetKind };
+  connect: object;
+  disconnect: object;
+  download: object;
+  run: object;
+  stop: object;
+  pause: { on: boolean };
+  singleScan: object;
+  reset: object;
+  speed: { factor: number };
+  plant: { spec: string | null };
+  handle: { name: string; value: number };
+  drive: { operand: string; value: number };
+  set: { operand: string; value: string };
+  force: { operand: string; value: string };
+  unforce: { operand: string | null };
+  watch: { operands: string[] };
+  view: { from: number; to: number };
+  scope: { signals: string[]; everyMs: number };
+}
+
+interface Events {
+  answer: { id: number; answer: unknown };
+  refused: { id: number; message: string };
+  problems: { problems: Problem[] };
+  program: { program: Summary | null };
+  status: { status: Status };
+  live: { lines: Line[] };
+  watched: { values: Value[] };
+  forced: { values: Value[] };
+  pins: { inputs: number; outputs: number; analog: number[]; pwm: number[] };
+  plant: { name: string; state: [string, number][]; news: string[] };
+  samples: { times: number[]; columns: number[][]; lost: boolean };
+  send: { bytes: number[] };
+  notice: { message: string; bad: boolean };
+}
+
+export type EventKind = keyof Events;
+export type EventOf<K extends EventKind> = { is: K } & Events[K];
+export type Event = { [K in EventKind]: EventOf<K> }[EventKind];
+export type Pins = Events["pins"];

@@ -1,0 +1,76 @@
+// The worker that the core runs in: passes requests and bytes on to it, lets its time go by, posts
+// its events.
+import init, { Ide } from "./ide_core.js";
+import type { Event } from "./protocol";
+
+/** From tick to tick while something runs, and otherwise, in milliseconds. */
+const BUSY_MS = 10;
+const IDLE_MS = 50;
+/** A tick should not take longer, or requests wait. */
+const TICK_MS_MAX = 25;
+const SCANS_MIN = 100;
+const SCANS_MAX = 1_000_000;
+
+/** What is used of a worker's surroundings; the page's types have another `self`. */
+interface Surroundings {
+  onmessage: ((message: MessageEvent<string | Uint8Array>) => void) | null;
+  postMessage(message: Event[] | { broken: string }): void;
+}
+const surroundings = self as unknown as Surroundings;
+
+let ide: Ide | undefined;
+let isBusy = false;
+let scansMax = 1000;
+const early: (string | Uint8Array)[] = [];
+
+function post(json: string): void {
+  const events = JSON.parse(json) as Event[];
+  for (const event of events) if (event.is === "status") isBusy = event.status.mode === "RUN";
+  if (events.length > 0) surroundings.postMessage(events);
+}
+
+function take(ide: Ide, message: string | Uint8Array): void {
+  const now = performance.now();
+  post(typeof message === "string" ? ide.request(message, now) : ide.receive(message, now));
+}
+
+function tick(ide: Ide): void {
+  const began = performance.now();
+  post(ide.tick(began, scansMax));
+  const took = performance.now() - began;
+  if (took > TICK_MS_MAX) scansMax = Math.max(SCANS_MIN, scansMax >> 1);
+  else if (took > TICK_MS_MAX / 4) scansMax = Math.min(SCANS_MAX, scansMax + (scansMax >> 2));
+  else if (isBusy) scansMax = Math.min(SCANS_MAX, scansMax * 2);
+}
+
+/** What the core does not survive ends it: its state cannot be trusted any more. */
+function guard(action: () => void): boolean {
+  try {
+    action();
+    return true;
+  } catch (error) {
+    ide = undefined;
+    surroundings.postMessage({ broken: String(error) });
+    return false;
+  }
+}
+
+function goOn(): void {
+  const core = ide;
+  if (core && guard(() => tick(core))) setTimeout(goOn, isBusy ? BUSY_MS : IDLE_MS);
+}
+
+surroundings.onmessage = ({ data }) => {
+  const core = ide;
+  if (core) guard(() => take(core, data));
+  else early.push(data);
+};
+
+init({ module_or_path: new URL("ide_core_bg.wasm", import.meta.url) }).then(
+  () => {
+    const core = new Ide();
+    ide = core;
+    if (guard(() => early.splice(0).forEach((message) => take(core, message)))) goOn();
+  },
+  (error: unknown) => surroundings.postMessage({ broken: String(error) }),
+);

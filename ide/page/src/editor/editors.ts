@@ -1,0 +1,273 @@
+// All editors: which files are open where, with texts, histories and problems. What is written is
+// told to the project.
+import { historyField } from "@codemirror/commands";
+import { Compartment, EditorState, type Extension, type TransactionSpec } from "@codemirror/state";
+import { EditorView, keymap, type KeyBinding } from "@codemirror/view";
+import type { Core } from "../core/core";
+import type { Edit, Line, Place, Problem } from "../core/protocol";
+import { iconButton } from "../page/dom";
+import { icon } from "../page/icons";
+import type { Project } from "../project/project";
+import { onLanguage } from "../text/language";
+import { assist } from "./assist";
+import { colours } from "./awl";
+import { LiveValues, type Chosen } from "./live";
+import { Pane, type Sheet } from "./pane";
+import { phrases } from "./phrases";
+import { show as showProblems, type Explain } from "./problems";
+import { setup } from "./setup";
+
+interface Wishes {
+  chosen: Chosen;
+  explain: Explain;
+  renameFile(file: string): void;
+  keys: readonly KeyBinding[];
+}
+
+const PANES_MAX = 2;
+/** What of a state is kept when its file gets another name. */
+const FIELDS = { history: historyField };
+
+export class Editors {
+  readonly live: LiveValues;
+  readonly panes: Pane[] = [];
+  private sheets = new Map<string, Sheet>();
+  private problems: Problem[] = [];
+  private active: Pane;
+  private words = new Compartment();
+  private currentListeners: ((file: string | null) => void)[] = [];
+  private viewListeners: (() => void)[] = [];
+
+  constructor(
+    readonly element: HTMLElement,
+    private core: Core,
+    private project: Project,
+    private wishes: Wishes,
+  ) {
+    this.live = new LiveValues(wishes.chosen);
+    this.active = this.addPane();
+    project.onOpened(() => this.reopen());
+    project.onRenamed((file, to) => this.renameFile(file, to));
+    project.onFiles(() => this.dropGone());
+    core.on("problems", ({ problems }) => this.setProblems(problems));
+    onLanguage(() => this.updateAll(() => ({ effects: this.words.reconfigure(phrases()) })));
+  }
+
+  private addPane(): Pane {
+    const split = iconButton(icon("split"), "splitEditor", () => this.split());
+    const pane = new Pane(
+      {
+        sheet: (file) => this.sheets.get(file),
+        chosen: (pane) => this.choose(pane),
+        closed: (pane, file) => this.close(pane, file),
+        renamed: this.wishes.renameFile,
+      },
+      this.panes.length === 0
+        ? [split]
+        : [iconButton(icon("close"), "closePane", () => this.join())],
+    );
+    this.panes.push(pane);
+    pane.name(this.panes.length);
+    this.element.append(pane.element);
+    return pane;
+  }
+
+  /** The file that is being worked on. */
+  get current(): string | null {
+    return this.active.current;
+  }
+
+  /** The editor that is being worked in. */
+  get view(): EditorView {
+    return this.active.view;
+  }
+
+  private choose(pane: Pane): void {
+    this.active = pane;
+    this.changed();
+  }
+
+  private changed(): void {
+    for (const listener of this.currentListeners) listener(this.current);
+    for (const listener of this.viewListeners) listener();
+  }
+
+  /** Is told which file is being worked on. */
+  onCurrent(listener: (file: string | null) => void): void {
+    this.currentListeners.push(listener);
+  }
+
+  /** Is told when other lines can be seen. */
+  onView(listener: () => void): void {
+    this.viewListeners.push(listener);
+  }
+
+  /** Shows a file, and a place in it. */
+  open(file: string, range?: { from: number; to: number }, focus = true): void {
+    if (!this.sheet(file)) return;
+    const pane = this.panes.find((pane) => pane.files.includes(file)) ?? this.active;
+    if (pane.current !== file) pane.show(file);
+    this.active = pane;
+    if (range) {
+      const { length } = pane.view.state.doc;
+      const anchor = Math.min(range.from, length);
+      const selection = { anchor, head: Math.min(range.to, length) };
+      const effects = EditorView.scrollIntoView(anchor, { y: "center" });
+      pane.view.dispatch({ selection, effects });
+    }
+    if (focus) pane.view.focus();
+    this.changed();
+  }
+
+  openLine(file: string, line: number): void {
+    const doc = this.sheet(file)?.state.doc;
+    if (!doc) return;
+    const { from, to } = doc.line(Math.max(1, Math.min(line, doc.lines)));
+    this.open(file, { from, to });
+  }
+
+  openPlace(place: Place): void {
+    this.open(place.file, place);
+  }
+
+  /** Shows the file on both sides; the second side has it alone then. */
+  split(): void {
+    const file = this.active.current;
+    const other = this.panes.find((pane) => pane !== this.active);
+    const goal = other ?? (this.panes.length < PANES_MAX ? this.addPane() : undefined);
+    if (!goal || file === null) return;
+    this.active.remove(file);
+    goal.show(file);
+    this.active = goal;
+    goal.view.focus();
+    this.changed();
+  }
+
+  /** Ends the second side. */
+  join(): void {
+    const [first, second] = this.panes;
+    if (!first || !second) return;
+    second.leave();
+    const shown = second.current;
+    for (const file of second.files) if (!first.files.includes(file)) first.files.push(file);
+    second.current = null;
+    second.view.destroy();
+    second.element.remove();
+    this.panes.pop();
+    this.active = first;
+    first.show(shown ?? first.current);
+    this.changed();
+  }
+
+  private close(pane: Pane, file: string): void {
+    pane.remove(file);
+    if (pane.files.length === 0 && pane === this.panes[1]) this.join();
+    this.changed();
+  }
+
+  /** Changes texts, of files that are not open too: what is done can be undone there. */
+  apply(edits: Edit[]): void {
+    for (const file of new Set(edits.map((edit) => edit.file))) {
+      const changes = edits
+        .filter((edit) => edit.file === file)
+        .map(({ from, to, text }) => ({ from, to, insert: text }));
+      if (this.sheet(file)) this.update(file, () => ({ changes, userEvent: "input.change" }));
+    }
+  }
+
+  /** Where the file is shown, if it is. */
+  viewOf(file: string): EditorView | undefined {
+    return this.panes.find((pane) => pane.current === file)?.view;
+  }
+
+  showLive(file: string | null, lines: Line[]): void {
+    for (const pane of this.panes)
+      this.live.show(pane.view, pane.current === file && file !== null ? lines : []);
+  }
+
+  private renameFile(file: string, to: string): void {
+    for (const pane of this.panes) pane.leave();
+    const sheet = this.sheets.get(file);
+    if (!sheet) return;
+    const json = sheet.state.toJSON(FIELDS) as unknown;
+    const state = EditorState.fromJSON(json, { extensions: this.extensions(to) }, FIELDS);
+    this.sheets.delete(file);
+    this.sheets.set(to, { state });
+    for (const pane of this.panes) pane.rename(file, to);
+    this.changed();
+  }
+
+  private sheet(file: string): Sheet | undefined {
+    const known = this.sheets.get(file);
+    const text = this.project.text(file);
+    if (known || text === undefined) return known;
+    let state = EditorState.create({ doc: text, extensions: this.extensions(file) });
+    state = state.update(this.problemsOf(file)(state)).state;
+    const sheet = { state };
+    this.sheets.set(file, sheet);
+    return sheet;
+  }
+
+  private extensions(file: string): Extension {
+    return [
+      keymap.of(this.wishes.keys),
+      setup,
+      colours(file),
+      assist(this.core, file),
+      this.live.extension,
+      this.words.of(phrases()),
+      EditorView.contentAttributes.of({ "aria-label": file, spellcheck: "false", tabindex: "0" }),
+      EditorView.updateListener.of((update) => {
+        if (update.docChanged) this.project.edit(file, update.state.doc.toString());
+        if (update.viewportChanged || update.docChanged)
+          for (const listener of this.viewListeners) listener();
+      }),
+    ];
+  }
+
+  private setProblems(problems: Problem[]): void {
+    this.problems = problems;
+    this.updateAll((file) => this.problemsOf(file)(this.stateOf(file)));
+  }
+
+  private problemsOf(file: string): (state: EditorState) => TransactionSpec {
+    const problems = this.problems.filter((problem) => problem.file === file);
+    return (state) => showProblems(state, problems, this.wishes.explain);
+  }
+
+  private stateOf(file: string): EditorState {
+    const state = this.viewOf(file)?.state ?? this.sheets.get(file)?.state;
+    return state ?? EditorState.create();
+  }
+
+  private update(file: string, spec: (file: string) => TransactionSpec): void {
+    const view = this.viewOf(file);
+    const sheet = this.sheets.get(file);
+    if (view) return view.dispatch(spec(file));
+    if (!sheet) return;
+    const transaction = sheet.state.update(spec(file));
+    sheet.state = transaction.state;
+    if (transaction.docChanged) this.project.edit(file, sheet.state.doc.toString());
+  }
+
+  private updateAll(spec: (file: string) => TransactionSpec): void {
+    for (const file of this.sheets.keys()) this.update(file, spec);
+  }
+
+  private reopen(): void {
+    for (const pane of this.panes) for (const file of [...pane.files]) pane.remove(file);
+    if (this.panes.length > 1) this.join();
+    this.sheets.clear();
+    this.problems = [];
+    const main = this.project.main() ?? this.project.names()[0];
+    if (main !== undefined) this.open(main, undefined, false);
+  }
+
+  private dropGone(): void {
+    for (const file of [...this.sheets.keys()]) {
+      if (this.project.text(file) !== undefined) continue;
+      for (const pane of [...this.panes]) if (pane.files.includes(file)) this.close(pane, file);
+      this.sheets.delete(file);
+    }
+  }
+}

@@ -1,0 +1,174 @@
+// The page: makes its parts, connects them, opens the project.
+import { EditorView } from "@codemirror/view";
+import "./css/page.css";
+import { Core } from "./core/core";
+import { Commands } from "./editor/commands";
+import { Editors } from "./editor/editors";
+import { LiveView } from "./page/live_view";
+import { h } from "./page/dom";
+import { Header } from "./page/header";
+import { help, settings } from "./page/help";
+import { shortcuts } from "./page/shortcuts";
+import { noticeArea, notice } from "./page/notices";
+import { ProjectMenu } from "./page/project_menu";
+import { Sidebar } from "./page/sidebar";
+import { separator } from "./page/split";
+import { Tabs } from "./page/tabs";
+import { unfitWords } from "./page/unfit";
+import { valueMenu, valuesMenu } from "./page/values";
+import { Capture } from "./panels/capture";
+import { Operands } from "./panels/operands";
+import { Plant } from "./panels/plant";
+import { Problems } from "./panels/problems";
+import { Scope } from "./panels/scope";
+import { Tests } from "./panels/tests";
+import { Watch } from "./panels/watch";
+import { fragmentFor, fromAddress, lastOrBlink, type Opened } from "./project/begin";
+import { Project, Unfit } from "./project/project";
+import { Keeper } from "./project/storage";
+import { confirm } from "./page/dialog";
+import { language, t } from "./text/language";
+
+document.documentElement.lang = language();
+
+const core = new Core((message) => notice(t("coreBroken", message), true));
+const project = new Project(core);
+const keeper = new Keeper(project, () => notice(t("storageFull"), true));
+const operands = new Operands(core);
+let current = { id: "", title: "" };
+
+const place = h("div", { class: "editors" });
+const commands: Commands = new Commands(
+  core,
+  project,
+  () => editors,
+  (title, places) => {
+    showFiles(true);
+    sidebar.showFound(title, places);
+  },
+  () => chooseValue(),
+);
+const editors: Editors = new Editors(place, core, project, {
+  chosen: (value, at) => valueMenu(core, value, at),
+  explain: (code) => void commands.explain(code),
+  renameFile: (file) => void sidebar.renameFile(file),
+  keys: commands.keys,
+});
+place.addEventListener("mousedown", (event) => commands.click(event, editors.view));
+
+const sidebar = new Sidebar(core, project, editors, (text) => commands.search(text));
+const problems = new Problems(
+  core,
+  editors,
+  (code) => void commands.explain(code),
+  () => tabs,
+);
+const watch: Watch = new Watch(core, editors, operands, () => tabs);
+const scope = new Scope(core, operands);
+const capture = new Capture(core, project, operands);
+const plant = new Plant(core, project);
+const tests = new Tests(core, project, editors, () => tabs);
+const tabs: Tabs = new Tabs("panels", [
+  { id: "problems", text: "problems", element: problems.element },
+  { id: "watch", text: "watch", element: watch.element, shown: (shown) => watch.shown(shown) },
+  {
+    id: "scope",
+    text: "oscilloscope",
+    element: scope.element,
+    shown: (shown) => scope.shown(shown),
+  },
+  {
+    id: "capture",
+    text: "capture",
+    element: capture.element,
+    shown: (shown) => capture.shown(shown),
+  },
+  { id: "plant", text: "plant", element: plant.element },
+  { id: "tests", text: "tests", element: tests.element },
+]);
+const menu = new ProjectMenu(project, open, () => current);
+const header = new Header(core, {
+  project: (at) => menu.show(at),
+  settings,
+  help,
+  files: () => showFiles(sidebar.element.classList.contains("away")),
+});
+new LiveView(core, project, editors, header);
+
+header.onStatus((status) => watch.showStatus(status));
+let lastFault: string | null = null;
+header.onStatus(({ fault }) => {
+  if (fault !== null && fault !== lastFault) notice(t("fault", fault), true);
+  lastFault = fault;
+});
+core.on("notice", ({ message, bad }) => notice(message, bad));
+tabs.onShown((id) => project.setView(id));
+project.onOpened(() => tabs.show(project.view ?? (project.plant === null ? "problems" : "plant")));
+
+const panels = h("aside", { class: "panels", label: "panels" }, tabs.element);
+const side = separator({
+  label: "sizeOfFiles",
+  property: "side-width",
+  isColumn: true,
+  isAfter: false,
+  min: 140,
+});
+const wide = separator({
+  label: "sizeOfPanels",
+  property: "panel-width",
+  isColumn: true,
+  isAfter: true,
+  min: 300,
+});
+document.body.append(
+  header.element,
+  h("main", {}, sidebar.element, side, place, wide, panels),
+  operands.element,
+  noticeArea(),
+);
+/** Where there is no room the files are away until they are asked for. */
+const narrow = matchMedia("(max-width: 820px)");
+const showFiles = (isShown: boolean) => {
+  sidebar.element.classList.toggle("away", narrow.matches && !isShown);
+};
+narrow.addEventListener("change", () => showFiles(false));
+editors.onCurrent(() => showFiles(false));
+showFiles(false);
+
+function chooseValue(): void {
+  const { view } = editors;
+  const at = view.contentDOM.querySelector(".cm-activeLine .live");
+  if (at) valuesMenu(core, editors.live.atCursor(view), at);
+  else notice(t("noValueHere"));
+}
+
+async function open(opened: Opened): Promise<void> {
+  if (watch.forced.length > 0) {
+    if (!(await confirm("forced", "leaveForced", "goOn", watch.forced.length))) return;
+  }
+  const id = await keeper.begin(opened.id, opened.title);
+  if (id !== opened.id) notice(t("openElsewhere"), true);
+  current = { id, title: opened.title };
+  // A reload opens what is open now.
+  history.replaceState(null, "", location.pathname + location.search + fragmentFor(id));
+  document.title = `${opened.title} – uno200`;
+  project.open(opened.content);
+}
+
+async function begin(): Promise<void> {
+  let opened: Opened | null = null;
+  try {
+    opened = await fromAddress(location.hash);
+  } catch (error) {
+    notice(error instanceof Unfit ? unfitWords(error) : String(error), true);
+  }
+  await open(opened ?? lastOrBlink());
+}
+
+addEventListener("beforeunload", (event) => {
+  if (watch.forced.length > 0) event.preventDefault();
+});
+addEventListener("hashchange", () => void begin());
+shortcuts({ header, tabs, menu, editors, search: () => (showFiles(true), sidebar.focusSearch()) });
+EditorView.findFromDOM(place)?.requestMeasure();
+void begin();

@@ -1,0 +1,57 @@
+// Dialogs: something to read, to confirm, or to write.
+import { button, h, newId } from "./dom";
+import { t, type Args, type Key } from "../text/language";
+
+interface Parts {
+  title: string;
+  body: Node[];
+  /** The button that agrees; without it there is only one that closes. */
+  agree?: Key;
+}
+
+/** Shows a dialog; true where it was agreed to. */
+export function dialog({ title, body, agree }: Parts): Promise<boolean> {
+  const heading = h("h2", { attributes: { id: newId() } }, title);
+  const form = h("form", { attributes: { method: "dialog" } });
+  const element = h("dialog", { attributes: { "aria-labelledby": heading.id } }, form);
+  const cancel = button(agree ? "cancel" : "close", () => element.close(""));
+  const ok = agree && h("button", { class: "primary", text: agree, set: { value: "yes" } });
+  form.append(
+    heading,
+    h("div", { class: "body", attributes: { tabindex: agree ? undefined : 0 } }, ...body),
+    h("div", { class: "buttons" }, cancel, ok),
+  );
+  document.body.append(element);
+  element.showModal();
+  return new Promise((resolve) => {
+    element.addEventListener("close", () => {
+      element.remove();
+      resolve(element.returnValue === "yes");
+    });
+  });
+}
+
+/** Asks whether something shall be done. */
+export function confirm(title: Key, question: Key, agree: Key, ...args: Args): Promise<boolean> {
+  return dialog({ title: t(title), body: [h("p", {}, t(question, ...args))], agree });
+}
+
+/** Asks for a line of text; null where nobody gave one. */
+export async function ask(
+  title: string,
+  label: Key,
+  value: string,
+  agree: Key,
+): Promise<string | null> {
+  const id = newId();
+  const input = h("input", {
+    attributes: { id, required: true, autocomplete: "off", spellcheck: "false" },
+    set: { value },
+  });
+  const words = h("label", { text: label, attributes: { for: id } });
+  const answer = dialog({ title, body: [words, input], agree });
+  const dot = value.lastIndexOf(".");
+  input.focus();
+  input.setSelectionRange(0, dot > 0 ? dot : value.length);
+  return (await answer) ? input.value.trim() : null;
+}

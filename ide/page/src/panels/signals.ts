@@ -1,0 +1,70 @@
+// A choice of up to eight signals.
+import { h, iconButton } from "../page/dom";
+import { icon } from "../page/icons";
+import type { Operands } from "./operands";
+
+const SIGNALS_MAX = 8;
+
+export class Signals {
+  readonly element: HTMLElement;
+  names: string[] = [];
+  private chips = h("ul", { class: "chips" });
+  private field: HTMLInputElement;
+
+  constructor(
+    operands: Operands,
+    /** Where the choice is kept. */
+    private stored: string,
+    private changed: () => void,
+  ) {
+    this.field = h("input", {
+      label: "addSignal",
+      placeholder: "addSignal",
+      attributes: {
+        list: operands.element.id,
+        autocomplete: "off",
+        spellcheck: "false",
+        required: true,
+      },
+    });
+    const submit = (event: Event) => {
+      event.preventDefault();
+      this.set([...this.names, ...this.field.value.split(/[\s,;]+/).filter(Boolean)]);
+      this.field.value = "";
+    };
+    this.element = h(
+      "div",
+      { class: "signals" },
+      this.chips,
+      h(
+        "form",
+        { class: "line-form", on: { submit } },
+        this.field,
+        h("button", { text: "addIt", attributes: { type: "submit" } }),
+      ),
+    );
+    this.names = (localStorage.getItem(stored) ?? "").split(",").filter(Boolean);
+    this.draw();
+  }
+
+  private set(names: string[]): void {
+    this.names = [...new Set(names)].slice(0, SIGNALS_MAX);
+    localStorage.setItem(this.stored, this.names.join(","));
+    this.draw();
+    this.changed();
+  }
+
+  private draw(): void {
+    this.chips.hidden = this.names.length === 0;
+    this.field.disabled = this.names.length >= SIGNALS_MAX;
+    this.chips.replaceChildren(
+      ...this.names.map((name) => {
+        const remove = () => {
+          this.set(this.names.filter((other) => other !== name));
+          this.field.focus();
+        };
+        return h("li", {}, name, iconButton(icon("close"), "removeSignal", remove, name));
+      }),
+    );
+  }
+}

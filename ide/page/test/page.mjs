@@ -1,0 +1,85 @@
+// What somebody does in the first minutes, in a real Chromium, on the real core: an example, a
+// mistake and its quick fix, the simulator with its plant, a force, a plot, the same figures as
+// awl-sim. `node test/page.mjs ADDRESS FIGURES.csv`; the figures are what awl-sim writes.
+import { readFile } from "node:fs/promises";
+import assert from "node:assert/strict";
+import { chromium } from "playwright-core";
+
+const [, , address, figures] = process.argv;
+const PATIENCE = 60_000;
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-background-networking",
+    "--disable-sync",
+    "--no-first-run",
+  ],
+});
+const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+page.setDefaultTimeout(PATIENCE);
+const errors = [];
+page.on("pageerror", (error) => errors.push(error.message));
+page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+
+const button = (name) => page.getByRole("button", { name, exact: true });
+const tab = (name) => page.getByRole("tab", { name, exact: true }).click();
+const panel = (name) => page.getByRole("tabpanel", { name });
+const mode = (wanted) => page.getByRole("status").first().filter({ hasText: wanted }).waitFor();
+
+/** Puts the cursor at the end of the text, and writes. */
+async function write(text) {
+  await page.getByRole("textbox", { name: "station1.awl" }).click();
+  await page.keyboard.press("Control+End");
+  await page.keyboard.type(text);
+}
+
+await page.goto(`${address}#example=station1`);
+await page.getByRole("textbox", { name: "station1.awl" }).waitFor();
+
+// A mistake is shown with its code, and its quick fix mends it.
+await write("\nLD IO.0\n= M31.0\n");
+await tab("Problems");
+await panel("Problems")
+  .getByText(/E\d{4}/)
+  .first()
+  .waitFor();
+await panel("Problems").getByRole("button", { name: /I0\.0/ }).last().click();
+await panel("Problems")
+  .getByText(/E\d{4}/)
+  .first()
+  .waitFor({ state: "detached" });
+
+// The station sorts its six pieces.
+await button("Run").click();
+await mode("RUN");
+await page.getByRole("combobox", { name: "Speed" }).selectOption("0");
+await tab("Plant");
+await panel("Plant").getByText("good: 3").waitFor();
+await panel("Plant").getByText("rejected: 3").waitFor();
+await page.getByRole("combobox", { name: "Speed" }).selectOption("1");
+
+// Values beside names, and a force.
+await tab("Watch");
+await page.getByLabel("Operand or symbol").fill("Ready");
+await page.keyboard.press("Enter");
+await panel("Watch").getByRole("cell", { name: "0", exact: true }).first().waitFor();
+
+// The same figures as awl-sim.
+await tab("Capture");
+for (const signal of ["Push", "Height"]) {
+  await panel("Capture").getByLabel("Signal", { exact: true }).fill(signal);
+  await page.keyboard.press("Enter");
+}
+await button("Simulate").click();
+const download = page.waitForEvent("download");
+await button("Save CSV").click();
+const csv = await readFile(await (await download).path(), "utf8");
+assert.equal(csv, await readFile(figures, "utf8"), "the figures of awl-sim");
+
+await button("Stop").click();
+await mode("STOP");
+assert.deepEqual(errors, []);
+await browser.close();
+console.log("the page does what it should");

@@ -1,0 +1,82 @@
+//! Diagnostics of all languages as one type.
+
+use awl_asm::source::Source;
+use diagnostics::Severity;
+
+/// An error or warning in any language.
+pub type Diagnostic = diagnostics::Diagnostic<Code>;
+
+/// A kind of error or warning in any language.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Code {
+    /// Of AWL.
+    Awl(awl_asm::diagnostic::Code),
+    /// Of Structured Text.
+    St(st::Code),
+}
+
+impl Code {
+    /// As printed: `E` or `W` and four digits.
+    pub fn text(self) -> &'static str {
+        match self {
+            Code::Awl(code) => code.text(),
+            Code::St(code) => code.text(),
+        }
+    }
+
+    /// All codes.
+    pub fn all() -> impl Iterator<Item = Code> {
+        let awl = awl_asm::diagnostic::Code::ALL.iter().copied().map(Code::Awl);
+        awl.chain(st::Code::ALL.iter().copied().map(Code::St))
+    }
+}
+
+impl diagnostics::Code for Code {
+    fn text(self) -> Option<&'static str> {
+        Some(self.text())
+    }
+
+    fn severity(self) -> Severity {
+        if self.text().starts_with('E') { Severity::Error } else { Severity::Warning }
+    }
+
+    fn page(self) -> Option<&'static str> {
+        Some(match self {
+            Code::Awl(code) => code.page(),
+            Code::St(code) => code.page(),
+        })
+    }
+}
+
+/// What was found in a text.
+#[derive(Debug, Clone)]
+pub struct Findings {
+    /// The text.
+    pub source: Source,
+    /// Errors and warnings in it; never empty.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+fn with_code<C>(one: diagnostics::Diagnostic<C>, code: Code) -> Diagnostic {
+    Diagnostic {
+        code,
+        span: one.span,
+        message: one.message,
+        label: one.label,
+        suggestion: one.suggestion,
+        help: one.help,
+        related: one.related,
+    }
+}
+
+/// One of the assembler's.
+pub(crate) fn from_awl(one: awl_asm::diagnostic::Diagnostic) -> Diagnostic {
+    let code = Code::Awl(one.code);
+    with_code(one, code)
+}
+
+/// One of Structured Text.
+pub(crate) fn from_st(one: st::Diagnostic) -> Diagnostic {
+    let code = Code::St(one.code);
+    with_code(one, code)
+}

@@ -1,0 +1,273 @@
+//! Units and their variables.
+
+use awl_asm::Address;
+
+use super::Checker;
+use super::names::upper;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::model::{SectionKind, Type, Unit, UnitKind, Variable};
+use crate::tree;
+
+impl<'a> Checker<'a> {
+    pub(super) fn collect_units(&mut self, files: &[(Option<usize>, &'a tree::File)]) {
+        for &(number, file) in files {
+            self.file = number;
+            for unit in &file.units {
+                let name = upper(&unit.name.text);
+                let kind = match unit.kind {
+                    tree::UnitKind::Program => UnitKind::Program,
+                    tree::UnitKind::Function(_) => UnitKind::Function,
+                    tree::UnitKind::Block => UnitKind::Block,
+                };
+                let is_new = !self.unit_names.contains_key(&name);
+                // A block of one's own takes the place of a standard one.
+                if is_new {
+                    self.unit_names.insert(name.clone(), self.program.units.len());
+                } else if number.is_some() {
+                    self.twice(&unit.name, None);
+                }
+                if self.type_texts.contains_key(&name) {
+                    self.twice(&unit.name, None);
+                }
+                self.program.units.push(Unit {
+                    kind,
+                    name: unit.name.text.clone(),
+                    file: number,
+                    span: unit.name.span,
+                    variables: Vec::new(),
+                    every_scan: Vec::new(),
+                    body: Vec::new(),
+                });
+            }
+        }
+    }
+
+    pub(super) fn collect_globals(&mut self, files: &[(Option<usize>, &'a tree::File)]) {
+        for &(number, file) in files {
+            self.file = number;
+            for section in &file.globals {
+                self.section(section);
+            }
+        }
+        self.file = files.first().and_then(|(number, _)| *number);
+        self.check_types();
+    }
+
+    pub(super) fn declare_units(&mut self, files: &[(Option<usize>, &'a tree::File)]) {
+        let mut at = 0;
+        for &(number, file) in files {
+            self.file = number;
+            for unit in &file.units {
+                self.unit = Some(at);
+                for section in &unit.sections {
+                    self.section(section);
+                }
+                if let tree::UnitKind::Function(result) = &unit.kind {
+                    self.result(unit, result);
+                }
+                self.unit = None;
+                at += 1;
+            }
+        }
+    }
+
+    pub(super) fn bodies(&mut self, files: &[(Option<usize>, &'a tree::File)]) {
+        let mut at = 0;
+        for &(number, file) in files {
+            self.file = number;
+            for unit in &file.units {
+                self.unit = Some(at);
+                let every_scan = self.statements(&unit.every_scan);
+                let body = self.statements(&unit.body);
+                self.unit = None;
+                if let Some(unit) = self.program.units.get_mut(at) {
+                    (unit.every_scan, unit.body) = (every_scan, body);
+                }
+                at += 1;
+            }
+        }
+    }
+
+    /// The variable of a function that is its result.
+    fn result(&mut self, unit: &tree::Unit, text: &tree::TypeText) {
+        let of_type = self.type_of(text, &unit.name.text);
+        if !of_type.is_elementary() {
+            let message = format!("{}: the result of a function has an elementary type", of_type);
+            self.error(Code::NotThere, text.span, message);
+        }
+        let initial = of_type.initial();
+        self.add(Variable {
+            name: unit.name.text.clone(),
+            span: unit.name.span,
+            of_type,
+            section: SectionKind::Output,
+            is_constant: false,
+            is_retained: false,
+            at: None,
+            initial,
+            has_initial: false,
+        });
+    }
+
+    fn add(&mut self, variable: Variable) {
+        match self.unit.and_then(|at| self.program.units.get_mut(at)) {
+            Some(unit) => unit.variables.push(variable),
+            None => self.program.globals.push(variable),
+        }
+    }
+
+    fn section(&mut self, section: &tree::Section) {
+        for declared in &section.declarations {
+            if section.kind == SectionKind::External {
+                self.external(declared);
+                continue;
+            }
+            let of_type = self.type_of(&declared.of_type, &enumeration_name(declared));
+            let initial = match &declared.initial {
+                Some(text) => self.initial_value(text, &of_type),
+                None => of_type.initial(),
+            };
+            self.check_section(section, declared, &of_type);
+            let at = declared.at.as_ref().and_then(|at| self.address(at, &of_type));
+            for name in &declared.names {
+                if self.is_taken(name) {
+                    continue;
+                }
+                self.add(Variable {
+                    name: name.text.clone(),
+                    span: name.span,
+                    of_type: of_type.clone(),
+                    section: section.kind,
+                    is_constant: section.is_constant,
+                    is_retained: section.is_retained,
+                    at: at.clone(),
+                    initial: initial.clone(),
+                    has_initial: declared.initial.is_some(),
+                });
+            }
+        }
+    }
+
+    fn is_taken(&mut self, name: &tree::Name) -> bool {
+        let list = if self.unit.is_some() { self.locals() } else { &self.program.globals };
+        let first = list.iter().find(|other| upper(&other.name) == upper(&name.text));
+        let Some(span) = first.map(|first| first.span) else { return false };
+        self.twice(name, Some(span));
+        true
+    }
+
+    /// What sections and types do not go together.
+    fn check_section(
+        &mut self,
+        section: &tree::Section,
+        declared: &tree::Declaration,
+        kind: &Type,
+    ) {
+        let span = declared.of_type.span;
+        if self.is_in_function() && (!kind.is_elementary() || declared.at.is_some()) {
+            let message = "the variables of a function have elementary types and no addresses";
+            self.error(Code::NotThere, span, message);
+        }
+        if self.is_in_function() && section.kind == SectionKind::InOut {
+            let message = "a function has no VAR_IN_OUT: it writes nothing outside of it";
+            let found = Diagnostic::new(Code::SideEffect, span, message);
+            self.report(found.help("a FUNCTION_BLOCK can have it"));
+        }
+        if self.is_in_function() && section.kind == SectionKind::Output {
+            let message = "a function has no VAR_OUTPUT: its result is all it gives";
+            self.error(Code::SideEffect, span, message);
+        }
+        if section.is_constant && declared.initial.is_none() {
+            let message = "a constant needs a value";
+            self.error(Code::Declaration, span, message);
+        }
+        if declared.at.is_some() && declared.initial.is_some() {
+            let message = "what is at an address has no initial value here";
+            self.error(Code::NotThere, span, message);
+        }
+        let is_parameter =
+            matches!(section.kind, SectionKind::Input | SectionKind::Output | SectionKind::InOut);
+        if is_parameter && !kind.is_elementary() {
+            let message = "parameters that are no elementary types are not there yet";
+            self.error(Code::NotThere, span, message);
+        }
+    }
+
+    /// VAR_EXTERNAL names a global variable.
+    fn external(&mut self, declared: &tree::Declaration) {
+        let wanted = self.type_of(&declared.of_type, "");
+        for name in &declared.names {
+            let found =
+                self.program.globals.iter().find(|one| upper(&one.name) == upper(&name.text));
+            match found.map(|one| (one.of_type.clone(), one.span)) {
+                None => {
+                    let message =
+                        format!("{}: there is no global variable of this name", name.text);
+                    self.error(Code::UnknownName, name.span, message);
+                }
+                Some((of_type, _)) if of_type != wanted && wanted != Type::Invalid => {
+                    let message = format!("{}: the global variable is of {of_type}", name.text);
+                    self.error(Code::WrongType, name.span, message);
+                }
+                Some(_) => {}
+            }
+        }
+    }
+
+    /// The address in AWL, if it exists and is as long as the type.
+    pub(super) fn address(&mut self, at: &tree::Name, of_type: &Type) -> Option<String> {
+        let text = plain_address(&at.text);
+        let Ok(address) = Address::parse(&text) else {
+            let message = format!("{}: there is no such address", at.text);
+            let found = Diagnostic::new(Code::Declaration, at.span, message);
+            self.report(found.help("such as %I0.0, %QB0, %MW3, %VD10, %AIW0"));
+            return None;
+        };
+        let wanted = match of_type {
+            Type::Bool => "a bit such as %M0.0",
+            Type::Byte => "a byte such as %MB0",
+            Type::Word | Type::Int | Type::Enumeration(_) => "a word such as %MW0",
+            Type::Dword | Type::Dint | Type::Real | Type::Time => "a double word such as %MD0",
+            Type::Invalid => return None,
+            _ => {
+                self.error(Code::NotThere, at.span, format!("{of_type}: not at an address yet"));
+                return None;
+            }
+        };
+        let fits = match address {
+            Address::Bit { .. } => *of_type == Type::Bool,
+            Address::Byte { .. } => *of_type == Type::Byte,
+            Address::Word { .. } | Address::Analog(_) | Address::AnalogOutput(_) => {
+                wanted.starts_with("a word")
+            }
+            Address::Double { .. } | Address::HighSpeedCounter(_) => wanted.starts_with("a double"),
+            Address::Timer(_) | Address::Counter(_) => {
+                matches!(of_type, Type::Bool | Type::Int | Type::Word)
+            }
+            _ => false,
+        };
+        if !fits {
+            let message = format!("{}: a {of_type} is at {wanted}", at.text);
+            self.error(Code::WrongType, at.span, message);
+            return None;
+        }
+        Some(text)
+    }
+}
+
+/// Enumerations and structures without a name are called after their variable.
+fn enumeration_name(declared: &tree::Declaration) -> String {
+    declared.names.first().map_or_else(String::new, |name| name.text.clone())
+}
+
+/// `IX0.0` as AWL writes it.
+pub(super) fn plain_address(text: &str) -> String {
+    let upper = text.to_ascii_uppercase();
+    match upper.as_bytes() {
+        [area, b'X', ..] if upper.contains('.') && area.is_ascii_alphabetic() => {
+            upper.replacen('X', "", 1)
+        }
+        _ if upper.starts_with("AIN") => upper.replacen("AIN", "Ain", 1),
+        _ => upper,
+    }
+}

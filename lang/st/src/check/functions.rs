@@ -1,0 +1,440 @@
+//! Calls in expressions: functions of the program, standard functions, conversions.
+
+use diagnostics::Span;
+
+use super::Checker;
+use super::expressions::{invalid, known};
+use super::names::upper;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::fold;
+use crate::model::{
+    BinaryOperator, ELEMENTARY, Expression, ExpressionKind, Function, SectionKind, Type, UnitKind,
+    Value,
+};
+use crate::tree::{Argument, Name};
+
+/// Functions that are an operator between all their arguments.
+const OPERATORS: [(&str, BinaryOperator); 14] = [
+    ("ADD", BinaryOperator::Add),
+    ("SUB", BinaryOperator::Subtract),
+    ("MUL", BinaryOperator::Multiply),
+    ("DIV", BinaryOperator::Divide),
+    ("MOD", BinaryOperator::Modulo),
+    ("AND", BinaryOperator::And),
+    ("OR", BinaryOperator::Or),
+    ("XOR", BinaryOperator::Xor),
+    ("GT", BinaryOperator::Greater),
+    ("GE", BinaryOperator::GreaterOrEqual),
+    ("EQ", BinaryOperator::Equal),
+    ("LE", BinaryOperator::LessOrEqual),
+    ("LT", BinaryOperator::Less),
+    ("NE", BinaryOperator::NotEqual),
+];
+
+/// Functions of a REAL.
+const OF_REAL: [(&str, Function); 6] = [
+    ("SQRT", Function::Sqrt),
+    ("LN", Function::Ln),
+    ("EXP", Function::Exp),
+    ("SIN", Function::Sin),
+    ("COS", Function::Cos),
+    ("TAN", Function::Tan),
+];
+
+const SHIFTS: [(&str, Function); 4] = [
+    ("SHL", Function::Shl),
+    ("SHR", Function::Shr),
+    ("ROL", Function::Rol),
+    ("ROR", Function::Ror),
+];
+
+fn in_table<T: Copy>(table: &[(&str, T)], name: &str) -> Option<T> {
+    table.iter().find(|(text, _)| *text == name).map(|(_, found)| *found)
+}
+
+impl Checker<'_> {
+    pub(super) fn function_call(
+        &mut self,
+        name: &Name,
+        arguments: &[Argument],
+        wanted: Option<&Type>,
+        span: Span,
+    ) -> Expression {
+        let text = upper(&name.text);
+        // The standard blocks mean the standard functions, whatever is called like them.
+        let own = self.unit_names.get(&text).filter(|_| self.file.is_some());
+        if let Some(&number) = own {
+            let kind = self.program.units.get(number).map(|unit| unit.kind);
+            if kind == Some(UnitKind::Function) {
+                return self.own_function(number, arguments, span);
+            }
+        }
+        if let Some((_, Type::Block(..))) = self.variable(&name.text) {
+            let message = format!("{}: a function block is no value", name.text);
+            let found = Diagnostic::new(Code::SideEffect, span, message);
+            self.report(found.help("call it in a statement of its own, then read its outputs"));
+            return invalid(span);
+        }
+        if let Some((from, to)) = conversion(&text) {
+            return self.conversion(name, from, to, arguments, span);
+        }
+        self.standard(name, &text, arguments, wanted, span)
+    }
+
+    fn plain<'t>(&mut self, name: &Name, arguments: &'t [Argument]) -> Vec<&'t Argument> {
+        for argument in arguments {
+            if argument.is_output {
+                let message = format!("{}: a function has no outputs", name.text);
+                self.error(Code::Arguments, argument.value.span, message);
+            }
+        }
+        arguments.iter().collect()
+    }
+
+    /// Reports a wrong number of arguments.
+    fn has_count(&mut self, name: &Name, given: usize, least: usize, most: usize) -> bool {
+        let fits = (least..=most).contains(&given);
+        if !fits {
+            let wanted = match (least, most) {
+                (1, 1) => "1 argument".to_owned(),
+                (a, b) if a == b => format!("{a} arguments"),
+                (a, usize::MAX) => format!("{a} arguments or more"),
+                (a, b) => format!("{a} to {b} arguments"),
+            };
+            let message = format!("{}: {wanted} needed, {given} given", name.text);
+            self.error(Code::Arguments, name.span, message);
+        }
+        fits
+    }
+
+    fn own_function(&mut self, number: usize, arguments: &[Argument], span: Span) -> Expression {
+        let Some(unit) = self.program.units.get(number).cloned() else { return invalid(span) };
+        let inputs: Vec<_> =
+            unit.variables.iter().filter(|one| one.section == SectionKind::Input).collect();
+        let result = unit.variables.last().map_or(Type::Invalid, |one| one.of_type.clone());
+        let mut given: Vec<Option<Expression>> = vec![None; inputs.len()];
+        for (at, argument) in arguments.iter().enumerate() {
+            let slot = match &argument.name {
+                None => at,
+                Some(name) => {
+                    let same = inputs.iter().position(|one| upper(&one.name) == upper(&name.text));
+                    let Some(slot) = same else {
+                        let message = format!("{}: {} has no such input", name.text, unit.name);
+                        self.error(Code::Arguments, name.span, message);
+                        continue;
+                    };
+                    slot
+                }
+            };
+            let Some(input) = inputs.get(slot) else {
+                let message = format!("{}: {} arguments needed", unit.name, inputs.len());
+                self.error(Code::Arguments, argument.value.span, message);
+                break;
+            };
+            let value = self.value_of(&argument.value, &input.of_type);
+            if let Some(slot) = given.get_mut(slot) {
+                *slot = Some(value);
+            }
+        }
+        let mut all = Vec::new();
+        for (input, value) in inputs.iter().zip(given) {
+            match value {
+                Some(value) => all.push(value),
+                None if input.has_initial => {
+                    all.push(known(input.initial.clone(), input.of_type.clone(), span));
+                }
+                None => {
+                    let message = format!("{}: {} is not given", unit.name, input.name);
+                    self.error(Code::Arguments, span, message);
+                    return invalid(span);
+                }
+            }
+        }
+        Expression { kind: ExpressionKind::Call(number, all), of_type: result, span }
+    }
+
+    fn standard(
+        &mut self,
+        name: &Name,
+        text: &str,
+        arguments: &[Argument],
+        wanted: Option<&Type>,
+        span: Span,
+    ) -> Expression {
+        let given = self.plain(name, arguments);
+        let count = given.len();
+        if let Some(operator) = in_table(&OPERATORS, text) {
+            let most = if matches!(text, "SUB" | "DIV" | "MOD" | "NE") { 2 } else { usize::MAX };
+            if !self.has_count(name, count, 2, most) {
+                return invalid(span);
+            }
+            let values =
+                self.common_values(&given, if operator.is_comparison() { None } else { wanted });
+            return self.chain(operator, values, span);
+        }
+        if let Some(function) = in_table(&OF_REAL, text) {
+            return self.of_one(name, function, &given, Some(&Type::Real), span);
+        }
+        if let Some(function) = in_table(&SHIFTS, text) {
+            return self.shift(name, function, &given, wanted, span);
+        }
+        match text {
+            "ABS" => self.of_one(name, Function::Abs, &given, None, span),
+            "TRUNC" => self.of_one(name, Function::Trunc, &given, Some(&Type::Real), span),
+            "MOVE" if self.has_count(name, count, 1, 1) => match given.first() {
+                Some(one) => self.expression(&one.value, wanted),
+                None => invalid(span),
+            },
+            "MIN" | "MAX" | "LIMIT" => self.choice(name, text, &given, wanted, span),
+            "SEL" | "MUX" => self.select(name, text, &given, wanted, span),
+            "MOVE" => invalid(span),
+            "LOG" | "ASIN" | "ACOS" | "ATAN" | "EXPT" | "LEN" | "LEFT" | "RIGHT" | "MID"
+            | "CONCAT" | "FIND" | "INSERT" | "DELETE" | "REPLACE" => {
+                let message = format!("{text}: this function is not there yet");
+                self.error(Code::NotThere, name.span, message);
+                invalid(span)
+            }
+            _ => {
+                self.unknown_name(name, "function");
+                invalid(span)
+            }
+        }
+    }
+
+    /// Arguments of one common type.
+    fn common_values(&mut self, given: &[&Argument], wanted: Option<&Type>) -> Vec<Expression> {
+        let mut values: Vec<Expression> =
+            given.iter().map(|one| self.expression(&one.value, wanted)).collect();
+        let widest = values
+            .iter()
+            .map(|value| value.of_type.clone())
+            .reduce(|widest, next| if widest.widens_to(&next) { next } else { widest });
+        let Some(widest) = widest else { return values };
+        for (value, one) in values.iter_mut().zip(given) {
+            if value.of_type != widest {
+                *value = match value.kind {
+                    // A literal, once more with its type.
+                    ExpressionKind::Constant(_) => self.value_of(&one.value, &widest),
+                    _ => self.coerce(value.clone(), &widest),
+                };
+            }
+        }
+        values
+    }
+
+    fn chain(
+        &mut self,
+        operator: BinaryOperator,
+        values: Vec<Expression>,
+        span: Span,
+    ) -> Expression {
+        let mut values = values.into_iter();
+        let Some(first) = values.next() else { return invalid(span) };
+        if !operator.is_comparison() {
+            return values.fold(first, |left, right| self.combine(operator, left, right, span));
+        }
+        // a > b > c
+        let mut left = first;
+        let mut all: Option<Expression> = None;
+        for right in values {
+            let one = self.combine(operator, left, right.clone(), span);
+            all = Some(match all {
+                None => one,
+                Some(before) => self.combine(BinaryOperator::And, before, one, span),
+            });
+            left = right;
+        }
+        all.unwrap_or_else(|| invalid(span))
+    }
+
+    fn of_one(
+        &mut self,
+        name: &Name,
+        function: Function,
+        given: &[&Argument],
+        wanted: Option<&Type>,
+        span: Span,
+    ) -> Expression {
+        if !self.has_count(name, given.len(), 1, 1) {
+            return invalid(span);
+        }
+        let Some(one) = given.first() else { return invalid(span) };
+        let value = match wanted {
+            Some(wanted) => self.value_of(&one.value, wanted),
+            None => self.expression(&one.value, None),
+        };
+        if value.of_type == Type::Invalid {
+            return value;
+        }
+        if !value.of_type.is_number() {
+            let message = format!("{}: a number is needed, this is a {}", name.text, value.of_type);
+            self.error(Code::WrongType, value.span, message);
+            return invalid(span);
+        }
+        let of_type = match function {
+            Function::Trunc => Type::Dint,
+            _ => value.of_type.clone(),
+        };
+        self.known_or(function, vec![value], of_type, span)
+    }
+
+    /// A standard function, computed where its arguments are known.
+    fn known_or(
+        &mut self,
+        function: Function,
+        arguments: Vec<Expression>,
+        of_type: Type,
+        span: Span,
+    ) -> Expression {
+        if arguments.iter().any(|one| one.of_type == Type::Invalid) {
+            return invalid(span);
+        }
+        let values: Option<Vec<Value>> = arguments
+            .iter()
+            .map(|one| match &one.kind {
+                ExpressionKind::Constant(value) => Some(value.clone()),
+                _ => None,
+            })
+            .collect();
+        if let Some(value) = values.and_then(|values| fold::function(function, &of_type, &values)) {
+            return known(value, of_type, span);
+        }
+        Expression { kind: ExpressionKind::Standard(function, arguments), of_type, span }
+    }
+
+    fn shift(
+        &mut self,
+        name: &Name,
+        function: Function,
+        given: &[&Argument],
+        wanted: Option<&Type>,
+        span: Span,
+    ) -> Expression {
+        if !self.has_count(name, given.len(), 2, 2) {
+            return invalid(span);
+        }
+        let [bits, count] = given else { return invalid(span) };
+        let bits = self.expression(&bits.value, wanted);
+        let count = self.value_of(&count.value, &Type::Int);
+        if !bits.of_type.is_bits() && bits.of_type != Type::Invalid {
+            let message = format!("{}: BYTE, WORD or DWORD is needed", name.text);
+            let found = Diagnostic::new(Code::WrongType, bits.span, message);
+            self.report(found.help(format!("{}_TO_WORD(...) has the bits", bits.of_type)));
+            return invalid(span);
+        }
+        let of_type = bits.of_type.clone();
+        self.known_or(function, vec![bits, count], of_type, span)
+    }
+
+    fn choice(
+        &mut self,
+        name: &Name,
+        text: &str,
+        given: &[&Argument],
+        wanted: Option<&Type>,
+        span: Span,
+    ) -> Expression {
+        let (least, most) = if text == "LIMIT" { (3, 3) } else { (2, usize::MAX) };
+        if !self.has_count(name, given.len(), least, most) {
+            return invalid(span);
+        }
+        let values = self.common_values(given, wanted);
+        let of_type = values.first().map_or(Type::Invalid, |one| one.of_type.clone());
+        let suits = of_type.is_number() || matches!(of_type, Type::Time | Type::Invalid);
+        if !suits {
+            let message = format!("{text}: numbers are needed, these are {of_type}");
+            self.error(Code::WrongType, span, message);
+            return invalid(span);
+        }
+        match (text, values.as_slice()) {
+            ("LIMIT", [low, value, high]) => {
+                let both = vec![value.clone(), low.clone()];
+                let raised = self.known_or(Function::Max, both, of_type.clone(), span);
+                self.known_or(Function::Min, vec![raised, high.clone()], of_type, span)
+            }
+            ("MIN", _) => self.known_or(Function::Min, values, of_type, span),
+            _ => self.known_or(Function::Max, values, of_type, span),
+        }
+    }
+
+    fn select(
+        &mut self,
+        name: &Name,
+        text: &str,
+        given: &[&Argument],
+        wanted: Option<&Type>,
+        span: Span,
+    ) -> Expression {
+        let (least, most) = if text == "SEL" { (3, 3) } else { (3, usize::MAX) };
+        if !self.has_count(name, given.len(), least, most) {
+            return invalid(span);
+        }
+        let Some((first, rest)) = given.split_first() else { return invalid(span) };
+        let (kind, function) = match text {
+            "SEL" => (Type::Bool, Function::Sel),
+            _ => (Type::Int, Function::Mux),
+        };
+        let mut all = vec![self.value_of(&first.value, &kind)];
+        all.extend(self.common_values(rest, wanted));
+        let of_type = all.last().map_or(Type::Invalid, |one| one.of_type.clone());
+        if !of_type.is_elementary() {
+            let message = format!("{text}: elementary values are needed, these are {of_type}");
+            self.error(Code::NotThere, span, message);
+            return invalid(span);
+        }
+        self.known_or(function, all, of_type, span)
+    }
+
+    /// `A_TO_B`, `TO_B`.
+    fn conversion(
+        &mut self,
+        name: &Name,
+        from: Option<Type>,
+        to: Type,
+        arguments: &[Argument],
+        span: Span,
+    ) -> Expression {
+        let given = self.plain(name, arguments);
+        if !self.has_count(name, given.len(), 1, 1) {
+            return invalid(span);
+        }
+        let Some(one) = given.first() else { return invalid(span) };
+        let value = match &from {
+            Some(from) => self.value_of(&one.value, from),
+            None => self.expression(&one.value, None),
+        };
+        if value.of_type == Type::Invalid {
+            return value;
+        }
+        let of_type = &value.of_type;
+        let is_number = |kind: &Type| kind.is_number() || *kind == Type::Time;
+        let exists = match of_type {
+            Type::Bool => is_number(&to) || to.is_bits() || to == Type::Bool,
+            Type::Enumeration(_) => to.is_whole(),
+            kind if is_number(kind) => {
+                is_number(&to) || to == Type::Bool || kind.is_whole() && to.is_bits()
+            }
+            kind if kind.is_bits() => to.is_bits() || to.is_whole() || to == Type::Bool,
+            _ => false,
+        };
+        if !exists {
+            let message = format!("{}: there is no conversion from {of_type} to {to}", name.text);
+            self.error(Code::WrongType, span, message);
+            return invalid(span);
+        }
+        let converted = self.convert_if(value, &to);
+        Expression { span, ..converted }
+    }
+}
+
+/// The types in the name of a conversion.
+fn conversion(name: &str) -> Option<(Option<Type>, Type)> {
+    let kind = |text: &str| {
+        ELEMENTARY.iter().find(|(name, _)| *name == text).map(|(_, kind)| kind.clone())
+    };
+    if let Some(to) = name.strip_prefix("TO_") {
+        return Some((None, kind(to)?));
+    }
+    let (from, to) = name.split_once("_TO_")?;
+    Some((Some(kind(from)?), kind(to)?))
+}

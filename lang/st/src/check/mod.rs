@@ -1,0 +1,110 @@
+//! From syntax trees to a checked program: names, types, constants, rules. What is wrong in one
+//! statement does not keep the next from being checked.
+
+mod calls;
+mod constants;
+mod declarations;
+mod expressions;
+mod functions;
+mod names;
+mod places;
+mod recursion;
+mod statements;
+mod types;
+
+use std::collections::HashMap;
+
+use diagnostics::{Source, Span};
+
+pub(crate) use recursion::inside;
+
+use crate::around::Around;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::model::{Program, Type, Unit, UnitKind, Variable};
+use crate::parser;
+use crate::tree;
+
+/// Checks the files of a program.
+pub(crate) fn check(
+    sources: &[Source],
+    files: &[tree::File],
+    around: &Around,
+) -> (Program, Vec<(usize, Diagnostic)>) {
+    let library = library();
+    let mut checker = Checker {
+        around,
+        program: Program::default(),
+        types: HashMap::new(),
+        type_texts: HashMap::new(),
+        unit_names: HashMap::new(),
+        diagnostics: Vec::new(),
+        file: None,
+        unit: None,
+        loops: Vec::new(),
+    };
+    for (source, file) in sources.iter().zip(files) {
+        let settings = file.settings.iter().map(|span| span.text(&source.text).to_owned());
+        checker.program.settings.extend(settings);
+    }
+    let all: Vec<(Option<usize>, &tree::File)> =
+        (0..).map(Some).zip(files).chain([(None, &library)]).collect();
+    checker.collect_types(&all);
+    checker.collect_units(&all);
+    checker.collect_globals(&all);
+    checker.declare_units(&all);
+    checker.bodies(&all);
+    checker.recursion();
+    checker.written_in_two_programs();
+    let Checker { program, diagnostics, .. } = checker;
+    (program, diagnostics)
+}
+
+/// The standard blocks.
+fn library() -> tree::File {
+    let text = include_str!("../blocks.st");
+    let source = Source::new("blocks.st", text).ok();
+    source.map(|source| parser::parse(&source).0).unwrap_or_default()
+}
+
+pub(crate) struct Checker<'a> {
+    pub(crate) around: &'a Around,
+    pub(crate) program: Program,
+    /// Types by name, upper case; `None` while one is being read.
+    types: HashMap<String, Option<Type>>,
+    type_texts: HashMap<String, (Option<usize>, &'a tree::TypeDeclaration)>,
+    /// Units by name, upper case.
+    unit_names: HashMap<String, usize>,
+    diagnostics: Vec<(usize, Diagnostic)>,
+    /// The file that is being checked; `None`: the standard blocks.
+    file: Option<usize>,
+    /// The unit that is being checked.
+    unit: Option<usize>,
+    /// The control variables of the loops around; `None` of WHILE and REPEAT.
+    loops: Vec<Option<String>>,
+}
+
+impl Checker<'_> {
+    pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
+        if let Some(file) = self.file {
+            self.diagnostics.push((file, diagnostic));
+        } else {
+            debug_assert!(false, "the standard blocks: {}", diagnostic.message);
+        }
+    }
+
+    pub(crate) fn error(&mut self, code: Code, span: Span, message: impl Into<String>) {
+        self.report(Diagnostic::new(code, span, message));
+    }
+
+    pub(crate) fn unit(&self) -> Option<&Unit> {
+        self.program.units.get(self.unit?)
+    }
+
+    pub(crate) fn is_in_function(&self) -> bool {
+        self.unit().is_some_and(|unit| unit.kind == UnitKind::Function)
+    }
+
+    pub(crate) fn locals(&self) -> &[Variable] {
+        self.unit().map_or(&[], |unit| &unit.variables)
+    }
+}

@@ -1,0 +1,130 @@
+//! Names: what they stand for, and which one was probably meant.
+
+use awl_asm::suggest::nearest;
+
+use super::Checker;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::model::{ELEMENTARY, Root, Type, UnitKind, Value};
+use crate::tree::Name;
+
+/// Functions by name that `functions` knows, for suggestions.
+const FUNCTIONS: [&str; 21] = [
+    "ABS",
+    "SQRT",
+    "LN",
+    "EXP",
+    "SIN",
+    "COS",
+    "TAN",
+    "MIN",
+    "MAX",
+    "LIMIT",
+    "SEL",
+    "MUX",
+    "SHL",
+    "SHR",
+    "ROL",
+    "ROR",
+    "TRUNC",
+    "INT_TO_REAL",
+    "REAL_TO_INT",
+    "INT_TO_DINT",
+    "DINT_TO_INT",
+];
+
+pub(crate) fn upper(text: &str) -> String {
+    text.to_uppercase()
+}
+
+impl Checker<'_> {
+    /// The variable of a name: one of the unit, then a global one.
+    pub(super) fn variable(&self, name: &str) -> Option<(Root, Type)> {
+        let wanted = upper(name);
+        let same =
+            |(_, variable): &(usize, &crate::model::Variable)| upper(&variable.name) == wanted;
+        if let Some((at, variable)) = self.locals().iter().enumerate().find(same) {
+            return Some((Root::Local(at), variable.of_type.clone()));
+        }
+        let (at, variable) = self.program.globals.iter().enumerate().find(same)?;
+        Some((Root::Global(at), variable.of_type.clone()))
+    }
+
+    /// A value of an enumeration by its name alone: of the wanted type, else of the only one.
+    pub(super) fn enumeration_value(
+        &self,
+        name: &str,
+        wanted: Option<&Type>,
+    ) -> Option<(Type, Value)> {
+        let find = |kind: &Type| {
+            let Type::Enumeration(found) = kind else { return None };
+            let value = found.values.iter().find(|(text, _)| upper(text) == upper(name));
+            value.map(|(_, number)| (kind.clone(), Value::Int(*number)))
+        };
+        if let Some(found) = wanted.and_then(find) {
+            return Some(found);
+        }
+        let variables = self.locals().iter().chain(&self.program.globals);
+        let mut kinds: Vec<&Type> = self.types.values().flatten().collect();
+        kinds.sort_by_key(|kind| kind.to_string());
+        kinds.into_iter().chain(variables.map(|variable| &variable.of_type)).find_map(find)
+    }
+
+    pub(super) fn unknown_name(&mut self, name: &Name, what: &str) {
+        let (locals, globals) = (self.locals(), &self.program.globals);
+        let variables = locals.iter().chain(globals).map(|variable| variable.name.as_str());
+        let units = self.program.units.iter().map(|unit| unit.name.as_str());
+        let enumerations = self.types.values().flatten().filter_map(|kind| match kind {
+            Type::Enumeration(kind) => Some(kind.values.iter().map(|(name, _)| name.as_str())),
+            _ => None,
+        });
+        let mut names: Vec<&str> = match what {
+            "function" => units.chain(FUNCTIONS).collect(),
+            _ => variables.chain(enumerations.flatten()).collect(),
+        };
+        names.sort_unstable();
+        let found = nearest(&name.text, names.iter().copied()).map(str::to_owned);
+        let message = format!("{}: there is no {what} of this name", name.text);
+        let mut diagnostic = Diagnostic::new(Code::UnknownName, name.span, message);
+        if found.is_none() && what == "variable" {
+            let help = format!("declare it: `VAR {} : INT; END_VAR`", name.text);
+            diagnostic = diagnostic.help(help);
+        }
+        diagnostic.suggestion = found;
+        self.report(diagnostic);
+    }
+
+    /// What is wrong with the name of a type.
+    pub(super) fn unknown_type(&mut self, name: &str, span: diagnostics::Span) {
+        let not_yet = ["SINT", "USINT", "UINT", "UDINT", "STRING", "CHAR"];
+        let never = ["LINT", "ULINT", "LREAL", "LWORD", "DATE", "TOD", "DT", "LTIME", "WSTRING"];
+        let wanted = upper(name);
+        if not_yet.contains(&wanted.as_str()) {
+            let message = format!("{wanted}: this type is not there yet");
+            let instead = match wanted.as_str() {
+                "SINT" | "USINT" => "INT has all of its values",
+                "UINT" => "DINT has all of its values, INT those up to 32767",
+                "UDINT" => "DINT has its values up to 2147483647",
+                _ => "texts cannot be handled yet",
+            };
+            self.report(Diagnostic::new(Code::NotThere, span, message).help(instead));
+            return;
+        }
+        if never.contains(&wanted.as_str()) {
+            let message = format!("{wanted}: an S7-200 has no such type");
+            let help = "it has 32 bits at most: DINT, REAL, DWORD, TIME";
+            self.report(Diagnostic::new(Code::NotThere, span, message).help(help));
+            return;
+        }
+        let kinds = ELEMENTARY.iter().map(|(name, _)| *name);
+        let declared = self.type_texts.values().map(|(_, kind)| kind.name.text.as_str());
+        let blocks = self.program.units.iter().filter(|unit| unit.kind == UnitKind::Block);
+        let mut names: Vec<&str> =
+            kinds.chain(declared).chain(blocks.map(|unit| unit.name.as_str())).collect();
+        names.sort_unstable();
+        let found = nearest(name, names.iter().copied()).map(str::to_owned);
+        let message = format!("{name}: there is no type of this name");
+        let mut diagnostic = Diagnostic::new(Code::UnknownName, span, message);
+        diagnostic.suggestion = found;
+        self.report(diagnostic);
+    }
+}

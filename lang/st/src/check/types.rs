@@ -1,0 +1,200 @@
+//! Types: from their text to what they are.
+
+use std::sync::Arc;
+
+use super::Checker;
+use super::names::upper;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::model::{Array, ELEMENTARY, Enumeration, Member, Structure, Type, UnitKind};
+use crate::tree::{Declaration, Expression, File, Name, TypeText, TypeTextKind};
+
+/// Bytes of V memory.
+const BYTES_MAX: i64 = 10_240;
+/// Elements of an array at most: what V memory could hold.
+const ELEMENTS_MAX: i64 = BYTES_MAX;
+
+impl<'a> Checker<'a> {
+    pub(super) fn collect_types(&mut self, files: &[(Option<usize>, &'a File)]) {
+        for &(number, file) in files {
+            self.file = number;
+            for declared in &file.types {
+                let name = upper(&declared.name.text);
+                if let Some((_, first)) = self.type_texts.get(&name) {
+                    let span = first.name.span;
+                    self.twice(&declared.name, Some(span).filter(|_| true));
+                    continue;
+                }
+                if ELEMENTARY.iter().any(|(elementary, _)| *elementary == name) {
+                    self.twice(&declared.name, None);
+                    continue;
+                }
+                self.type_texts.insert(name, (number, declared));
+            }
+        }
+    }
+
+    /// Every type is looked at, used or not.
+    pub(super) fn check_types(&mut self) {
+        let mut names: Vec<String> = self.type_texts.keys().cloned().collect();
+        names.sort();
+        for name in names {
+            let at = self.type_texts.get(&name).map(|(_, declared)| declared.name.span);
+            self.named(&name, at.unwrap_or_default());
+        }
+    }
+
+    /// Reports that a name is there already.
+    pub(super) fn twice(&mut self, name: &Name, first: Option<diagnostics::Span>) {
+        let message = format!("{}: there is something of this name already", name.text);
+        let mut found = Diagnostic::new(Code::Duplicate, name.span, message);
+        if let Some(first) = first {
+            found = found.related(first, "the first one");
+        }
+        self.report(found);
+    }
+
+    /// The type of a name; reported where there is none.
+    pub(super) fn named(&mut self, name: &str, span: diagnostics::Span) -> Type {
+        let wanted = upper(name);
+        if let Some((_, kind)) = ELEMENTARY.iter().find(|(text, _)| *text == wanted) {
+            return kind.clone();
+        }
+        if let Some(&number) = self.unit_names.get(&wanted) {
+            let unit = self.program.units.get(number);
+            if let Some(unit) = unit.filter(|unit| unit.kind == UnitKind::Block) {
+                return Type::Block(number, unit.name.clone());
+            }
+        }
+        match self.types.get(&wanted) {
+            Some(Some(known)) => return known.clone(),
+            Some(None) => {
+                let message = format!("{name}: a type cannot contain itself");
+                self.error(Code::Recursion, span, message);
+                return Type::Invalid;
+            }
+            None => {}
+        }
+        let Some(&(file, declared)) = self.type_texts.get(&wanted) else {
+            self.unknown_type(name, span);
+            return Type::Invalid;
+        };
+        self.types.insert(wanted.clone(), None);
+        let around = std::mem::replace(&mut self.file, file);
+        let kind = self.type_of(&declared.of_type, &declared.name.text);
+        if let Some(initial) = &declared.initial {
+            let message = "the initial value belongs to the variable here, not to its type";
+            self.error(Code::NotThere, initial.span, message);
+        }
+        self.file = around;
+        self.types.insert(wanted, Some(kind.clone()));
+        kind
+    }
+
+    /// The type of a text; `name` is what an enumeration or structure is called.
+    pub(super) fn type_of(&mut self, text: &TypeText, name: &str) -> Type {
+        match &text.kind {
+            TypeTextKind::Named(name) => self.named(name, text.span),
+            TypeTextKind::Text => {
+                self.unknown_type("STRING", text.span);
+                Type::Invalid
+            }
+            TypeTextKind::Range => {
+                let message = "ranges of values are not there yet";
+                let found = Diagnostic::new(Code::NotThere, text.span, message);
+                self.report(found.help("take the type without the range, and LIMIT"));
+                Type::Invalid
+            }
+            TypeTextKind::Array(bounds, of) => self.array(bounds, of, name),
+            TypeTextKind::Struct(members) => self.structure(members, name),
+            TypeTextKind::Enumeration(values) => self.enumeration(values, name),
+            TypeTextKind::Missing => Type::Invalid,
+        }
+    }
+
+    fn array(&mut self, bounds: &[(Expression, Expression)], of: &TypeText, name: &str) -> Type {
+        let of_type = self.type_of(of, name);
+        let mut known = Vec::new();
+        let mut count = 1i64;
+        for (low, high) in bounds {
+            let (Some(first), Some(last)) = (self.index_bound(low), self.index_bound(high)) else {
+                return Type::Invalid;
+            };
+            count = count.saturating_mul((last - first + 1).max(0));
+            if !(1..=ELEMENTS_MAX).contains(&count) {
+                let message = format!("an array has 1 to {ELEMENTS_MAX} elements");
+                self.error(Code::BadConstant, low.span, message);
+                return Type::Invalid;
+            }
+            known.push((first, last));
+        }
+        match of_type {
+            Type::Invalid => Type::Invalid,
+            Type::Block(..) => {
+                let message = "arrays of function blocks are not there yet";
+                self.error(Code::NotThere, of.span, message);
+                Type::Invalid
+            }
+            of_type if count.saturating_mul(of_type.bytes()) > BYTES_MAX => {
+                let message = format!("an array has {BYTES_MAX} bytes at most: all of V memory");
+                self.error(Code::BadConstant, of.span, message);
+                Type::Invalid
+            }
+            of_type => Type::Array(Arc::new(Array { bounds: known, of: of_type })),
+        }
+    }
+
+    fn index_bound(&mut self, bound: &Expression) -> Option<i64> {
+        let value = self.constant_whole(bound)?;
+        if i16::try_from(value).is_err() {
+            self.error(Code::BadConstant, bound.span, "an index is -32768 to 32767");
+            return None;
+        }
+        Some(value)
+    }
+
+    fn structure(&mut self, declarations: &[Declaration], name: &str) -> Type {
+        let mut members: Vec<Member> = Vec::new();
+        for declared in declarations {
+            let of_type = self.type_of(&declared.of_type, name);
+            if let Type::Block(..) = of_type {
+                let message = "a structure holds no function blocks";
+                self.error(Code::NotThere, declared.of_type.span, message);
+                continue;
+            }
+            let initial = match &declared.initial {
+                Some(text) => self.initial_value(text, &of_type),
+                None => of_type.initial(),
+            };
+            for name in &declared.names {
+                if members.iter().any(|member| upper(&member.name) == upper(&name.text)) {
+                    self.twice(name, None);
+                    continue;
+                }
+                let (of_type, initial) = (of_type.clone(), initial.clone());
+                members.push(Member { name: name.text.clone(), of_type, initial });
+            }
+        }
+        Type::Struct(Arc::new(Structure { name: name.to_owned(), members }))
+    }
+
+    fn enumeration(&mut self, values: &[(Name, Option<Expression>)], name: &str) -> Type {
+        let mut numbered: Vec<(String, i64)> = Vec::new();
+        let mut next = 0;
+        for (name, value) in values {
+            if numbered.iter().any(|(other, _)| upper(other) == upper(&name.text)) {
+                self.twice(name, None);
+            }
+            if let Some(number) = value.as_ref().and_then(|value| self.constant_whole(value)) {
+                next = number;
+            }
+            if i16::try_from(next).is_err() {
+                let message = format!("{}: a number is -32768 to 32767", name.text);
+                self.error(Code::BadConstant, name.span, message);
+                next = 0;
+            }
+            numbered.push((name.text.clone(), next));
+            next += 1;
+        }
+        Type::Enumeration(Arc::new(Enumeration { name: name.to_owned(), values: numbered }))
+    }
+}

@@ -1,0 +1,302 @@
+//! IF, CASE and loops: bodies that hang on power flow, and jumps over others.
+
+use super::Generator;
+use super::logic::Logic;
+use super::memory::literal;
+use super::writer::Storage;
+use crate::model::{CaseArm, Expression, ExpressionKind, ForLoop, Statement, StatementKind, Value};
+
+/// A condition and its statements.
+type Arm<'s> = (Choice<'s>, &'s [Statement]);
+
+/// What decides about an arm.
+#[derive(Clone)]
+enum Choice<'s> {
+    /// A condition.
+    If(&'s Expression),
+    /// Labels of CASE, about an operand.
+    Labels(char, String, &'s [(i64, i64)]),
+}
+
+impl Generator<'_> {
+    pub(super) fn if_statement(
+        &mut self,
+        arms: &[(Expression, Vec<Statement>)],
+        otherwise: &[Statement],
+    ) {
+        let arms: Vec<Arm> =
+            arms.iter().map(|(condition, body)| (Choice::If(condition), body.as_slice())).collect();
+        self.arms(&arms, otherwise);
+    }
+
+    pub(super) fn case(
+        &mut self,
+        selector: &Expression,
+        arms: &[CaseArm],
+        otherwise: &[Statement],
+    ) {
+        let operand = self.operand(selector);
+        let letter = self.storage_of(selector).letter();
+        let chosen: Vec<Arm> = arms
+            .iter()
+            .map(|(labels, body)| {
+                (Choice::Labels(letter, operand.clone(), labels), body.as_slice())
+            })
+            .collect();
+        self.arms(&chosen, otherwise);
+    }
+
+    fn arms(&mut self, arms: &[Arm], otherwise: &[Statement]) {
+        let bodies: Vec<&[Statement]> =
+            arms.iter().map(|(_, body)| *body).chain([otherwise]).collect();
+        let is_plain = arms.iter().skip(1).all(|(choice, _)| match choice {
+            Choice::If(condition) => self.is_plain(condition),
+            Choice::Labels(..) => true,
+        });
+        // Where every arm has only a few boxes, they hang on conditions one after the other.
+        let are_simple = bodies.iter().all(|body| self.are_simple(&[body], 1));
+        if is_plain && are_simple && bodies.len() <= 9 {
+            self.powered(arms, otherwise);
+        } else {
+            self.jumped(arms, otherwise);
+        }
+    }
+
+    fn decide(&mut self, choice: &Choice) -> Logic {
+        match choice {
+            Choice::If(condition) => self.lower(condition),
+            Choice::Labels(letter, operand, labels) => {
+                let one = |relation, value: i64| {
+                    Logic::Compare(*letter, relation, operand.clone(), value.to_string())
+                };
+                let mut any: Vec<Logic> = labels
+                    .iter()
+                    .map(|&(low, high)| match low == high {
+                        true => one("=", low),
+                        false => Logic::All(vec![one(">=", low), one("<=", high)]),
+                    })
+                    .collect();
+                if any.len() == 1 { any.remove(0) } else { Logic::Any(any) }
+            }
+        }
+    }
+
+    /// Every body hangs on the power flow of its condition, and on that none before was met.
+    fn powered(&mut self, arms: &[Arm], otherwise: &[Statement]) {
+        let last = arms.len() - 1;
+        for (at, (choice, body)) in arms.iter().enumerate() {
+            let logic = self.decide(choice);
+            let has_more = at < last || !otherwise.is_empty();
+            if at == 0 {
+                self.load(&logic);
+            } else {
+                self.writer.logic("LPS", "", false);
+                self.and(&logic);
+            }
+            self.guarded(body);
+            match (has_more, at) {
+                (true, 0) => self.writer.logic("NOT", "", false),
+                (true, _) => {
+                    self.writer.logic("NOT", "", false);
+                    self.writer.logic("ALD", "", false);
+                }
+                (false, 0) => {}
+                (false, _) => self.writer.logic("LPP", "", false),
+            }
+        }
+        self.guarded(otherwise);
+        self.writer.forget();
+    }
+
+    /// Statements that hang on the top of the stack, which stays.
+    fn guarded(&mut self, body: &[Statement]) {
+        let before = self.writer.guard(true);
+        for statement in body {
+            let in_use = self.writer.in_use();
+            match &statement.kind {
+                StatementKind::Assign(place, value) => self.assign(place, value),
+                StatementKind::If(arms, otherwise) => self.nested(arms, otherwise),
+                kind => {
+                    let label = self.target_of(kind);
+                    self.writer.jump(label);
+                }
+            }
+            self.writer.release(in_use);
+        }
+        self.writer.guard(before);
+    }
+
+    /// IF on power flow: the top of the stack is as before afterwards.
+    fn nested(&mut self, arms: &[(Expression, Vec<Statement>)], otherwise: &[Statement]) {
+        self.writer.logic("LPS", "", false);
+        let last = arms.len().saturating_sub(1);
+        for (at, (condition, body)) in arms.iter().enumerate() {
+            let logic = self.lower(condition);
+            let has_more = at < last || !otherwise.is_empty();
+            if has_more {
+                self.writer.logic("LPS", "", false);
+            }
+            self.and(&logic);
+            self.guarded(body);
+            if has_more {
+                self.writer.logic("NOT", "", false);
+                self.writer.logic("ALD", "", false);
+            }
+        }
+        self.guarded(otherwise);
+        self.writer.logic("LPP", "", false);
+    }
+
+    /// Bodies are jumped over where their conditions are not met.
+    fn jumped(&mut self, arms: &[Arm], otherwise: &[Statement]) {
+        let end = self.writer.new_label();
+        let last = arms.len() - 1;
+        let mut needs_end = false;
+        for (at, (choice, body)) in arms.iter().enumerate() {
+            let in_use = self.writer.in_use();
+            let logic = self.decide(choice);
+            let has_more = at < last || !otherwise.is_empty();
+            let next = if has_more { self.writer.new_label() } else { end };
+            needs_end |= !has_more;
+            self.jump_unless(logic, next);
+            self.body(body);
+            if has_more {
+                if !leaves(body) {
+                    self.writer.always_jump(end);
+                    needs_end = true;
+                }
+                self.writer.label(next);
+            }
+            self.writer.release(in_use);
+        }
+        self.body(otherwise);
+        if needs_end {
+            self.writer.label(end);
+        }
+        self.writer.forget();
+    }
+
+    fn jump_unless(&mut self, logic: Logic, label: u16) {
+        match logic {
+            Logic::Known(true) => {}
+            Logic::Known(false) => self.writer.always_jump(label),
+            logic => {
+                self.load(&logic.negated());
+                self.writer.jump(label);
+                self.writer.forget();
+            }
+        }
+    }
+
+    fn in_loop(&mut self, exit: u16, next: u16, body: &[Statement]) {
+        self.frame.loops.push((exit, next));
+        self.body(body);
+        self.frame.loops.pop();
+    }
+
+    pub(super) fn while_loop(&mut self, condition: &Expression, body: &[Statement]) {
+        let (start, exit) = (self.writer.new_label(), self.writer.new_label());
+        self.writer.power();
+        self.writer.label(start);
+        let logic = self.lower(condition);
+        self.jump_unless(logic, exit);
+        self.in_loop(exit, start, body);
+        self.writer.always_jump(start);
+        self.writer.label(exit);
+    }
+
+    pub(super) fn repeat(&mut self, body: &[Statement], condition: &Expression) {
+        let (start, next) = (self.writer.new_label(), self.writer.new_label());
+        let exit = self.writer.new_label();
+        self.writer.power();
+        self.writer.label(start);
+        self.in_loop(exit, next, body);
+        self.begin(condition.span);
+        self.writer.power();
+        self.writer.label(next);
+        let logic = self.lower(condition);
+        self.jump_unless(logic, start);
+        self.writer.label(exit);
+    }
+
+    pub(super) fn for_loop(&mut self, one: &ForLoop) {
+        let found = self.locate(&one.variable);
+        let storage = found.storage;
+        let letter = storage.letter();
+        let variable = found.text;
+        let to = self.first_and_last(one, storage, &variable);
+        let (start, next) = (self.writer.new_label(), self.writer.new_label());
+        let exit = self.writer.new_label();
+        let past = if one.by > 0 { ">" } else { "<" };
+        let is_entered = enters(one);
+        if !is_entered {
+            let logic = Logic::Compare(letter, past, variable.clone(), to.clone());
+            self.load(&logic);
+            self.writer.jump(exit);
+            self.writer.forget();
+        }
+        self.writer.power();
+        self.writer.label(start);
+        self.in_loop(exit, next, &one.body);
+        self.writer.power();
+        self.writer.label(next);
+        self.next_pass(one, &variable, &to, storage, exit);
+        self.writer.always_jump(start);
+        self.writer.label(exit);
+    }
+
+    /// Sets the variable to its first value, and gives the last one as an operand that stays.
+    fn first_and_last(&mut self, one: &ForLoop, storage: Storage, variable: &str) -> String {
+        if let ExpressionKind::Constant(value) = &one.to.kind {
+            self.into(&one.from, variable);
+            return literal(value, &one.to.of_type);
+        }
+        // Both are evaluated before the variable, which they may read, is written.
+        let last = self.writer.temporary(storage);
+        self.into(&one.to, &last);
+        self.into(&one.from, variable);
+        last
+    }
+
+    /// Leaves the loop where the next value is past the end, else sets it.
+    fn next_pass(&mut self, one: &ForLoop, variable: &str, to: &str, storage: Storage, exit: u16) {
+        let letter = storage.letter();
+        if one.by == 1 || one.by == -1 {
+            let at_end = if one.by > 0 { ">=" } else { "<=" };
+            self.load(&Logic::Compare(letter, at_end, variable.to_owned(), to.to_owned()));
+            self.writer.jump(exit);
+            self.writer.forget();
+            let mnemonic = if one.by > 0 { format!("INC{letter}") } else { format!("DEC{letter}") };
+            self.writer.boxed(&mnemonic, variable);
+            return;
+        }
+        let sign = if storage == Storage::Double { 'D' } else { 'I' };
+        let next = self.writer.temporary(storage);
+        self.copy(storage, variable, &next);
+        self.writer.boxed(&format!("+{sign}"), &format!("{}, {next}", one.by));
+        // Where there is no such number, it stays as it was, and the end is reached.
+        let past = if one.by > 0 { ">" } else { "<" };
+        let is_past = Logic::Compare(letter, past, next.clone(), to.to_owned());
+        let has_none = Logic::Compare(letter, "=", next.clone(), variable.to_owned());
+        self.load(&Logic::Any(vec![is_past, has_none]));
+        self.writer.jump(exit);
+        self.writer.forget();
+        self.copy(storage, &next, variable);
+    }
+}
+
+/// Whether the first pass is known to be there.
+fn enters(one: &ForLoop) -> bool {
+    match (&one.from.kind, &one.to.kind) {
+        (ExpressionKind::Constant(Value::Int(a)), ExpressionKind::Constant(Value::Int(b))) => {
+            if one.by > 0 { a <= b } else { a >= b }
+        }
+        _ => false,
+    }
+}
+
+/// Whether nothing follows statements.
+fn leaves(body: &[Statement]) -> bool {
+    let last = body.last().map(|statement| &statement.kind);
+    matches!(last, Some(StatementKind::Exit | StatementKind::Continue | StatementKind::Return))
+}

@@ -1,0 +1,209 @@
+//! Variables in AWL: how each is called and stored, and the lines that declare them.
+
+use awl_asm::Address;
+
+use super::Generator;
+use super::timers::Owner;
+use super::writer::Storage;
+use crate::model::{SectionKind, Type, UnitKind, Value, Variable};
+
+/// How a value of an elementary type is stored; `is_short`: a TIME is a word.
+pub(super) fn storage(kind: &Type, is_short: bool) -> Storage {
+    match kind {
+        Type::Bool => Storage::Bit,
+        Type::Byte => Storage::Byte,
+        Type::Time if is_short => Storage::Word,
+        Type::Dword | Type::Dint | Type::Time => Storage::Double,
+        Type::Real => Storage::Real,
+        _ => Storage::Word,
+    }
+}
+
+/// A name that cannot be taken for an address or a constant.
+pub(super) fn safe_name(name: &str) -> String {
+    let is_constant = ["ON", "OFF", "TRUE", "FALSE"].contains(&name.to_uppercase().as_str());
+    match Address::parse(name).is_ok() || is_constant {
+        true => format!("{name}_"),
+        false => name.to_owned(),
+    }
+}
+
+/// A constant as AWL writes it.
+pub(super) fn literal(value: &Value, kind: &Type) -> String {
+    match (value, kind) {
+        (Value::Bool(value), _) => u8::from(*value).to_string(),
+        (Value::Int(value), Type::Word) => format!("16#{value:04X}"),
+        (Value::Int(value), Type::Dword) => format!("16#{value:08X}"),
+        (Value::Int(value), _) => value.to_string(),
+        (Value::Real(value), _) => real(*value),
+        (Value::List(_), _) => String::new(),
+    }
+}
+
+fn real(value: f32) -> String {
+    let text = format!("{value:?}");
+    match text.split_once('e') {
+        Some((digits, exponent)) if !digits.contains('.') => format!("{digits}.0E{exponent}"),
+        Some((digits, exponent)) => format!("{digits}E{exponent}"),
+        None => text,
+    }
+}
+
+/// The dimensions of an array in AWL: one row; of more dimensions counted from 0.
+pub(super) fn row(bounds: &[(i64, i64)]) -> Option<(i64, i64)> {
+    match bounds {
+        [] => None,
+        [one] => Some(*one),
+        _ => {
+            let count: i64 = bounds.iter().map(|(low, high)| high - low + 1).product();
+            Some((0, count - 1))
+        }
+    }
+}
+
+impl Generator<'_> {
+    /// The lines that declare all variables.
+    pub(super) fn declarations(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        for (at, variable) in self.program.globals.iter().enumerate() {
+            let name = safe_name(&variable.name);
+            self.declare(variable, &name, Owner::Global, at, false, &mut lines);
+        }
+        for (number, unit) in self.program.units.iter().enumerate() {
+            if unit.kind != UnitKind::Program {
+                continue;
+            }
+            let place = self.place_of(number).filter(|_| !unit.variables.is_empty());
+            lines.extend(place.map(|place| format!("//# source {place}")));
+            for (at, variable) in unit.variables.iter().enumerate() {
+                let name = format!("{}.{}", unit.name, variable.name);
+                self.declare(variable, &name, Owner::Unit(number), at, false, &mut lines);
+            }
+        }
+        lines.push("//# source".to_owned());
+        lines
+    }
+
+    fn declare(
+        &self,
+        variable: &Variable,
+        name: &str,
+        owner: Owner,
+        at: usize,
+        is_retained: bool,
+        lines: &mut Vec<String>,
+    ) {
+        if variable.is_constant || variable.section == SectionKind::External {
+            return;
+        }
+        if let Some(address) = &variable.at {
+            lines.push(format!("//# symbol {name} {address}"));
+            return;
+        }
+        let is_retained = is_retained || variable.is_retained;
+        if let Type::Block(number, _) = variable.of_type {
+            self.declare_instance(number, name, owner, at, is_retained, lines);
+            return;
+        }
+        let retain = if is_retained { " RETAIN" } else { "" };
+        leaf_lines(name, &variable.of_type, &variable.initial, &[], &mut |line| {
+            lines.push(format!("//# var {line}{retain}"));
+        });
+    }
+
+    fn declare_instance(
+        &self,
+        number: usize,
+        name: &str,
+        owner: Owner,
+        at: usize,
+        is_retained: bool,
+        lines: &mut Vec<String>,
+    ) {
+        let Some(unit) = self.program.units.get(number) else { return };
+        let short = self.short.get(&(owner, at));
+        for (inner, variable) in unit.variables.iter().enumerate() {
+            let name = format!("{name}.{}", variable.name);
+            if short.is_some() && variable.of_type == Type::Time {
+                if !(variable.name == "PT" && short.is_some_and(Option::is_some)) {
+                    let retain = if is_retained { " RETAIN" } else { "" };
+                    lines.push(format!("//# var {name} INT{retain} // ms"));
+                }
+                continue;
+            }
+            self.declare(variable, &name, Owner::Unit(number), inner, is_retained, lines);
+        }
+    }
+}
+
+/// Gives `NAME TYPE := VALUE` for each variable in AWL that a variable of a type becomes.
+fn leaf_lines(
+    name: &str,
+    kind: &Type,
+    value: &Value,
+    bounds: &[(i64, i64)],
+    found: &mut dyn FnMut(String),
+) {
+    match kind {
+        Type::Struct(structure) => {
+            for (at, member) in structure.members.iter().enumerate() {
+                let name = format!("{name}.{}", member.name);
+                let value = of_member(value, bounds.len(), at);
+                leaf_lines(&name, &member.of_type, &value, bounds, found);
+            }
+        }
+        Type::Array(array) => {
+            let all = [bounds, &array.bounds].concat();
+            leaf_lines(name, &array.of, value, &all, found);
+        }
+        _ => {
+            let text = match (kind, bounds.is_empty()) {
+                (Type::Enumeration(_), _) => "INT".to_owned(),
+                (Type::Bool, false) => "BYTE".to_owned(),
+                _ => kind.to_string(),
+            };
+            let is_unset = |value: &Value| {
+                matches!(value, Value::Int(0) | Value::Bool(false))
+                    || matches!(value, Value::Real(real) if real.to_bits() == 0)
+            };
+            let Some((low, high)) = row(bounds) else {
+                let initial = if is_unset(value) {
+                    String::new()
+                } else {
+                    format!(" := {}", literal(value, kind))
+                };
+                found(format!("{name} {text}{initial}"));
+                return;
+            };
+            let mut values = Vec::new();
+            flatten(value, &mut values);
+            while values.last().is_some_and(|value| is_unset(value)) {
+                values.pop();
+            }
+            let texts: Vec<String> = values.iter().map(|value| literal(value, kind)).collect();
+            let initial = match texts.is_empty() {
+                true => String::new(),
+                false => format!(" := [{}]", texts.join(", ")),
+            };
+            found(format!("{name} ARRAY[{low}..{high}] OF {text}{initial}"));
+        }
+    }
+}
+
+/// The values of one member, in structures that are so many arrays deep. An array has one level of
+/// values, however many dimensions it has.
+fn of_member(value: &Value, depth: usize, at: usize) -> Value {
+    let Value::List(values) = value else { return value.clone() };
+    let holds_structures = depth > 0 && values.iter().all(|one| matches!(one, Value::List(_)));
+    if holds_structures {
+        return Value::List(values.iter().map(|one| of_member(one, 0, at)).collect());
+    }
+    values.get(at).cloned().unwrap_or(Value::Int(0))
+}
+
+fn flatten<'v>(value: &'v Value, all: &mut Vec<&'v Value>) {
+    match value {
+        Value::List(values) => values.iter().for_each(|one| flatten(one, all)),
+        _ => all.push(value),
+    }
+}

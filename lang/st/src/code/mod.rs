@@ -1,0 +1,288 @@
+//! From a checked program to AWL that a person can read.
+
+mod calls;
+mod control;
+mod convert;
+mod logic;
+mod memory;
+mod places;
+mod simple;
+mod statements;
+mod timers;
+mod values;
+mod writer;
+
+use std::collections::HashSet;
+
+use diagnostics::{Source, Span};
+
+use crate::around::Around;
+use crate::model::{Program, SectionKind, Type, UnitKind};
+use timers::Short;
+use writer::Writer;
+
+/// How the variables of a unit are called.
+#[derive(Debug, Clone)]
+enum Names {
+    /// After the unit or instance: `Main.Delay`.
+    Static(String),
+    /// In local memory: `#Speed`.
+    Local,
+}
+
+/// The unit or instance that is being written.
+#[derive(Debug, Clone)]
+struct Frame {
+    unit: usize,
+    names: Names,
+    /// Whether it is a timer that counts in a word.
+    is_short: bool,
+    /// Its preset, if that is no variable.
+    preset: Option<i64>,
+    /// The file of its statements; `None`: they have no places of their own.
+    file: Option<usize>,
+    /// Where RETURN goes, once it is needed.
+    end: Option<u16>,
+    /// Labels that EXIT and CONTINUE go to.
+    loops: Vec<(u16, u16)>,
+}
+
+struct Generator<'a> {
+    program: &'a Program,
+    sources: &'a [Source],
+    short: Short,
+    /// Names that stand for addresses.
+    located: HashSet<String>,
+    writer: Writer,
+    frame: Frame,
+    /// Inside of what a timer does at the start of the scan, in a word.
+    is_tick: bool,
+}
+
+/// Writes a checked program.
+pub(crate) fn generate(program: &Program, sources: &[Source], around: &Around) -> String {
+    let frame = Frame {
+        unit: 0,
+        names: Names::Local,
+        is_short: false,
+        preset: None,
+        file: None,
+        end: None,
+        loops: Vec::new(),
+    };
+    let mut generator = Generator {
+        program,
+        sources,
+        short: timers::short_timers(program),
+        located: located(program),
+        writer: Writer::default(),
+        frame,
+        is_tick: false,
+    };
+    let mut lines: Vec<String> = program.settings.clone();
+    lines.extend(generator.declarations());
+    let mut routine = around.first_routine;
+    if around.has_main {
+        lines.extend(generator.programs_as_routines(&mut routine));
+    } else {
+        lines.extend(generator.main());
+    }
+    for number in 0..program.units.len() {
+        if program.units.get(number).is_some_and(|unit| unit.kind == UnitKind::Function) {
+            lines.extend(generator.function(number, routine));
+            routine += 1;
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+fn located(program: &Program) -> HashSet<String> {
+    let globals = program.globals.iter().map(|one| (None, one));
+    let programs = program.units.iter().filter(|unit| unit.kind == UnitKind::Program);
+    let locals =
+        programs.flat_map(|unit| unit.variables.iter().map(|one| (Some(unit.name.as_str()), one)));
+    let all = globals.chain(locals).filter(|(_, one)| one.at.is_some());
+    let name = |(unit, one): (Option<&str>, &crate::model::Variable)| match unit {
+        Some(unit) => format!("{unit}.{}", one.name),
+        None => memory::safe_name(&one.name),
+    };
+    all.map(name).collect()
+}
+
+impl Generator<'_> {
+    /// The main program, with all PROGRAMs one after the other.
+    fn main(&mut self) -> Vec<String> {
+        self.writer = Writer::default();
+        self.start_of_scan();
+        for number in self.programs() {
+            self.program_body(number);
+        }
+        if self.writer.is_empty() {
+            self.writer.section("the program does nothing");
+            self.writer.boxed("NOP", "0");
+        }
+        let writer = std::mem::take(&mut self.writer);
+        let place = self.programs().first().and_then(|&number| self.place_of(number));
+        block(place, "ORGANIZATION_BLOCK MAIN:OB1", "END_ORGANIZATION_BLOCK", &[], writer)
+    }
+
+    fn programs(&self) -> Vec<usize> {
+        let units = self.program.units.iter().enumerate();
+        units.filter(|(_, unit)| unit.kind == UnitKind::Program).map(|(at, _)| at).collect()
+    }
+
+    /// Each PROGRAM as a subroutine of its name, for a main program in AWL. The timers of all go on
+    /// when the first one is called.
+    fn programs_as_routines(&mut self, routine: &mut u16) -> Vec<String> {
+        let mut lines = Vec::new();
+        for (at, number) in self.programs().into_iter().enumerate() {
+            self.writer = Writer::default();
+            if at == 0 {
+                self.start_of_scan();
+            }
+            self.program_body(number);
+            if self.writer.is_empty() {
+                self.writer.section("the program does nothing");
+                self.writer.boxed("NOP", "0");
+            }
+            let name = self.program.units.get(number).map_or("", |unit| unit.name.as_str());
+            let header = format!("SUBROUTINE_BLOCK {name}:SBR{routine}");
+            let writer = std::mem::take(&mut self.writer);
+            let place = self.place_of(number);
+            lines.extend(block(place, &header, "END_SUBROUTINE_BLOCK", &[], writer));
+            *routine += 1;
+        }
+        lines
+    }
+
+    fn program_body(&mut self, number: usize) {
+        let Some(unit) = self.program.units.get(number) else { return };
+        self.frame = Frame {
+            unit: number,
+            names: Names::Static(unit.name.clone()),
+            is_short: false,
+            preset: None,
+            file: unit.file,
+            end: None,
+            loops: Vec::new(),
+        };
+        self.reset_temporaries(unit);
+        self.body(&unit.body);
+        self.end_of_unit();
+    }
+
+    /// VAR_TEMP begins anew.
+    fn reset_temporaries(&mut self, unit: &crate::model::Unit) {
+        for (at, variable) in unit.variables.iter().enumerate() {
+            if variable.section == SectionKind::Temp {
+                self.initialise(at, variable);
+            }
+        }
+    }
+
+    /// The label that RETURN goes to.
+    fn end_of_unit(&mut self) {
+        if let Some(label) = self.frame.end.take() {
+            self.writer.label(label);
+        }
+    }
+
+    /// A function as a subroutine.
+    fn function(&mut self, number: usize, routine: u16) -> Vec<String> {
+        let Some(unit) = self.program.units.get(number) else { return Vec::new() };
+        self.writer = Writer::default();
+        self.frame = Frame {
+            unit: number,
+            names: Names::Local,
+            is_short: false,
+            preset: None,
+            file: unit.file,
+            end: None,
+            loops: Vec::new(),
+        };
+        self.writer.section("initial values");
+        for (at, variable) in unit.variables.iter().enumerate() {
+            if variable.section != SectionKind::Input && !variable.is_constant {
+                self.initialise(at, variable);
+            }
+        }
+        self.body(&unit.body);
+        self.end_of_unit();
+        let mut sections = Vec::new();
+        for (word, is_wanted) in [
+            ("VAR_INPUT", SectionKind::Input),
+            ("VAR_OUTPUT", SectionKind::Output),
+            ("VAR", SectionKind::Var),
+        ] {
+            let list: Vec<String> = unit
+                .variables
+                .iter()
+                .filter(|one| !one.is_constant)
+                .filter(|one| {
+                    one.section == is_wanted
+                        || is_wanted == SectionKind::Var && one.section == SectionKind::Temp
+                })
+                .map(|one| {
+                    format!("{}:{};", memory::safe_name(&one.name), local_type(&one.of_type))
+                })
+                .collect();
+            if !list.is_empty() {
+                sections.push(word.to_owned());
+                sections.extend(list);
+                sections.push("END_VAR".to_owned());
+            }
+        }
+        let header = format!("SUBROUTINE_BLOCK {}:SBR{routine}", unit.name);
+        let writer = std::mem::take(&mut self.writer);
+        block(self.place_of(number), &header, "END_SUBROUTINE_BLOCK", &sections, writer)
+    }
+
+    /// Where the name of a unit is, unless it is a standard block.
+    fn place_of(&self, number: usize) -> Option<String> {
+        let unit = self.program.units.get(number)?;
+        let source = self.sources.get(unit.file?)?;
+        let (line, column) = source.position(unit.span.start as usize);
+        Some(format!("{}:{line}:{column}", source.name))
+    }
+
+    /// What follows in the AWL text belongs to a statement, if that is of a file.
+    fn begin(&mut self, span: Span) {
+        if let Some(source) = self.frame.file.and_then(|file| self.sources.get(file)) {
+            self.writer.statement(source, span);
+        }
+    }
+}
+
+/// The type of a local variable in AWL.
+fn local_type(kind: &Type) -> String {
+    match kind {
+        Type::Time => "DINT".to_owned(),
+        Type::Enumeration(_) => "INT".to_owned(),
+        _ => kind.to_string(),
+    }
+}
+
+/// A block with its sections and lines.
+fn block(
+    place: Option<String>,
+    header: &str,
+    end: &str,
+    sections: &[String],
+    writer: Writer,
+) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    lines.extend(place.map(|place| format!("//# source {place}")));
+    lines.push(header.to_owned());
+    lines.extend(sections.iter().cloned());
+    let temporaries = writer.temporaries();
+    if !temporaries.is_empty() {
+        lines.push("VAR".to_owned());
+        lines.extend(temporaries);
+        lines.push("END_VAR".to_owned());
+    }
+    lines.push("BEGIN".to_owned());
+    lines.extend(writer.finish());
+    lines.push("//# source".to_owned());
+    lines.push(end.to_owned());
+    lines
+}

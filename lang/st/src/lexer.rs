@@ -1,0 +1,274 @@
+//! Cuts the text into tokens. Comments and pragmas are passed over; settings (`//# ...`) are kept
+//! aside. It knows characters, not the language.
+
+use diagnostics::Span;
+
+use crate::diagnostic::{Code, Diagnostic};
+
+/// What a token is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A name or keyword.
+    Word,
+    /// Digits: `100`, `1_000`.
+    Integer,
+    /// A number with a point.
+    Real,
+    /// Something with `#`: `16#FF`, `INT#5`, `T#1s`, `State#Fill`.
+    Prefixed,
+    /// A text in quotes.
+    Text,
+    /// `%I0.0`
+    Address,
+    /// An operator or separator.
+    Sign(&'static str),
+    /// The pragma that the statement after it belongs to the start of the scan (standard blocks).
+    EveryScan,
+    /// The end of the text.
+    End,
+}
+
+/// A token and where it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Token {
+    /// What it is.
+    pub kind: Kind,
+    /// Where.
+    pub span: Span,
+}
+
+/// The tokens of a text; the last one is [`Kind::End`].
+#[derive(Debug)]
+pub(crate) struct Tokens {
+    pub(crate) tokens: Vec<Token>,
+    /// The lines `//# ...`.
+    pub(crate) settings: Vec<Span>,
+    pub(crate) diagnostics: Vec<Diagnostic>,
+}
+
+/// Longest first.
+const SIGNS: [&str; 23] = [
+    ":=", "=>", "<=", ">=", "<>", "**", "..", "(", ")", "[", "]", ",", ";", ":", ".", "+", "-",
+    "*", "/", "=", "<", ">", "&",
+];
+
+/// Cuts a text.
+pub(crate) fn cut(text: &str) -> Tokens {
+    let mut lexer = Lexer { text, at: 0, settings: Vec::new(), diagnostics: Vec::new() };
+    let mut tokens = Vec::new();
+    while let Some(token) = lexer.next() {
+        tokens.push(token);
+    }
+    tokens.push(Token { kind: Kind::End, span: Span::new(text.len(), text.len()) });
+    Tokens { tokens, settings: lexer.settings, diagnostics: lexer.diagnostics }
+}
+
+struct Lexer<'t> {
+    text: &'t str,
+    at: usize,
+    settings: Vec<Span>,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl<'t> Lexer<'t> {
+    fn rest(&self) -> &'t str {
+        self.text.get(self.at..).unwrap_or("")
+    }
+
+    fn error(&mut self, span: Span, message: impl Into<String>) {
+        self.diagnostics.push(Diagnostic::new(Code::Syntax, span, message));
+    }
+
+    fn next(&mut self) -> Option<Token> {
+        loop {
+            let start = self.at;
+            let first = self.rest().chars().next()?;
+            if let Some(kind) = self.token(first) {
+                return Some(Token { kind, span: Span::new(start, self.at) });
+            }
+        }
+    }
+
+    /// Takes what is at the position; `None` where that is no token.
+    fn token(&mut self, first: char) -> Option<Kind> {
+        let rest = self.rest();
+        if first.is_whitespace() || first == '\u{feff}' {
+            self.at += first.len_utf8();
+            return None;
+        }
+        if rest.starts_with("//") {
+            self.line_comment();
+            return None;
+        }
+        if rest.starts_with("(*") || rest.starts_with("/*") {
+            self.block_comment();
+            return None;
+        }
+        match first {
+            '{' => self.pragma(),
+            '\'' | '"' => Some(self.quoted(first)),
+            '%' => {
+                self.at += 1;
+                self.take_while(|c| c.is_ascii_alphanumeric() || c == '.');
+                Some(Kind::Address)
+            }
+            c if c.is_alphabetic() || c == '_' => Some(self.word()),
+            c if c.is_ascii_digit() => Some(self.number()),
+            _ => self.sign(first),
+        }
+    }
+
+    fn take_while(&mut self, is_wanted: impl Fn(char) -> bool) {
+        let rest = self.rest();
+        self.at += rest.find(|c| !is_wanted(c)).unwrap_or(rest.len());
+    }
+
+    fn line_comment(&mut self) {
+        let start = self.at;
+        self.take_while(|c| c != '\n' && c != '\r');
+        let span = Span::new(start, self.at);
+        if span.text(self.text).starts_with("//#") {
+            self.settings.push(span);
+        }
+    }
+
+    /// Comments nest; what opens one of the two kinds closes it.
+    fn block_comment(&mut self) {
+        let start = self.at;
+        let mut open = Vec::new();
+        loop {
+            let rest = self.rest();
+            match rest.get(..2) {
+                Some("(*") => open.push("*)"),
+                Some("/*") => open.push("*/"),
+                Some(pair) if open.last() == Some(&pair) => {
+                    open.pop();
+                }
+                _ => {
+                    let Some(next) = rest.chars().next() else {
+                        let span = Span::new(start, start + 2);
+                        self.error(span, "the comment is not closed");
+                        return;
+                    };
+                    self.at += next.len_utf8();
+                    continue;
+                }
+            }
+            self.at += 2;
+            if open.is_empty() {
+                return;
+            }
+        }
+    }
+
+    fn pragma(&mut self) -> Option<Kind> {
+        let start = self.at;
+        let rest = self.rest();
+        match rest.find('}') {
+            Some(end) => self.at += end + 1,
+            None => {
+                self.at = self.text.len();
+                self.error(Span::new(start, start + 1), "the pragma is not closed: `}` is missing");
+            }
+        }
+        rest.starts_with("{every scan}").then_some(Kind::EveryScan)
+    }
+
+    fn quoted(&mut self, quote: char) -> Kind {
+        let start = self.at;
+        self.at += 1;
+        loop {
+            match self.rest().chars().next() {
+                None | Some('\n' | '\r') => {
+                    self.error(Span::new(start, self.at), "the text is not closed");
+                    return Kind::Text;
+                }
+                Some('$') => {
+                    self.at += 1;
+                    let next = self.rest().chars().next().filter(|c| !matches!(c, '\n' | '\r'));
+                    self.at += next.map_or(0, char::len_utf8);
+                }
+                Some(c) => {
+                    self.at += c.len_utf8();
+                    if c == quote {
+                        return Kind::Text;
+                    }
+                }
+            }
+        }
+    }
+
+    fn word(&mut self) -> Kind {
+        self.take_while(|c| c.is_alphanumeric() || c == '_');
+        self.after_hash(Kind::Word)
+    }
+
+    /// What is after a `#` belongs to it: digits, letters, a sign, and the point of a real.
+    fn after_hash(&mut self, without: Kind) -> Kind {
+        if !self.rest().starts_with('#') {
+            return without;
+        }
+        self.at += 1;
+        if self.rest().starts_with(['+', '-']) {
+            self.at += 1;
+        }
+        self.take_while(|c| c.is_alphanumeric() || c == '_');
+        let is_based = self.rest().starts_with('#');
+        if is_based {
+            self.at += 1;
+            self.take_while(|c| c.is_alphanumeric() || c == '_');
+        }
+        self.fraction();
+        self.take_while(|c| c.is_alphanumeric() || c == '_');
+        Kind::Prefixed
+    }
+
+    /// A point with a digit after it, and digits; then an exponent's sign.
+    fn fraction(&mut self) -> bool {
+        let mut after = self.rest().chars();
+        if after.next() != Some('.') || !after.next().is_some_and(|c| c.is_ascii_digit()) {
+            return false;
+        }
+        self.at += 1;
+        self.take_while(|c| c.is_ascii_digit() || c == '_');
+        self.exponent();
+        true
+    }
+
+    fn exponent(&mut self) -> bool {
+        let rest = self.rest();
+        let Some(after) = rest.strip_prefix(['e', 'E']) else { return false };
+        let digits = after.strip_prefix(['+', '-']).unwrap_or(after);
+        if !digits.starts_with(|c: char| c.is_ascii_digit()) {
+            return false;
+        }
+        self.at += rest.len() - digits.len();
+        self.take_while(|c| c.is_ascii_digit());
+        true
+    }
+
+    fn number(&mut self) -> Kind {
+        self.take_while(|c| c.is_ascii_digit() || c == '_');
+        if self.rest().starts_with('#') {
+            return self.after_hash(Kind::Integer);
+        }
+        let is_real = self.fraction() || self.exponent();
+        if is_real { Kind::Real } else { Kind::Integer }
+    }
+
+    fn sign(&mut self, first: char) -> Option<Kind> {
+        let start = self.at;
+        match SIGNS.into_iter().find(|sign| self.rest().starts_with(sign)) {
+            Some(sign) => {
+                self.at += sign.len();
+                Some(Kind::Sign(sign))
+            }
+            None => {
+                self.at += first.len_utf8();
+                let message = format!("`{first}` is no sign of Structured Text");
+                self.error(Span::new(start, self.at), message);
+                None
+            }
+        }
+    }
+}

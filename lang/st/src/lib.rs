@@ -1,0 +1,51 @@
+//! Structured Text of IEC 61131-3, translated to AWL that a person can read. What a program means
+//! is in docs/structured-text.md; this library reads texts, checks them, and writes AWL. It opens
+//! no files, and never runs a program.
+//!
+//! The passes, each of which uses the ones before it only: `lexer`, `parser` ([`tree`]), `check`
+//! ([`model`]), `code`.
+
+mod around;
+mod check;
+mod code;
+pub mod diagnostic;
+mod fold;
+mod lexer;
+pub mod model;
+pub mod parser;
+pub mod tree;
+
+use diagnostics::{Severity, Source};
+
+pub use around::{Around, Routine, RoutineParameter};
+pub use diagnostic::{Code, Diagnostic};
+pub use model::Program;
+
+/// What becomes of a program.
+#[derive(Debug)]
+pub struct Compiled {
+    /// The AWL text; `None` when there are errors.
+    pub awl: Option<String>,
+    /// Errors and warnings, with the number of their file.
+    pub diagnostics: Vec<(usize, Diagnostic)>,
+    /// The checked program.
+    pub program: Program,
+}
+
+/// Translates the texts of a program.
+pub fn compile(sources: &[Source], around: &Around) -> Compiled {
+    let mut diagnostics = Vec::new();
+    let mut files = Vec::new();
+    for (number, source) in sources.iter().enumerate() {
+        let (file, found) = parser::parse(source);
+        diagnostics.extend(found.into_iter().map(|one| (number, one)));
+        files.push(file);
+    }
+    let (program, found) = check::check(sources, &files, around);
+    diagnostics.extend(found);
+    diagnostics.sort_by_key(|(file, one)| (*file, one.span));
+    diagnostics.dedup_by(|a, b| a.0 == b.0 && a.1.span == b.1.span && a.1.message == b.1.message);
+    let has_errors = diagnostics.iter().any(|(_, one)| one.severity() == Severity::Error);
+    let awl = (!has_errors).then(|| code::generate(&program, sources, around));
+    Compiled { awl, diagnostics, program }
+}

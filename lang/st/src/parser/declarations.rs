@@ -1,0 +1,324 @@
+//! Units, sections of variables, types.
+
+use super::expressions::joined;
+use super::{Failed, Outcome, Parser};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::lexer::Kind;
+use crate::tree::{
+    Declaration, File, Name, Section, SectionKind, TypeDeclaration, TypeText, TypeTextKind, Unit,
+    UnitKind,
+};
+
+const SECTIONS: [(&str, SectionKind); 7] = [
+    ("VAR", SectionKind::Var),
+    ("VAR_INPUT", SectionKind::Input),
+    ("VAR_OUTPUT", SectionKind::Output),
+    ("VAR_IN_OUT", SectionKind::InOut),
+    ("VAR_TEMP", SectionKind::Temp),
+    ("VAR_GLOBAL", SectionKind::Global),
+    ("VAR_EXTERNAL", SectionKind::External),
+];
+
+impl Parser<'_> {
+    pub(super) fn file(&mut self) -> File {
+        let mut file = File::default();
+        while !self.is_at_end() {
+            let word = self.word_at(0).to_ascii_uppercase();
+            match word.as_str() {
+                "PROGRAM" | "FUNCTION" | "FUNCTION_BLOCK" => {
+                    if let Ok(unit) = self.unit(&word) {
+                        file.units.push(unit);
+                    }
+                }
+                "TYPE" => self.types(&mut file.types),
+                "VAR_GLOBAL" => file.globals.extend(self.section()),
+                _ => self.outside(&word),
+            }
+        }
+        file
+    }
+
+    /// Reports what is outside of all units, up to where one begins.
+    fn outside(&mut self, word: &str) {
+        let token = self.token();
+        let message = match word {
+            "CLASS" | "METHOD" | "INTERFACE" | "NAMESPACE" | "CONFIGURATION" | "RESOURCE" => {
+                let message = format!("{word}: there are programs, functions and function blocks");
+                self.report(Diagnostic::new(Code::NotThere, token.span, message));
+                None
+            }
+            _ => Some("outside of PROGRAM, FUNCTION, FUNCTION_BLOCK, TYPE and VAR_GLOBAL"),
+        };
+        if let Some(message) = message {
+            let text = super::short(self.text_of(token));
+            let found = Diagnostic::new(Code::Syntax, token.span, format!("`{text}`: {message}"));
+            self.report(found.help("a program is `PROGRAM Main ... END_PROGRAM`"));
+        }
+        let begins = ["PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TYPE", "VAR_GLOBAL"];
+        self.step();
+        while !self.is_at_end() && !self.is_one_of(&begins) {
+            self.step();
+        }
+    }
+
+    fn unit(&mut self, word: &str) -> Outcome<Unit> {
+        let opened = self.step().span;
+        let name = match self.name("a name") {
+            Ok(name) => name,
+            Err(Failed) => Name { text: String::new(), span: opened },
+        };
+        let kind = match word {
+            "PROGRAM" => UnitKind::Program,
+            "FUNCTION_BLOCK" => UnitKind::Block,
+            _ => UnitKind::Function(self.result_type(&name)),
+        };
+        self.take_sign(";");
+        let mut sections = Vec::new();
+        while let Some(section) = self.section() {
+            sections.push(section);
+        }
+        let mut every_scan = Vec::new();
+        if self.token().kind == Kind::EveryScan {
+            self.step();
+            every_scan = self.every_scan();
+        }
+        let body = self.unit_body(word);
+        let end = format!("END_{word}");
+        if !self.take_word(&end) {
+            self.missing(&end, Some((joined(opened, name.span), "for this one")));
+            // The end of another unit is taken for this one's.
+            if self.is_one_of(&["END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK"]) {
+                self.step();
+            }
+        }
+        self.take_sign(";");
+        Ok(Unit { kind, name, sections, every_scan, body })
+    }
+
+    /// The statements of a unit, words in them that end nothing reported.
+    fn unit_body(&mut self, word: &str) -> Vec<crate::tree::Statement> {
+        let mut body = self.statements();
+        let ends = ["END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK"];
+        let begins = ["PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TYPE", "VAR_GLOBAL"];
+        while !self.is_at_end() && !self.is_one_of(&ends) && !self.is_one_of(&begins) {
+            let token = self.step();
+            let text = super::short(self.text_of(token));
+            let message = format!("`{text}`: nothing is open that it belongs to in this {word}");
+            self.report(Diagnostic::new(Code::Syntax, token.span, message));
+            self.skip_statement();
+            body.extend(self.statements());
+        }
+        body
+    }
+
+    /// The statement after the pragma.
+    fn every_scan(&mut self) -> Vec<crate::tree::Statement> {
+        let mut all = self.statements();
+        let rest = all.split_off(all.len().min(1));
+        // What follows belongs to the body: it is read again.
+        if let Some(first) = rest.first() {
+            let start = first.span.start;
+            self.at = self.tokens.iter().position(|token| token.span.start == start).unwrap_or(0);
+        }
+        all
+    }
+
+    fn result_type(&mut self, name: &Name) -> TypeText {
+        if self.take_sign(":") {
+            return self.type_text();
+        }
+        let message = format!("FUNCTION {}: the type of its result is missing", name.text);
+        let found = Diagnostic::new(Code::Syntax, name.span, message);
+        self.report(found.help(format!("such as `FUNCTION {} : INT`", name.text)));
+        TypeText { kind: TypeTextKind::Missing, span: name.span }
+    }
+
+    fn section(&mut self) -> Option<Section> {
+        let &(_, kind) = SECTIONS.iter().find(|(word, _)| self.is_word(word))?;
+        let opened = self.step().span;
+        let mut section =
+            Section { kind, is_constant: false, is_retained: false, declarations: Vec::new() };
+        loop {
+            if self.take_word("CONSTANT") {
+                section.is_constant = true;
+            } else if self.take_word("RETAIN") {
+                section.is_retained = true;
+            } else if !self.take_word("NON_RETAIN") {
+                break;
+            }
+        }
+        section.declarations = self.declarations();
+        if !self.take_word("END_VAR") {
+            self.missing("END_VAR", Some((opened, "for this one")));
+        }
+        self.take_sign(";");
+        Some(section)
+    }
+
+    /// Declarations up to a word that ends them.
+    fn declarations(&mut self) -> Vec<Declaration> {
+        let mut declarations = Vec::new();
+        while self.is_name() {
+            match self.declaration() {
+                Ok(declaration) => {
+                    self.semicolon();
+                    declarations.push(declaration);
+                }
+                Err(Failed) => self.skip_statement(),
+            }
+            // After an assignment the section's end is what is missing.
+            let is_statement =
+                matches!(self.ahead(1).kind, Kind::Sign(":=" | "(" | "." | "[" | "="));
+            if self.is_name() && is_statement {
+                break;
+            }
+        }
+        if self.token().kind == Kind::Word && super::is_keyword(self.word_at(0)) {
+            let ends = ["END_VAR", "END_STRUCT"];
+            if matches!(self.ahead(1).kind, Kind::Sign(":" | ",")) && !self.is_one_of(&ends) {
+                let word = self.word_at(0).to_owned();
+                let message = format!("{word}: is a word of the language and names no variable");
+                self.report(Diagnostic::new(Code::Declaration, self.token().span, message));
+                self.step();
+                self.skip_statement();
+                declarations.extend(self.declarations());
+            }
+        }
+        declarations
+    }
+
+    fn declaration(&mut self) -> Outcome<Declaration> {
+        let mut names = vec![self.name("a name")?];
+        while self.take_sign(",") {
+            names.push(self.name("a name")?);
+        }
+        let at = if self.take_word("AT") { Some(self.place()?) } else { None };
+        if self.is_sign(":=") {
+            let span = self.token().span;
+            let message = "the type is missing before the initial value";
+            let found = Diagnostic::new(Code::Syntax, span, message);
+            self.report(found.help("such as `Speed : INT := 5;`"));
+            return Err(Failed);
+        }
+        self.need_sign(":")?;
+        let of_type = self.type_text();
+        let initial = self.initial_value()?;
+        Ok(Declaration { names, at, of_type, initial })
+    }
+
+    fn initial_value(&mut self) -> Outcome<Option<crate::tree::Expression>> {
+        if self.is_sign("=") {
+            let span = self.token().span;
+            let message = "`=` compares, `:=` gives the initial value";
+            self.report(Diagnostic::new(Code::Assignment, span, message).suggest(":="));
+            self.step();
+        } else if !self.take_sign(":=") {
+            return Ok(None);
+        }
+        self.initial().map(Some)
+    }
+
+    /// What is after AT: `%I0.0` or `I0.0`, which is cut in two at the point.
+    fn place(&mut self) -> Outcome<Name> {
+        let first = self.step();
+        if !matches!(first.kind, Kind::Address | Kind::Word) {
+            return Err(self.expected("an address such as %I0.0"));
+        }
+        let mut span = first.span;
+        if first.kind == Kind::Word && self.is_sign(".") {
+            self.step();
+            span = joined(span, self.step().span);
+        }
+        let text = span.text(self.text);
+        Ok(Name { text: text.strip_prefix('%').unwrap_or(text).to_owned(), span })
+    }
+
+    fn types(&mut self, types: &mut Vec<TypeDeclaration>) {
+        let opened = self.step().span;
+        while self.is_name() {
+            match self.type_declaration() {
+                Ok(declared) => {
+                    self.semicolon();
+                    types.push(declared);
+                }
+                Err(Failed) => self.skip_statement(),
+            }
+        }
+        if !self.take_word("END_TYPE") {
+            self.missing("END_TYPE", Some((opened, "for this one")));
+        }
+        self.take_sign(";");
+    }
+
+    fn type_declaration(&mut self) -> Outcome<TypeDeclaration> {
+        let name = self.name("a name")?;
+        self.need_sign(":")?;
+        let of_type = self.type_text();
+        let initial = self.initial_value()?;
+        Ok(TypeDeclaration { name, of_type, initial })
+    }
+
+    /// A type. What cannot be read is reported.
+    fn type_text(&mut self) -> TypeText {
+        let start = self.token().span;
+        let kind = self.deeper(Parser::type_kind).unwrap_or(TypeTextKind::Missing);
+        TypeText { kind, span: joined(start, self.previous()) }
+    }
+
+    fn type_kind(&mut self) -> Outcome<TypeTextKind> {
+        if self.take_word("ARRAY") {
+            return self.array();
+        }
+        if self.is_word("STRUCT") {
+            let opened = self.step().span;
+            let members = self.declarations();
+            if !self.take_word("END_STRUCT") {
+                self.missing("END_STRUCT", Some((opened, "for this one")));
+            }
+            return Ok(TypeTextKind::Struct(members));
+        }
+        if self.take_sign("(") {
+            return self.enumeration();
+        }
+        let name = self.name("a type")?;
+        if self.is_sign("(") || self.is_sign("[") {
+            let close = if self.is_sign("(") { ")" } else { "]" };
+            let is_text = name.text.to_ascii_uppercase().ends_with("STRING");
+            while !self.is_at_end() && !self.is_sign(";") && !self.take_sign(close) {
+                self.step();
+            }
+            return Ok(if is_text { TypeTextKind::Text } else { TypeTextKind::Range });
+        }
+        Ok(TypeTextKind::Named(name.text))
+    }
+
+    fn array(&mut self) -> Outcome<TypeTextKind> {
+        self.need_sign("[")?;
+        let mut bounds = Vec::new();
+        loop {
+            let low = self.expression()?;
+            self.need_sign("..")?;
+            bounds.push((low, self.expression()?));
+            if !self.take_sign(",") {
+                break;
+            }
+        }
+        self.need_sign("]")?;
+        self.need_word("OF")?;
+        Ok(TypeTextKind::Array(bounds, Box::new(self.type_text())))
+    }
+
+    fn enumeration(&mut self) -> Outcome<TypeTextKind> {
+        let mut values = Vec::new();
+        loop {
+            let name = self.name("a name")?;
+            let value = if self.take_sign(":=") { Some(self.expression()?) } else { None };
+            values.push((name, value));
+            if !self.take_sign(",") {
+                break;
+            }
+        }
+        self.need_sign(")")?;
+        Ok(TypeTextKind::Enumeration(values))
+    }
+}

@@ -1,0 +1,138 @@
+//! Literals: what their characters mean as values.
+
+use diagnostics::Span;
+
+use super::Parser;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::tree::{Expression, ExpressionKind, Name};
+
+impl Parser<'_> {
+    pub(super) fn integer(&mut self, span: Span) -> ExpressionKind {
+        match number(span.text(self.text), 10) {
+            Some(value) => ExpressionKind::Integer(value),
+            None => self.bad_literal(span, "is no whole number that a type here has"),
+        }
+    }
+
+    pub(super) fn real(&mut self, span: Span) -> ExpressionKind {
+        let digits = span.text(self.text).replace('_', "");
+        match digits.parse::<f32>() {
+            Ok(value) if value.is_finite() => ExpressionKind::Real(value),
+            _ => self.bad_literal(span, "is no number that a REAL has"),
+        }
+    }
+
+    fn bad_literal(&mut self, span: Span, why: &str) -> ExpressionKind {
+        let message = format!("{} {why}", super::short(span.text(self.text)));
+        self.report(Diagnostic::new(Code::Syntax, span, message));
+        ExpressionKind::Missing
+    }
+
+    /// `16#FF`, `INT#5`, `DINT#16#FF`, `T#1s`, `State#Fill`.
+    pub(super) fn prefixed(&mut self, span: Span) -> ExpressionKind {
+        let text = span.text(self.text);
+        let Some((prefix, rest)) = text.split_once('#') else { return ExpressionKind::Missing };
+        if let Ok(base) = prefix.parse::<u32>() {
+            return match Some(base).filter(|base| [2, 8, 10, 16].contains(base)) {
+                Some(base) => match number(rest, base) {
+                    Some(value) => ExpressionKind::Integer(value),
+                    None => self.bad_literal(span, "has digits that its base does not have"),
+                },
+                None => self.bad_literal(span, "has no base: there are 2#, 8#, 10# and 16#"),
+            };
+        }
+        let kind = prefix.to_ascii_uppercase();
+        let after = span.start as usize + prefix.len() + 1;
+        let value_span = Span::new(after, span.end as usize);
+        match kind.as_str() {
+            "T" | "TIME" => match duration(rest) {
+                Some(ms) => ExpressionKind::Duration(ms),
+                None => self.bad_literal(span, "is no duration: write T#1m30s, T#1.5s or T#200ms"),
+            },
+            "BOOL" => match rest.to_ascii_uppercase().as_str() {
+                "1" | "TRUE" => ExpressionKind::Bool(true),
+                "0" | "FALSE" => ExpressionKind::Bool(false),
+                _ => self.bad_literal(span, "is no BOOL: TRUE, FALSE, 1 or 0"),
+            },
+            _ if rest.starts_with(|c: char| c.is_alphabetic() || c == '_') => {
+                let name = Name { text: rest.to_owned(), span: value_span };
+                ExpressionKind::Member(prefix.to_owned(), name)
+            }
+            _ => self.typed(prefix, rest, span, value_span),
+        }
+    }
+
+    fn typed(&mut self, prefix: &str, rest: &str, span: Span, value_span: Span) -> ExpressionKind {
+        let (sign, digits) = match rest.strip_prefix('-') {
+            Some(digits) => (-1, digits),
+            None => (1, rest.strip_prefix('+').unwrap_or(rest)),
+        };
+        let value = match digits.split_once('#') {
+            Some((base, digits)) => {
+                let base = base.parse().ok().filter(|base| [2, 8, 10, 16].contains(base));
+                base.and_then(|base| number(digits, base))
+            }
+            None => number(digits, 10),
+        };
+        let real = || digits.replace('_', "").parse::<f32>().ok().filter(|real| real.is_finite());
+        let kind = match (value, real()) {
+            (Some(value), _) => ExpressionKind::Integer(sign * value),
+            (None, Some(real)) => ExpressionKind::Real(sign as f32 * real),
+            (None, None) => return self.bad_literal(span, "is no number"),
+        };
+        ExpressionKind::Typed(prefix.to_owned(), Box::new(Expression { kind, span: value_span }))
+    }
+}
+
+/// Digits of a base with `_` between them; 0 to 2^32 - 1.
+fn number(text: &str, base: u32) -> Option<i64> {
+    let is_sound = !text.starts_with('_') && !text.ends_with('_') && !text.contains("__");
+    let digits = text.replace('_', "");
+    let is_plain = digits.bytes().all(|byte| byte.is_ascii_alphanumeric());
+    let value = i64::from_str_radix(&digits, base).ok().filter(|_| is_sound && is_plain)?;
+    (value <= i64::from(u32::MAX)).then_some(value)
+}
+
+/// `1d2h3m4s5ms`, units falling, the last with a fraction; milliseconds. What is less than a
+/// millisecond is rounded to the nearest, halves up.
+fn duration(text: &str) -> Option<i64> {
+    const UNITS: [(&str, i64); 5] =
+        [("d", 86_400_000), ("h", 3_600_000), ("m", 60_000), ("s", 1_000), ("ms", 1)];
+    let (is_negative, text) = match text.strip_prefix('-') {
+        Some(rest) => (true, rest),
+        None => (false, text.strip_prefix('+').unwrap_or(text)),
+    };
+    let lower = text.to_ascii_lowercase();
+    let mut rest = lower.as_str();
+    let (mut total, mut next_unit) = (0i64, 0);
+    while !rest.is_empty() {
+        let end = rest.find(|c: char| !c.is_ascii_digit() && c != '.')?;
+        let (digits, behind) = rest.split_at_checked(end)?;
+        let letters = behind.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(behind.len());
+        let (unit, after) = behind.split_at_checked(letters)?;
+        let place = UNITS.iter().position(|(name, _)| *name == unit)?;
+        if place < next_unit {
+            return None;
+        }
+        next_unit = place + 1;
+        total = total.checked_add(part(digits, UNITS.get(place)?.1, after.is_empty())?)?;
+        rest = after.strip_prefix('_').unwrap_or(after);
+    }
+    let is_there = next_unit > 0;
+    i32::try_from(if is_negative { -total } else { total }).ok().map(i64::from).filter(|_| is_there)
+}
+
+/// So many of a unit.
+fn part(digits: &str, factor: i64, is_last: bool) -> Option<i64> {
+    let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
+    if !is_last && digits.contains('.') || fraction.len() > 9 {
+        return None;
+    }
+    let whole = whole.parse::<i64>().ok()?.checked_mul(factor)?;
+    if fraction.is_empty() {
+        return (!digits.ends_with('.')).then_some(whole);
+    }
+    let scale = 10i64.pow(fraction.len() as u32);
+    let parts = fraction.parse::<i64>().ok()?.checked_mul(factor)?;
+    whole.checked_add((parts + scale / 2) / scale)
+}

@@ -1,0 +1,312 @@
+//! From tokens to the syntax tree: what all parts share. It reports all errors, each once, and goes
+//! on after the statement or declaration that has one.
+
+mod declarations;
+mod expressions;
+mod literals;
+mod statements;
+
+use diagnostics::{Source, Span};
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::lexer::{Kind, Token, cut};
+use crate::tree::{File, Name};
+
+/// How deep statements and brackets can be in each other.
+const DEPTH_MAX: u32 = 60;
+
+/// Words that name nothing.
+pub(crate) const KEYWORDS: [&str; 60] = [
+    "PROGRAM",
+    "END_PROGRAM",
+    "FUNCTION",
+    "END_FUNCTION",
+    "FUNCTION_BLOCK",
+    "END_FUNCTION_BLOCK",
+    "TYPE",
+    "END_TYPE",
+    "STRUCT",
+    "END_STRUCT",
+    "VAR",
+    "VAR_INPUT",
+    "VAR_OUTPUT",
+    "VAR_IN_OUT",
+    "VAR_TEMP",
+    "VAR_GLOBAL",
+    "VAR_EXTERNAL",
+    "END_VAR",
+    "CONSTANT",
+    "RETAIN",
+    "NON_RETAIN",
+    "AT",
+    "ARRAY",
+    "OF",
+    "IF",
+    "THEN",
+    "ELSIF",
+    "ELSE",
+    "END_IF",
+    "CASE",
+    "END_CASE",
+    "FOR",
+    "TO",
+    "BY",
+    "DO",
+    "END_FOR",
+    "WHILE",
+    "END_WHILE",
+    "REPEAT",
+    "UNTIL",
+    "END_REPEAT",
+    "EXIT",
+    "CONTINUE",
+    "RETURN",
+    "AND",
+    "OR",
+    "XOR",
+    "NOT",
+    "MOD",
+    "TRUE",
+    "FALSE",
+    "CONFIGURATION",
+    "RESOURCE",
+    "TASK",
+    "CLASS",
+    "METHOD",
+    "INTERFACE",
+    "NAMESPACE",
+    "GOTO",
+    "END_ELSIF",
+];
+
+/// Reads a text.
+pub fn parse(source: &Source) -> (File, Vec<Diagnostic>) {
+    let tokens = cut(&source.text);
+    let mut parser = Parser {
+        text: &source.text,
+        tokens: tokens.tokens,
+        at: 0,
+        depth: 0,
+        diagnostics: tokens.diagnostics,
+    };
+    let mut file = parser.file();
+    file.settings = tokens.settings;
+    (file, parser.diagnostics)
+}
+
+struct Parser<'t> {
+    text: &'t str,
+    tokens: Vec<Token>,
+    at: usize,
+    depth: u32,
+    diagnostics: Vec<Diagnostic>,
+}
+
+/// Says that something could not be read and is reported.
+struct Failed;
+
+type Outcome<T> = Result<T, Failed>;
+
+impl<'t> Parser<'t> {
+    fn token(&self) -> Token {
+        self.ahead(0)
+    }
+
+    fn ahead(&self, count: usize) -> Token {
+        let end = Token { kind: Kind::End, span: Span::new(self.text.len(), self.text.len()) };
+        self.tokens.get(self.at + count).copied().unwrap_or(end)
+    }
+
+    fn previous(&self) -> Span {
+        let before = self.at.checked_sub(1).and_then(|at| self.tokens.get(at));
+        before.map_or(Span::new(0, 0), |token| token.span)
+    }
+
+    fn step(&mut self) -> Token {
+        let token = self.token();
+        self.at = (self.at + 1).min(self.tokens.len());
+        token
+    }
+
+    fn text_of(&self, token: Token) -> &'t str {
+        token.span.text(self.text)
+    }
+
+    fn is_at_end(&self) -> bool {
+        self.token().kind == Kind::End
+    }
+
+    fn is_sign(&self, sign: &str) -> bool {
+        matches!(self.token().kind, Kind::Sign(found) if found == sign)
+    }
+
+    fn take_sign(&mut self, sign: &str) -> bool {
+        let is_there = self.is_sign(sign);
+        if is_there {
+            self.step();
+        }
+        is_there
+    }
+
+    fn word_at(&self, count: usize) -> &'t str {
+        let token = self.ahead(count);
+        if token.kind == Kind::Word { self.text_of(token) } else { "" }
+    }
+
+    fn is_word(&self, word: &str) -> bool {
+        self.word_at(0).eq_ignore_ascii_case(word)
+    }
+
+    fn is_one_of(&self, words: &[&str]) -> bool {
+        words.iter().any(|word| self.is_word(word))
+    }
+
+    fn take_word(&mut self, word: &str) -> bool {
+        let is_there = self.is_word(word);
+        if is_there {
+            self.step();
+        }
+        is_there
+    }
+
+    /// Whether what is ahead can be a name.
+    fn is_name(&self) -> bool {
+        let word = self.word_at(0);
+        !word.is_empty() && !is_keyword(word)
+    }
+
+    fn name(&mut self, what: &str) -> Outcome<Name> {
+        if !self.is_name() {
+            return Err(self.expected(what));
+        }
+        let token = self.step();
+        Ok(Name { text: self.text_of(token).to_owned(), span: token.span })
+    }
+
+    fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// Reports that something else should be here.
+    fn expected(&mut self, what: &str) -> Failed {
+        let token = self.token();
+        let message = match token.kind {
+            Kind::End => format!("{what} is missing at the end of the text"),
+            _ => format!("`{}`: {what} is expected here", short(self.text_of(token))),
+        };
+        self.report(Diagnostic::new(Code::Syntax, token.span, message));
+        Failed
+    }
+
+    /// Takes a sign, or reports that it is missing after what is before.
+    fn need_sign(&mut self, sign: &str) -> Outcome<()> {
+        if self.take_sign(sign) {
+            return Ok(());
+        }
+        Err(self.expected(&format!("`{sign}`")))
+    }
+
+    fn need_word(&mut self, word: &str) -> Outcome<()> {
+        if self.take_word(word) {
+            return Ok(());
+        }
+        Err(self.expected(word))
+    }
+
+    /// Reports that a word or sign is missing at the end of what was read.
+    fn missing(&mut self, what: &str, opened: Option<(Span, &str)>) {
+        let end = self.previous().end as usize;
+        let start = self.previous().start as usize;
+        let before = self.text.get(start..end).and_then(|text| text.char_indices().last());
+        let last = start + before.map_or(0, |(at, _)| at);
+        let span = Span::new(last, end);
+        let mut found = Diagnostic::new(Code::Missing, span, format!("`{what}` is missing"))
+            .label(format!("`{what}` belongs after this"));
+        if let Some((span, words)) = opened {
+            found = found.related(span, words);
+        }
+        self.report(found);
+    }
+
+    /// The end of a statement or declaration. Where `;` is missing but something new begins, it is
+    /// reported and taken for there.
+    fn semicolon(&mut self) {
+        if self.take_sign(";") {
+            while self.take_sign(";") {}
+            return;
+        }
+        self.missing(";", None);
+        let between = self.previous().end as usize..self.token().span.start as usize;
+        if !self.text.get(between).unwrap_or("").contains('\n') {
+            self.skip_statement();
+        }
+    }
+
+    /// Goes on after the next `;`, or before a word that ends or begins something.
+    fn skip_statement(&mut self) {
+        while !self.is_at_end() {
+            if self.take_sign(";") || self.is_boundary() {
+                return;
+            }
+            self.step();
+        }
+    }
+
+    fn is_boundary(&self) -> bool {
+        let word = self.word_at(0);
+        let is_end = word.get(..4).is_some_and(|start| start.eq_ignore_ascii_case("END_"));
+        let begins = [
+            "IF",
+            "CASE",
+            "FOR",
+            "WHILE",
+            "REPEAT",
+            "UNTIL",
+            "ELSE",
+            "ELSIF",
+            "EXIT",
+            "CONTINUE",
+            "RETURN",
+            "PROGRAM",
+            "FUNCTION",
+            "FUNCTION_BLOCK",
+            "TYPE",
+            "VAR",
+            "VAR_INPUT",
+            "VAR_OUTPUT",
+            "VAR_IN_OUT",
+            "VAR_TEMP",
+            "VAR_GLOBAL",
+            "VAR_EXTERNAL",
+        ];
+        is_end && is_keyword(word) || self.is_one_of(&begins)
+    }
+
+    /// Goes one level deeper, or reports that it is too deep.
+    fn deeper<T>(&mut self, read: impl FnOnce(&mut Self) -> Outcome<T>) -> Outcome<T> {
+        if self.depth == DEPTH_MAX {
+            let span = self.token().span;
+            let message = format!("more than {DEPTH_MAX} levels of brackets and statements");
+            self.report(Diagnostic::new(Code::Syntax, span, message));
+            // Nothing that follows can be understood.
+            self.at = self.tokens.len();
+            return Err(Failed);
+        }
+        self.depth += 1;
+        let outcome = read(self);
+        self.depth -= 1;
+        outcome
+    }
+}
+
+/// Whether a word names nothing.
+pub(crate) fn is_keyword(word: &str) -> bool {
+    KEYWORDS.iter().any(|keyword| keyword.eq_ignore_ascii_case(word))
+}
+
+fn short(text: &str) -> String {
+    match text.char_indices().nth(30) {
+        Some((at, _)) => format!("{}...", text.get(..at).unwrap_or("")),
+        None => text.to_owned(),
+    }
+}

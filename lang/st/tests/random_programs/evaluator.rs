@@ -1,0 +1,552 @@
+//! A naive evaluator of the syntax tree, written from docs/structured-text.md alone: it looks up
+//! every name and every type when it gets there. It uses nothing of the compiler but the parser.
+
+use std::collections::HashMap;
+
+use super::values::{Kind, Value, as_type, binary, convert, shift, unary, whole};
+use st::tree::{
+    Argument, BinaryOperator, CaseArm, Expression, ExpressionKind, File, Name, Section,
+    SectionKind, Selector, Statement, StatementKind, TypeText, TypeTextKind, UnaryOperator, Unit,
+    UnitKind,
+};
+
+/// What a statement leaves.
+enum Flow {
+    On,
+    Exit,
+    Continue,
+    Return,
+}
+
+/// A program that is being evaluated.
+pub struct Evaluator {
+    file: File,
+    /// Variables by their full name, upper case.
+    pub values: HashMap<String, Value>,
+    /// Bounds of arrays by their full name.
+    bounds: HashMap<String, Vec<(i64, i64)>>,
+    /// The types of instances by their full name.
+    instances: HashMap<String, String>,
+    /// Enumerations: their values by name.
+    enumerators: HashMap<String, i64>,
+    /// For timers and edges: what they remember, by instance.
+    since: HashMap<String, Option<u64>>,
+    was_on: HashMap<String, bool>,
+    now: u64,
+}
+
+fn upper(text: &str) -> String {
+    text.to_uppercase()
+}
+
+impl Evaluator {
+    pub fn new(file: File) -> Evaluator {
+        let mut evaluator = Evaluator {
+            file: file.clone(),
+            values: HashMap::new(),
+            bounds: HashMap::new(),
+            instances: HashMap::new(),
+            enumerators: HashMap::new(),
+            since: HashMap::new(),
+            was_on: HashMap::new(),
+            now: 0,
+        };
+        for declared in &file.types {
+            if let TypeTextKind::Enumeration(values) = &declared.of_type.kind {
+                for (at, (name, _)) in (0i64..).zip(values) {
+                    evaluator.enumerators.insert(upper(&name.text), at);
+                }
+            }
+        }
+        for section in &file.globals {
+            evaluator.declare(section, "");
+        }
+        for unit in &file.units {
+            if matches!(unit.kind, UnitKind::Program) {
+                for section in &unit.sections {
+                    evaluator.declare(section, &upper(&unit.name.text));
+                }
+            }
+        }
+        evaluator
+    }
+
+    fn declare(&mut self, section: &Section, prefix: &str) {
+        for declared in &section.declarations {
+            for name in &declared.names {
+                let full = join(prefix, &name.text);
+                self.declare_one(&full, &declared.of_type, declared.initial.as_ref());
+            }
+        }
+    }
+
+    fn declare_one(&mut self, full: &str, text: &TypeText, initial: Option<&Expression>) {
+        match &text.kind {
+            TypeTextKind::Named(name) => {
+                let name = upper(name);
+                if name == "BOOL" || name == "REAL" || Kind::of(&name).is_some() {
+                    let value = initial.map_or(Value::Open(0), |one| self.expression(one, ""));
+                    self.values.insert(full.to_owned(), as_type(value, &name));
+                    return;
+                }
+                if self.enumeration(&name) {
+                    self.values.insert(full.to_owned(), Value::Number(Kind::Int, 0));
+                    return;
+                }
+                self.instances.insert(full.to_owned(), name.clone());
+                for (parameter, kind) in standard_variables(&name) {
+                    let value = as_type(Value::Open(0), kind);
+                    self.values.insert(format!("{full}.{parameter}"), value);
+                }
+                let unit = self.unit(&name);
+                for section in unit.iter().flat_map(|unit| &unit.sections) {
+                    self.declare(section, full);
+                }
+            }
+            TypeTextKind::Array(bounds, of) => {
+                let known: Vec<(i64, i64)> = bounds
+                    .iter()
+                    .map(|(low, high)| (number(&low.kind), number(&high.kind)))
+                    .collect();
+                let count: i64 = known.iter().map(|(low, high)| high - low + 1).product();
+                self.bounds.insert(full.to_owned(), known);
+                for at in 0..count {
+                    self.declare_one(&format!("{full}[{at}]"), of, None);
+                }
+            }
+            other => panic!("not evaluated: {other:?}"),
+        }
+    }
+
+    fn enumeration(&self, name: &str) -> bool {
+        self.file.types.iter().any(|declared| upper(&declared.name.text) == name)
+    }
+
+    fn unit(&self, name: &str) -> Option<Unit> {
+        self.file.units.iter().find(|unit| upper(&unit.name.text) == name).cloned()
+    }
+
+    /// One scan that begins at a time.
+    pub fn scan(&mut self, now: u64) {
+        self.now = now;
+        self.go_on();
+        for unit in self.file.units.clone() {
+            if matches!(unit.kind, UnitKind::Program) {
+                self.run(&unit.body, &upper(&unit.name.text));
+            }
+        }
+    }
+
+    /// Timers that run show the time since they began, whether or not they are called.
+    fn go_on(&mut self) {
+        for (instance, block) in self.instances.clone() {
+            let Some(began) = self.since.get(&instance).copied().flatten() else { continue };
+            let (on, q) = (self.bit(&instance, "IN"), self.bit(&instance, "Q"));
+            let runs = match block.as_str() {
+                "TON" => on && !q,
+                "TOF" => !on && q,
+                _ => q,
+            };
+            if runs {
+                self.set(&instance, "ET", Value::Open((self.now - began) as i64));
+            }
+        }
+    }
+
+    fn run(&mut self, body: &[Statement], prefix: &str) -> Flow {
+        for statement in body {
+            match self.statement(statement, prefix) {
+                Flow::On => {}
+                other => return other,
+            }
+        }
+        Flow::On
+    }
+
+    fn statement(&mut self, statement: &Statement, prefix: &str) -> Flow {
+        match &statement.kind {
+            StatementKind::Assign(target, value) => {
+                let value = self.expression(value, prefix);
+                let place = self.place(target, prefix);
+                self.write(&place, value);
+            }
+            StatementKind::Call(target, arguments) => self.call(target, arguments, prefix),
+            StatementKind::If(arms, otherwise) => {
+                for (condition, body) in arms {
+                    if self.is_true(condition, prefix) {
+                        return self.run(body, prefix);
+                    }
+                }
+                return self.run(otherwise, prefix);
+            }
+            StatementKind::Case(selector, arms, otherwise) => {
+                return self.case(selector, arms, otherwise, prefix);
+            }
+            StatementKind::For(one) => return self.for_loop(one, prefix),
+            StatementKind::While(condition, body) => {
+                while self.is_true(condition, prefix) {
+                    match self.run(body, prefix) {
+                        Flow::Exit => break,
+                        Flow::Return => return Flow::Return,
+                        Flow::On | Flow::Continue => {}
+                    }
+                }
+            }
+            StatementKind::Repeat(body, condition) => loop {
+                match self.run(body, prefix) {
+                    Flow::Exit => break,
+                    Flow::Return => return Flow::Return,
+                    Flow::On | Flow::Continue => {}
+                }
+                if self.is_true(condition, prefix) {
+                    break;
+                }
+            },
+            StatementKind::Exit => return Flow::Exit,
+            StatementKind::Continue => return Flow::Continue,
+            StatementKind::Return => return Flow::Return,
+        }
+        Flow::On
+    }
+
+    fn is_true(&mut self, condition: &Expression, prefix: &str) -> bool {
+        self.expression(condition, prefix) == Value::Bool(true)
+    }
+
+    fn case(
+        &mut self,
+        selector: &Expression,
+        arms: &[CaseArm],
+        otherwise: &[Statement],
+        prefix: &str,
+    ) -> Flow {
+        let value = whole(self.expression(selector, prefix));
+        for arm in arms {
+            for (low, high) in &arm.labels {
+                let low = whole(self.expression(low, prefix));
+                let high = high.as_ref().map_or(low, |high| whole(self.expression(high, prefix)));
+                if (low..=high).contains(&value) {
+                    return self.run(&arm.body, prefix);
+                }
+            }
+        }
+        self.run(otherwise, prefix)
+    }
+
+    fn for_loop(&mut self, one: &st::tree::ForLoop, prefix: &str) -> Flow {
+        let from = self.expression(&one.from, prefix);
+        let to = whole(self.expression(&one.to, prefix));
+        let by = one.by.as_ref().map_or(1, |by| whole(self.expression(by, prefix)));
+        let place = self.place(&one.variable, prefix);
+        self.write(&place, from);
+        let is_past = |value: i64| if by > 0 { value > to } else { value < to };
+        if is_past(whole(self.values[&place])) {
+            return Flow::On;
+        }
+        loop {
+            match self.run(&one.body, prefix) {
+                Flow::Exit => return Flow::On,
+                Flow::Return => return Flow::Return,
+                Flow::On | Flow::Continue => {}
+            }
+            let next = whole(self.values[&place]) + by;
+            if is_past(next) {
+                return Flow::On;
+            }
+            self.write(&place, Value::Open(next));
+        }
+    }
+
+    /// The full name of a variable.
+    fn place(&mut self, target: &Expression, prefix: &str) -> String {
+        let ExpressionKind::Variable(name, selectors) = &target.kind else {
+            panic!("not evaluated: {target:?}")
+        };
+        self.named(name, selectors, prefix)
+    }
+
+    fn named(&mut self, name: &Name, selectors: &[Selector], prefix: &str) -> String {
+        let local = join(prefix, &name.text);
+        let is_local = self.values.contains_key(&local)
+            || self.bounds.contains_key(&local)
+            || self.instances.contains_key(&local);
+        let mut full = if is_local { local } else { upper(&name.text) };
+        for selector in selectors {
+            match selector {
+                Selector::Field(field) => full = join(&full, &field.text),
+                Selector::Index(indexes) => {
+                    let bounds = self.bounds[&full].clone();
+                    let mut at = 0;
+                    for (index, (low, high)) in indexes.iter().zip(bounds) {
+                        let index = whole(self.expression(index, prefix)).clamp(low, high);
+                        at = at * (high - low + 1) + index - low;
+                    }
+                    full = format!("{full}[{at}]");
+                }
+            }
+        }
+        full
+    }
+
+    fn write(&mut self, place: &str, value: Value) {
+        let slot = self.values.get_mut(place).unwrap_or_else(|| panic!("no {place}"));
+        *slot = match (*slot, value) {
+            (Value::Number(kind, _), Value::Number(_, value) | Value::Open(value)) => {
+                Value::Number(kind, value)
+            }
+            (Value::Real(_), Value::Number(_, value) | Value::Open(value)) => {
+                Value::Real(value as f32)
+            }
+            (Value::Bool(_), Value::Open(value)) => Value::Bool(value != 0),
+            (_, value) => value,
+        };
+    }
+
+    fn call(&mut self, target: &Expression, arguments: &[Argument], prefix: &str) {
+        let instance = self.place(target, prefix);
+        let block = self.instances[&instance].clone();
+        let unit = self.unit(&block);
+        let order: Vec<String> = match &unit {
+            Some(unit) => unit
+                .sections
+                .iter()
+                .filter(|section| matches!(section.kind, SectionKind::Input | SectionKind::InOut))
+                .flat_map(|section| &section.declarations)
+                .flat_map(|declared| &declared.names)
+                .map(|name| upper(&name.text))
+                .collect(),
+            None => standard_variables(&block).iter().map(|(name, _)| (*name).to_owned()).collect(),
+        };
+        let mut given: Vec<(String, &Argument)> = Vec::new();
+        for (at, argument) in arguments.iter().enumerate() {
+            let name = argument.name.as_ref().map(|name| upper(&name.text));
+            given.push((name.unwrap_or_else(|| order[at].clone()), argument));
+        }
+        for name in &order {
+            for (_, argument) in
+                given.iter().filter(|(one, one_of)| one == name && !one_of.is_output)
+            {
+                let value = self.expression(&argument.value, prefix);
+                self.write(&format!("{instance}.{name}"), value);
+            }
+        }
+        match unit {
+            Some(unit) => drop(self.run(&unit.body, &instance)),
+            None => self.standard_block(&block, &instance),
+        }
+        let is_in_out = |name: &str| {
+            let unit = self.unit(&block);
+            let sections = unit.iter().flat_map(|unit| unit.sections.iter());
+            let mut names = sections
+                .filter(|section| section.kind == SectionKind::InOut)
+                .flat_map(|section| &section.declarations)
+                .flat_map(|declared| declared.names.clone())
+                .collect::<Vec<_>>();
+            names.retain(|one| upper(&one.text) == name);
+            !names.is_empty()
+        };
+        let back: Vec<(String, &Argument)> =
+            given.iter().filter(|(name, one)| one.is_output || is_in_out(name)).cloned().collect();
+        for (name, argument) in back {
+            let value = self.values[&format!("{instance}.{name}")];
+            let place = self.place(&argument.value, prefix);
+            self.write(&place, value);
+        }
+    }
+
+    fn bit(&self, instance: &str, name: &str) -> bool {
+        self.values[&format!("{instance}.{name}")] == Value::Bool(true)
+    }
+
+    fn set(&mut self, instance: &str, name: &str, value: Value) {
+        self.write(&format!("{instance}.{name}"), value);
+    }
+
+    /// Timers by the time at which they began, not by counting.
+    fn standard_block(&mut self, block: &str, instance: &str) {
+        let was_on = self.was_on.get(instance).copied().unwrap_or(false);
+        let number =
+            |evaluator: &Self, name: &str| whole(evaluator.values[&format!("{instance}.{name}")]);
+        match block {
+            "TON" | "TOF" | "TP" => self.timer(block, instance, was_on),
+            "R_TRIG" => {
+                let clk = self.bit(instance, "CLK");
+                self.set(instance, "Q", Value::Bool(clk && !was_on));
+                self.was_on.insert(instance.to_owned(), clk);
+            }
+            "CTU" => {
+                let (cu, reset) = (self.bit(instance, "CU"), self.bit(instance, "R"));
+                let count = number(self, "CV");
+                let next = match (reset, cu && !was_on) {
+                    (true, _) => 0,
+                    (false, true) => (count + 1).min(32767),
+                    _ => count,
+                };
+                self.set(instance, "CV", Value::Open(next));
+                let preset = number(self, "PV");
+                self.set(instance, "Q", Value::Bool(next >= preset));
+                self.was_on.insert(instance.to_owned(), cu);
+            }
+            other => panic!("not evaluated: {other}"),
+        }
+    }
+
+    fn timer(&mut self, block: &str, instance: &str, was_on: bool) {
+        let on = self.bit(instance, "IN");
+        let preset = whole(self.values[&format!("{instance}.PT")]);
+        let began = self.since.get(instance).copied().flatten();
+        let passed = began.map(|began| (self.now - began) as i64);
+        let (mut began, mut q, mut elapsed) = (began, false, 0);
+        match block {
+            "TON" => {
+                if on && !was_on {
+                    began = Some(self.now);
+                }
+                if on {
+                    let passed = if was_on { passed.unwrap_or(0) } else { 0 };
+                    q = passed >= preset;
+                    elapsed = passed.min(preset);
+                }
+            }
+            "TOF" => {
+                if !on && was_on {
+                    began = Some(self.now);
+                }
+                if on {
+                    q = true;
+                } else if let Some(began) = began {
+                    let passed = (self.now - began) as i64;
+                    q = passed < preset;
+                    elapsed = passed.min(preset);
+                }
+            }
+            _ => {
+                let was_q = self.bit(instance, "Q");
+                let is_over = began.is_some_and(|began| (self.now - began) as i64 >= preset);
+                if on && !was_on && !was_q {
+                    began = Some(self.now);
+                    q = preset > 0;
+                } else if was_q {
+                    q = !is_over;
+                }
+                if let Some(began) = began {
+                    elapsed = ((self.now - began) as i64).min(preset);
+                }
+                if !q && !on {
+                    (elapsed, began) = (0, None);
+                }
+            }
+        }
+        self.since.insert(instance.to_owned(), began);
+        self.was_on.insert(instance.to_owned(), on);
+        self.set(instance, "Q", Value::Bool(q));
+        self.set(instance, "ET", Value::Open(elapsed));
+    }
+
+    fn expression(&mut self, expression: &Expression, prefix: &str) -> Value {
+        match &expression.kind {
+            ExpressionKind::Integer(value) => Value::Open(*value),
+            ExpressionKind::Real(value) => Value::Real(*value),
+            ExpressionKind::Bool(value) => Value::Bool(*value),
+            ExpressionKind::Duration(ms) => Value::Number(Kind::Time, *ms),
+            ExpressionKind::Typed(name, value) => {
+                let value = self.expression(value, prefix);
+                as_type(value, &upper(name))
+            }
+            ExpressionKind::Variable(name, selectors) => {
+                if let Some(value) = self.enumerators.get(&upper(&name.text)) {
+                    return Value::Number(Kind::Int, *value);
+                }
+                let place = self.named(name, selectors, prefix);
+                *self.values.get(&place).unwrap_or_else(|| panic!("no {place}"))
+            }
+            ExpressionKind::Unary(operator, operand) => {
+                let value = self.expression(operand, prefix);
+                unary(*operator, value)
+            }
+            ExpressionKind::Binary(operator, left, right) => {
+                let left = self.expression(left, prefix);
+                let right = self.expression(right, prefix);
+                binary(*operator, left, right)
+            }
+            ExpressionKind::Call(name, arguments) => self.function(name, arguments, prefix),
+            other => panic!("not evaluated: {other:?}"),
+        }
+    }
+
+    fn function(&mut self, name: &Name, arguments: &[Argument], prefix: &str) -> Value {
+        let values: Vec<Value> =
+            arguments.iter().map(|one| self.expression(&one.value, prefix)).collect();
+        let name = upper(&name.text);
+        if let Some(unit) = self.unit(&name) {
+            return self.own_function(&unit, &values);
+        }
+        if let Some((_, to)) = name.split_once("_TO_") {
+            return convert(values[0], to);
+        }
+        let best = |is_better: fn(Value, Value) -> bool| {
+            let mut best = values[0];
+            for &next in &values[1..] {
+                if is_better(next, best) {
+                    best = next;
+                }
+            }
+            best
+        };
+        let is_less = |a, b| binary(BinaryOperator::Less, a, b) == Value::Bool(true);
+        let is_greater = |a, b| binary(BinaryOperator::Greater, a, b) == Value::Bool(true);
+        match name.as_str() {
+            "ABS" => match values[0] {
+                Value::Real(value) => Value::Real(value.abs()),
+                value if whole(value) < 0 => unary(UnaryOperator::Minus, value),
+                value => value,
+            },
+            "MIN" => best(is_less),
+            "MAX" => best(is_greater),
+            "SEL" if values[0] == Value::Bool(true) => values[2],
+            "SEL" => values[1],
+            "SHL" | "SHR" | "ROL" | "ROR" => shift(&name, values[0], whole(values[1])),
+            other => panic!("not evaluated: {other}"),
+        }
+    }
+
+    fn own_function(&mut self, unit: &Unit, values: &[Value]) -> Value {
+        let UnitKind::Function(result) = &unit.kind else { panic!("no function") };
+        let prefix = upper(&unit.name.text);
+        for section in &unit.sections {
+            self.declare(section, &prefix);
+        }
+        let name = join(&prefix, &unit.name.text);
+        self.declare_one(&name, result, None);
+        let inputs = unit.sections.iter().filter(|section| section.kind == SectionKind::Input);
+        let names = inputs.flat_map(|section| &section.declarations).flat_map(|one| &one.names);
+        for (name, value) in names.zip(values) {
+            self.write(&join(&prefix, &name.text), *value);
+        }
+        self.run(&unit.body, &prefix);
+        self.values[&name]
+    }
+}
+
+fn join(prefix: &str, name: &str) -> String {
+    match prefix {
+        "" => upper(name),
+        prefix => format!("{prefix}.{}", upper(name)),
+    }
+}
+
+fn standard_variables(name: &str) -> &'static [(&'static str, &'static str)] {
+    match name {
+        "TON" | "TOF" | "TP" => &[("IN", "BOOL"), ("PT", "TIME"), ("Q", "BOOL"), ("ET", "TIME")],
+        "CTU" => &[("CU", "BOOL"), ("R", "BOOL"), ("PV", "INT"), ("Q", "BOOL"), ("CV", "INT")],
+        "R_TRIG" => &[("CLK", "BOOL"), ("Q", "BOOL")],
+        _ => &[],
+    }
+}
+
+fn number(kind: &ExpressionKind) -> i64 {
+    match kind {
+        ExpressionKind::Integer(value) => *value,
+        other => panic!("no number: {other:?}"),
+    }
+}

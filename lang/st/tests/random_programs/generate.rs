@@ -1,0 +1,429 @@
+//! Random programs that compile: every expression has the type that is asked for.
+
+use fastrand::Rng;
+
+/// Variables of the program by type; those that the test writes are the first of each.
+pub const VARIABLES: [(&str, &[&str]); 6] = [
+    ("INT", &["gi", "gj", "a", "b", "c"]),
+    ("DINT", &["gd", "d", "e"]),
+    ("BOOL", &["gp", "gq", "gr", "p", "q", "r"]),
+    ("WORD", &["gw", "w", "x"]),
+    ("REAL", &["gy", "y", "z"]),
+    ("TIME", &["t", "u"]),
+];
+
+const EDGES: [i64; 14] = [0, 1, -1, 2, 3, 5, 7, 10, 100, 255, 300, 32767, -32768, 181];
+
+pub struct Generator {
+    rng: Rng,
+    depth: u32,
+    in_function: bool,
+    in_block: bool,
+    loops: u32,
+    whiles: u32,
+}
+
+impl Generator {
+    pub fn program(seed: u64) -> String {
+        let mut one = Generator {
+            rng: Rng::with_seed(seed),
+            depth: 0,
+            in_function: false,
+            in_block: false,
+            loops: 0,
+            whiles: 0,
+        };
+        one.text()
+    }
+
+    fn text(&mut self) -> String {
+        let mut text = String::from("TYPE State : (Idle, Run, Done); END_TYPE\nVAR_GLOBAL\n");
+        for (kind, names) in VARIABLES {
+            let written: Vec<&str> =
+                names.iter().copied().filter(|name| name.starts_with('g')).collect();
+            if !written.is_empty() {
+                text += &format!("{} : {kind};\n", written.join(", "));
+            }
+        }
+        text += "gt : TIME := T#35ms;\nEND_VAR\n";
+        text += &self.function();
+        text += &self.block();
+        text += "PROGRAM Main\nVAR\n";
+        for (kind, names) in VARIABLES {
+            let own: Vec<&str> =
+                names.iter().copied().filter(|name| !name.starts_with('g')).collect();
+            text += &format!("{} : {kind};\n", own.join(", "));
+        }
+        text += "i1, i2, i3, k1, k2, k3 : INT;\n";
+        text += "list : ARRAY[1..5] OF INT;\nflags : ARRAY[0..3] OF BOOL;\n";
+        text += "grid : ARRAY[0..2, -1..1] OF DINT;\n";
+        text += "s : State;\nton1 : TON; tof1 : TOF; tp1 : TP; ton2 : TON; count1 : CTU;\n";
+        text += "edge1 : R_TRIG;\none, two : Block;\nEND_VAR\n";
+        let count = self.rng.usize(3..10);
+        text += &self.statements(count);
+        text + "END_PROGRAM\n"
+    }
+
+    fn function(&mut self) -> String {
+        self.in_function = true;
+        let mut text = String::from(
+            "FUNCTION Compute : INT\nVAR_INPUT a, b : INT; p : BOOL; END_VAR\nVAR c : INT; \
+             END_VAR\n",
+        );
+        for _ in 0..self.rng.usize(1..4) {
+            let value = self.whole("INT");
+            let target = self.pick(&["c", "Compute"]);
+            text += &match self.rng.bool() {
+                true => format!("{target} := {value};\n"),
+                false => format!("IF {} THEN {target} := {value}; END_IF;\n", self.condition()),
+            };
+        }
+        self.in_function = false;
+        text + "Compute := Compute + c;\nEND_FUNCTION\n"
+    }
+
+    fn block(&mut self) -> String {
+        self.in_block = true;
+        let mut text = String::from(
+            "FUNCTION_BLOCK Block\nVAR_INPUT p : BOOL; a : INT; END_VAR\nVAR_OUTPUT q : BOOL; \
+             b : INT; END_VAR\nVAR_IN_OUT c : INT; END_VAR\nVAR d : DINT; delay : TON; \
+             END_VAR\n",
+        );
+        for _ in 0..self.rng.usize(1..5) {
+            text += &match self.rng.u8(..5) {
+                0 => format!("b := {};\n", self.whole("INT")),
+                1 => format!("q := {};\n", self.condition()),
+                2 => format!("IF {} THEN c := {}; END_IF;\n", self.condition(), self.whole("INT")),
+                3 => format!("d := {};\n", self.whole("DINT")),
+                _ => format!("delay(IN := {}, PT := T#40ms); q := delay.Q;\n", self.condition()),
+            };
+        }
+        if self.rng.u8(..4) == 0 {
+            text += &format!("IF {} THEN RETURN; END_IF;\nb := b + 1;\n", self.condition());
+        }
+        self.in_block = false;
+        text + "END_FUNCTION_BLOCK\n"
+    }
+
+    fn pick<'t>(&mut self, list: &[&'t str]) -> &'t str {
+        list[self.rng.usize(..list.len())]
+    }
+
+    fn variable(&mut self, kind: &str) -> String {
+        if self.in_function {
+            return self.pick(&["a", "b", "c"]).to_owned();
+        }
+        if self.in_block {
+            return match kind {
+                "INT" => self.pick(&["a", "b", "c", "gi"]),
+                _ => self.pick(&["d", "gd"]),
+            }
+            .to_owned();
+        }
+        let names = VARIABLES.iter().find(|(one, _)| *one == kind).map(|(_, names)| *names);
+        match (kind, self.rng.u8(..6)) {
+            ("INT", 0) => format!("list[{}]", self.index(1, 5)),
+            ("DINT", 0) => format!("grid[{}, {}]", self.index(0, 2), self.index(-1, 1)),
+            ("BOOL", 0) => format!("flags[{}]", self.index(0, 3)),
+            _ => self.pick(names.unwrap_or(&["a"])).to_owned(),
+        }
+    }
+
+    fn index(&mut self, low: i64, high: i64) -> String {
+        match self.rng.u8(..3) {
+            0 => self.rng.i64(low..=high).to_string(),
+            _ => self.pick(&["gi", "a", "b", "i1", "gi + 1"]).to_owned(),
+        }
+    }
+
+    fn statements(&mut self, count: usize) -> String {
+        (0..count).map(|_| self.statement()).collect()
+    }
+
+    fn some(&mut self) -> String {
+        let count = self.rng.usize(1..4);
+        self.statements(count)
+    }
+
+    fn statement(&mut self) -> String {
+        self.depth += 1;
+        let choice = if self.depth > 3 { self.rng.u8(..6) } else { self.rng.u8(..16) };
+        let text = match choice {
+            0 | 1 => self.assignment("INT"),
+            2 => self.assignment("DINT"),
+            3 => self.assignment("BOOL"),
+            4 => {
+                let kind = self.pick(&["WORD", "REAL", "TIME"]);
+                self.assignment(kind)
+            }
+            5 | 6 => {
+                let value = self.pick(&["TRUE", "FALSE"]);
+                format!(
+                    "IF {} THEN {} := {value}; END_IF;\n",
+                    self.condition(),
+                    self.target("BOOL")
+                )
+            }
+            7 | 8 => self.if_statement(),
+            9 => self.case(),
+            10 | 11 => self.for_loop(),
+            12 => self.while_loop(),
+            13 => self.call(),
+            14 => format!("s := {};\n", self.pick(&["Idle", "Run", "Done"])),
+            _ => self.machine(),
+        };
+        self.depth -= 1;
+        text
+    }
+
+    /// A variable that is written.
+    fn target(&mut self, kind: &str) -> String {
+        self.variable(kind)
+    }
+
+    fn assignment(&mut self, kind: &str) -> String {
+        let target = self.target(kind);
+        format!("{target} := {};\n", self.value(kind))
+    }
+
+    fn value(&mut self, kind: &str) -> String {
+        match kind {
+            "BOOL" => self.condition(),
+            "WORD" => self.bits(),
+            "REAL" => self.real(),
+            "TIME" => self.time(),
+            kind => self.whole(kind),
+        }
+    }
+
+    fn if_statement(&mut self) -> String {
+        let mut text = format!("IF {} THEN\n{}", self.condition(), self.some());
+        for _ in 0..self.rng.usize(..3) {
+            text += &format!("ELSIF {} THEN\n{}", self.condition(), self.some());
+        }
+        if self.rng.bool() {
+            text += &format!("ELSE\n{}", self.some());
+        }
+        text + "END_IF;\n"
+    }
+
+    fn case(&mut self) -> String {
+        let selector = if self.rng.bool() { "gi".to_owned() } else { self.whole("INT") };
+        let mut text = format!("CASE {selector} OF\n");
+        text += &format!("0: {}", self.some());
+        text += &format!("1, 3..5: {}", self.some());
+        text += &format!("-10..-1: {}", self.some());
+        if self.rng.bool() {
+            text += &format!("ELSE\n{}", self.some());
+        }
+        text + "END_CASE;\n"
+    }
+
+    fn machine(&mut self) -> String {
+        let mut text = "CASE s OF\n".to_owned();
+        for (state, next) in [("Idle", "Run"), ("Run", "Done"), ("Done", "Idle")] {
+            let condition = self.condition();
+            text += &format!("{state}: IF {condition} THEN s := {next}; END_IF;\n");
+        }
+        text + "END_CASE;\n"
+    }
+
+    fn leave(&mut self) -> String {
+        match self.rng.u8(..4) {
+            0 => format!("IF {} THEN EXIT; END_IF;\n", self.condition()),
+            1 => format!("IF {} THEN CONTINUE; END_IF;\n", self.condition()),
+            _ => String::new(),
+        }
+    }
+
+    fn for_loop(&mut self) -> String {
+        if self.loops == 3 {
+            return self.assignment("INT");
+        }
+        self.loops += 1;
+        let number = self.loops;
+        let (from, to) = (self.rng.i64(-3..4), self.rng.i64(-3..8));
+        let by = match self.rng.u8(..4) {
+            0 => " BY -1".to_owned(),
+            1 => format!(" BY {}", self.rng.i64(2..5)),
+            _ => String::new(),
+        };
+        let to = match self.rng.u8(..3) {
+            0 => "MIN(gj, 6)".to_owned(),
+            _ => to.to_string(),
+        };
+        let by = if to.starts_with('M') { by.replace("-1", "2") } else { by };
+        let body = self.some() + &self.leave() + &self.some();
+        self.loops -= 1;
+        format!("FOR i{number} := {from} TO {to}{by} DO\n{body}END_FOR;\n")
+    }
+
+    fn while_loop(&mut self) -> String {
+        if self.whiles == 3 {
+            return self.assignment("INT");
+        }
+        self.whiles += 1;
+        let k = format!("k{}", self.whiles);
+        let condition = self.condition();
+        let body = format!("{k} := {k} + 1;\n") + &self.leave() + &self.some();
+        self.whiles -= 1;
+        match self.rng.bool() {
+            true => format!("{k} := 0;\nWHILE {k} < 4 AND ({condition}) DO\n{body}END_WHILE;\n"),
+            false => {
+                format!("{k} := 0;\nREPEAT\n{body}UNTIL {k} >= 4 OR ({condition}) END_REPEAT;\n")
+            }
+        }
+    }
+
+    fn call(&mut self) -> String {
+        let condition = self.condition();
+        match self.rng.u8(..8) {
+            0 => format!("ton1(IN := {condition}, PT := T#30ms);\n"),
+            1 => format!("tof1(IN := {condition}, PT := T#1s20ms);\n"),
+            2 => format!("tp1(IN := {condition}, PT := T#25ms);\n"),
+            3 => format!("ton2(IN := {condition}, PT := gt, Q => q);\n"),
+            4 => format!("count1(CU := {condition}, R := gq, PV := gi, CV => b);\n"),
+            5 => format!("edge1(CLK := {condition}, Q => p);\n"),
+            6 => format!("one(p := {condition}, a := {}, c := a, b => b);\n", self.whole("INT")),
+            _ => format!("two({condition}, {}, c := list[2]);\n", self.whole("INT")),
+        }
+    }
+
+    fn condition(&mut self) -> String {
+        self.depth += 1;
+        let choice = if self.depth > 5 { self.rng.u8(..3) } else { self.rng.u8(..12) };
+        let text = match choice {
+            0 | 1 if self.in_function || self.in_block => "p".to_owned(),
+            0 | 1 => self.variable("BOOL"),
+            2 if !self.in_function && !self.in_block => self
+                .pick(&["ton1.Q", "tof1.Q", "tp1.Q", "ton2.Q", "count1.Q", "(s = Run)"])
+                .to_owned(),
+            2 => "p".to_owned(),
+            3 | 4 => {
+                let operator = self.pick(&["AND", "OR", "XOR", "=", "<>", "&"]);
+                format!("({} {operator} {})", self.condition(), self.condition())
+            }
+            5 => format!("NOT ({})", self.condition()),
+            6..=8 => {
+                let relation = self.pick(&["<", ">", "<=", ">=", "=", "<>"]);
+                let kind = match self.in_function {
+                    true => "INT",
+                    false if self.in_block => self.pick(&["INT", "DINT"]),
+                    false => self.pick(&["INT", "INT", "DINT", "WORD", "REAL", "TIME"]),
+                };
+                format!("({} {relation} {})", self.variable(kind), self.value(kind))
+            }
+            9 => format!("INT_TO_BOOL({})", self.whole("INT")),
+            10 => format!("SEL({}, {}, {})", self.condition(), self.condition(), self.condition()),
+            _ => format!("({} AND {})", self.condition(), self.condition()),
+        };
+        self.depth -= 1;
+        text
+    }
+
+    /// An INT or DINT.
+    fn whole(&mut self, kind: &str) -> String {
+        self.depth += 1;
+        let choice = if self.depth > 4 { self.rng.u8(..4) } else { self.rng.u8(..14) };
+        let is_plain = self.in_function || self.in_block;
+        let text = match choice {
+            0..=2 if kind == "DINT" && self.in_function => "INT_TO_DINT(a)".to_owned(),
+            0..=2 => self.variable(kind),
+            3 => {
+                let value = EDGES[self.rng.usize(..EDGES.len())];
+                format!("{kind}#{value}")
+            }
+            4..=8 => {
+                let operator = self.pick(&["+", "-", "*", "/", "MOD"]);
+                let left = if kind == "DINT" && self.rng.u8(..4) == 0 { "INT" } else { kind };
+                format!("({} {operator} {})", self.whole(left), self.whole(kind))
+            }
+            9 => format!("(-{})", self.variable(kind)),
+            10 => format!("ABS({})", self.whole(kind)),
+            11 => {
+                let function = self.pick(&["MIN", "MAX"]);
+                format!("{function}({}, {})", self.whole(kind), self.whole(kind))
+            }
+            12 if kind == "INT" && !is_plain => match self.rng.u8(..5) {
+                0 => format!("DINT_TO_INT({})", self.whole("DINT")),
+                1 => format!("REAL_TO_INT({})", self.real()),
+                2 => format!("WORD_TO_INT({})", self.bits()),
+                3 => format!("BOOL_TO_INT({})", self.condition()),
+                _ => "count1.CV".to_owned(),
+            },
+            12 if kind == "DINT" && !is_plain => match self.rng.u8(..3) {
+                0 => format!("TIME_TO_DINT({})", self.time()),
+                1 => format!("REAL_TO_DINT({})", self.real()),
+                _ => format!("WORD_TO_DINT({})", self.bits()),
+            },
+            13 if kind == "INT" && !is_plain => {
+                format!(
+                    "Compute({}, {}, {})",
+                    self.whole("INT"),
+                    self.variable("INT"),
+                    self.condition()
+                )
+            }
+            _ => format!("SEL({}, {}, {})", self.condition(), self.whole(kind), self.whole(kind)),
+        };
+        self.depth -= 1;
+        text
+    }
+
+    fn bits(&mut self) -> String {
+        self.depth += 1;
+        let choice = if self.depth > 4 { self.rng.u8(..3) } else { self.rng.u8(..8) };
+        let text = match choice {
+            0 | 1 => self.variable("WORD"),
+            2 => format!("WORD#16#{:X}", self.rng.u16(..)),
+            3 | 4 => {
+                let operator = self.pick(&["AND", "OR", "XOR"]);
+                format!("({} {operator} {})", self.bits(), self.bits())
+            }
+            5 => format!("(NOT {})", self.variable("WORD")),
+            6 => {
+                let function = self.pick(&["SHL", "SHR", "ROL", "ROR"]);
+                let count = match self.rng.bool() {
+                    true => self.rng.i64(-1..20).to_string(),
+                    false => "gi".to_owned(),
+                };
+                format!("{function}({}, {count})", self.bits())
+            }
+            _ => format!("INT_TO_WORD({})", self.whole("INT")),
+        };
+        self.depth -= 1;
+        text
+    }
+
+    fn real(&mut self) -> String {
+        self.depth += 1;
+        let choice = if self.depth > 4 { self.rng.u8(..3) } else { self.rng.u8(..7) };
+        let text = match choice {
+            0 | 1 => self.variable("REAL"),
+            2 => format!("{:?}", f32::from(self.rng.i16(-300..300)) / 4.0),
+            3..=5 => {
+                let operator = self.pick(&["+", "-", "*", "/"]);
+                format!("({} {operator} {})", self.real(), self.real())
+            }
+            _ => format!("INT_TO_REAL({})", self.whole("INT")),
+        };
+        self.depth -= 1;
+        text
+    }
+
+    fn time(&mut self) -> String {
+        self.depth += 1;
+        let choice = if self.depth > 4 { self.rng.u8(..3) } else { self.rng.u8(..8) };
+        let text = match choice {
+            0 | 1 => self.variable("TIME"),
+            2 => format!("T#{}ms", self.rng.u32(..100)),
+            3 => self.pick(&["ton1.ET", "tof1.ET", "ton2.ET"]).to_owned(),
+            4 => format!("({} + {})", self.time(), self.time()),
+            5 => format!("({} - {})", self.time(), self.time()),
+            6 => format!("({} * {})", self.time(), self.whole("INT")),
+            _ => format!("DINT_TO_TIME({})", self.whole("DINT")),
+        };
+        self.depth -= 1;
+        text
+    }
+}

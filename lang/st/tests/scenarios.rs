@@ -1,0 +1,59 @@
+//! Examples and cases in Structured Text with their scenarios: what these expect is there. An
+//! example that exists in AWL, too, has to do what the scenario of that one says.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use awl_sim::open::{File, open};
+use awl_sim::plant::PlantSpec;
+use awl_sim::run::{Job, Length, run};
+use awl_sim::scenario::{Context, Scenario};
+
+/// What is wrong with a program after its scenario.
+fn failures(program: &Path, scenario: &Path) -> Vec<String> {
+    let text = fs::read_to_string(scenario).expect("a scenario");
+    let name = program.display().to_string();
+    let bytes = fs::read(program).expect("a program");
+    let mut opened = match open(&File { name: name.clone(), bytes }, &[]) {
+        Ok(opened) => opened,
+        Err(error) => return vec![format!("{name}: {error}")],
+    };
+    let machine = &mut *opened.machine;
+    let mut has_operand = |operand| awl_sim::machine::Machine::read(machine, operand).map(|_| ());
+    let plant: Option<&PlantSpec> = None;
+    let context = Context { symbols: &opened.symbols, plant, has_operand: &mut has_operand };
+    let parsed = match Scenario::parse(&scenario.display().to_string(), &text, context) {
+        Ok(parsed) => parsed,
+        Err(problems) => return vec![format!("{name}: {}", problems.render(false))],
+    };
+    let scan_ms = parsed.scan_ms.unwrap_or(1);
+    let plant = parsed.plant.as_ref().map(|spec| spec.build().expect("a plant"));
+    let job = Job { scan_ms, length: Length::Scenario, signals: Vec::new(), plant, progress: None };
+    let outcome = run(&mut *opened.machine, &parsed, job).expect("operands that are there");
+    let failed = outcome.failures.iter().map(|failure| format!("{name}: {failure:?}"));
+    let fault = outcome.fault.iter().map(|fault| format!("{name}: {fault:?}"));
+    failed.chain(fault).collect()
+}
+
+fn programs(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).expect("a folder").flatten().map(|entry| entry.path());
+    let mut found: Vec<PathBuf> =
+        entries.filter(|path| path.extension().is_some_and(|ending| ending == "st")).collect();
+    found.sort();
+    found
+}
+
+#[test]
+fn programs_do_what_their_scenarios_expect() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut wrong = Vec::new();
+    for folder in ["../../examples/st", "tests/cases"] {
+        for program in programs(&here.join(folder)) {
+            let beside = program.with_extension("scn");
+            let of_awl = here.join("../../examples").join(beside.file_name().expect("a name"));
+            let scenario = if beside.is_file() { beside } else { of_awl };
+            wrong.extend(failures(&program, &scenario));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}

@@ -1,0 +1,185 @@
+//! The arguments of `awl-sim`.
+
+use std::path::PathBuf;
+
+use crate::open::Target;
+use crate::scenario::SCAN_MS;
+use crate::suite::Reports;
+use crate::time::parse_time;
+use awl_asm::report::Messages;
+use clap::{Command, CommandFactory, Parser, ValueEnum};
+
+/// Most scans in a run: the longest time at 1 ms. Even with the longest scans no time overflows.
+const SCANS_MAX: u64 = 86_400_000_000;
+
+const EXAMPLES: &str = "\
+Examples:
+  awl-sim motor.awl --scenario motor.scn
+  awl-sim motor.awl --scenario motor.scn --trace I0.0,Q0.0,T37.cv --format table
+  awl-sim station1.awl --plant \"station1 pieces=small,207 seed=3\" --for 60s -o station1.svg
+
+Exit codes: 0 good, 1 an expectation failed, 2 usage, file or program errors, 3 PLC fault.";
+
+/// Runs an S7-200 program scan by scan, with a scenario of inputs and expectations, a plant, and
+/// traces.
+#[derive(Debug, Parser)]
+#[command(name = "awl-sim", version, after_help = EXAMPLES)]
+pub struct Args {
+    /// The program: AWL text or an image of awl-asm; - reads standard input. Several texts make
+    /// one program
+    #[arg(value_name = "PROGRAM.awl|PROGRAM.bin", required = true)]
+    pub program: Vec<PathBuf>,
+
+    /// Inputs over time, and what is expected; - reads standard input
+    #[arg(long, value_name = "F.scn")]
+    pub scenario: Option<PathBuf>,
+
+    /// How long to run, such as 5s or 500ms; overrides the scenario's `run` and `until`
+    #[arg(long = "for", value_name = "TIME", value_parser = parse_time, conflicts_with = "scans")]
+    pub run_for: Option<u64>,
+
+    /// How many scans to run; overrides the scenario's `run` and `until`
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..=SCANS_MAX))]
+    pub scans: Option<u64>,
+
+    /// Time from scan to scan, 1ms to 60s; overrides the scenario's `scan` and the program's period
+    /// [default: 1ms]
+    #[arg(long, value_name = "TIME", value_parser = parse_scan_time)]
+    pub scan_time: Option<u64>,
+
+    /// What runs the program
+    #[arg(long, value_name = "MACHINE", value_enum, default_value_t = On::Host)]
+    pub on: On,
+
+    /// What is wired to the PLC, with its options: "station1 noise=2"; overrides the scenario's
+    /// `plant`
+    #[arg(long, value_name = "PLANT")]
+    pub plant: Option<String>,
+
+    /// Operands to trace, separated by commas; without it, if a format is given, what the program
+    /// uses
+    #[arg(long, value_name = "I0.0,Q0.1,...")]
+    pub trace: Option<String>,
+
+    /// Format of the trace; without it by the ending of the file, else csv
+    #[arg(long, value_enum)]
+    pub format: Option<Format>,
+
+    /// File for the trace instead of standard output: .csv, .vcd, .svg, or .txt for a table; with
+    /// --format any that is no source
+    #[arg(short, long, value_name = "F")]
+    pub output: Option<PathBuf>,
+
+    /// A file with symbols of the program; can be given several times
+    #[arg(long, value_name = "F")]
+    pub symbols: Vec<PathBuf>,
+
+    /// A data block that is a file of its own: what V memory holds before the first scan
+    #[arg(long, value_name = "F")]
+    pub data: Option<PathBuf>,
+
+    /// How messages are written
+    #[command(flatten)]
+    pub messages: Messages,
+
+    /// Be a PLC on the network: run in real time until Ctrl-C, and answer Modbus TCP at this
+    /// address, such as 127.0.0.1:1502. Port 0 takes a free one
+    #[arg(
+        long,
+        value_name = "ADDRESS:PORT",
+        conflicts_with_all = ["run_for", "scans", "trace", "format", "output"]
+    )]
+    pub serve: Option<String>,
+
+    /// Allow --serve an address that other computers reach; they may read. It must be asked for
+    /// because Modbus has no passwords and no encryption: whoever reaches the port is answered
+    #[arg(long, requires = "serve")]
+    pub serve_anywhere: bool,
+
+    /// Allow other computers to write too: set, force, RUN and STOP. It must be asked for because
+    /// Modbus cannot tell who is allowed to from who is not
+    #[arg(long, requires = "serve_anywhere")]
+    pub serve_writes: bool,
+}
+
+const TEST_HELP: &str = "\
+A scenario NAME.scn or NAME.anything.scn belongs to the program NAME.awl (or NAME.bin) beside it,
+or to the file that its line `program FILE` names.
+
+Exit codes, the worst of all scenarios: 0 good, 1 an expectation failed, 2 usage, file or program
+errors, 3 PLC fault.";
+
+/// Runs scenarios with their programs and tells which of them failed.
+#[derive(Debug, Parser)]
+#[command(name = "awl-sim test", bin_name = "awl-sim test", version, after_help = TEST_HELP)]
+pub struct TestArgs {
+    /// Folders with scenarios, at any depth; scenarios; programs with the scenarios beside them
+    #[arg(required = true, value_name = "FOLDER|F.scn|PROGRAM")]
+    pub paths: Vec<PathBuf>,
+
+    /// What runs the programs
+    #[arg(long, value_name = "MACHINE", value_enum, default_value_t = On::Host)]
+    pub on: On,
+
+    /// A file with symbols of the programs; can be given several times
+    #[arg(long, value_name = "F")]
+    pub symbols: Vec<PathBuf>,
+
+    /// A data block that is a file of its own, for every program
+    #[arg(long, value_name = "F")]
+    pub data: Option<PathBuf>,
+
+    /// How results are told
+    #[command(flatten)]
+    pub reports: Reports,
+
+    /// Say what of the programs no scenario has executed, and which bits never changed
+    #[arg(long)]
+    pub coverage: bool,
+}
+
+/// All of the command line, for manuals and completions.
+pub fn command() -> Command {
+    Args::command().subcommand(TestArgs::command().name("test").bin_name("awl-sim test"))
+}
+
+/// Machines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum On {
+    /// The reference interpreter on this computer
+    Host,
+    /// The firmware on a virtual Uno, interpreting
+    Uno,
+    /// The firmware on a virtual Uno, with a translated program
+    UnoNative,
+}
+
+impl From<On> for Target {
+    fn from(on: On) -> Target {
+        match on {
+            On::Host => Target::Host,
+            On::Uno => Target::Uno,
+            On::UnoNative => Target::UnoNative,
+        }
+    }
+}
+
+/// Formats of a trace.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// Comma separated values, a row per scan; of a board a row per change
+    Csv,
+    /// Aligned columns, a row per change
+    Table,
+    /// Value change dump, for GTKWave
+    Vcd,
+    /// Timing diagram
+    Svg,
+}
+
+fn parse_scan_time(text: &str) -> Result<u64, String> {
+    match parse_time(text)? {
+        ms if SCAN_MS.contains(&ms) => Ok(ms),
+        _ => Err("a scan takes 1ms to 60s".to_string()),
+    }
+}

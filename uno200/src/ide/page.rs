@@ -1,0 +1,105 @@
+//! The files of the page: which are given away, as what, and what a browser may do with them.
+
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+/// What is given away, by its ending.
+pub const ENDINGS: &[(&str, &str)] = &[
+    ("html", "text/html; charset=utf-8"),
+    ("js", "text/javascript; charset=utf-8"),
+    ("css", "text/css; charset=utf-8"),
+    ("json", "application/json; charset=utf-8"),
+    ("wasm", "application/wasm"),
+    ("svg", "image/svg+xml"),
+    ("png", "image/png"),
+    ("txt", "text/plain; charset=utf-8"),
+];
+
+/// Nothing but what is served here, in no frame of others, and no address given away.
+pub const HEADERS: &[(&str, &str)] = &[
+    (
+        "Content-Security-Policy",
+        "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; \
+         img-src 'self' data: blob:; connect-src 'self'; worker-src 'self'; \
+         object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    ),
+    ("X-Content-Type-Options", "nosniff"),
+    ("Referrer-Policy", "no-referrer"),
+    ("Cross-Origin-Opener-Policy", "same-origin"),
+    ("Cross-Origin-Resource-Policy", "same-origin"),
+    ("Cache-Control", "no-cache"),
+];
+
+/// The page in its folder.
+#[derive(Debug)]
+pub struct Page {
+    folder: PathBuf,
+}
+
+impl Page {
+    /// The page in this folder, whose path has no links.
+    pub fn new(folder: PathBuf) -> Page {
+        Page { folder }
+    }
+
+    /// The file of an address's path, with its type; `/` is the page itself.
+    pub fn file(&self, url: &str) -> Option<(Vec<u8>, &'static str)> {
+        let path = url.split(['?', '#']).next()?.trim_start_matches('/');
+        let path = Path::new(if path.is_empty() { "index.html" } else { path });
+        let is_plain = |part: Component<'_>| match part {
+            Component::Normal(name) => !name.to_string_lossy().starts_with('.'),
+            _ => false,
+        };
+        if !path.components().all(is_plain) {
+            return None;
+        }
+        let ending = path.extension()?.to_str()?;
+        let (_, kind) = ENDINGS.iter().find(|(known, _)| *known == ending)?;
+        // A link may lead out of the folder.
+        let file = fs::canonicalize(self.folder.join(path)).ok()?;
+        if !file.starts_with(&self.folder) {
+            return None;
+        }
+        Some((fs::read(file).ok()?, kind))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_but_the_page_is_given_away() {
+        let outer = tempfile::tempdir().unwrap();
+        let folder = outer.path().join("page");
+        fs::create_dir_all(folder.join("examples")).unwrap();
+        fs::create_dir_all(folder.join(".git")).unwrap();
+        for (name, text) in [
+            ("page/index.html", "<p>"),
+            ("page/examples/a.json", "{}"),
+            ("page/notes.zip", "x"),
+            ("page/.git/a.json", "x"),
+            ("secret.json", "x"),
+        ] {
+            fs::write(outer.path().join(name), text).unwrap();
+        }
+        #[cfg(unix)]
+        std::os::unix::fs::symlink(outer.path().join("secret.json"), folder.join("link.json"))
+            .unwrap();
+        let page = Page::new(fs::canonicalize(&folder).unwrap());
+        assert_eq!(page.file("/?x=1").unwrap().0, b"<p>");
+        assert_eq!(page.file("/examples/a.json").unwrap().1, ENDINGS[3].1);
+        for url in [
+            "/notes.zip",
+            "/../secret.json",
+            "/examples/../../secret.json",
+            "/.git/a.json",
+            "/link.json",
+            "/nothing.html",
+            "//etc/passwd",
+            "/examples",
+        ] {
+            assert!(page.file(url).is_none(), "{url}");
+        }
+    }
+}

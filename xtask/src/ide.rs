@@ -1,0 +1,171 @@
+//! `cargo xtask ide`: builds the IDE's core for WebAssembly, puts it beside the page, and serves
+//! both. The check of a test run uses them in a real browser.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+
+use anyhow::{Context, Result, ensure};
+use serde_json::json;
+
+use crate::process::{cargo, root, run};
+use crate::{packages, wasm};
+
+/// The page as it is committed.
+const PAGE: &str = "ide/page/dist";
+/// Where page and core are together: any web server can give them away from here.
+const BUILT: &str = "target/ide";
+/// Examples that come with more than their scenario: their plant.
+const PLANTS: &[(&str, &str)] = &[
+    ("station1", "station1 pieces=normal,small,normal,large,small,normal noise=3 seed=7"),
+    ("tank", "tank"),
+    ("pid", "tank"),
+];
+
+/// What awl-sim writes of the same run that the page is asked for.
+const FIGURES: &str = "target/ide-figures.csv";
+
+/// Checks that the committed page is what its sources say, and uses it with its core in a browser.
+pub fn check() -> Result<()> {
+    packages::ensure_installed(packages::BROWSER)?;
+    packages::ensure_npm()?;
+    let sources = root().join("ide/page");
+    let npm = |arguments: &[&str]| run(Command::new("npm").args(arguments).current_dir(&sources));
+    npm(&["ci", "--silent", "--no-audit", "--no-fund"])?;
+    let committed = files(&root().join(PAGE))?;
+    npm(&["run", "--silent", "check"])?;
+    npm(&["run", "--silent", "build"])?;
+    ensure!(
+        files(&root().join(PAGE))? == committed,
+        "{PAGE} was not what its sources say: it is now, and is to be committed"
+    );
+    let folder = build()?;
+    figures()?;
+    let mut server = Serving::start(&folder)?;
+    let address = server.address()?;
+    run(Command::new("node")
+        .current_dir(&sources)
+        .args(["test/page.mjs", &address])
+        .arg(root().join(FIGURES)))
+}
+
+/// The files of a folder with their bytes.
+fn files(folder: &Path) -> Result<BTreeMap<PathBuf, Vec<u8>>> {
+    let entries = fs::read_dir(folder).with_context(|| format!("cannot read {}", folder.display()));
+    let bytes = |path: PathBuf| Ok((path.clone(), fs::read(&path)?));
+    entries?.map(|entry| bytes(entry?.path())).collect()
+}
+
+fn figures() -> Result<()> {
+    let plant = PLANTS.iter().find(|(of, _)| *of == "station1").map_or("", |(_, plant)| *plant);
+    run(cargo()
+        .args(["run", "--quiet", "--package", "awl-sim", "--", "examples/station1.awl"])
+        .args([
+            "--plant",
+            plant,
+            "--for",
+            "60s",
+            "--scan-time",
+            "1ms",
+            "--trace",
+            "Push,Height",
+            "-o",
+            FIGURES,
+        ]))
+}
+
+/// A server that ends with this.
+struct Serving(Child);
+
+impl Serving {
+    fn start(folder: &Path) -> Result<Serving> {
+        run(cargo().args(["build", "--quiet", "--package", "uno200"]))?;
+        // Not by way of cargo, which would be ended in its place.
+        let mut ide = Command::new(root().join("target/debug/uno200"));
+        ide.args(["ide", "--no-open", "--listen", "127.0.0.1:0", "--page"]).arg(folder);
+        ide.stdout(Stdio::piped());
+        Ok(Serving(ide.spawn().context("cannot start uno200 ide")?))
+    }
+
+    /// The line that it prints.
+    fn address(&mut self) -> Result<String> {
+        let output = self.0.stdout.take().context("uno200 ide has no output")?;
+        let mut line = String::new();
+        BufReader::new(output).read_line(&mut line)?;
+        ensure!(line.starts_with("http://"), "uno200 ide says no address but {line:?}");
+        Ok(line.trim().to_owned())
+    }
+}
+
+impl Drop for Serving {
+    fn drop(&mut self) {
+        // It may have ended by itself.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// Builds the IDE, and serves it.
+pub fn start(open: bool) -> Result<()> {
+    let folder = build()?;
+    let mut ide = cargo();
+    ide.args(["run", "--quiet", "--package", "uno200", "--", "ide", "--page"]).arg(folder);
+    if !open {
+        ide.arg("--no-open");
+    }
+    run(&mut ide)
+}
+
+/// Builds the IDE into its folder.
+pub fn build() -> Result<PathBuf> {
+    let folder = root().join(BUILT);
+    let module = wasm::build_small("ide-core")?;
+    fs::create_dir_all(folder.join("examples"))?;
+    run(cargo()
+        .args(["run", "--quiet", "--package", "bind", "--"])
+        .args([&module, &folder])
+        .arg("web"))?;
+    copy(&root().join(PAGE), &folder)?;
+    examples(&folder.join("examples"))?;
+    Ok(folder)
+}
+
+fn copy(from: &Path, to: &Path) -> Result<()> {
+    for entry in fs::read_dir(from).with_context(|| format!("cannot read {}", from.display()))? {
+        let path = entry?.path();
+        if let (true, Some(name)) = (path.is_file(), path.file_name()) {
+            fs::copy(&path, to.join(name))?;
+        }
+    }
+    Ok(())
+}
+
+/// The examples as projects, and the list of them.
+fn examples(to: &Path) -> Result<()> {
+    let from = root().join("examples");
+    let mut names = Vec::new();
+    for entry in fs::read_dir(&from)? {
+        let path = entry?.path();
+        let (Some(stem), true) = (path.file_stem(), path.extension() == Some("awl".as_ref()))
+        else {
+            continue;
+        };
+        names.push(stem.to_string_lossy().into_owned());
+    }
+    names.sort();
+    for name in &names {
+        let file = |ending: &str| {
+            let file = format!("{name}.{ending}");
+            let text = fs::read_to_string(from.join(&file)).ok()?;
+            Some(json!({ "name": file, "text": text }))
+        };
+        let files: Vec<_> = ["awl", "scn"].iter().filter_map(|ending| file(ending)).collect();
+        let plant = PLANTS.iter().find(|(of, _)| of == name).map(|(_, plant)| plant);
+        let project = json!({ "files": files, "main": format!("{name}.awl"), "plant": plant });
+        fs::write(to.join(name).with_extension("json"), project.to_string())?;
+    }
+    fs::write(to.join("list.json"), json!(names).to_string())?;
+    Ok(())
+}

@@ -1,0 +1,81 @@
+//! Which crate may depend on which.
+
+use anyhow::{Context, Result, ensure};
+use serde_json::Value;
+
+use crate::process::cargo;
+
+/// Which crates of the repository a crate may depend on (ARCHITECTURE.md, invariants).
+const ALLOWED: &[(&str, &[&str])] = &[
+    ("plc-isa", &[]),
+    ("plc-vm", &["plc-isa"]),
+    ("plc-link", &["plc-isa", "plc-vm"]),
+    ("diagnostics", &[]),
+    ("awl-asm", &["plc-isa", "diagnostics"]),
+    ("st", &["diagnostics", "awl-asm"]),
+    ("project", &["diagnostics", "awl-asm", "st"]),
+    ("analysis", &["plc-isa", "diagnostics", "awl-asm", "awl-sim"]),
+    ("simavr", &[]),
+    ("awl-sim", &["plc-isa", "plc-vm", "plc-link", "diagnostics", "awl-asm", "project", "simavr"]),
+    ("virtual-uno", &["simavr"]),
+    ("client", &["plc-isa", "plc-vm", "plc-link", "awl-asm"]),
+    ("uno200", &["plc-isa", "diagnostics", "awl-asm", "awl-sim", "analysis", "client", "project"]),
+    ("ide-core", &["plc-isa", "diagnostics", "awl-asm", "awl-sim", "analysis", "client"]),
+    (
+        "tests",
+        &[
+            "plc-isa",
+            "plc-vm",
+            "diagnostics",
+            "awl-asm",
+            "st",
+            "project",
+            "awl-sim",
+            "simavr",
+            "virtual-uno",
+        ],
+    ),
+    ("wasm-smoke", &["plc-isa", "awl-sim", "analysis", "client"]),
+    ("xtask", &["plc-isa", "plc-vm", "awl-asm", "awl-sim", "uno200"]),
+    ("bind", &[]),
+];
+
+/// Nothing may use these, not even in its tests, which may use every other crate.
+const NEVER_USED: [&str; 4] = ["tests", "wasm-smoke", "xtask", "bind"];
+
+/// What depends on a crate that it must not know.
+pub(super) fn breaches() -> Result<Vec<String>> {
+    let output = cargo()
+        .args(["metadata", "--no-deps", "--format-version", "1"])
+        .output()
+        .context("cannot start cargo")?;
+    ensure!(output.status.success(), "cargo metadata failed");
+    let metadata: Value = serde_json::from_slice(&output.stdout)?;
+    let mut breaches = Vec::new();
+    for package in metadata["packages"].as_array().into_iter().flatten() {
+        let name = package["name"].as_str().unwrap_or_default();
+        let Some((_, allowed)) = ALLOWED.iter().find(|(crate_name, _)| *crate_name == name) else {
+            breaches.push(format!("{name}: not in the table of allowed dependencies"));
+            continue;
+        };
+        for dependency in package["dependencies"].as_array().into_iter().flatten() {
+            let wanted = dependency["name"].as_str().unwrap_or_default();
+            let inside = dependency["path"].is_string();
+            if dependency["kind"] == "dev" {
+                if NEVER_USED.contains(&wanted) {
+                    breaches.push(format!("{name}: its tests must not depend on {wanted}"));
+                }
+                continue;
+            }
+            if inside && !allowed.contains(&wanted) {
+                breaches.push(format!("{name}: must not depend on {wanted}"));
+            }
+            if !inside && name.starts_with("plc-") {
+                breaches.push(format!(
+                    "{name}: runs on the board and takes no dependency, found {wanted}"
+                ));
+            }
+        }
+    }
+    Ok(breaches)
+}

@@ -1,0 +1,106 @@
+//! `cargo xtask wasm`: builds the libraries for WebAssembly and has node do with them what this
+//! computer does: both must tell the same.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, ensure};
+
+use crate::process::{cargo, root, run};
+use crate::{avr, packages};
+
+const TARGET: &str = "wasm32-unknown-unknown";
+/// The libraries that run anywhere, and what uses them all.
+const LIBRARIES: [&str; 10] = [
+    "plc-isa",
+    "plc-vm",
+    "plc-link",
+    "awl-asm",
+    "st",
+    "project",
+    "awl-sim",
+    "analysis",
+    "client",
+    "wasm-smoke",
+];
+const MODULE: &str = "wasm_smoke";
+
+/// Builds the libraries, and compares the report of node with that of this computer.
+pub fn check() -> Result<()> {
+    let module = build()?;
+    let folder = root().join("target/wasm/node");
+    run(cargo().args(["run", "--quiet", "--package", "bind", "--"]).arg(&module).arg(&folder))?;
+    let there = report_of_node(&folder.join(MODULE).with_extension("js"))?;
+    let here = output(cargo().args(["run", "--quiet", "--package", "wasm-smoke"]))?;
+    for (there, here) in there.lines().zip(here.lines()).filter(|(there, here)| there != here) {
+        eprintln!("  node:          {there}\n  this computer: {here}");
+    }
+    ensure!(there == here, "as WebAssembly the libraries do something else");
+    print!("{there}");
+    Ok(())
+}
+
+/// A module that a page loads: optimised, and small.
+pub fn build_small(package: &str) -> Result<PathBuf> {
+    let folder = root().join("target/wasm");
+    let mut build = builder(&folder)?;
+    build.args(["--release", "--package", package]);
+    build.args(["--config", "profile.release.debug=false"]);
+    build.args(["--config", "profile.release.opt-level=\"s\""]);
+    build.args(["--config", "profile.release.panic=\"abort\""]);
+    run(&mut build)?;
+    let name = package.replace('-', "_");
+    Ok(folder.join(TARGET).join("release").join(name).with_extension("wasm"))
+}
+
+/// A cargo that builds libraries, without what their commands need.
+fn builder(folder: &Path) -> Result<Command> {
+    packages::ensure_installed(packages::NODE)?;
+    let mut build = compiler()?;
+    build.current_dir(root()).args(["build", "--quiet", "--locked", "--lib", "--target", TARGET]);
+    build.arg("--no-default-features").arg("--target-dir").arg(folder);
+    Ok(build)
+}
+
+/// The module in which all libraries are.
+fn build() -> Result<PathBuf> {
+    let folder = root().join("target/wasm");
+    let mut build = builder(&folder)?;
+    // What nobody debugs needs no names of types and lines.
+    build.args(["--config", "profile.dev.debug=false"]);
+    for library in LIBRARIES {
+        build.args(["--package", library]);
+    }
+    run(&mut build)?;
+    Ok(folder.join(TARGET).join("debug").join(MODULE).with_extension("wasm"))
+}
+
+/// A cargo that can build for the target: rustup's where it has the target, otherwise Debian's,
+/// which builds std from source.
+fn compiler() -> Result<Command> {
+    let sysroot = Command::new("rustc").args(["--print", "sysroot"]).current_dir(root()).output();
+    let sysroot = sysroot.map(|output| String::from_utf8_lossy(&output.stdout).trim().to_string());
+    if sysroot.is_ok_and(|path| Path::new(&path).join("lib/rustlib").join(TARGET).is_dir()) {
+        return Ok(cargo());
+    }
+    packages::ensure_installed(packages::AVR_COMPILER)?;
+    packages::ensure_installed(packages::WASM_LINKER)?;
+    let mut debian = avr::debian_cargo();
+    debian
+        .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", "wasm-ld-19")
+        .env_remove("CARGO")
+        .args(["-Z", "build-std=std,panic_abort", "-Z", "build-std-features="]);
+    Ok(debian)
+}
+
+fn report_of_node(script: &Path) -> Result<String> {
+    let program = "process.stdout.write(require(process.argv[1]).report())";
+    output(Command::new("node").args(["-e", program]).arg(script))
+}
+
+fn output(command: &mut Command) -> Result<String> {
+    let output = command.output().context("cannot start it")?;
+    let errors = String::from_utf8_lossy(&output.stderr);
+    ensure!(output.status.success(), "{} failed: {errors}", command.get_program().display());
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
