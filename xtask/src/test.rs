@@ -14,11 +14,12 @@ use crate::{
 type Stage = (&'static str, fn() -> Result<()>);
 
 /// What needs neither the compiler for the board nor the virtual board.
-const HOST: [Stage; 8] = [
+const HOST: [Stage; 9] = [
     ("format", || process::run(cargo().args(["fmt", "--all", "--check"]))),
     ("rules of the repository", rules::check),
     ("sources and licences of dependencies", licences::check),
     ("generated pages", || docs::run(true)),
+    ("pages and tables of measured figures", bench::check_files),
     ("documentation", || {
         process::run(
             cargo()
