@@ -6,43 +6,8 @@ pub use diagnostics::Severity;
 /// An error or warning about AWL.
 pub type Diagnostic = diagnostics::Diagnostic<Code>;
 
-macro_rules! page {
-    ($code:literal) => {
-        include_str!(concat!("../../docs/errors/", $code, ".md"))
-    };
-}
-
-macro_rules! codes {
-    ($( $name:ident = $code:literal; )+) => {
-        /// Every kind of diagnostic. Each has a page in docs/errors.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-        pub enum Code {
-            $(
-                #[doc = concat!("`", $code, "`, explained in docs/errors/", $code, ".md")]
-                $name,
-            )+
-        }
-
-        impl Code {
-            /// All codes in order.
-            pub const ALL: &[Code] = &[ $( Code::$name, )+ ];
-
-            /// As printed: `E` or `W` and four digits.
-            pub const fn text(self) -> &'static str {
-                match self { $( Code::$name => $code, )+ }
-            }
-
-            /// The page that explains it, in Markdown.
-            pub const fn page(self) -> &'static str {
-                match self {
-                    $( Code::$name => page!($code), )+
-                }
-            }
-        }
-    };
-}
-
-codes! {
+diagnostics::codes! {
+    pages "../../docs/errors/";
     UnknownMnemonic = "E0001";
     Syntax = "E0002";
     OperandCount = "E0003";
@@ -105,30 +70,4 @@ codes! {
     MixedMnemonics = "W0030";
     NoEffect = "W0032";
     NotForBoard = "W0033";
-}
-
-impl Code {
-    /// Errors begin with E, warnings with W.
-    pub fn severity(self) -> Severity {
-        if self.text().starts_with('E') { Severity::Error } else { Severity::Warning }
-    }
-
-    /// The code of this text, in any letter case.
-    pub fn find(text: &str) -> Option<Code> {
-        Code::ALL.iter().copied().find(|code| code.text().eq_ignore_ascii_case(text))
-    }
-}
-
-impl diagnostics::Code for Code {
-    fn text(self) -> Option<&'static str> {
-        Some(self.text())
-    }
-
-    fn severity(self) -> Severity {
-        self.severity()
-    }
-
-    fn page(self) -> Option<&'static str> {
-        Some(self.page())
-    }
 }

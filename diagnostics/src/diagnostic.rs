@@ -13,6 +13,11 @@ pub enum Severity {
 }
 
 impl Severity {
+    /// Of a code in print: those of errors begin with E, those of warnings with W.
+    pub fn of_code(text: &str) -> Severity {
+        if text.starts_with('E') { Severity::Error } else { Severity::Warning }
+    }
+
     /// As printed: `error`, `warning`.
     pub fn name(self) -> &'static str {
         match self {

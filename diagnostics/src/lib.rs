@@ -2,6 +2,7 @@
 //! the repository. It has no codes of its own, reads no file and writes to no terminal.
 
 pub mod binary;
+mod codes;
 pub mod diagnostic;
 pub mod origins;
 pub mod render;

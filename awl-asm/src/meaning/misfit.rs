@@ -25,7 +25,11 @@ pub(crate) fn misfit(
     if !counts.contains(&given) {
         let wanted = counts.first().copied().unwrap_or(0);
         let mut diagnostic = wrong_count(source, wanted).help(usage(source, candidates));
-        diagnostic.help.extend(operands::way(source, wanted));
+        let takes_real = forms().any(|(instruction, form)| {
+            let mut kinds = written_kinds(form.kinds).enumerate();
+            kinds.any(|(index, kind)| fit(instruction, kind, index, &Value::Real(0)).is_some())
+        });
+        diagnostic.help.extend(operands::way(source, wanted, takes_real));
         return diagnostic;
     }
     // The first operand that no form accepts; if each is accepted by some form, the last one is at

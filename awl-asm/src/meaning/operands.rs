@@ -5,12 +5,14 @@ use plc_isa::Area;
 
 use crate::text::address::Address;
 use crate::text::ast::{Instruction, Value};
+use crate::text::foreign::width::Width;
 
 const NO_PULSE: &str = "an S7-200 has no pulse timers: set a bit with `EU` and `S M0.0, 1`, let \
      `TON T37, 20` run while it is 1, and reset it with `R M0.0, 1` when T37 is";
 
-/// How an instruction is written that has not as many operands as it takes.
-pub(crate) fn way(source: &Instruction, wanted: usize) -> Option<String> {
+/// How an instruction is written that has not as many operands as it takes. `takes_real`: one of
+/// them may be a real number.
+pub(crate) fn way(source: &Instruction, wanted: usize, takes_real: bool) -> Option<String> {
     let name = source.mnemonic();
     let first = source.operands.first().and_then(|operand| match operand.value {
         Value::Address(address) => Some(address),
@@ -49,7 +51,8 @@ pub(crate) fn way(source: &Instruction, wanted: usize) -> Option<String> {
         }
         // Two constants side by side are none that an instruction has.
         (_, given) if given == wanted + 1 => {
-            fraction(source).or_else(|| (wanted == 2).then(|| two_operands(name)).flatten())
+            let real = || takes_real.then(|| fraction(source)).flatten();
+            real().or_else(|| (wanted == 2).then(|| two_operands(name)).flatten())
         }
         (_, 0) if wanted == 2 && is_calculating(name) => Some(
             "an S7-200 has no accumulators between load and transfer: both operands are named, the \
@@ -73,7 +76,14 @@ fn fraction(source: &Instruction) -> Option<String> {
 
 /// What has two operands where others have three.
 fn two_operands(name: &str) -> Option<String> {
-    is_calculating(name).then(|| {
+    if name.starts_with("MOV") {
+        return Some(format!(
+            "`{name}` copies one value to one place; a second place takes a second `{name}`"
+        ));
+    }
+    let combines = name.starts_with(['+', '-', '*', '/'])
+        || ["AND", "OR", "XOR", "MUL", "DIV"].iter().any(|start| name.starts_with(start));
+    combines.then(|| {
         format!(
             "the second operand is the result, too: copy the first there, then `{name}` with the \
              other"
@@ -116,6 +126,36 @@ fn way_of_real(name: &str, value: f32) -> Option<String> {
         _ => return None,
     };
     Some(format!("real numbers are in double words: `{real} {value:?}, VD0`"))
+}
+
+/// The same instruction for operands of another width, or what makes one width of another.
+fn way_of_width(source: &Instruction) -> Option<String> {
+    let addresses = source.operands.iter().filter_map(|operand| match operand.value {
+        Value::Address(address) => Some(address),
+        _ => None,
+    });
+    let widths: Vec<(Address, Width)> = addresses
+        .filter_map(|address| Some((address, Width::of_address(address)?)))
+        .filter(|(_, width)| *width != Width::Bit)
+        .collect();
+    let name = source.mnemonic();
+    let (_, width) = *widths.first()?;
+    if widths.iter().all(|(_, other)| *other == width) {
+        let sibling = width.sibling(name).filter(|sibling| *sibling != name)?;
+        let relation = source.relation.map_or("", |relation| relation.symbol());
+        return Some(format!("{} are taken by `{sibling}{relation}`", width.plural()));
+    }
+    let [(from, from_width), (to, to_width)] = widths[..] else { return None };
+    let conversion = match (from_width, to_width) {
+        (Width::Byte, Width::Word) => "BTI",
+        (Width::Word, Width::Byte) => "ITB",
+        (Width::Word, Width::Double) => "ITD",
+        (Width::Double, Width::Word) => "DTI",
+        _ => return None,
+    };
+    let (from_words, to_words) = (from_width.singular(), to_width.singular());
+    name.starts_with("MOV")
+        .then(|| format!("`{conversion} {from}, {to}` makes a {to_words} of a {from_words}"))
 }
 
 /// What the kind of an operand tells that does not fit.
@@ -162,6 +202,6 @@ pub(crate) fn way_of_kind(source: &Instruction, position: usize) -> Option<Strin
                 _ => way,
             })
         }
-        _ => None,
+        _ => way_of_width(source),
     }
 }

@@ -217,8 +217,10 @@ fn scaled_analog(text: &str, number: &str) -> Result<Address, AddressError> {
             Ok(Address::Analog(AnalogInput::Scaled((byte / 2) as u8)))
         }
         byte if byte < limit && !number.contains('.') => Err(out_of_range(
-            format!("{text}: analog inputs have even addresses"),
-            Some(format!("AIW{}", byte - 1)),
+            format!(
+                "{text}: each analog input is a word, the first is AIW0, the second AIW2, to AIW10"
+            ),
+            None,
         )),
         _ => {
             Err(out_of_range(format!("{text}: the analog inputs are AIW0, AIW2, ... AIW10"), None))

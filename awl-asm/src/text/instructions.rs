@@ -5,6 +5,7 @@ use plc_isa::{Instruction, Op, Relation};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::text::ast::{self, Constant, Operand, Span, Statement, UnitKind, Value};
+use crate::text::foreign::accumulators::{self, Way};
 use crate::text::foreign::{self, Instead, Meant};
 use crate::text::lexer::{Ahead, Cut};
 use crate::text::locals::PARAMETERS_MAX;
@@ -101,13 +102,16 @@ impl<'s> Parser<'s> {
 
     /// A first word that is none.
     pub(crate) fn unknown(&mut self, word: Span) {
+        if let Some(way) = self.text.get(word.start as usize..).and_then(accumulators::way) {
+            return self.accumulated(word, way);
+        }
         let text = word.text(self.text);
         let relation = self.lexer.is_at_relation() && text.starts_with(is_word_start);
         let relation = relation.then(|| self.lexer.relation());
         let (line, rest) = self.rest_of(word);
         let mut diagnostic = self.unknown_word(word);
         let stand_in = match foreign::meant(text, rest) {
-            Some(meant) => understood(&mut diagnostic, meant, line),
+            Some(meant) => understood(&mut diagnostic, self.as_first(meant), line),
             None => self.misspelt(&mut diagnostic, relation, rest),
         };
         let span = diagnostic.span;
@@ -116,6 +120,38 @@ impl<'s> Parser<'s> {
         let operands = rest.get(relation.map_or(0, |sign| sign.text(self.text).len())..);
         let operands = operands.unwrap_or("").trim();
         if let Some((entry, count)) = likely.filter(|(entry, _)| is_likely(entry.op, operands)) {
+            self.stand_in(entry, count, span);
+        }
+    }
+
+    /// What was meant, where a rung may begin: its first contact is a load.
+    fn as_first(&self, mut meant: Meant) -> Meant {
+        let is_first = match self.program.statements.last() {
+            Some(Statement::Instruction(_)) => false,
+            Some(Statement::Network(_) | Statement::Unit(_)) | None => true,
+        };
+        if let (true, Some(Instead::Word(word))) = (is_first, &meant.instead) {
+            let load = match word.as_str() {
+                "A" | "O" => "LD",
+                "AN" | "ON" => "LDN",
+                _ => return meant,
+            };
+            meant.instead = Some(Instead::Word(load.to_owned()));
+            meant.stand_in = Some(load.to_owned());
+        }
+        meant
+    }
+
+    /// Lines that load accumulators, and calculate, compare or transfer: one mistake.
+    fn accumulated(&mut self, word: Span, way: Way) {
+        let end = word.start as usize + way.len;
+        self.lexer.go_on(end);
+        let span = Span { start: word.start, end: end as u32 };
+        let message = "an S7-200 has no accumulators between load and transfer".to_owned();
+        let code: Vec<String> = way.code.iter().map(|line| format!("`{line}`")).collect();
+        let help = format!("on an S7-200 these lines are {}", code.join(", "));
+        self.diagnostics.push(Diagnostic::new(Code::UnknownMnemonic, word, message).help(help));
+        if let Some((entry, count)) = instruction_of("LDW").filter(|_| way.compares) {
             self.stand_in(entry, count, span);
         }
     }
@@ -257,13 +293,13 @@ impl<'s> Parser<'s> {
         let all = all.collect::<Vec<_>>().join(" ");
         let diagnostic =
             Diagnostic::new(Code::Syntax, word, format!("{text}: the comparison is missing"));
-        let logic = self.word_logic(text).filter(|_| self.lexer.ahead() != Ahead::Text);
-        let diagnostic = diagnostic.help(format!("there are {all}"));
-        self.diagnostics.push(match logic {
-            Some(logic) => diagnostic.help(format!(
-                "the bits of two values are combined by `{logic}`, which names both"
-            )),
-            None => diagnostic,
+        let comparisons = format!("there are {all}");
+        self.diagnostics.push(match self.word_logic(text) {
+            // Where accumulators are, it has no operands.
+            Some(logic) => diagnostic
+                .help(format!("the bits of two values are combined by `{logic}`, which names both"))
+                .help(format!("comparisons: {comparisons}")),
+            None => diagnostic.help(comparisons),
         });
     }
 

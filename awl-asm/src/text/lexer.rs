@@ -65,6 +65,11 @@ impl<'a> Lexer<'a> {
         self.at = (word.start as usize).min(self.at);
     }
 
+    /// Goes on after something that was read in another way.
+    pub(crate) fn go_on(&mut self, end: usize) {
+        self.at = end.clamp(self.at, self.bytes.len());
+    }
+
     fn peek(&self, ahead: usize) -> u8 {
         self.bytes.get(self.at + ahead).copied().unwrap_or(0)
     }

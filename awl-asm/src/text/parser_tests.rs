@@ -204,7 +204,8 @@ fn commas() {
 #[test]
 fn unknown_mnemonics() {
     let meant = |wrong: &str, right: &str| {
-        bad(wrong, &[&format!("E0001 1:1 `{wrong}`: {wrong}: no such instruction -> {right}")]);
+        let message = format!("E0001 2:1 `{wrong}`: {wrong}: no such instruction -> {right}");
+        bad(&format!("LD I0.0\n{wrong}"), &[&message]);
     };
     for (wrong, right) in [
         ("OUT", "="),
@@ -228,6 +229,9 @@ fn unknown_mnemonics() {
     ] {
         meant(wrong, right);
     }
+    // The first contact of a rung is a load.
+    bad("and I0.0", &["E0001 1:1 `and`: and: no such instruction -> LD"]);
+    bad("NETWORK 1\nORN I0.0", &["E0001 2:1 `ORN`: ORN: no such instruction -> LDN"]);
     bad("XYZZY I0.9,,", &["E0001 1:1 `XYZZY`: XYZZY: no such instruction"]);
     bad("\n  Motör ?", &["E0001 2:3 `Motör`: Motör: no such instruction"]);
     bad("M1: LD I0.0", &["E0001 1:1 `M1:`: M1:: no such instruction"]);
@@ -250,8 +254,11 @@ fn comparisons_beside_instructions_of_the_same_name() {
     };
     assert!(help("FND VW0,5,VW2").eq(["there are FND= FND<> FND< FND>"]));
     assert!(help("AS VB0,VB1").eq(["there are AS= AS<>"]));
-    assert!(help("AW VW0,1").eq(["there are AW= AW<> AW< AW> AW<= AW>="]));
-    bad("OR I0.0", &["E0001 1:1 `OR`: OR: no such instruction -> O"]);
+    assert!(help("AW VW0,1").eq([
+        "the bits of two values are combined by `ANDW`, which names both",
+        "comparisons: there are AW= AW<> AW< AW> AW<= AW>=",
+    ]));
+    bad("OR I0.0", &["E0001 1:1 `OR`: OR: no such instruction -> LD"]);
     bad("LD= 1", &["E0001 1:1 `LD=`: LD=: no such instruction -> LDW="]);
 }
 

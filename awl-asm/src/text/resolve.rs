@@ -210,7 +210,14 @@ impl Resolver<'_> {
                 Err(diagnostic) if matches!(instruction.entry.op, Op::Jmp | Op::Lbl) => {
                     diagnostics.push(label(*diagnostic, operand.span.text(self.text)));
                 }
-                Err(diagnostic) => diagnostics.push(*diagnostic),
+                Err(diagnostic) => {
+                    // What is after the sign of a comment was not meant as operands.
+                    if is_comment_sign(operand.span.text(self.text)) {
+                        let comment = operand.span.end..=instruction.span.end;
+                        diagnostics.retain(|other| !comment.contains(&other.span.start));
+                    }
+                    diagnostics.push(*diagnostic);
+                }
             }
         }
         program.names.append(&mut notes.names);
@@ -383,7 +390,7 @@ impl Resolver<'_> {
             .nearest(name, known.iter().map(String::as_str).filter(|name| !name.is_empty()));
         diagnostic.suggestion = near.map(str::to_owned);
         if known.is_empty() {
-            diagnostic.help.push(format!("the program has no {what}"));
+            diagnostic.help.push(none_of(kind, name));
         }
         diagnostic.help.extend(foreign_operands::way(name).map(str::to_owned));
         Err(Box::new(diagnostic))
@@ -444,6 +451,7 @@ impl Resolver<'_> {
                 .or_else(|| bare_fraction(name))
                 .or_else(|| nearby_address(name)),
         };
+        diagnostic.help.extend(foreign_operands::immediate(name));
         if !is_quoted {
             let way = foreign_operands::way(name).filter(|_| diagnostic.suggestion.is_none());
             diagnostic.help.extend(way.or_else(|| word_hint(name)).map(str::to_owned));
@@ -459,8 +467,25 @@ impl Resolver<'_> {
     }
 }
 
+/// What helps where a program has no routine of a kind.
+fn none_of(kind: UnitKind, name: &str) -> String {
+    let (header, what, letters) = match kind {
+        UnitKind::Interrupt => ("INTERRUPT_BLOCK", "interrupt routine", "INT"),
+        _ => ("SUBROUTINE_BLOCK", "subroutine", "SBR"),
+    };
+    let header = match UnitId::parse(name) {
+        Some(unit) => format!("{header} Name:{unit}"),
+        None => format!("{header} {name}:{letters}0"),
+    };
+    format!(
+        "the program has no {what}: one begins with `{header}`, in this file or in one that is \
+         given with it"
+    )
+}
+
 /// What is wrong with the number of a label.
 fn label(mut diagnostic: Diagnostic, text: &str) -> Diagnostic {
+    diagnostic.message = format!("{text}: a label is a number 0 to 255");
     diagnostic.suggestion = label_number(text);
     diagnostic.help = vec!["labels are numbers: `JMP 1` goes to `LBL 1`".to_owned()];
     diagnostic
@@ -484,7 +509,14 @@ fn part_of_analog(span: Span, text: &str) -> Option<Diagnostic> {
     let diagnostic = |message: String| Diagnostic::new(Code::AddressRange, span, message);
     if !has_bit {
         return Some(
-            diagnostic(format!("{text}: an analog {what} is a word")).suggest(word.to_string()),
+            diagnostic(format!("{text}: an analog {what} is a word"))
+                .suggest(word.to_string())
+                .help(match what {
+                    "input" => {
+                        format!("`MOVW {word}, VW0` copies it, `LDW>= {word}, 16000` compares it")
+                    }
+                    _ => format!("`MOVW VW0, {word}` writes it"),
+                }),
         );
     }
     let diagnostic = diagnostic(format!("{text}: an analog {what} is a word and has no bits"));
@@ -496,14 +528,19 @@ fn part_of_analog(span: Span, text: &str) -> Option<Diagnostic> {
 
 const ONE_A_LINE: &str = "one instruction is on a line";
 
+/// Whether a comment was probably meant to begin here.
+fn is_comment_sign(text: &str) -> bool {
+    text.starts_with(['#', '-', '–', '—', '\'', '!', '|']) && !text.contains(char::is_alphanumeric)
+}
+
 /// What was probably meant by a sign where an operand should be.
 fn sign_hint(text: &str) -> Option<&'static str> {
     match text {
         ":=" => Some("operands are separated by commas, without signs between them"),
         "=" | "==" => Some(ONE_A_LINE),
         "<" | ">" | "<=" | ">=" | "<>" => Some("words are compared by LDW> MW0, 5 and its like"),
-        "+" => Some("a number is behind its sign, such as +5"),
-        _ if text.starts_with(['#', '-', '–', '—']) => Some("a comment begins with //"),
+        "+" => Some("a sign belongs to a number, such as +5; operands are added by `+I VW0, VW2`"),
+        _ if is_comment_sign(text) => Some("a comment begins with //"),
         _ => None,
     }
 }

@@ -37,7 +37,7 @@ impl diagnostics::Code for Code {
     }
 
     fn severity(self) -> Severity {
-        if self.text().starts_with('E') { Severity::Error } else { Severity::Warning }
+        Severity::of_code(self.text())
     }
 
     fn page(self) -> Option<&'static str> {

@@ -105,7 +105,25 @@ pub(super) const ROWS: &[Row] = &[
     row(&["GE"], Nothing, "on an S7-200 that is a contact: `LDW>= VW0, 5`"),
     row(&["LT"], Nothing, "on an S7-200 that is a contact: `LDW< VW0, 5`"),
     row(&["LE"], Nothing, "on an S7-200 that is a contact: `LDW<= VW0, 5`"),
-    row(&["MAX", "MIN", "LIMIT", "SEL", "MUX"], Nothing, LESS_OR_MORE),
+    row(&["MAX", "MIN"], Nothing, LESS_OR_MORE),
+    row(
+        &["LIMIT"],
+        Nothing,
+        "on an S7-200 each limit is a comparison and a copy: `LDW> VW0, 100`, `MOVW 100, VW0`, \
+         then `LDW< VW0, 0`, `MOVW 0, VW0`",
+    ),
+    row(
+        &["SEL"],
+        Nothing,
+        "on an S7-200 a bit chooses between two copies: `LDN I0.0`, `MOVW VW0, VW4`, then \
+         `LD I0.0`, `MOVW VW2, VW4`",
+    ),
+    row(
+        &["MUX"],
+        Nothing,
+        "on an S7-200 each value has a comparison and a copy: `LDW= VW0, 1`, `MOVW VW2, VW10`, \
+         then `LDW= VW0, 2`, `MOVW VW4, VW10`",
+    ),
     row(&["SCALE", "SCALE_X", "NORM_X", "UNSCALE", "SCL"], Nothing, SCALE),
     row(
         &["CONVERT", "CONV"],

@@ -1,6 +1,6 @@
 //! Words of the instruction lists of other makers, and the full words of which mnemonics are made.
 
-use super::row::Here::{Like, Mnemonic, Nothing, Sized};
+use super::row::Here::{Like, Mnemonic, Nothing, Routine, Sized};
 use super::row::{Row, named, row};
 
 const BITS_OR_WORDS: &str = "of bits it is `A`, of bytes `ANDB`, of words `ANDW`, of double words \
@@ -157,7 +157,7 @@ pub(super) const ROWS: &[Row] = &[
     row(&["GOTO"], Nothing, "on an S7-200 that is `LD SM0.0`, `JMP 1`; `LBL 1` is where it goes"),
     row(&["LABEL"], Mnemonic("LBL"), ""),
     named(&[], &["MARKE"], Mnemonic("LBL"), "a label is a number: `LBL 1`"),
-    row(&["JSR", "GOSUB", "CALLSUB"], Nothing, "on an S7-200 that is `CALL SBR0`"),
+    row(&["JSR", "GOSUB", "CALLSUB", "SUBR"], Routine, "on an S7-200 that is `CALL SBR0`"),
     row(
         &["NW", "SEGMENT", "RUNG"],
         Mnemonic("NETWORK"),
@@ -198,15 +198,14 @@ pub(super) const ROWS: &[Row] = &[
          and `LD T37` is 1 when its time is over",
     ),
     named(&[], &["ZUWEISEN", "ZUWEISUNG", "AUSGANG"], Mnemonic("="), ""),
-    row(&["SUBR"], Nothing, "on an S7-200 that is `CALL SBR0`"),
     row(&["ZRST"], Nothing, "on an S7-200 several bits are reset by `R M0.0, 8`"),
     row(
         &["IL", "ILC"],
         Nothing,
         "an S7-200 has no interlock: jump over the rungs with `JMP 1` and `LBL 1`",
     ),
-    row(&["BIN"], Nothing, "on an S7-200 `BCDI VW0` makes a number of BCD"),
-    row(&["BCD"], Nothing, "on an S7-200 `IBCD VW0` makes BCD of a number"),
+    row(&["BIN"], Nothing, "on an S7-200 `BCDI VW0` makes a number of the BCD digits in VW0"),
+    row(&["BCD"], Nothing, "on an S7-200 `IBCD VW0` makes BCD digits of the number in VW0"),
     row(
         &["BMOV"],
         Nothing,

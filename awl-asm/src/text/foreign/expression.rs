@@ -1,7 +1,7 @@
 //! Expressions of structured text as the instructions that they would be: contacts of AND and OR,
 //! one step of arithmetic. What is more than that is no line of AWL.
 
-use super::width::Width;
+use super::width::{self, Width};
 use crate::text::address::Address;
 
 /// A word or sign of an expression.
@@ -100,7 +100,7 @@ fn one_contact(contact: &str, part: &[Token]) -> Option<String> {
     let (inverted, name) = match part {
         [Token::Operand(name)] => (false, name),
         [Token::Not, Token::Operand(name)] => (true, name),
-        _ => return None,
+        _ => return compared(contact, part),
     };
     let (inverted, name) = match truth(name) {
         Some(value) => (inverted == value, "SM0.0"),
@@ -114,6 +114,30 @@ fn one_contact(contact: &str, part: &[Token]) -> Option<String> {
         Err(_) => !name.starts_with(|c: char| c.is_ascii_digit()),
     };
     is_bit.then(|| format!("{contact}{} {name}", if inverted { "N" } else { "" }))
+}
+
+/// The contact of a comparison, `VW0 >= 5`.
+fn compared(contact: &str, part: &[Token]) -> Option<String> {
+    let (Token::Operand(left), rest) = part.split_first()? else { return None };
+    let signs: String = rest
+        .iter()
+        .map_while(|token| match token {
+            Token::Sign(sign @ ('<' | '>' | '=')) => Some(*sign),
+            _ => None,
+        })
+        .collect();
+    if !matches!(signs.as_str(), "=" | "<>" | "<" | ">" | "<=" | ">=") {
+        return None;
+    }
+    let right = match rest.get(signs.len()..)? {
+        [Token::Operand(right)] => right.clone(),
+        [Token::Sign('-'), Token::Operand(right)] if right.parse::<u32>().is_ok() => {
+            format!("-{right}")
+        }
+        _ => return None,
+    };
+    let width = width::of(&format!("{left}, {right}")).filter(|width| *width != Width::Bit)?;
+    Some(format!("{contact}{}{signs} {left}, {right}", width.letter()))
 }
 
 /// A rung that writes a bit.
@@ -205,6 +229,10 @@ mod tests {
         assert_eq!(coil_of("(I0.0 OR I0.1) AND I0.2"), "");
         assert_eq!(coil_of("VW0 AND I0.2"), "");
         assert_eq!(coil_of("I0.0 AND"), "");
+        assert_eq!(coil_of("VW0 > 5"), "LDW> VW0, 5; = Q0.0");
+        assert_eq!(coil_of("I0.0 AND VD0 <= -2"), "LD I0.0; AD<= VD0, -2; = Q0.0");
+        assert_eq!(coil_of("I0.0 = I0.1"), "");
+        assert_eq!(coil_of("VW0 > VW2 + 1"), "");
     }
 
     #[test]

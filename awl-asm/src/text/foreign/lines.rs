@@ -5,7 +5,7 @@ use plc_isa::{Area, Op, TimerKind};
 
 use super::expression::{self, Token};
 use super::operands;
-use super::row::{Instead, Meant};
+use super::row::{Here, Instead, Meant};
 use super::width::{self, Width};
 use super::words::find;
 use crate::text::address::Address;
@@ -50,6 +50,7 @@ pub(super) fn meant(word: &str, rest: &str) -> Option<Meant> {
         .or_else(|| declared(line))
         .or_else(|| assignment(line))
         .or_else(|| compared(line))
+        .or_else(|| signed(word, rest))
         .or_else(|| operand_first(line))
         .or_else(|| (find(word).is_none() && is_structured(rest)).then(|| told(COMMAS)))
 }
@@ -176,6 +177,9 @@ fn assignment(line: &str) -> Option<Meant> {
             help: vec![NEEDS_CONTACT.to_owned()],
             stand_in: None,
         },
+        Some(code) if width != Some(Width::Bit) => {
+            Meant { help: vec![listed(code), NEEDS_CONTACT.to_owned()], ..Meant::default() }
+        }
         Some(code) => told(listed(code)),
         None if width == Some(Width::Bit) => told(EXPRESSION_OF_BITS),
         None => told(EXPRESSION),
@@ -197,6 +201,9 @@ fn compared(line: &str) -> Option<Meant> {
     // A misspelt mnemonic of a comparison is no operand.
     width?;
     let is_number = right.starts_with(|c: char| c.is_ascii_digit() || c == '-');
+    if let Some(code) = compared_with_sum(line, left, relation, right) {
+        return Some(told(listed(&code)));
+    }
     if relation == "=" || right.contains([' ', ',']) || operand(right).is_none() && !is_number {
         return Some(told(COMPARE));
     }
@@ -205,6 +212,38 @@ fn compared(line: &str) -> Option<Meant> {
         instead: Some(Instead::Line(comparison(width::of(line), relation, &left, right))),
         help: vec![COMPARE.to_owned()],
         stand_in: None,
+    })
+}
+
+/// `VW0 > VW2 + 1`: what is calculated comes first.
+fn compared_with_sum(line: &str, left: &str, relation: &str, right: &str) -> Option<Vec<String>> {
+    let (left, width) = (operand(left)?, width::of(line)?);
+    let sum = expression::value("AC0", width, &expression::tokens(right))?;
+    let compare = comparison(Some(width), relation, &left, "AC0");
+    let is_sum = sum.len() > 1;
+    is_sum.then(|| ["LD SM0.0".to_owned()].into_iter().chain(sum).chain([compare]).collect())
+}
+
+/// `+VW0`: a sign with an operand, and no instruction.
+fn signed(word: &str, rest: &str) -> Option<Meant> {
+    let (sign, name) = word.split_at_checked(1)?;
+    let width = Width::of_operand(name).filter(|_| rest.trim().is_empty())?;
+    let what = match sign {
+        "+" => "adds to",
+        "-" => "subtracts from",
+        "*" => "multiplies",
+        "/" => "divides",
+        _ => return None,
+    };
+    let letter = width.of_all(["", "", "I", "D", "R"]);
+    let name = operand(name)?;
+    let target = if width == Width::Double { "VD10" } else { "VW10" };
+    let target = if name == target { "AC0" } else { target };
+    (!letter.is_empty()).then(|| {
+        told(format!(
+            "an instruction names both operands, and the second is the result: `{sign}{letter} \
+             {name}, {target}` {what} {target}"
+        ))
     })
 }
 
@@ -376,8 +415,16 @@ fn plain_call(word: &str, inside: &str) -> Meant {
     match find(word) {
         Some(row) => {
             let mut meant = row.meant(inside);
-            meant.help.push(NO_BRACKETS.to_owned());
+            if !matches!(row.here, Here::Nothing) {
+                meant.help.push(NO_BRACKETS.to_owned());
+            }
             meant
+        }
+        // An instance of a block, by the names of its parameters.
+        None if argument(inside, &["PT"]).is_some() => timer("TON", None, inside),
+        None if argument(inside, &["PV"]).is_some() => {
+            let counter_of = if argument(inside, &["CU"]).is_some() { "CTU" } else { "CTD" };
+            counter(counter_of, "C1", inside)
         }
         None => told(
             "a subroutine is called by `CALL SBR0`, and its parameters follow: `CALL SBR0, 5, VW0`",

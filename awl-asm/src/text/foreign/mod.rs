@@ -2,6 +2,7 @@
 //! words that begin a line and whole lines; what is wrong with an instruction of the S7-200 is said
 //! where it is read.
 
+pub(crate) mod accumulators;
 mod boxes;
 mod controllers;
 mod expression;
@@ -10,7 +11,7 @@ pub(crate) mod operands;
 mod row;
 mod step7;
 mod structured;
-mod width;
+pub(crate) mod width;
 mod words;
 
 pub(crate) use lines::is_structured;

@@ -1,7 +1,7 @@
 //! Operands as other systems of the family write them: data blocks, periphery, function blocks,
 //! times.
 
-use plc_isa::{Op, TimerKind, timer_resolution};
+use plc_isa::{Area, Op, TimerKind, timer_resolution};
 
 use crate::text::address::Address;
 
@@ -41,6 +41,14 @@ fn peripheral(upper: &str) -> Option<String> {
     letters.or_else(|| upper.strip_suffix(":P").map(str::to_owned))
 }
 
+/// Whether an operand is a point of the periphery by its German name, `PEW0`.
+pub(super) fn is_german(text: &str) -> bool {
+    let upper = text.trim_start_matches('%').to_ascii_uppercase();
+    let rest = upper.strip_prefix("PE").or(upper.strip_prefix("PA"));
+    let number = rest.and_then(|rest| rest.strip_prefix(['B', 'W', 'D']));
+    number.is_some_and(|number| number.starts_with(|c: char| c.is_ascii_digit()))
+}
+
 /// What a timer or counter is made of: `T37.Q`, `C1.CV`.
 fn member(upper: &str) -> Option<String> {
     let (name, member) = upper.rsplit_once('.')?;
@@ -62,6 +70,28 @@ fn first_module(upper: &str) -> Option<String> {
     let (byte, bit) = number.split_once('.')?;
     let byte = byte.parse::<u8>().ok()?.checked_sub(124)?;
     matches!(letters, "I" | "E" | "Q" | "A").then(|| format!("{letters}{byte}.{bit}"))
+}
+
+/// How `:P` after an input or output is written, where the input itself is read or written.
+pub(crate) fn immediate(text: &str) -> Option<String> {
+    let (name, _) = text.rsplit_once(':').filter(|(_, end)| end.eq_ignore_ascii_case("P"))?;
+    Some(match Address::parse(name.trim_start_matches('%')).ok()? {
+        bit @ Address::Bit { area: Area::I, .. } => {
+            format!("the process image is as old as the scan; `LDI {bit}` reads the input itself")
+        }
+        bit @ Address::Bit { area: Area::Q, .. } => format!(
+            "the process image is written after the scan; `=I {bit}` writes the output at once"
+        ),
+        Address::Byte { area: Area::Q, .. } | Address::Word { area: Area::Q, .. } => {
+            "the process image is written after the scan; `BIW VB0, QB0` writes outputs at once"
+                .to_owned()
+        }
+        Address::Byte { area: Area::I, .. } | Address::Word { area: Area::I, .. } => {
+            "the process image is as old as the scan; `BIR IB0, VB0` reads the inputs themselves"
+                .to_owned()
+        }
+        _ => return None,
+    })
 }
 
 /// How to write an operand that is no address of an S7-200.

@@ -46,6 +46,8 @@ pub(super) enum Here {
     Instruction(&'static str),
     /// Nothing to suggest, but for the logic stack the word is like this one.
     Like(&'static str),
+    /// The call of a subroutine, whose number follows.
+    Routine,
     /// The mnemonics for a bit, byte, word, double word and real, empty where there is none; and
     /// the one if the operands do not tell.
     Sized([&'static str; 5], &'static str),
@@ -73,6 +75,10 @@ impl Row {
         let (instead, stand_in) = match self.here {
             Here::Nothing => (None, None),
             Here::Like(mnemonic) => (None, word(mnemonic)),
+            Here::Routine => {
+                let number = rest.trim().parse::<u8>().ok();
+                (number.map(|number| Instead::Line(format!("CALL SBR{number}"))), word("CALL"))
+            }
             Here::Mnemonic(mnemonic) => (word(mnemonic).map(Instead::Word), word(mnemonic)),
             Here::Instruction(text) => {
                 (word(text).map(Instead::Line), text.split(' ').next().and_then(word))
@@ -83,7 +89,11 @@ impl Row {
             }
         };
         // Which of several it is, the operands have told.
-        let is_told = matches!(self.here, Here::Sized(..)) && width.is_some() && instead.is_some();
+        let is_told = match self.here {
+            Here::Sized(..) => width.is_some() && instead.is_some(),
+            Here::Routine => instead.is_some(),
+            _ => false,
+        };
         let help = word(self.way).filter(|_| !is_told).into_iter().collect();
         Meant { instead, help, stand_in }
     }

@@ -12,16 +12,24 @@ const POINTERS: &str =
     "on an S7-200 a pointer is a double word: `MOVD &VB100, AC1`, then `*AC1` is what it points to";
 const NO_MASTER_RELAY: &str = "an S7-200 has no master control relay: put the contact into each \
      rung, or jump over them with `JMP 1` and `LBL 1`";
-const BY_RESULT: &str = "on an S7-200 a comparison is before the jump: `LDW= VW0, 0` (or `<>` `>` \
-     `<` `>=` `<=`), then `JMP 1`; `LBL 1` is where it goes";
+const BY_ZERO: &str = "on an S7-200 a comparison is before the jump: `LDW= VW0, 0`, then `JMP 1`; \
+     `LBL 1` is where it goes";
+const BY_OTHER: &str = "on an S7-200 a comparison is before the jump: `LDW<> VW0, 0`, then \
+     `JMP 1`; `LBL 1` is where it goes";
+const BY_NEGATIVE: &str = "on an S7-200 a comparison is before the jump: `LDW< VW0, 0`, then \
+     `JMP 1`; `LBL 1` is where it goes";
+const BY_ZERO_OR_MORE: &str = "on an S7-200 a comparison is before the jump: `LDW>= VW0, 0`, then \
+     `JMP 1`; `LBL 1` is where it goes";
+const BY_ZERO_OR_LESS: &str = "on an S7-200 a comparison is before the jump: `LDW<= VW0, 0`, then \
+     `JMP 1`; `LBL 1` is where it goes";
 const BY_FLAG: &str =
     "on an S7-200 the flag is a bit: `LD SM1.1` (overflow), then `JMP 1`; `LBL 1` is where it goes";
 const BY_BIT: &str = "on an S7-200 labels are numbers: `JMP 1` jumps with power flow (`NOT` before \
      it without), `LBL 1` is where it goes";
-const AND_BRACKET: &str =
-    "an S7-200 has no brackets: begin what is inside with `LD`, end it with `ALD`";
-const OR_BRACKET: &str =
-    "an S7-200 has no brackets: begin what is inside with `LD`, end it with `OLD`";
+const AND_BRACKET: &str = "an S7-200 has no brackets: begin what is inside with `LD`, and where a \
+     contact is before it end it with `ALD`";
+const OR_BRACKET: &str = "an S7-200 has no brackets: begin what is inside with `LD`, and where a \
+     contact is before it end it with `OLD`";
 const NO_EXCLUSIVE_OR: &str = "on an S7-200 that is `LD I0.0`, `AN I0.1`, `LDN I0.0`, `A I0.1`, \
      `OLD`: one bit or the other, not both";
 const PULSE: &str = "an S7-200 has no pulse timers: set a bit with `EU` and `S M0.0, 1`, let \
@@ -30,12 +38,12 @@ const ON_DELAY: &str =
     "on an S7-200 an on-delay is `TON T37, 20` (20 times 100 ms) after the contact";
 const BCD: &str = "on an S7-200 numbers are not BCD: compare and copy `C1` or `T37` as words; \
      `IBCD VW0` makes BCD";
-const END_OF_BLOCK: &str = "leave the line out: a unit of an S7-200 ends with its last line. \
-     `CRET` leaves a subroutine with power flow, `END` the main program";
+const END_OF_BLOCK: &str = "leave the line out where it is the last of its unit; elsewhere \
+     `LD SM0.0` and `CRET` leave a subroutine, `LD SM0.0` and `END` the main program";
+const CONDITIONAL_END: &str = "on an S7-200 `CRET` leaves a subroutine while the contact before it \
+     is 1, `END` the main program, `CRETI` an interrupt routine";
 const NO_CALL_LISTS: &str = "on an S7-200 that is `CALL SBR1`, and the block begins with \
      `SUBROUTINE_BLOCK Name:SBR1`";
-const COMPARE: &str = "on an S7-200 a comparison is a contact with both operands: \
-     `LDW>= VW0, VW2` for words, `LDD>= VD0, VD4` for double words, `LDR>= VD0, VD4` for reals";
 const ROTATE_THROUGH: &str = "an S7-200 rotates without a further bit: `RLD VD0, 1`, `RRD VD0, 1`";
 const ROUND: &str = "an S7-200 rounds to the nearest with `ROUND VD0, VD4` and towards 0 with \
      `TRUNC VD0, VD4`";
@@ -45,14 +53,14 @@ pub(super) const ROWS: &[Row] = &[
     row(
         &["L"],
         Nothing,
-        "on an S7-200 that is one instruction with the operand of the transfer (`T`): \
-         `MOVW VW0, VW2`, of bytes `MOVB`, of double words `MOVD`",
+        "on an S7-200 one instruction names both operands: `MOVW VW0, VW2` copies (of bytes \
+         `MOVB`, of double words `MOVD`), `+I VW0, VW2` adds, `LDW> VW0, VW2` compares",
     ),
     row(
         &["T"],
         Nothing,
-        "on an S7-200 that is one instruction with the operand of the load (`L`): \
-         `MOVW VW0, VW2`, of bytes `MOVB`, of double words `MOVD`",
+        "on an S7-200 that is one instruction with the operand of the load (`L`), after a contact \
+         such as `LD SM0.0`: `MOVW VW0, VW2`, of bytes `MOVB`, of double words `MOVD`",
     ),
     row(&["LC"], Nothing, BCD),
     row(&["TAK", "PUSH", "POP", "ENT", "LEAVE"], Nothing, NO_ACCUMULATORS),
@@ -96,8 +104,8 @@ pub(super) const ROWS: &[Row] = &[
     row(
         &[")"],
         Nothing,
-        "an S7-200 has no brackets: what is inside begins with `LD`, and `ALD` (AND) or `OLD` (OR) \
-         ends it",
+        "an S7-200 has no brackets: what is inside begins with `LD`, and where a contact is before \
+         it, `ALD` (AND) or `OLD` (OR) ends it",
     ),
     row(&["X", "XN", "XO"], Nothing, NO_EXCLUSIVE_OR),
     row(&["FP"], Instruction("EU"), "an S7-200 remembers the edge by itself: `EU` has no operand"),
@@ -125,17 +133,17 @@ pub(super) const ROWS: &[Row] = &[
     named(&["JC"], &["SPB"], Mnemonic("JMP"), BY_BIT),
     named(&["JCN"], &["SPBN"], Like("JMP"), BY_BIT),
     named(&["JCB", "JNB", "JBI", "JNBI"], &["SPBB", "SPBNB", "SPBI", "SPBIN"], Like("JMP"), BY_BIT),
+    named(&["JZ"], &["SPZ"], Nothing, BY_ZERO),
+    named(&["JN"], &["SPN"], Nothing, BY_OTHER),
+    named(&["JM"], &["SPM"], Nothing, BY_NEGATIVE),
+    named(&["JPZ"], &["SPPZ"], Nothing, BY_ZERO_OR_MORE),
+    named(&["JMZ"], &["SPMZ"], Nothing, BY_ZERO_OR_LESS),
     named(
-        &["JZ", "JN", "JM", "JPZ", "JMZ"],
-        &["SPZ", "SPN", "SPP", "SPM", "SPPZ", "SPMZ"],
-        Nothing,
-        BY_RESULT,
-    ),
-    row(
         &["JP"],
+        &["SPP"],
         Nothing,
-        "`JMP 1` jumps with power flow; if a number is positive, `LDW> VW0, 0` is before it. \
-         `LBL 1` is where it goes",
+        "`JMP 1` jumps with power flow; if a number is positive, the comparison \
+         `LDW> VW0, 0` is before it. `LBL 1` is where it goes",
     ),
     named(&["JO", "JOS", "JUO"], &["SPO", "SPS", "SPU"], Nothing, BY_FLAG),
     named(
@@ -150,8 +158,9 @@ pub(super) const ROWS: &[Row] = &[
         Nothing,
         "on an S7-200 a loop is between `FOR VW0, 1, 10` and `NEXT`, with a contact before FOR",
     ),
-    named(&["BE", "BEU"], &["BEA"], Nothing, END_OF_BLOCK),
-    named(&["BEC"], &["BEB"], Nothing, END_OF_BLOCK),
+    row(&["BE"], Nothing, "leave the line out: a unit of an S7-200 ends with its last line"),
+    named(&["BEU"], &["BEA"], Nothing, END_OF_BLOCK),
+    named(&["BEC"], &["BEB"], Nothing, CONDITIONAL_END),
     row(&["MEND"], Nothing, "leave the line out: a program ends with its last line"),
     row(&["UC", "CC"], Nothing, NO_CALL_LISTS),
     row(&["MCR(", ")MCR", "MCRA", "MCRD", "MCR", "MC"], Nothing, NO_MASTER_RELAY),
@@ -237,12 +246,40 @@ pub(super) const ROWS: &[Row] = &[
     row(&["BTD"], Nothing, "an S7-200 converts BCD in words: `BCDI VW0`, then `ITD VW0, VD4`"),
     row(&["DTB"], Nothing, "an S7-200 makes BCD of words: `DTI VD0, VW4`, then `IBCD VW4`"),
     row(
-        &[
-            "==I", "<>I", ">I", "<I", ">=I", "<=I", "==D", "<>D", ">D", "<D", ">=D", "<=D", "==R",
-            "<>R", ">R", "<R", ">=R", "<=R",
-        ],
+        &["==I", "==D", "==R"],
         Nothing,
-        COMPARE,
+        "on an S7-200 a comparison is a contact with both operands: `LDW= VW0, VW2` for words, \
+         `LDD= VD0, VD4` for double words, `LDR= VD0, VD4` for reals",
+    ),
+    row(
+        &["<>I", "<>D", "<>R"],
+        Nothing,
+        "on an S7-200 a comparison is a contact with both operands: `LDW<> VW0, VW2` for words, \
+         `LDD<> VD0, VD4` for double words, `LDR<> VD0, VD4` for reals",
+    ),
+    row(
+        &[">I", ">D", ">R"],
+        Nothing,
+        "on an S7-200 a comparison is a contact with both operands: `LDW> VW0, VW2` for words, \
+         `LDD> VD0, VD4` for double words, `LDR> VD0, VD4` for reals",
+    ),
+    row(
+        &["<I", "<D", "<R"],
+        Nothing,
+        "on an S7-200 a comparison is a contact with both operands: `LDW< VW0, VW2` for words, \
+         `LDD< VD0, VD4` for double words, `LDR< VD0, VD4` for reals",
+    ),
+    row(
+        &[">=I", ">=D", ">=R"],
+        Nothing,
+        "on an S7-200 a comparison is a contact with both operands: `LDW>= VW0, VW2` for words, \
+         `LDD>= VD0, VD4` for double words, `LDR>= VD0, VD4` for reals",
+    ),
+    row(
+        &["<=I", "<=D", "<=R"],
+        Nothing,
+        "on an S7-200 a comparison is a contact with both operands: `LDW<= VW0, VW2` for words, \
+         `LDD<= VD0, VD4` for double words, `LDR<= VD0, VD4` for reals",
     ),
     row(
         &["INC"],

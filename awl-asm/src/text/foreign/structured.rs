@@ -6,6 +6,9 @@ use super::row::{Row, named, row};
 const IF: &str = "AWL has no IF: a contact is before what it is for, as in `LD I0.0`, `= Q0.0`; or \
      jump over it with `JMP 1` and `LBL 1`";
 const LOOP: &str = "AWL loops with `FOR VW0, 1, 10` and `NEXT`, after a contact such as `LD SM0.0`";
+const REPEAT: &str = "AWL has no WHILE and no REPEAT: what the scan itself can repeat needs no \
+     loop. Within a scan it is `LBL 1`, then what is repeated, then `LDW< VW0, 10` and `JMP 1`, \
+     which goes back while the comparison is true";
 const CASE: &str = "AWL has no CASE: a comparison is before what it is for, such as `LDW= VW0, 1`";
 const BLOCKS: &str = "the blocks of an S7-200 are `ORGANIZATION_BLOCK MAIN:OB1`, \
      `SUBROUTINE_BLOCK Name:SBR0` and `INTERRUPT_BLOCK Name:INT0`; a program without blocks is \
@@ -20,10 +23,13 @@ pub(super) const ROWS: &[Row] = &[
     row(&["IF", "THEN", "ELSE", "ELSIF", "ELSEIF", "END_IF", "ENDIF"], Nothing, IF),
     named(&[], &["WENN", "DANN", "SONST", "ENDE_WENN"], Nothing, IF),
     row(&["CASE", "END_CASE", "SWITCH"], Nothing, CASE),
+    row(&["WHILE", "END_WHILE", "REPEAT", "UNTIL", "END_REPEAT"], Nothing, REPEAT),
+    row(&["DO", "END_FOR"], Nothing, LOOP),
     row(
-        &["WHILE", "END_WHILE", "DO", "REPEAT", "UNTIL", "END_REPEAT", "END_FOR", "EXIT"],
+        &["EXIT"],
         Nothing,
-        LOOP,
+        "a loop of `FOR VW0, 1, 10` and `NEXT` ends early by its counter: `MOVW 10, VW0` makes \
+         this round the last",
     ),
     row(&["RETURN"], Nothing, RETURN),
     row(

@@ -4,8 +4,9 @@ use crate::text::address::Address;
 use crate::text::ast::Value;
 use crate::text::literal;
 
+/// The size of an operand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Width {
+pub(crate) enum Width {
     Bit,
     Byte,
     Word,
@@ -38,7 +39,7 @@ const FAMILIES: [[&str; 4]; 20] = [
 ];
 
 impl Width {
-    pub(super) fn of_address(address: Address) -> Option<Width> {
+    pub(crate) fn of_address(address: Address) -> Option<Width> {
         Some(match address {
             Address::Bit { .. } => Width::Bit,
             Address::Byte { .. } => Width::Byte,
@@ -63,10 +64,20 @@ impl Width {
     }
 
     /// The mnemonic of this width that belongs to the same family; `None` if there is none.
-    pub(super) fn sibling(self, mnemonic: &str) -> Option<&'static str> {
+    pub(crate) fn sibling(self, mnemonic: &str) -> Option<&'static str> {
         let family = FAMILIES.iter().find(|family| family.contains(&mnemonic))?;
         let index = (self as usize).checked_sub(Width::Byte as usize)?;
         family.get(index).copied().filter(|name| !name.is_empty())
+    }
+
+    /// One of them in words.
+    pub(crate) fn singular(self) -> &'static str {
+        self.of_all(["bit", "byte", "word", "double word", "real number"])
+    }
+
+    /// Several of them in words.
+    pub(crate) fn plural(self) -> &'static str {
+        self.of_all(["bits", "bytes", "words", "double words", "real numbers"])
     }
 
     /// The letter in comparisons and moves; of a bit there is none.

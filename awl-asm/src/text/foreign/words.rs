@@ -1,7 +1,7 @@
 //! All words of other controllers, from the tables.
 
 use super::row::Row;
-use super::{boxes, controllers, step7, structured};
+use super::{boxes, controllers, operands, step7, structured};
 
 /// Every word that is known.
 fn rows() -> impl Iterator<Item = &'static Row> {
@@ -18,9 +18,10 @@ pub(crate) fn is_known(word: &str) -> bool {
     find(word).is_some()
 }
 
-/// Whether a word of another controller is German.
+/// Whether a word or operand of another controller is German.
 pub(crate) fn is_german(word: &str) -> bool {
     rows().any(|row| row.german.iter().any(|name| name.eq_ignore_ascii_case(word)))
+        || operands::is_german(word)
 }
 
 #[cfg(test)]
@@ -37,7 +38,7 @@ mod tests {
         };
         for row in rows() {
             match row.here {
-                Here::Nothing => {}
+                Here::Nothing | Here::Routine => {}
                 Here::Mnemonic(word) | Here::Like(word) | Here::Instruction(word) => {
                     assert!(exists(word), "{row:?}");
                 }
