@@ -5,7 +5,7 @@ use plc_isa::Area;
 
 use crate::text::address::Address;
 use crate::text::ast::{Instruction, Value};
-use crate::text::foreign::width::Width;
+use crate::text::foreign::{self, width::Width};
 
 const NO_PULSE: &str = "an S7-200 has no pulse timers: set a bit with `EU` and `S M0.0, 1`, let \
      `TON T37, 20` run while it is 1, and reset it with `R M0.0, 1` when T37 is";
@@ -33,6 +33,18 @@ pub(crate) fn way(source: &Instruction, wanted: usize, takes_real: bool) -> Opti
         ("EU" | "ED", 1..) => {
             Some(format!("`{name}` is after the contact whose edge it tells: `LD I0.0`, `{name}`"))
         }
+        ("LD" | "LDN" | "A" | "AN" | "O" | "ON" | "LDI" | "AI" | "OI", 2) => {
+            let [one, other] = texts(source)?.try_into().ok()?;
+            Some(format!(
+                "one contact is on a line: `{name} {one}`, then `A {other}` if both are needed, or \
+                 `O {other}` if one is enough"
+            ))
+        }
+        ("=" | "=I", 2..) => {
+            let lines: Vec<String> =
+                texts(source)?.iter().map(|output| format!("`{name} {output}`")).collect();
+            Some(format!("one output is on a line: {}", lines.join(", ")))
+        }
         ("NOT", 1..) => Some("of one bit `LDN`, `AN` or `ON` take the inverted value".to_owned()),
         ("TON" | "TOF" | "TONR", 1) => {
             let timer = first.map_or("T37".to_owned(), |address| address.to_string());
@@ -52,7 +64,7 @@ pub(crate) fn way(source: &Instruction, wanted: usize, takes_real: bool) -> Opti
         // Two constants side by side are none that an instruction has.
         (_, given) if given == wanted + 1 => {
             let real = || takes_real.then(|| fraction(source)).flatten();
-            real().or_else(|| (wanted == 2).then(|| two_operands(name)).flatten())
+            real().or_else(|| apart(source, wanted))
         }
         (_, 0) if wanted == 2 && is_calculating(name) => Some(
             "an S7-200 has no accumulators between load and transfer: both operands are named, the \
@@ -74,21 +86,33 @@ fn fraction(source: &Instruction) -> Option<String> {
     Some(format!("a real number has a point: `{whole}.{digits}`"))
 }
 
-/// What has two operands where others have three.
-fn two_operands(name: &str) -> Option<String> {
-    if name.starts_with("MOV") {
+/// The operands as they are written; `None` where one is nothing.
+fn texts(source: &Instruction) -> Option<Vec<String>> {
+    source.operands.iter().map(|operand| text(&operand.value)).collect()
+}
+
+fn text(value: &Value) -> Option<String> {
+    Some(match value {
+        Value::Address(address) => address.to_string(),
+        Value::Constant(constant) => constant.value.to_string(),
+        Value::Real(bits) => format!("{:?}", f32::from_bits(*bits)),
+        Value::Indirect(address) => format!("*{address}"),
+        Value::AddressOf(address) => format!("&{address}"),
+        Value::Text(_) | Value::Unit(_) | Value::Invalid => return None,
+    })
+}
+
+/// What has its result apart from its operands on other controllers and in boxes: a copy first.
+fn apart(source: &Instruction, wanted: usize) -> Option<String> {
+    let name = source.mnemonic();
+    if name.starts_with("MOV") && wanted == 2 {
         return Some(format!(
             "`{name}` copies one value to one place; a second place takes a second `{name}`"
         ));
     }
-    let combines = name.starts_with(['+', '-', '*', '/'])
-        || ["AND", "OR", "XOR", "MUL", "DIV"].iter().any(|start| name.starts_with(start));
-    combines.then(|| {
-        format!(
-            "the second operand is the result, too: copy the first there, then `{name}` with the \
-             other"
-        )
-    })
+    let code = foreign::apart(name, &texts(source)?)?;
+    let lines: Vec<String> = code.iter().map(|line| format!("`{line}`")).collect();
+    Some(format!("the last operand is the result, too: {}", lines.join(", ")))
 }
 
 /// Whether an instruction calculates with its first operand and the result.
@@ -111,6 +135,15 @@ fn way_of_constant(source: &Instruction, position: usize, value: i64) -> Option<
         ("MOVB" | "MOVW", 0) if fits(-0x8000_0000, 0xFFFF_FFFF) => {
             Some(format!("a double word takes it: `MOVD {value}, VD0`"))
         }
+        ("LSCR" | "SCRT", 0) if fits(0, 255) => Some(format!(
+            "a segment has the bit of its step: `{name} S{}.{}`",
+            value / 8,
+            value % 8
+        )),
+        ("TON" | "TOF" | "TONR", 1) => Some(
+            "a preset is at most 32767 counts, of 100 ms 3276.7 s: 60 s are `TON T37, 600`"
+                .to_owned(),
+        ),
         (_, 1) if name.starts_with(['+', '-', '*', '/']) => Some(format!(
             "the second operand is the result, the constant comes first: `{name} {value}, VW0`"
         )),
@@ -121,11 +154,31 @@ fn way_of_constant(source: &Instruction, position: usize, value: i64) -> Option<
 /// A real number where whole ones are.
 fn way_of_real(name: &str, value: f32) -> Option<String> {
     let real = match name {
+        "LD" | "LDN" | "A" | "AN" | "O" | "ON" | "=" | "S" | "R" => {
+            return Some(format!("an address begins with its area: `{name} I0.0`, `{name} Q0.0`"));
+        }
         "MOVB" | "MOVW" | "MOVD" => "MOVR".to_owned(),
         "+I" | "-I" | "*I" | "/I" | "+D" | "-D" | "*D" | "/D" => format!("{}R", &name[..1]),
         _ => return None,
     };
     Some(format!("real numbers are in double words: `{real} {value:?}, VD0`"))
+}
+
+/// A constant that is too large for the width of the address beside it.
+fn wider(source: &Instruction, width: Width) -> Option<String> {
+    let (most, target) = match width {
+        Width::Byte => (0xFF, "VW0"),
+        Width::Word => (0xFFFF, "VD0"),
+        Width::Bit | Width::Double | Width::Real => return None,
+    };
+    let name = source.mnemonic();
+    let constant = source.operands.iter().find_map(|operand| match operand.value {
+        Value::Constant(constant) if constant.value > most || constant.value < -0x8000 => {
+            Some(constant.value)
+        }
+        _ => None,
+    })?;
+    Some(format!("{constant} does not fit a {}: `{name} {constant}, {target}`", width.singular()))
 }
 
 /// The same instruction for operands of another width, or what makes one width of another.
@@ -141,6 +194,9 @@ fn way_of_width(source: &Instruction) -> Option<String> {
     let name = source.mnemonic();
     let (_, width) = *widths.first()?;
     if widths.iter().all(|(_, other)| *other == width) {
+        if let Some(wider) = wider(source, width) {
+            return Some(wider);
+        }
         let sibling = width.sibling(name).filter(|sibling| *sibling != name)?;
         let relation = source.relation.map_or("", |relation| relation.symbol());
         return Some(format!("{} are taken by `{sibling}{relation}`", width.plural()));
@@ -184,6 +240,23 @@ pub(crate) fn way_of_kind(source: &Instruction, position: usize) -> Option<Strin
             ))
         }
         ("SI", Address::Timer(_)) => Some(NO_PULSE.to_owned()),
+        ("TON" | "TOF" | "TONR", _) if position == 0 => {
+            let timer = if name == "TONR" { "T5" } else { "T37" };
+            Some(match address {
+                Address::Bit { .. } => format!(
+                    "a timer is started, and its bit is a contact: `{name} {timer}, 20`, then \
+                     `LD {timer}`, `= {address}`"
+                ),
+                _ => format!("the timer is first, then its preset: `{name} {timer}, {address}`"),
+            })
+        }
+        ("MOVD", Address::Byte { .. } | Address::Word { .. }) if position == 0 => {
+            let to = source.operands.get(1).and_then(|operand| text(&operand.value));
+            let to = to.unwrap_or_else(|| "AC1".to_owned());
+            Some(format!(
+                "a pointer to it is `MOVD &{address}, {to}`; its value becomes a double word by `ITD`"
+            ))
+        }
         ("LD" | "A" | "O" | "LDN" | "AN" | "ON", _) => {
             let letter = match address {
                 Address::Byte { .. } => "B",

@@ -76,7 +76,11 @@ impl Blocks {
                 if !open.has_begun {
                     let message = "BEGIN is missing before the first instruction";
                     let diagnostic = Diagnostic::new(Code::Block, place, message);
-                    diagnostics.push(diagnostic.related(open.header, "of this block"));
+                    diagnostics.push(
+                        diagnostic
+                            .related(open.header, "of this block")
+                            .help("`BEGIN` is on a line of its own, after the variables"),
+                    );
                     open.has_begun = true;
                 }
                 LineKind::Code
@@ -144,7 +148,17 @@ impl Blocks {
                 None => Some("END_VAR: no VAR section is open".to_owned()),
             },
         };
-        diagnostics.extend(error.map(|message| Diagnostic::new(Code::Block, place, message)));
+        let is_variables = matches!(keyword, Keyword::Var(_) | Keyword::EndVar);
+        diagnostics.extend(error.map(|message| {
+            let diagnostic = Diagnostic::new(Code::Block, place, message);
+            match is_variables && self.open.is_none() {
+                true => diagnostic.help(
+                    "variables of the whole program are declared by `//# var Speed INT`, those of \
+                     a routine between its header and `BEGIN`",
+                ),
+                false => diagnostic,
+            }
+        }));
     }
 
     /// What is wrong with a word that belongs between a header and BEGIN.
@@ -169,7 +183,12 @@ impl Blocks {
             let message = format!("{}: instructions are before the first block", block.header());
             diagnostics.push(
                 Diagnostic::new(Code::Block, place, message)
-                    .related(outside, "this one, for example"),
+                    .related(outside, "this one, for example")
+                    .help(
+                        "the main program is in a block, too: before its first line \
+                         `ORGANIZATION_BLOCK MAIN:OB1` and `BEGIN`, after its last one \
+                         `END_ORGANIZATION_BLOCK`",
+                    ),
             );
             self.is_outside_reported = true;
             self.main = self.main.filter(|&main| main != outside);
@@ -224,7 +243,8 @@ impl Blocks {
         self.close_variables(diagnostics);
         if let Some(open) = self.open.take() {
             let message = format!("{}: {} is missing", open.block.header(), open.block.end());
-            diagnostics.push(Diagnostic::new(Code::Block, open.header, message));
+            let help = format!("`{}` is on the line after its last", open.block.end());
+            diagnostics.push(Diagnostic::new(Code::Block, open.header, message).help(help));
         }
         if !self.has_files {
             self.main = self.main.or(self.outside);

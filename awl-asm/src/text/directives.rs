@@ -241,6 +241,16 @@ fn range(item: Piece<'_>) -> Outcome<(Piece<'_>, Address, Address)> {
     Ok((item, address(first.trim())?, address(behind.split(1).1.trim())?))
 }
 
+/// The point at a pin of the Uno, `D2`.
+fn pin(text: &str) -> Option<String> {
+    let number = text.strip_prefix(['D', 'd'])?.parse::<u8>().ok()?;
+    Some(match number {
+        2..=7 => format!("I0.{}", number - 2),
+        8..=13 => format!("Q0.{}", number - 8),
+        _ => return None,
+    })
+}
+
 fn address(piece: Piece<'_>) -> Outcome<Address> {
     Address::parse(piece.text).map_err(|error| match error {
         AddressError::NotAnAddress if piece.text.is_empty() => {
@@ -248,7 +258,7 @@ fn address(piece: Piece<'_>) -> Outcome<Address> {
         }
         AddressError::NotAnAddress => {
             let mut diagnostic = piece.error("is no address");
-            diagnostic.suggestion = nearby_address(piece.text);
+            diagnostic.suggestion = pin(piece.text).or_else(|| nearby_address(piece.text));
             diagnostic
         }
         AddressError::OutOfRange(message, suggestion) => {

@@ -5,7 +5,7 @@ use plc_isa::{Instruction, Op, Relation};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::text::ast::{self, Constant, Operand, Span, Statement, UnitKind, Value};
-use crate::text::foreign::accumulators::{self, Way};
+use crate::text::foreign::together::{self, Together};
 use crate::text::foreign::{self, Instead, Meant};
 use crate::text::lexer::{Ahead, Cut};
 use crate::text::locals::PARAMETERS_MAX;
@@ -102,8 +102,8 @@ impl<'s> Parser<'s> {
 
     /// A first word that is none.
     pub(crate) fn unknown(&mut self, word: Span) {
-        if let Some(way) = self.text.get(word.start as usize..).and_then(accumulators::way) {
-            return self.accumulated(word, way);
+        if let Some(way) = self.text.get(word.start as usize..).and_then(together::find) {
+            return self.together(word, way);
         }
         let text = word.text(self.text);
         let relation = self.lexer.is_at_relation() && text.starts_with(is_word_start);
@@ -119,18 +119,15 @@ impl<'s> Parser<'s> {
         let likely = stand_in.as_deref().and_then(instruction_of);
         let operands = rest.get(relation.map_or(0, |sign| sign.text(self.text).len())..);
         let operands = operands.unwrap_or("").trim();
-        if let Some((entry, count)) = likely.filter(|(entry, _)| is_likely(entry.op, operands)) {
-            self.stand_in(entry, count, span);
+        match likely.filter(|(entry, _)| is_likely(entry.op, operands)) {
+            Some((entry, count)) => self.stand_in(entry, count, span),
+            None => self.first_stand_in(span),
         }
     }
 
     /// What was meant, where a rung may begin: its first contact is a load.
     fn as_first(&self, mut meant: Meant) -> Meant {
-        let is_first = match self.program.statements.last() {
-            Some(Statement::Instruction(_)) => false,
-            Some(Statement::Network(_) | Statement::Unit(_)) | None => true,
-        };
-        if let (true, Some(Instead::Word(word))) = (is_first, &meant.instead) {
+        if let (true, Some(Instead::Word(word))) = (self.begins_rung(), &meant.instead) {
             let load = match word.as_str() {
                 "A" | "O" => "LD",
                 "AN" | "ON" => "LDN",
@@ -142,18 +139,36 @@ impl<'s> Parser<'s> {
         meant
     }
 
-    /// Lines that load accumulators, and calculate, compare or transfer: one mistake.
-    fn accumulated(&mut self, word: Span, way: Way) {
-        let end = word.start as usize + way.len;
+    /// Lines of another language that only mean something together: one mistake.
+    fn together(&mut self, word: Span, found: Together) {
+        let end = word.start as usize + found.len;
         self.lexer.go_on(end);
         let span = Span { start: word.start, end: end as u32 };
-        let message = "an S7-200 has no accumulators between load and transfer".to_owned();
-        let code: Vec<String> = way.code.iter().map(|line| format!("`{line}`")).collect();
-        let help = format!("on an S7-200 these lines are {}", code.join(", "));
-        self.diagnostics.push(Diagnostic::new(Code::UnknownMnemonic, word, message).help(help));
-        if let Some((entry, count)) = instruction_of("LDW").filter(|_| way.compares) {
-            self.stand_in(entry, count, span);
+        let code: Vec<String> = found.code.iter().map(|line| format!("`{line}`")).collect();
+        let mut diagnostic = Diagnostic::new(Code::UnknownMnemonic, word, found.message);
+        if !code.is_empty() {
+            let help = format!("on an S7-200 these lines are {}", code.join(", "));
+            diagnostic.help.push(help);
         }
+        diagnostic.help.extend(found.help);
+        self.diagnostics.push(diagnostic);
+        match found.stand_in.and_then(instruction_of) {
+            Some((entry, count)) => self.stand_in(entry, count, span),
+            None => self.first_stand_in(span),
+        }
+    }
+
+    /// Puts a load in place of something unknown that begins a rung: what follows is not reported
+    /// for its missing load.
+    fn first_stand_in(&mut self, span: Span) {
+        if let (true, Some((load, count))) = (self.begins_rung(), instruction_of("LD")) {
+            self.stand_in(load, count, span);
+        }
+    }
+
+    /// Whether nothing is between here and the beginning of the network.
+    fn begins_rung(&self) -> bool {
+        !matches!(self.program.statements.last(), Some(Statement::Instruction(_)))
     }
 
     /// An instruction of the table that is written like structured text.
@@ -228,6 +243,8 @@ impl<'s> Parser<'s> {
             }
             return None;
         }
+        // What is before a colon is the name of a label, but for the word itself.
+        let is_label = text.ends_with(':') && !text.eq_ignore_ascii_case("LBL:");
         let near = || {
             let near = self.suggester.nearest_mnemonic(text, first_words())?;
             let near = foreign::sized(near, rest).unwrap_or(near);
@@ -235,7 +252,7 @@ impl<'s> Parser<'s> {
                 instruction_of(near).is_none_or(|(entry, _)| is_likely(entry.op, rest.trim()));
             is_likely.then(|| near.to_owned())
         };
-        let suggestion = without_blank(text).or_else(near);
+        let suggestion = without_blank(text).or_else(|| near().filter(|_| !is_label));
         if suggestion.is_none() && diagnostic.help.is_empty() {
             diagnostic.help.push(WHERE_ALL_ARE.to_owned());
         }
@@ -254,7 +271,13 @@ impl<'s> Parser<'s> {
         let rest = self.lexer.line_ahead();
         let sized = foreign::sized(&format!("{upper}W"), rest).and_then(compare_like);
         let compare = sized.or_else(|| compare_like(&format!("{upper}W")));
-        if let Some(compare) = compare {
+        // `A !I0.1`
+        let negated = sign.text(self.text) == "!";
+        let negated =
+            negated.then(|| format!("{upper}N")).filter(|name| instruction_of(name).is_some());
+        if let Some(negated) = &negated {
+            diagnostic.help.push(format!("`{negated}` takes the inverted bit, without a sign"));
+        } else if let Some(compare) = compare {
             diagnostic.suggestion = Some(format!("{}{}", compare.mnemonic(), sign.text(self.text)));
         }
         self.diagnostics.push(diagnostic);

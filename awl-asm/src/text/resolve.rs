@@ -8,10 +8,11 @@ use crate::text::address::{Address, AddressError};
 use crate::text::ast::{
     Instruction, Name, Named, Program, Span, Statement, Unit, UnitId, UnitKind, Value, Variable,
 };
+use crate::text::foreign::operands::Preset;
 use crate::text::foreign::{self, operands as foreign_operands};
 use crate::text::literal;
 use crate::text::locals::is_same_name;
-use crate::text::mnemonics::{meaning, takes_text, written_operands};
+use crate::text::mnemonics::{Meaning, meaning, takes_text, written_operands};
 use crate::text::qualified;
 use crate::text::suggest::{Suggester, nearby_address};
 use crate::text::symbols::{Found, SymbolTable, written};
@@ -51,6 +52,23 @@ pub(crate) fn routine_kind(op: Op, operand: usize) -> Option<UnitKind> {
     }
 }
 
+/// The type of what an operand of an instruction leads to, if it leads to anything.
+fn wanted(entry: &plc_isa::Instruction, operand: usize) -> Option<plc_isa::Type> {
+    let kinds = entry.forms.first()?.kinds.iter().filter(|kind| kind.is_written());
+    kinds.clone().nth(operand)?.value_type()
+}
+
+/// An address of this type, and the type as a variable has it.
+fn example(wanted: Option<plc_isa::Type>) -> (&'static str, &'static str) {
+    match wanted {
+        None | Some(plc_isa::Type::Bit) => ("M0.0", "BOOL"),
+        Some(plc_isa::Type::Byte | plc_isa::Type::Text) => ("VB0", "BYTE"),
+        Some(plc_isa::Type::Word) => ("VW0", "INT"),
+        Some(plc_isa::Type::Double) => ("VD0", "DINT"),
+        Some(plc_isa::Type::Real) => ("VD0", "REAL"),
+    }
+}
+
 /// What the place of an operand says about it.
 struct OperandPosition<'p> {
     /// All units with the indices of their statements.
@@ -59,6 +77,8 @@ struct OperandPosition<'p> {
     own: Option<&'p (usize, Unit)>,
     routine: Option<UnitKind>,
     takes_text: bool,
+    /// What it leads to, as far as the instruction tells.
+    wanted: Option<plc_isa::Type>,
 }
 
 impl OperandPosition<'_> {
@@ -195,6 +215,7 @@ impl Resolver<'_> {
                 own: own.and_then(|own| units.get(own)),
                 routine: routine_kind(instruction.entry.op, pending.operand),
                 takes_text: takes_text(instruction.entry, pending.operand),
+                wanted: wanted(instruction.entry, pending.operand),
             };
             let timer = instruction.operands.first().map(|operand| operand.value.clone());
             let Some(operand) = instruction.operands.get_mut(pending.operand) else { continue };
@@ -226,16 +247,12 @@ impl Resolver<'_> {
     /// A time where a timer has its preset.
     fn time_as_preset(&self, op: Op, timer: Address, span: Span) -> Option<Diagnostic> {
         let text = span.text(self.text);
-        let (preset, why) = foreign_operands::preset(op, timer, text)?;
-        let mut diagnostic = Diagnostic::new(Code::ConstantRange, span, format!("{text}: {why}"));
-        if preset.is_none() {
-            diagnostic = diagnostic.help(
-                "count the rounds of a timer with `CTU`, or take one that counts 100 ms, such as \
-                 T37",
-            );
-        }
-        diagnostic.suggestion = preset;
-        Some(diagnostic)
+        let Preset { counts, why, help } = foreign_operands::preset(op, timer, text)?;
+        let diagnostic = Diagnostic::new(Code::ConstantRange, span, format!("{text}: {why}"));
+        Some(match counts {
+            Some(counts) => diagnostic.suggest(counts.to_string()),
+            None => diagnostic.help(help),
+        })
     }
 
     /// Joins two operands that are one address with a comma or blank in it, such as `I0,0` and `I
@@ -319,7 +336,7 @@ impl Resolver<'_> {
             if place.takes_text {
                 return literal::parse(text).or_else(|message| error(Code::ConstantRange, message));
             }
-            return Err(self.unknown_symbol(span, name, true));
+            return Err(self.unknown_symbol(span, name, true, place));
         }
         match text.as_bytes() {
             [b'*', _, ..] => {
@@ -330,7 +347,7 @@ impl Resolver<'_> {
                 let inner = self.value(Span { start: span.start + 1, ..span }, place, notes)?;
                 pointer_to(span, inner)
             }
-            [b'P' | b'p', b'#', ..] => Err(self.unknown_symbol(span, text, false)),
+            [b'P' | b'p', b'#', ..] => Err(self.unknown_symbol(span, text, false, place)),
             [b'#', _, ..] => Err(self.unknown_local(span, place)),
             _ if literal::looks_like_literal(text) => match literal::parse(text) {
                 Ok(value) => Ok(value),
@@ -340,7 +357,7 @@ impl Resolver<'_> {
                     Err(Box::new(diagnostic))
                 }
             },
-            _ => self.address(span, text),
+            _ => self.address(span, text, place),
         }
     }
 
@@ -389,10 +406,16 @@ impl Resolver<'_> {
             .suggester
             .nearest(name, known.iter().map(String::as_str).filter(|name| !name.is_empty()));
         diagnostic.suggestion = near.map(str::to_owned);
-        if known.is_empty() {
-            diagnostic.help.push(none_of(kind, name));
+        match no_routine(kind, name) {
+            Some(other) => diagnostic.help = vec![other],
+            None if known.is_empty() => diagnostic.help = none_of(kind, name),
+            None => diagnostic.help.extend(foreign_operands::way(name).map(str::to_owned)),
         }
-        diagnostic.help.extend(foreign_operands::way(name).map(str::to_owned));
+        if diagnostic.suggestion.is_none() && diagnostic.help.is_empty() {
+            let all: Vec<&str> =
+                known.iter().map(String::as_str).filter(|name| !name.is_empty()).collect();
+            diagnostic.help.push(format!("there are {}", all.join(", ")));
+        }
         Err(Box::new(diagnostic))
     }
 
@@ -408,15 +431,25 @@ impl Resolver<'_> {
                 Some(_) => {
                     "declare it between VAR and END_VAR at the beginning of its block".into()
                 }
-                None => "a variable of the whole program is written without #, and declared by \
-                         `//# var Speed INT`"
-                    .into(),
+                None => {
+                    let name = text.trim_start_matches('#');
+                    let kind = example(place.wanted).1;
+                    format!(
+                        "a variable of the whole program is written without #, `{name}`, and \
+                         declared by `//# var {name} {kind}`"
+                    )
+                }
             });
         }
         Box::new(diagnostic)
     }
 
-    fn address(&self, span: Span, text: &str) -> Result<Value, Box<Diagnostic>> {
+    fn address(
+        &self,
+        span: Span,
+        text: &str,
+        place: &OperandPosition<'_>,
+    ) -> Result<Value, Box<Diagnostic>> {
         if let Some(diagnostic) = part_of_analog(span, text) {
             return Err(Box::new(diagnostic));
         }
@@ -427,6 +460,11 @@ impl Resolver<'_> {
                 diagnostic.suggestion = suggestion
                     .or_else(|| foreign_operands::same(text))
                     .or_else(|| nearby_address(text));
+                let in_v =
+                    text.strip_prefix(['M', 'm']).map(|rest| Address::parse(&format!("V{rest}")));
+                if let (None, Some(Ok(larger))) = (&diagnostic.suggestion, in_v) {
+                    diagnostic.help.push(format!("V memory has more room: `{larger}`"));
+                }
                 Err(Box::new(diagnostic))
             }
             Err(AddressError::NotAnAddress) if !text.contains(|c: char| c.is_alphanumeric()) => {
@@ -435,14 +473,22 @@ impl Resolver<'_> {
                 diagnostic.help.extend(sign_hint(text).map(str::to_owned));
                 Err(Box::new(diagnostic))
             }
-            Err(AddressError::NotAnAddress) => Err(self.unknown_symbol(span, text, false)),
+            Err(AddressError::NotAnAddress) => Err(self.unknown_symbol(span, text, false, place)),
         }
     }
 
-    fn unknown_symbol(&self, span: Span, name: &str, is_quoted: bool) -> Box<Diagnostic> {
+    fn unknown_symbol(
+        &self,
+        span: Span,
+        name: &str,
+        is_quoted: bool,
+        place: &OperandPosition<'_>,
+    ) -> Box<Diagnostic> {
         let message = format!("{}: no such symbol", span.text(self.text));
         let mut diagnostic = Diagnostic::new(Code::UnknownSymbol, span, message);
         let near = self.suggester.nearest(name, self.symbols.names());
+        // Another element of an array is another value.
+        let near = near.filter(|_| !name.contains('['));
         diagnostic.suggestion = match near {
             Some(near) if is_quoted => Some(format!("\"{near}\"")),
             Some(near) => Some(written(near)),
@@ -454,33 +500,104 @@ impl Resolver<'_> {
         diagnostic.help.extend(foreign_operands::immediate(name));
         if !is_quoted {
             let way = foreign_operands::way(name).filter(|_| diagnostic.suggestion.is_none());
-            diagnostic.help.extend(way.or_else(|| word_hint(name)).map(str::to_owned));
+            let way = way.or_else(|| word_hint(name)).map(str::to_owned);
+            let way = way.or_else(|| foreign_operands::inverted(name));
+            diagnostic.help.extend(way.or_else(|| in_mnemonic(name)));
+        }
+        if let (None, Some(Err(AddressError::OutOfRange(message, near)))) =
+            (&diagnostic.suggestion, name.strip_prefix('%').map(Address::parse))
+        {
+            diagnostic.help = vec![message];
+            diagnostic.suggestion = near;
         }
         if diagnostic.suggestion.is_none() && diagnostic.help.is_empty() {
-            let name = written(name.trim_matches('"'));
-            diagnostic.help.push(format!(
-                "a symbol is declared by `//# symbol {name} M0.0`, with its own address, or in a \
-                 table for --symbols"
-            ));
+            diagnostic.help.push(declaration(name.trim_matches('"'), place));
         }
         Box::new(diagnostic)
     }
 }
 
-/// What helps where a program has no routine of a kind.
-fn none_of(kind: UnitKind, name: &str) -> String {
-    let (header, what, letters) = match kind {
-        UnitKind::Interrupt => ("INTERRUPT_BLOCK", "interrupt routine", "INT"),
-        _ => ("SUBROUTINE_BLOCK", "subroutine", "SBR"),
-    };
-    let header = match UnitId::parse(name) {
-        Some(unit) => format!("{header} Name:{unit}"),
-        None => format!("{header} {name}:{letters}0"),
-    };
+/// How a name is declared that the program has not.
+fn declaration(name: &str, place: &OperandPosition<'_>) -> String {
+    if let Some(unit) = UnitId::parse(name) {
+        return format!(
+            "{unit} is a routine, and only the first operand of its instruction names one"
+        );
+    }
+    if place.takes_text {
+        return format!("a text is in double quotes: `\"{name}\"`");
+    }
+    if name.contains(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | ' ' | '-'))) {
+        return "an address is written like I0.0, Q0.0, M0.0, VB0, VW0 or VD0, a number like 10, \
+                16#FF or 1.5; a name has letters, digits and `_`"
+            .to_owned();
+    }
+    let (address, kind) = example(place.wanted);
+    if address == "VB0" && name.chars().count() == 1 {
+        return format!(
+            "a character is in single quotes, `'{name}'`; a symbol is declared by `//# symbol {name} {address}`"
+        );
+    }
+    let written = written(name);
     format!(
-        "the program has no {what}: one begins with `{header}`, in this file or in one that is \
-         given with it"
+        "a symbol is declared by `//# symbol {written} {address}`, with its own address, or in a \
+         table for --symbols; `//# var {name} {kind}` gives it a free one"
     )
+}
+
+/// `==I` as in `LD VW0 ==I 5`.
+fn in_mnemonic(name: &str) -> Option<String> {
+    let (relation, width) = foreign::comparison(name)?;
+    let letter = width.letter();
+    Some(format!("the comparison is part of the mnemonic: `LD{letter}{relation} V{letter}0, 5`"))
+}
+
+/// What helps where a program has no routine of a kind.
+fn none_of(kind: UnitKind, name: &str) -> Vec<String> {
+    let (header, end, what, letters) = match kind {
+        UnitKind::Interrupt => {
+            ("INTERRUPT_BLOCK", "END_INTERRUPT_BLOCK", "interrupt routine", "INT")
+        }
+        _ => ("SUBROUTINE_BLOCK", "END_SUBROUTINE_BLOCK", "subroutine", "SBR"),
+    };
+    // `FC1`, `SBR_1` and `1` are numbers.
+    let digits = name.trim_start_matches(|c: char| c.is_alphabetic() || c == '_');
+    let is_number = ["", "FC", "FB", "SFC", "SFB", "UP", "SBR_", "INT_", "SBR", "INT"]
+        .iter()
+        .any(|letters| letters.len() + digits.len() == name.len() && name.starts_with(letters));
+    let number = digits.parse::<u8>().ok().filter(|_| is_number);
+    let routine = match number {
+        Some(number) => format!("Name:{letters}{number}"),
+        None => format!("{name}:{letters}0"),
+    };
+    let mut help = vec![format!(
+        "the program has no {what}. With one, all of it is in blocks: `ORGANIZATION_BLOCK \
+         MAIN:OB1`, `BEGIN`, the main program, `END_ORGANIZATION_BLOCK`, then `{header} \
+         {routine}`, `BEGIN`, its lines, `{end}`, in this file or one that is given with it"
+    )];
+    let call = if kind == UnitKind::Interrupt { "ATCH" } else { "CALL" };
+    let is_written = number.is_some_and(|number| name == format!("{letters}{number}"));
+    if let Some(number) = number.filter(|_| !is_written) {
+        help.push(format!("it is called by its number, `{call} {letters}{number}`, or its name"));
+    }
+    help
+}
+
+/// What is no routine, but was meant as something else.
+fn no_routine(kind: UnitKind, name: &str) -> Option<String> {
+    let is_number = name.bytes().all(|byte| byte.is_ascii_digit());
+    if kind == UnitKind::Interrupt && is_number {
+        return Some(format!("the routine is first, then the event: `ATCH INT0, {name}`"));
+    }
+    let Meaning::Instruction(entry, _) = meaning(name)? else { return None };
+    let instruction = entry.mnemonic();
+    Some(match plc_isa::TimerKind::started_by(entry.op) {
+        Some(_) => format!(
+            "{instruction} is an instruction: `LD I0.0` is its input, then `{instruction} T37, 20`, \
+             and `LD T37` its output"
+        ),
+        None => format!("{instruction} is an instruction of its own, without CALL"),
+    })
 }
 
 /// What is wrong with the number of a label.
@@ -550,7 +667,11 @@ fn word_hint(name: &str) -> Option<&'static str> {
     if name.eq_ignore_ascii_case("NOT") {
         return Some("LDN, AN and ON take the inverted bit");
     }
-    (foreign::is_known(name) || meaning(name).is_some()).then_some(ONE_A_LINE)
+    let is_word = foreign::comparison(name).is_none()
+        // Small letters alone are names of variables.
+        && (name.len() > 1 || name.chars().all(char::is_uppercase))
+        && (foreign::is_known(name) || meaning(name).is_some());
+    is_word.then_some(ONE_A_LINE)
 }
 
 /// A real without the digit before its point: `-.5` as `-0.5`.

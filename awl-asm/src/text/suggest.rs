@@ -50,6 +50,19 @@ impl Suggester {
         candidates: impl Iterator<Item = &'c str>,
     ) -> Option<&'c str> {
         let first = |word: &str| word.chars().next().map(|c| c.to_ascii_uppercase());
+        let letters = |word: &str| {
+            let mut letters: Vec<char> = word.to_uppercase().chars().collect();
+            letters.sort_unstable();
+            letters
+        };
+        // The right letters in another order.
+        let wanted = letters(word);
+        let mut candidates = candidates.collect::<Vec<_>>().into_iter();
+        let is_same = |candidate: &&str| wanted.len() > 1 && letters(candidate) == wanted;
+        if let Some(same) = candidates.clone().find(is_same) {
+            return Some(same);
+        }
+        let candidates = &mut candidates;
         let distance_max = match word.chars().count() {
             2..=5 => 1,
             6..=30 => 2,
@@ -163,6 +176,7 @@ mod tests {
         let nearest = |word| suggester.nearest_mnemonic(word, words.into_iter());
         assert_eq!(nearest("CMP"), None);
         assert_eq!(nearest("JPM"), Some("JMP"));
+        assert_eq!(nearest("DL"), Some("LD"));
         assert_eq!(nearest("TONN"), Some("TON"));
         assert_eq!(nearest("Motor"), None);
         assert_eq!(nearest("NETWROK"), Some("NETWORK"));

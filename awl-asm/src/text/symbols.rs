@@ -74,7 +74,9 @@ impl SymbolTable {
         let diagnostic =
             Diagnostic::new(Code::SymbolDefinition, place.unwrap_or_default(), message);
         Some(match entry.place {
-            Some(first_place) => diagnostic.related(first_place, "first defined here"),
+            Some(first_place) => diagnostic
+                .related(first_place, "first defined here")
+                .help("leave one of the two out, or give it another name"),
             None => diagnostic.help("it is defined in a symbol file"),
         })
     }

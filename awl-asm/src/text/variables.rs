@@ -211,7 +211,24 @@ fn single(piece: Piece<'_>, suggester: &Suggester) -> Outcome<VariableType> {
     let names: Vec<&str> = plain.map(|&(name, _)| name).chain(["TIME", "STRING"]).collect();
     let mut diagnostic = error(piece, "there is no such type");
     diagnostic.suggestion = suggester.nearest(piece.text, names.iter().copied()).map(str::to_owned);
-    diagnostic.help.push(format!("there are {}, and ARRAY of each", names.join(", ")));
+    diagnostic.help.push(match piece.text.split_once('=') {
+        Some((kind, value)) => {
+            format!("a first value is after `:=`, as in `{} := {}`", kind.trim(), value.trim())
+        }
+        None if ["TIMER", "TON", "TOF", "TONR"].iter().any(|word| is(word)) => {
+            diagnostic.suggestion = None;
+            "a timer is declared by `//# timer Delay 100ms`".to_owned()
+        }
+        None if ["COUNTER", "CTU", "CTD"].iter().any(|word| is(word)) => {
+            diagnostic.suggestion = None;
+            "a counter is declared by `//# counter Parts`".to_owned()
+        }
+        None => format!(
+            "there are {}, and ARRAY of each; the name is before the type, as in `//# var Speed \
+             INT`",
+            names.join(", ")
+        ),
+    });
     Err(diagnostic)
 }
 

@@ -113,7 +113,8 @@ fn find_labels(
                     operand_span(program, selected, 0),
                     format!("label {label} is here a second time"),
                 )
-                .related(span_of(program, &code[first]), "first here"),
+                .related(span_of(program, &code[first]), "first here")
+                .help("another number for one of them, and for the jumps to it"),
             ),
             None => {
                 labels.insert(label, index);

@@ -137,6 +137,7 @@ impl Follow<'_> {
             if self.program.has_networks && network.end > 0 {
                 diagnostic = diagnostic.related(network, format!("network {number} starts here"));
             }
+            diagnostic.related.extend(self.rungs_of_step7(selected.statement, name));
             self.diagnostics.push(diagnostic.help(start_help(name)));
             self.total = needs;
         } else if needs > self.total {
@@ -159,6 +160,30 @@ impl Follow<'_> {
             );
         }
         self.fresh = self.fresh.max(u16::from(needs));
+    }
+
+    /// Whoever begins a network with `A` begins each rung of it so: STEP 7 does after a coil, here
+    /// the contact would be added to the rung before.
+    fn rungs_of_step7(&self, first: u32, name: &str) -> Vec<(Span, String)> {
+        if !matches!(name, "A" | "AN" | "O" | "ON") {
+            return Vec::new();
+        }
+        let statements = self.program.statements.get(first as usize..).unwrap_or_default();
+        let network = statements.iter().map_while(|statement| match statement {
+            Statement::Instruction(instruction) => Some(instruction),
+            Statement::Network(_) | Statement::Unit(_) => None,
+        });
+        let network: Vec<&crate::text::ast::Instruction> = network.collect();
+        let begins = |pair: &&[&crate::text::ast::Instruction]| {
+            let is_next = matches!(pair[1].mnemonic(), "A" | "AN" | "O" | "ON");
+            is_next && !is_contact(pair[0].entry.op)
+        };
+        let rungs = network.windows(2).filter(begins);
+        rungs
+            .map(|pair| {
+                (pair[1].span, "if a rung begins here, it begins with `LD`, too".to_owned())
+            })
+            .collect()
     }
 
     fn apply(&mut self, selected: &Selected, instruction: &Instruction) {

@@ -199,10 +199,18 @@ impl Check<'_> {
                     ),
                 )
             };
-            diagnostics.push(
-                Diagnostic::new(code, self.span(other), message)
-                    .related(self.span(first), format!("{first_name} here")),
-            );
+            let diagnostic = Diagnostic::new(code, self.span(other), message)
+                .related(self.span(first), format!("{first_name} here"));
+            diagnostics.push(match two_kinds {
+                Code::CounterTwoKinds if code == two_kinds => diagnostic.help(format!(
+                    "`CTUD {name}, 10` counts up and down: before it are `LD` of what counts up, \
+                     `LD` of what counts down, `LD` of what resets"
+                )),
+                Code::TimerTwoKinds if code == two_kinds => diagnostic.help(
+                    "each is a timer of its own: another number for one of them, such as T38",
+                ),
+                _ => diagnostic,
+            });
         }
     }
 
@@ -263,8 +271,17 @@ impl Check<'_> {
         let message = format!(
             "{address} is an input: what is written here lasts until inputs are read again"
         );
+        let output = match address {
+            Address::Bit { byte, bit, .. } => Some(Address::Bit { area: Area::Q, byte, bit }),
+            _ => None,
+        };
+        let diagnostic = Diagnostic::new(Code::InputWritten, self.span(written), message);
+        let diagnostic = match output {
+            Some(output) => diagnostic.help(format!("an output is Q: `= {output}`")),
+            None => diagnostic,
+        };
         diagnostics.push(
-            Diagnostic::new(Code::InputWritten, self.span(written), message)
+            diagnostic
                 .help("the next scan begins with the inputs as they are at the pins")
                 .help("a value that shall stay belongs into M or V memory"),
         );

@@ -21,7 +21,12 @@ const BRANCH: &str = "on an S7-200 a branch begins with `LD` and ends with `OLD`
      where it follows another";
 
 pub(super) const ROWS: &[Row] = &[
-    row(&["OUT", "ST", "OUTPUT", "COIL", "OTE"], Mnemonic("="), ""),
+    row(
+        &["OUT", "ST", "OUTPUT", "COIL", "OTE"],
+        Sized(["=", "", "", "", ""], "="),
+        "a bit is written by `=`; a value is copied by `MOVW`, which names both operands: \
+         `LD SM0.0`, `MOVW VW0, VW2`; bytes by `MOVB`, double words by `MOVD`",
+    ),
     row(
         &["STN", "OUTNOT"],
         Nothing,
@@ -204,6 +209,31 @@ pub(super) const ROWS: &[Row] = &[
         Nothing,
         "an S7-200 has no interlock: jump over the rungs with `JMP 1` and `LBL 1`",
     ),
+    row(
+        &["DIGITALWRITE", "ANALOGWRITE"],
+        Nothing,
+        "on a PLC an output is written by a rung: a condition such as `LD I0.0`, then `= Q0.0`; \
+         an analog output by `MOVW VW0, AQW0`",
+    ),
+    row(
+        &["DIGITALREAD", "ANALOGREAD", "PINMODE"],
+        Nothing,
+        "on a PLC inputs are read before each scan: `LD I0.0` is one, `AIW0` an analog one",
+    ),
+    row(
+        &["VOID", "{", "}", "};", "INT", "BOOL", "FLOAT"],
+        Nothing,
+        "leave the line out: the scan is the loop, and its rungs are contacts and coils such as \
+         `LD I0.0`, `= Q0.0`; a variable is `//# var Speed INT`",
+    ),
+    row(&["ITR"], Nothing, "on an S7-200 that is `ITD VW0, VD4` and `DTR VD4, VD4`"),
+    row(&["RTI"], Nothing, "on an S7-200 that is `ROUND VD0, VD4` and `DTI VD4, VW8`"),
+    row(
+        &["SCR"],
+        Nothing,
+        "a segment begins with `LSCR S0.1`, `SCRT S0.2` goes on to another, `SCRE` ends it",
+    ),
+    named(&[], &["ENDE"], Nothing, "leave the line out: a program ends with its last line"),
     row(&["BIN"], Nothing, "on an S7-200 `BCDI VW0` makes a number of the BCD digits in VW0"),
     row(&["BCD"], Nothing, "on an S7-200 `IBCD VW0` makes BCD digits of the number in VW0"),
     row(

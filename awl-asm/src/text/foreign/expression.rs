@@ -104,6 +104,8 @@ fn one_contact(contact: &str, part: &[Token]) -> Option<String> {
     };
     let (inverted, name) = match truth(name) {
         Some(value) => (inverted == value, "SM0.0"),
+        // The output of a timer that has a name elsewhere.
+        None if name.to_ascii_uppercase().ends_with(".Q") => (inverted, "T37"),
         None => (inverted, name.as_str()),
     };
     // What is no bit, such as a number, is no contact.
@@ -126,7 +128,8 @@ fn compared(contact: &str, part: &[Token]) -> Option<String> {
             _ => None,
         })
         .collect();
-    if !matches!(signs.as_str(), "=" | "<>" | "<" | ">" | "<=" | ">=") {
+    let relation = if signs == "==" { "=" } else { signs.as_str() };
+    if !matches!(relation, "=" | "<>" | "<" | ">" | "<=" | ">=") {
         return None;
     }
     let right = match rest.get(signs.len()..)? {
@@ -136,8 +139,14 @@ fn compared(contact: &str, part: &[Token]) -> Option<String> {
         }
         _ => return None,
     };
+    let is_bit = Width::of_operand(left) == Some(Width::Bit);
+    match (is_bit, relation, right.to_ascii_uppercase().as_str()) {
+        (true, "=", "1" | "TRUE" | "HIGH") => return Some(format!("{contact} {left}")),
+        (true, "=", "0" | "FALSE" | "LOW") => return Some(format!("{contact}N {left}")),
+        _ => {}
+    }
     let width = width::of(&format!("{left}, {right}")).filter(|width| *width != Width::Bit)?;
-    Some(format!("{contact}{}{signs} {left}, {right}", width.letter()))
+    Some(format!("{contact}{}{relation} {left}, {right}", width.letter()))
 }
 
 /// A rung that writes a bit.
@@ -231,6 +240,7 @@ mod tests {
         assert_eq!(coil_of("I0.0 AND"), "");
         assert_eq!(coil_of("VW0 > 5"), "LDW> VW0, 5; = Q0.0");
         assert_eq!(coil_of("I0.0 AND VD0 <= -2"), "LD I0.0; AD<= VD0, -2; = Q0.0");
+        assert_eq!(coil_of("I0.0 == 1 AND I0.1 = FALSE"), "LD I0.0; AN I0.1; = Q0.0");
         assert_eq!(coil_of("I0.0 = I0.1"), "");
         assert_eq!(coil_of("VW0 > VW2 + 1"), "");
     }

@@ -3,6 +3,7 @@
 
 use plc_isa::{Area, Op, TimerKind};
 
+use super::counts;
 use super::expression::{self, Token};
 use super::operands;
 use super::row::{Here, Instead, Meant};
@@ -23,6 +24,10 @@ const EXPRESSION: &str = "AWL has no expressions: `MOVW VW2, VW0` copies, `+I 1,
      `LDW> VW0, 5` compares, each on a line of its own";
 const COMMAS: &str = "operands are separated by commas, and the target is the last: `MOVW 5, VW0`";
 const NEEDS_CONTACT: &str = "it executes while the contact before it is 1; `LD SM0.0` always is";
+/// What blocks of other systems call their parameters.
+const PARAMETERS: [&str; 10] = ["IN", "PT", "Q", "ET", "CU", "CD", "PV", "CV", "EN", "ENO"];
+const NO_NAMES: &str = "operands have an order and no names: `LD I0.0`, `TON T37, 20`, and `LD T37` \
+     is what comes out";
 const LOOP: &str = "AWL loops with `FOR VW0, 1, 10` and `NEXT`, after a contact such as `LD SM0.0`";
 
 /// Whether an instruction of the S7-200 is written as in structured text: with brackets or `:=`
@@ -34,6 +39,22 @@ pub(crate) fn is_structured(rest: &str) -> bool {
 
 /// What a line was meant to be; `None` where its first word says it.
 pub(super) fn meant(word: &str, rest: &str) -> Option<Meant> {
+    if let Some(call) =
+        ["CAL", "CALC"].iter().any(|cal| cal.eq_ignore_ascii_case(word)).then(|| rest.trim())
+    {
+        let name_len = call.find(['(', ' ']).unwrap_or(call.len());
+        let (name, inside) = call.split_at(name_len);
+        return inside.trim_start().starts_with('(').then(|| called(name, inside.trim()));
+    }
+    if rest.trim().is_empty() {
+        let load = [("SET", "LD"), ("CLR", "LDN")].into_iter();
+        let mut load =
+            load.filter(|(name, _)| name.eq_ignore_ascii_case(word)).map(|(_, load)| load);
+        if let Some(load) = load.next() {
+            let instead = Some(Instead::Line(format!("{load} SM0.0")));
+            return Some(Meant { instead, help: Vec::new(), stand_in: Some(load.to_owned()) });
+        }
+    }
     let line = format!("{word}{rest}");
     let line = line.trim();
     if let Some(help) = drawing(line) {
@@ -41,6 +62,17 @@ pub(super) fn meant(word: &str, rest: &str) -> Option<Meant> {
     }
     if rest.trim_start().starts_with('(') {
         return Some(called(word, rest.trim()));
+    }
+    if word.eq_ignore_ascii_case("CALL") && rest.contains(":=") && !rest.contains('(') {
+        let values: Vec<&str> = rest
+            .split(',')
+            .map(|one| one.split_once(":=").map_or(one, |(_, value)| value).trim())
+            .collect();
+        return Some(Meant {
+            instead: Some(Instead::Line(format!("CALL {}", values.join(", ")))),
+            help: vec!["parameters follow in their order, without their names".to_owned()],
+            stand_in: None,
+        });
     }
     if word.eq_ignore_ascii_case("FOR") && is_structured(rest) {
         return Some(told(LOOP));
@@ -57,15 +89,10 @@ pub(super) fn meant(word: &str, rest: &str) -> Option<Meant> {
 
 /// `L S5T#2S` before the start of a timer.
 fn loaded_time(word: &str, rest: &str) -> Option<Meant> {
-    let (timer, op) = (Address::Timer(37), Op::Ton);
-    let (counts, _) = word
-        .eq_ignore_ascii_case("L")
-        .then(|| operands::preset(op, timer, rest.trim()))
-        .flatten()?;
+    let ms = operands::milliseconds(rest.trim()).filter(|_| word.eq_ignore_ascii_case("L"))?;
+    let (timer, counts) = counts::of(Op::Ton, None, ms)?;
     Some(told(format!(
-        "on an S7-200 the time is the preset of the timer, in its counts: `TON {timer}, {}` with \
-         100 ms each",
-        counts.as_deref().unwrap_or("20")
+        "on an S7-200 the time is the preset of the timer, in its counts: `TON T{timer}, {counts}`"
     )))
 }
 
@@ -84,6 +111,9 @@ fn joined(word: &str, rest: &str) -> Option<Meant> {
         _ if second.eq_ignore_ascii_case("LD") => "OLD".to_owned(),
         _ => return None,
     };
+    if operand.starts_with(|c: char| c.is_ascii_digit()) {
+        return Some(told("an address begins with its area, such as `AN I0.0` or `ON Q0.0`"));
+    }
     let stand_in = line.split(' ').next().map(str::to_owned);
     Some(Meant { instead: Some(Instead::Line(line)), help: Vec::new(), stand_in })
 }
@@ -148,7 +178,14 @@ fn assignment(line: &str) -> Option<Meant> {
             (&line[..at], &line[at + 1..])
         }
     };
+    // `LDX= VW0, 5`
+    if value.contains(',') && !line.contains(":=") {
+        return None;
+    }
     let target = operand(target.trim())?;
+    if PARAMETERS.iter().any(|name| name.eq_ignore_ascii_case(&target)) {
+        return Some(told(NO_NAMES));
+    }
     // `TITLE = Motor`
     if target.len() > 2 && find(&target).is_some() {
         return None;
@@ -337,6 +374,9 @@ fn single(name: &str, address: Address) -> String {
 /// A word with a bracket after it: `A(`, `TON(IN := I0.0, PT := 20)`.
 fn called(word: &str, rest: &str) -> Meant {
     let inside = rest.trim_start_matches('(').trim_end_matches(';').trim_end_matches(')').trim();
+    if let Some(meant) = opened(word, rest, inside) {
+        return meant;
+    }
     let bracket = find(&format!("{word}("));
     if let Some(row) = bracket.filter(|_| inside.is_empty()) {
         return row.meant("");
@@ -349,6 +389,21 @@ fn called(word: &str, rest: &str) -> Meant {
         (_, Ok(Address::Counter(_))) => counter("CTU", &upper, inside),
         _ => plain_call(word, inside),
     }
+}
+
+/// `AND( I0.1`: a bracket with its first contact, which a later line closes.
+fn opened(word: &str, rest: &str, inside: &str) -> Option<Meant> {
+    let joins = match expression::tokens(word).as_slice() {
+        [Token::And] => "ALD",
+        [Token::Or] => "OLD",
+        _ => return None,
+    };
+    (!inside.is_empty() && !rest.contains(')')).then(|| {
+        told(format!(
+            "AWL has no brackets: what is inside begins with `LD {inside}`, and `{joins}` is where \
+             the bracket is closed"
+        ))
+    })
 }
 
 /// The value of a parameter in `IN := I0.0, PT := 20`.
@@ -366,16 +421,23 @@ fn timer(mnemonic: &str, named: Option<Address>, inside: &str) -> Meant {
         "TONR" => Op::Tonr,
         _ => Op::Ton,
     };
-    let timer = named.unwrap_or(Address::Timer(if op == Op::Tonr { 5 } else { 37 }));
+    let wanted = match named {
+        Some(Address::Timer(number)) => Some(number),
+        _ => None,
+    };
+    let usual = wanted.unwrap_or(if op == Op::Tonr { 5 } else { 37 });
     let input = argument(inside, &["IN"]).unwrap_or_else(|| "I0.0".to_owned());
-    let counts = argument(inside, &["PT"]).and_then(|preset| match preset.parse::<u16>() {
-        Ok(_) => Some(preset),
-        Err(_) => operands::preset(op, timer, &preset)?.0,
-    });
+    let preset = argument(inside, &["PT"]);
+    let plain = preset.as_deref().and_then(|text| text.parse::<u16>().ok());
+    let (timer, counts) = match plain {
+        Some(counts) => (usual, counts),
+        None => preset
+            .and_then(|text| counts::of(op, wanted, operands::milliseconds(&text)?))
+            .unwrap_or((usual, 20)),
+    };
     told(format!(
         "AWL has no brackets, and the input of a timer is the contact before it: `LD {input}`, \
-         `{mnemonic} {timer}, {}`",
-        counts.as_deref().unwrap_or("20")
+         `{mnemonic} T{timer}, {counts}`; `LD T{timer}` is its output"
     ))
 }
 

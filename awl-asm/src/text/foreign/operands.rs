@@ -3,6 +3,7 @@
 
 use plc_isa::{Area, Op, TimerKind, timer_resolution};
 
+use super::counts;
 use crate::text::address::Address;
 
 /// The operand of an S7-200 that is the same: `DB1.DBW2` is VW2, `PEW4` is AIW4, `T37.Q` is T37.
@@ -12,7 +13,10 @@ pub(crate) fn same(text: &str) -> Option<String> {
         .or_else(|| peripheral(&upper))
         .or_else(|| member(&upper))
         .or_else(|| first_module(&upper))
-        .or_else(|| numbered_point(&upper))?;
+        .or_else(|| numbered_point(&upper))
+        .or_else(|| rack_point(&upper))
+        .or_else(|| special_relay(&upper).map(str::to_owned))
+        .or_else(|| register(&upper))?;
     Address::parse(&meant).ok().map(|address| address.to_string())
 }
 
@@ -25,6 +29,12 @@ fn data_block(upper: &str) -> Option<String> {
 
 /// Analog points: `PEW0`, `PIW2`, `PAW0`, `PQW2`, also with `:P`.
 fn peripheral(upper: &str) -> Option<String> {
+    // The analog modules of an S7-300 begin at 256.
+    if let Some(number) = ["PEW", "PIW"].iter().find_map(|word| upper.strip_prefix(word))
+        && let Ok(number @ 256..) = number.parse::<u16>()
+    {
+        return Some(format!("AIW{}", number - 256));
+    }
     let kinds = [
         ("PEW", "AIW"),
         ("PIW", "AIW"),
@@ -62,6 +72,33 @@ fn numbered_point(upper: &str) -> Option<String> {
     let (letter, number) = upper.split_at_checked(1)?;
     let area = [("X", "I"), ("Y", "Q")].iter().find(|(theirs, _)| *theirs == letter)?.1;
     number.parse::<u8>().ok().filter(|bit| *bit < 8).map(|bit| format!("{area}0.{bit}"))
+}
+
+/// `I:0/3` and `O:0.0/3` of other makers: word 0 of the first module.
+fn rack_point(upper: &str) -> Option<String> {
+    let (module, bit) = upper.split_once('/')?;
+    let (letter, word) = module.split_once(':')?;
+    let area = [("I", "I"), ("O", "Q")].iter().find(|(theirs, _)| *theirs == letter)?.1;
+    let bit = bit.parse::<u8>().ok().filter(|bit| *bit < 16)?;
+    let is_first = word.split('.').all(|number| number.parse::<u8>().is_ok());
+    is_first.then(|| format!("{area}{}.{}", bit / 8, bit % 8))
+}
+
+/// Special relays of Mitsubishi's controllers.
+fn special_relay(upper: &str) -> Option<&'static str> {
+    Some(match upper {
+        "M8000" => "SM0.0",
+        "M8002" => "SM0.1",
+        "M8013" => "SM0.5",
+        "M8014" => "SM0.4",
+        _ => return None,
+    })
+}
+
+/// Data registers of other makers are words: D0, D1, ...
+fn register(upper: &str) -> Option<String> {
+    let number = upper.strip_prefix('D')?.parse::<u16>().ok()?;
+    Some(format!("VW{}", number.checked_mul(2)?))
 }
 
 /// The first points of an S7-300 are in byte 124.
@@ -111,6 +148,10 @@ pub(crate) fn way(text: &str) -> Option<&'static str> {
         _ if begins("PAW") || begins("PQW") || begins("PAD") || begins("PQD") => {
             "analog outputs are `AQW0` and `AQW2`"
         }
+        _ if begins("DB") && !upper.contains('.') => {
+            "an S7-200 has no data blocks: a call goes without, and values are in V memory: \
+             `V0.0`, `VB0`, `VW0`, `VD0`"
+        }
         _ if begins("DB")
             || begins("DI")
             || upper.starts_with("DBX")
@@ -131,8 +172,22 @@ pub(crate) fn way(text: &str) -> Option<&'static str> {
         _ if matches!(upper.as_str(), "STW" | "OV" | "OS" | "UO" | "BR" | "BIE") => {
             "on an S7-200 flags are bits: SM1.0 zero, SM1.1 overflow, SM1.2 negative"
         }
+        _ if [".Q", ".ET", ".CV", ".QU"].iter().any(|member| upper.ends_with(member)) => {
+            "on an S7-200 timers and counters have numbers: `LD T37` reads the bit of T37, \
+             `MOVW T37, VW0` its value"
+        }
+        _ if upper.contains('[') => {
+            "an array is declared by `//# var Table ARRAY[0..9] OF INT`, and its elements are \
+             `Table[0]`; an index that changes needs a pointer: `MOVD &VB100, AC1`, then `*AC1`"
+        }
         _ => return None,
     })
+}
+
+/// What inverts a bit in other languages: `!I0.0`, `/I0.0`, `~I0.0`.
+pub(crate) fn inverted(text: &str) -> Option<String> {
+    let bit = Address::parse(text.strip_prefix(['!', '/', '~'])?).ok()?;
+    Some(format!("`LDN {bit}`, `AN {bit}` and `ON {bit}` take the inverted bit"))
 }
 
 /// Whether a word may be a number with the letter H after it: `0FFH`, `FFh`. `BACH` is a name.
@@ -149,6 +204,8 @@ pub(crate) fn number(text: &str) -> Option<String> {
     } else if let Some(digits) = upper.strip_prefix("0B") {
         (2, digits)
     } else if let (true, Some(digits)) = (is_with_h(text), upper.strip_suffix('H')) {
+        (16, digits)
+    } else if let Some(digits) = upper.strip_prefix('$') {
         (16, digits)
     } else {
         (10, upper.strip_prefix("C#").or(upper.strip_prefix('K'))?)
@@ -173,7 +230,7 @@ const UNITS: [(&str, f64); 9] = [
 ];
 
 /// A time in milliseconds: `2s`, `T#1m30s`, `S5T#2S500MS`.
-fn milliseconds(text: &str) -> Option<f64> {
+pub(super) fn milliseconds(text: &str) -> Option<f64> {
     let lower = text.to_ascii_lowercase();
     let (kind, mut rest) = lower.split_once('#').unwrap_or(("t", &lower));
     if !matches!(kind, "t" | "time" | "s5t" | "s5time" | "ltime" | "lt") || rest.is_empty() {
@@ -190,24 +247,44 @@ fn milliseconds(text: &str) -> Option<f64> {
     Some(sum)
 }
 
-/// A time where the preset of a timer should be: the preset, if there is one for it, and why.
-pub(crate) fn preset(op: Op, timer: Address, text: &str) -> Option<(Option<String>, String)> {
+/// A time where the preset of a timer should be.
+#[derive(Debug, Default)]
+pub(crate) struct Preset {
+    /// The preset, if the timer can have that time.
+    pub(crate) counts: Option<u16>,
+    /// What a preset is.
+    pub(crate) why: String,
+    /// How the time is had otherwise.
+    pub(crate) help: String,
+}
+
+/// What is meant by a time where the preset of a timer should be; `None` if that is not it.
+pub(crate) fn preset(op: Op, timer: Address, text: &str) -> Option<Preset> {
     let (Some(_), Address::Timer(number)) = (TimerKind::started_by(op), timer) else { return None };
-    let time = milliseconds(text)?;
+    let ms = milliseconds(text)?;
     let base = timer_resolution(number).ms();
-    let counts = (time / f64::from(base)).round();
-    if !(1.0..=f64::from(i16::MAX)).contains(&counts) {
-        let most = f64::from(i16::MAX) * f64::from(base) / 1000.0;
-        let why = format!(
-            "a preset is a number of counts, not a time: T{number} counts {base} ms, at most \
-             32767 times, which are {most} s"
-        );
-        return Some((None, why));
+    let why = format!("a preset is a number of counts, not a time: T{number} counts {base} ms");
+    if let Some(counts) = counts::exact(number, ms) {
+        let why = format!("{why}, so it is {counts}");
+        return Some(Preset { counts: Some(counts), why, help: String::new() });
     }
-    let why = format!(
-        "a preset is a number of counts, not a time: T{number} counts {base} ms, so it is {counts}"
-    );
-    Some((Some(counts.to_string()), why))
+    let most = f64::from(i16::MAX) * f64::from(base) / 1000.0;
+    let (why, help) = match counts::of(op, None, ms) {
+        Some((other, counts)) => {
+            let (mnemonic, finer) = (op.instruction().mnemonic(), timer_resolution(other).ms());
+            let why = match ms > most * 1000.0 {
+                true => format!("{why}, at most {most} s"),
+                false => format!("{why}, and {text} is no multiple of that"),
+            };
+            (why, format!("a timer that counts {finer} ms can: `{mnemonic} T{other}, {counts}`"))
+        }
+        None => (
+            format!("{why}, at most 32767 times, which are {most} s"),
+            "count the rounds of a timer with `CTU`, or take one that counts 100 ms, such as T37"
+                .to_owned(),
+        ),
+    };
+    Some(Preset { counts: None, why, help })
 }
 
 #[cfg(test)]
@@ -223,7 +300,13 @@ mod tests {
         assert_eq!(same("DB2.DBW2"), "");
         assert_eq!(same("PEW4"), "AIW4");
         assert_eq!(same("PQW2"), "AQW2");
-        assert_eq!(same("PEW256"), "");
+        assert_eq!(same("PEW256"), "AIW0");
+        assert_eq!(same("PIW258"), "AIW2");
+        assert_eq!(same("PIW300"), "");
+        assert_eq!(same("O:0/3"), "Q0.3");
+        assert_eq!(same("I:0.0/9"), "I1.1");
+        assert_eq!(same("M8000"), "SM0.0");
+        assert_eq!(same("D3"), "VW6");
         assert_eq!(same("T37.Q"), "T37");
         assert_eq!(same("C1.CV"), "C1");
         assert_eq!(same("E124.3"), "I0.3");
@@ -241,6 +324,7 @@ mod tests {
         assert_eq!(number("FFh"), "16#FF");
         assert_eq!(number("each"), "");
         assert_eq!(number("C#10"), "10");
+        assert_eq!(number("$FF"), "16#FF");
         assert_eq!(number("K20"), "20");
         assert_eq!(number("BACH"), "");
         assert_eq!(number("0b12"), "");
@@ -251,13 +335,17 @@ mod tests {
     fn times_as_presets_of_the_timer_at_hand() {
         let preset = |timer, text| {
             let preset = preset(Op::Ton, Address::Timer(timer), text);
-            preset.map(|(preset, _)| preset.unwrap_or_default())
+            preset.map(|preset| (preset.counts.unwrap_or_default(), preset.help))
         };
-        assert_eq!(preset(37, "2s"), Some("20".into()));
-        assert_eq!(preset(33, "T#2s"), Some("200".into()));
-        assert_eq!(preset(32, "S5T#2S_500MS"), Some("2500".into()));
-        assert_eq!(preset(37, "1.5s"), Some("15".into()));
-        assert_eq!(preset(32, "2h"), Some(String::new()));
+        let exact = |counts| Some((counts, String::new()));
+        assert_eq!(preset(37, "2s"), exact(20));
+        assert_eq!(preset(33, "T#2s"), exact(200));
+        assert_eq!(preset(32, "S5T#2S_500MS"), exact(2500));
+        assert_eq!(preset(37, "1.5s"), exact(15));
+        let otherwise = |timer, text| preset(timer, text).unwrap_or_default().1;
+        assert!(otherwise(37, "250ms").ends_with("`TON T33, 25`"));
+        assert!(otherwise(32, "40s").ends_with("`TON T37, 400`"));
+        assert!(otherwise(32, "2h").contains("`CTU`"));
         assert_eq!(preset(37, "20"), None);
         assert_eq!(preset(37, "C#20"), None);
     }

@@ -70,6 +70,20 @@ pub(super) const fn named(
 impl Row {
     /// What is meant by the word with these operands.
     pub(super) fn meant(&self, rest: &str) -> Meant {
+        let meant = self.word(rest);
+        let operands: Vec<String> =
+            rest.split(',').map(|operand| operand.trim().to_owned()).collect();
+        let instruction = meant.stand_in.as_deref();
+        let Some(code) = instruction.and_then(|mnemonic| super::apart(mnemonic, &operands)) else {
+            return meant;
+        };
+        let lines: Vec<String> = code.iter().map(|line| format!("`{line}`")).collect();
+        let help = vec![format!("on an S7-200 that is {}", lines.join(", "))];
+        Meant { instead: None, help, ..meant }
+    }
+
+    /// What is meant by the word, whatever else the operands tell.
+    fn word(&self, rest: &str) -> Meant {
         let word = |mnemonic: &str| (!mnemonic.is_empty()).then(|| mnemonic.to_owned());
         let width = width::of(rest);
         let (instead, stand_in) = match self.here {
@@ -95,6 +109,15 @@ impl Row {
             _ => false,
         };
         let help = word(self.way).filter(|_| !is_told).into_iter().collect();
-        Meant { instead, help, stand_in }
+        // One operand of two is that of an accumulator.
+        let is_short = matches!(self.here, Here::Sized(..))
+            && rest.split([',', ' ', '\t']).filter(|word| !word.is_empty()).count() == 1
+            && stand_in.as_deref().is_some_and(|name| {
+                name.starts_with(['+', '-', '*', '/']) || name.starts_with("MOV")
+            });
+        match is_short && !self.way.is_empty() {
+            true => Meant { instead: None, help: vec![self.way.to_owned()], stand_in },
+            false => Meant { instead, help, stand_in },
+        }
     }
 }

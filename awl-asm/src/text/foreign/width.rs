@@ -81,7 +81,7 @@ impl Width {
     }
 
     /// The letter in comparisons and moves; of a bit there is none.
-    pub(super) fn letter(self) -> &'static str {
+    pub(crate) fn letter(self) -> &'static str {
         self.of_all(["", "B", "W", "D", "R"])
     }
 }
