@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use analysis::{CompletionKind, Location, OutlineKind, Project};
 use diagnostics::{Severity, Source, Span};
 
+use crate::ladder::Shown;
 use crate::offsets::{of_page, to_page};
 use crate::protocol::{Completion, Edit, Edits, File, Hover, Item, Place, Problem};
 
@@ -185,6 +186,12 @@ impl Editor {
             });
             self.add_items(name, part.children, items);
         }
+    }
+
+    /// The network there as a ladder.
+    pub fn ladder(&self, name: &str, at: u32) -> Option<Shown> {
+        let drawing = self.project.ladder(name, self.byte(name, at))?;
+        Some(Shown { file: name.to_owned(), drawing })
     }
 
     /// A line of a file as a place.

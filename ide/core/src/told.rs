@@ -23,6 +23,11 @@ impl Told {
             }
         }
     }
+
+    /// What the page knows of this kind is old.
+    pub fn forget(&mut self, kind: &Event) {
+        self.0.retain(|old| std::mem::discriminant(old) != std::mem::discriminant(kind));
+    }
 }
 
 #[cfg(test)]
