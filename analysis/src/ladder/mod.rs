@@ -14,6 +14,8 @@ mod element;
 mod layout;
 mod picture;
 mod rungs;
+#[cfg(test)]
+mod tests;
 
 use awl_asm::assemble::Assembly;
 use diagnostics::Source;
