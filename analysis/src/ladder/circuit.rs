@@ -255,11 +255,14 @@ impl Draft {
             self.branch(RAIL, vec![node]);
             return Ok(());
         };
-        let first = self.anchor(first);
         flows.reverse();
         if flows.iter().any(|flow| flow.point != RAIL) {
             return Err(Obstacle::InputGoesOn);
         }
+        if !flows.is_empty() || repeats(one) {
+            self.end_others()?;
+        }
+        let first = self.anchor(first);
         let others: Vec<_> = flows.into_iter().map(|flow| flow.tail).collect();
         let taken = others.len();
         let mut node = self.add(element);
@@ -274,9 +277,21 @@ impl Draft {
         }
         let why = if taken > 0 { Obstacle::InputGoesOn } else { Obstacle::Loop };
         let none = Flow { taken: Some(why), ..Flow::default() };
-        // Wires further down would cross what leads to the inputs.
         self.stack.extend(vec![none.clone(); taken + 1]);
         self.stack.fill(none);
+        Ok(())
+    }
+
+    /// Draws what else is on the stack: after a box with several inputs it would cross what leads
+    /// to these.
+    fn end_others(&mut self) -> Result<(), Obstacle> {
+        for flow in std::mem::take(&mut self.stack) {
+            if flow.point != RAIL && !flow.tail.is_empty() {
+                return Err(Obstacle::Stack);
+            }
+            let flow = self.anchor(flow);
+            self.stack.push(flow);
+        }
         Ok(())
     }
 

@@ -149,7 +149,7 @@ fn eno_goes_on_behind_its_box() {
 fn what_is_no_ladder_says_why_and_where() {
     let cases = [
         ("LD I0.0\n= Q0.0\nO I0.1\n= Q0.1\n", 3, Obstacle::LeavesRail),
-        ("LD I0.0\nLD I0.1\nNOT\nALD\n= Q0.0\n", 4, Obstacle::Part),
+        ("LD I0.0\nNOT\nLD I0.1\nNOT\nALD\n= Q0.0\n", 5, Obstacle::Part),
         ("LD I0.0\nMOVW 1, VW0\nA I0.1\nAENO\n= Q0.0\n", 4, Obstacle::Eno),
         ("LD I0.0\nLD I0.1\nCTU C1, 5\n= Q0.0\n", 4, Obstacle::InputGoesOn),
         ("LD I0.0\nFOR VW0, 1, 2\n= Q0.0\n", 3, Obstacle::Loop),

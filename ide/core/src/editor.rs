@@ -3,10 +3,10 @@
 
 use std::collections::BTreeMap;
 
+use analysis::ladder::Drawing;
 use analysis::{CompletionKind, Location, OutlineKind, Project};
 use diagnostics::{Severity, Source, Span};
 
-use crate::ladder::Shown;
 use crate::offsets::{of_page, to_page};
 use crate::protocol::{Completion, Edit, Edits, File, Hover, Item, Place, Problem};
 
@@ -189,9 +189,8 @@ impl Editor {
     }
 
     /// The network there as a ladder.
-    pub fn ladder(&self, name: &str, at: u32) -> Option<Shown> {
-        let drawing = self.project.ladder(name, self.byte(name, at))?;
-        Some(Shown { file: name.to_owned(), drawing })
+    pub fn ladder(&self, name: &str, at: u32) -> Option<Drawing> {
+        self.project.ladder(name, self.byte(name, at))
     }
 
     /// A line of a file as a place.

@@ -12,6 +12,8 @@ use crate::protocol::ladder as page;
 /// A ladder with its file.
 #[derive(Debug)]
 pub struct Shown {
+    /// Its number.
+    pub id: u32,
     /// The file that it is drawn of.
     pub file: String,
     /// The ladder.
@@ -30,6 +32,7 @@ impl Shown {
             Err((line, obstacle)) => undrawn(rung, *line, obstacle),
         };
         page::Ladder {
+            id: self.id,
             file: self.file.clone(),
             number: network.number,
             title: network.title.clone(),

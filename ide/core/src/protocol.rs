@@ -177,8 +177,8 @@ pub enum Event {
     Status { status: Status },
     /// Live values beside the lines that can be seen.
     Live { lines: Vec<Line> },
-    /// Power flow in the ladder that was asked for last, rung by rung.
-    Power { rungs: Vec<ladder::Power> },
+    /// Power flow in the ladder with this number, the one that was asked for last, rung by rung.
+    Power { id: u32, rungs: Vec<ladder::Power> },
     /// The watch table, in its order.
     Watched { values: Vec<Value> },
     /// What is forced, wherever it was done.

@@ -41,6 +41,8 @@ pub struct Session {
     view: (u32, u32),
     /// The ladder that the page shows, until a text changes.
     ladder: Option<Shown>,
+    /// How many were shown.
+    ladders: u32,
     plant_events: usize,
     told: Told,
     live: Option<Pulse>,
@@ -156,7 +158,7 @@ impl Session {
             events.extend(
                 shown
                     .filter(|_| is_up)
-                    .map(|shown| Event::Power { rungs: shown.power(&plc.state) }),
+                    .map(|shown| Event::Power { id: shown.id, rungs: shown.power(&plc.state) }),
             );
         }
         if let Some(simulator) = &mut self.simulator {
@@ -273,9 +275,9 @@ impl Session {
             TextWish::Format { file } => answer(editor.format(&file)?),
             TextWish::Outline { file } => answer(editor.outline(&file)),
             TextWish::Ladder { file, at } => {
-                self.ladder = editor.ladder(&file, at);
-                // Who sees another one is told everything of it.
-                self.told.forget(&Event::Power { rungs: Vec::new() });
+                self.ladders += 1;
+                let id = self.ladders;
+                self.ladder = editor.ladder(&file, at).map(|drawing| Shown { id, file, drawing });
                 answer(self.ladder.as_ref().map(Shown::ladder))
             }
             TextWish::Explain { code } => {

@@ -23,11 +23,6 @@ impl Told {
             }
         }
     }
-
-    /// What the page knows of this kind is old.
-    pub fn forget(&mut self, kind: &Event) {
-        self.0.retain(|old| std::mem::discriminant(old) != std::mem::discriminant(kind));
-    }
 }
 
 #[cfg(test)]

@@ -316,7 +316,7 @@ fn the_network_at_the_cursor_is_a_ladder_with_power_flow() {
     for _ in 0..60 {
         page.pass(100);
         let power = page.last(|event| match event {
-            Event::Power { rungs } => Some(rungs.clone()),
+            Event::Power { rungs, .. } => Some(rungs.clone()),
             _ => None,
         });
         let power = &power.unwrap()[0];
@@ -346,7 +346,7 @@ fn power_flow_in_a_ladder_is_that_of_the_program() {
     page.target(TargetWish::Run);
     let elements = |page: &Page| -> Vec<Option<bool>> {
         let power = page.last(|event| match event {
-            Event::Power { rungs } => Some(rungs.clone()),
+            Event::Power { rungs, .. } => Some(rungs.clone()),
             _ => None,
         });
         power.unwrap()[0].elements.clone()

@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 /// A network.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Ladder {
+    /// What it is called where its power flow is told; another one each time.
+    pub id: u32,
     /// The file.
     pub file: String,
     /// Its number; none where there is no NETWORK line.

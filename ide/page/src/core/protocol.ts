@@ -123,6 +123,7 @@ export interface LadderRung {
 }
 
 export interface Ladder {
+  id: number;
   file: string;
   number: number | null;
   title: string;
@@ -213,7 +214,7 @@ interface Events {
   program: { program: Summary | null };
   status: { status: Status };
   live: { lines: Line[] };
-  power: { rungs: Power[] };
+  power: { id: number; rungs: Power[] };
   watched: { values: Value[] };
   forced: { values: Value[] };
   pins: { inputs: number; outputs: number; analog: number[]; pwm: number[] };

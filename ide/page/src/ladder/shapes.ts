@@ -163,7 +163,8 @@ export class Shape {
     colour(this.group, state);
     for (const { pin, element, name, value, characters } of this.written) {
       const known = values.filter((value) => value.name === pin.text);
-      const number = known.find((value) => value.form !== "bit" && value.text !== "");
+      const isBit = characters === 0 && known.some((value) => value.form === "bit");
+      const number = known.find((value) => !isBit && value.form !== "bit" && value.text !== "");
       element.classList.toggle(
         "forced",
         known.some((value) => value.forced),

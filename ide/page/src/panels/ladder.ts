@@ -43,7 +43,8 @@ export class Ladder {
   private drawn = "";
   private rungs: (Rung | null)[] = [];
   private lines = new Map<number, Line>();
-  private power: (Power | undefined)[] = [];
+  /** Power flow, and of which ladder. */
+  private power: { id: number; rungs: Power[] } = { id: 0, rungs: [] };
   private listeners: (() => void)[] = [];
 
   constructor(
@@ -63,14 +64,14 @@ export class Ladder {
       this.lines = new Map(lines.map((line) => [line.line, line]));
       this.show();
     });
-    core.on("power", ({ rungs }) => {
-      this.power = rungs;
+    core.on("power", ({ id, rungs }) => {
+      this.power = { id, rungs };
       this.show();
     });
     header.onStatus(({ mode, agreement }) => {
       if (agreement === "same" && mode !== "OFFLINE" && mode !== "LOST") return;
-      if (this.lines.size === 0 && this.power.length === 0) return;
-      [this.lines, this.power] = [new Map(), []];
+      if (this.lines.size === 0 && this.power.rungs.length === 0) return;
+      [this.lines, this.power] = [new Map(), { id: 0, rungs: [] }];
       this.show();
     });
     onLanguage(() => this.draw());
@@ -112,9 +113,10 @@ export class Ladder {
     const network =
       file === null ? null : await this.core.ask({ do: "ladder", file, at }).catch(() => null);
     if (file !== this.editors.current) return;
-    const drawn = JSON.stringify(network);
+    this.network = network;
+    const drawn = JSON.stringify({ ...network, id: 0 });
     if (drawn !== this.drawn) {
-      [this.network, this.drawn, this.power] = [network, drawn, []];
+      this.drawn = drawn;
       this.draw();
       this.changed();
     }
@@ -158,7 +160,9 @@ export class Ladder {
   private show(): void {
     const isMain = this.network?.file === this.project.main();
     const lines: ReadonlyMap<number, Line> = isMain ? this.lines : new Map();
-    for (const [index, rung] of this.rungs.entries()) rung?.show(this.power[index], lines);
+    const { id, rungs } = this.power;
+    const power = id === this.network?.id ? rungs : [];
+    for (const [index, rung] of this.rungs.entries()) rung?.show(power[index], lines);
   }
 
   /** Marks what is in the line with the cursor, and scrolls to it. */
