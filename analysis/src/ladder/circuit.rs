@@ -5,43 +5,16 @@ use awl_asm::ast::{Constant, Instruction, Statement, Value};
 use awl_asm::mnemonics::same_mnemonic;
 use plc_isa::{Kind, Op, Rung as Part, STACK_LEVELS};
 
-use super::Sheet;
 use super::element::{element, inline};
-use super::picture::{Element, Power, Shape, Through};
+use super::obstacle::Obstacle;
+use super::picture::{Element, Shape, Through};
 use super::rungs::Rung;
+use super::sheet::Sheet;
 
 /// Most elements of a rung that is drawn: nobody reads a longer one.
 const ELEMENTS_MAX: usize = 300;
 /// The power rail as a point.
 const RAIL: usize = 0;
-
-/// Why a rung is no ladder.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Obstacle {
-    /// A line was not understood: the assembler's message.
-    NotUnderstood(String),
-    /// An operand is missing or wrong.
-    Operand,
-    /// The logic stack has no value of this rung that the line could take.
-    NoValue,
-    /// It joins the rail with a wire that has left it: one with an output or an LPS before.
-    LeavesRail,
-    /// NOT, EU or ED are meant for a part of the power flow alone, and what is before it would go
-    /// into them too.
-    Part,
-    /// An AENO that does not stand after a box in the same wire.
-    Eno,
-    /// What an input of a box takes goes on to something else.
-    InputGoesOn,
-    /// What is after a FOR in its rung has other power flow in each pass.
-    Loop,
-    /// This use of the logic stack is neither series nor parallel.
-    Stack,
-    /// More levels than the logic stack has.
-    TooDeep,
-    /// Too many elements.
-    TooLarge,
-}
 
 /// Something in series.
 #[derive(Debug, Clone)]
@@ -382,15 +355,5 @@ fn level(one: &Instruction) -> Option<usize> {
     match one.operands.first()?.value {
         Value::Constant(Constant { value, .. }) => usize::try_from(value).ok(),
         _ => None,
-    }
-}
-
-/// The inputs of power flow of an element, without their places.
-pub(super) fn powers(one: &Instruction, shape: Shape) -> Vec<Power> {
-    let power = |name| Power { name, row: 0, net: 0 };
-    match (shape, one.entry.inputs) {
-        (Shape::Box, []) if one.entry.stack.needs > 0 => vec![power("EN")],
-        (Shape::Box, inputs) => inputs.iter().map(|&name| power(name)).collect(),
-        (Shape::Contact | Shape::Coil, _) => vec![power("")],
     }
 }

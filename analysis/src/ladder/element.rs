@@ -4,9 +4,8 @@ use awl_asm::ast::{self, Instruction, Section, Value};
 use awl_asm::select::operand_name;
 use plc_isa::{Group, Op, Role, Rung as Part, Written};
 
-use super::Sheet;
-use super::circuit::powers;
-use super::picture::{Element, Operand, Pin, Shape, Side, Through};
+use super::picture::{Element, Operand, Pin, Power, Shape, Side, Through};
+use super::sheet::Sheet;
 
 /// In a contact that is closed where its bit is 0.
 const INVERTED: &str = "/";
@@ -182,5 +181,15 @@ fn operand_of(sheet: Sheet<'_>, operand: &ast::Operand) -> Operand {
         text: text.to_owned(),
         other,
         comment: symbol.map(|symbol| symbol.comment.clone()).unwrap_or_default(),
+    }
+}
+
+/// The inputs of power flow of an element, without their places.
+fn powers(one: &Instruction, shape: Shape) -> Vec<Power> {
+    let power = |name| Power { name, row: 0, net: 0 };
+    match (shape, one.entry.inputs) {
+        (Shape::Box, []) if one.entry.stack.needs > 0 => vec![power("EN")],
+        (Shape::Box, inputs) => inputs.iter().map(|&name| power(name)).collect(),
+        (Shape::Contact | Shape::Coil, _) => vec![power("")],
     }
 }

@@ -12,26 +12,21 @@
 mod circuit;
 mod element;
 mod layout;
+mod obstacle;
 mod picture;
 mod rungs;
+mod sheet;
 #[cfg(test)]
 mod tests;
 
 use awl_asm::assemble::Assembly;
 use diagnostics::Source;
 
-pub use circuit::Obstacle;
+use sheet::Sheet;
+
+pub use obstacle::Obstacle;
 pub use picture::{Element, Net, Operand, Picture, Pin, Power, Shape, Side, Through, Wire};
 pub use rungs::{Network, Rung};
-
-/// A program whose networks are drawn.
-#[derive(Clone, Copy)]
-pub(crate) struct Sheet<'p> {
-    /// The text.
-    pub source: &'p Source,
-    /// What the assembler made of it; it may have errors.
-    pub assembly: &'p Assembly,
-}
 
 /// All networks of a program in their order. What is not under a NETWORK line is one network to
 /// the end of its unit.

@@ -7,8 +7,8 @@ use awl_asm::diagnostic::Code;
 use diagnostics::Severity;
 use plc_isa::{Op, Rung as Part};
 
-use super::Sheet;
-use super::circuit::Obstacle;
+use super::obstacle::Obstacle;
+use super::sheet::Sheet;
 
 /// A network.
 #[derive(Debug, Clone, PartialEq, Eq)]

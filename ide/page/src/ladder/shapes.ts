@@ -31,7 +31,13 @@ export class Shape {
       rx: 6,
       class: "frame",
     });
-    this.group = s("g", { class: `element ${element.shape}`, role: "button", tabindex: -1 }, frame);
+    const line = [element.mnemonic, element.pins.map(({ text }) => text).join(", ")].join(" ");
+    this.group = s(
+      "g",
+      { class: `element ${element.shape}`, role: "button", tabindex: -1 },
+      s("title", {}, line),
+      frame,
+    );
     if (element.shape === "box") this.box();
     else this.symbol();
   }
@@ -138,7 +144,8 @@ export class Shape {
       value,
     );
     this.written.push({ pin, element, name, value, characters });
-    this.group.append(element, s("title", {}, title(pin)));
+    element.prepend(s("title", {}, title(pin)));
+    this.group.append(element);
   }
 
   /** An operand in two lines: its value is in place of its other name. */
@@ -147,7 +154,8 @@ export class Shape {
     const value = s("tspan", { x: at, y: second, class: "other" }, fit(pin.other ?? ""));
     const element = s("text", { "text-anchor": "middle", class: "operand" }, name, value);
     this.written.push({ pin, element, name, value, characters: 0 });
-    this.group.append(element, s("title", {}, title(pin)));
+    element.prepend(s("title", {}, title(pin)));
+    this.group.append(element);
   }
 
   /** The operand that is written where this is. */

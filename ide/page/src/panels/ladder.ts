@@ -69,7 +69,8 @@ export class Ladder {
       this.show();
     });
     header.onStatus(({ mode, agreement }) => {
-      if (agreement === "same" && mode !== "OFFLINE" && mode !== "LOST") return;
+      const isThis = agreement === "same" || agreement === "native";
+      if (isThis && mode !== "OFFLINE" && mode !== "LOST") return;
       if (this.lines.size === 0 && this.power.rungs.length === 0) return;
       [this.lines, this.power] = [new Map(), { id: 0, rungs: [] }];
       this.show();
