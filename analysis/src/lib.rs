@@ -9,6 +9,7 @@
 mod answer;
 mod awl;
 mod explain;
+pub mod ladder;
 mod language;
 mod names;
 mod project;

@@ -13,6 +13,7 @@ use crate::answer::{
 };
 use crate::awl::Awl;
 use crate::explain::explain;
+use crate::ladder::{Drawing, drawing_at};
 use crate::language::{Language, Model, Text, View};
 use crate::names::{is_table_of, joined, split};
 use crate::rename;
@@ -205,6 +206,13 @@ impl Project {
     /// The parts of a text.
     pub fn outline(&self, name: &str) -> Vec<Outline> {
         self.ask(name, |language, view| language.outline(view)).unwrap_or_default()
+    }
+
+    /// The network at an offset of a program as a ladder; `None` where there is none.
+    pub fn ladder(&self, name: &str, offset: usize) -> Option<Drawing> {
+        let entry = self.texts.get(name).filter(|entry| entry.language == Language::Awl)?;
+        let model = self.model_of(name)?;
+        drawing_at(&entry.source, &model.assembly, offset)
     }
 
     /// The change that gives a text its canonical layout; `None` if it has that.

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use analysis::ladder::Drawing;
 use analysis::{CompletionKind, Location, OutlineKind, Project};
 use diagnostics::{Severity, Source, Span};
 
@@ -185,6 +186,11 @@ impl Editor {
             });
             self.add_items(name, part.children, items);
         }
+    }
+
+    /// The network there as a ladder.
+    pub fn ladder(&self, name: &str, at: u32) -> Option<Drawing> {
+        self.project.ladder(name, self.byte(name, at))
     }
 
     /// A line of a file as a place.

@@ -7,6 +7,7 @@
 mod apart;
 mod build;
 mod editor;
+mod ladder;
 mod offsets;
 mod plc;
 mod pulse;

@@ -1,6 +1,8 @@
 //! What the page asks and what it is told, as JSON. Offsets in texts count UTF-16 code units, as a
 //! browser does. Times are milliseconds.
 
+pub mod ladder;
+
 use serde::{Deserialize, Serialize};
 
 /// What the page wants. `id` comes back in the answer, where there is one.
@@ -74,6 +76,9 @@ pub enum TextWish {
     Format { file: String },
     /// Networks, units, labels. Answer: [`Item`]s.
     Outline { file: String },
+    /// The network there as a ladder, whose power flow is told from then on. Answer:
+    /// [`Ladder`](ladder::Ladder) or null.
+    Ladder { file: String, at: u32 },
     /// The page of a diagnostic's code. Answer: text in Markdown.
     Explain { code: String },
 }
@@ -172,6 +177,8 @@ pub enum Event {
     Status { status: Status },
     /// Live values beside the lines that can be seen.
     Live { lines: Vec<Line> },
+    /// Power flow in the ladder with this number, the one that was asked for last, rung by rung.
+    Power { id: u32, rungs: Vec<ladder::Power> },
     /// The watch table, in its order.
     Watched { values: Vec<Value> },
     /// What is forced, wherever it was done.

@@ -9,6 +9,7 @@ use serde::Serialize;
 use crate::apart::{self, Wanted};
 use crate::build;
 use crate::editor::Editor;
+use crate::ladder::Shown;
 use crate::plc::Plc;
 use crate::protocol::{
     ApartWish, Event, LookWish, Place, ProjectWish, Request, Status, TargetKind, TargetWish,
@@ -38,6 +39,10 @@ pub struct Session {
     scope_names: (Vec<String>, u32),
     watched: Vec<String>,
     view: (u32, u32),
+    /// The ladder that the page shows, until a text changes.
+    ladder: Option<Shown>,
+    /// How many were shown.
+    ladders: u32,
     plant_events: usize,
     told: Told,
     live: Option<Pulse>,
@@ -147,6 +152,14 @@ impl Session {
         let mut events = vec![Event::Status { status: self.status() }];
         if let Some(plc) = &self.plc {
             events.extend([plc.live(), plc.watched(), plc.forced()]);
+            let shown = self.ladder.as_ref();
+            let shown = shown.filter(|shown| self.editor.main() == Some(&shown.file));
+            let is_up = plc.state.link == Link::Up && self.has_program();
+            events.extend(
+                shown
+                    .filter(|_| is_up)
+                    .map(|shown| Event::Power { id: shown.id, rungs: shown.power(&plc.state) }),
+            );
         }
         if let Some(simulator) = &mut self.simulator {
             events.push(simulator.pins());
@@ -229,6 +242,7 @@ impl Session {
     /// The files.
     fn change(&mut self, wish: ProjectWish) -> Result<(), String> {
         self.is_edited = true;
+        self.ladder = None;
         match wish {
             ProjectWish::Open { files, main } => {
                 self.disconnect();
@@ -248,7 +262,7 @@ impl Session {
     }
 
     /// Questions about the texts.
-    fn tell(&self, wish: TextWish) -> Done {
+    fn tell(&mut self, wish: TextWish) -> Done {
         let editor = &self.editor;
         match wish {
             TextWish::Complete { file, at } => answer(editor.complete(&file, at)),
@@ -260,6 +274,12 @@ impl Session {
             }
             TextWish::Format { file } => answer(editor.format(&file)?),
             TextWish::Outline { file } => answer(editor.outline(&file)),
+            TextWish::Ladder { file, at } => {
+                self.ladders += 1;
+                let id = self.ladders;
+                self.ladder = editor.ladder(&file, at).map(|drawing| Shown { id, file, drawing });
+                answer(self.ladder.as_ref().map(Shown::ladder))
+            }
             TextWish::Explain { code } => {
                 let found = Code::find(&code).ok_or_else(|| format!("{code}: no such code"))?;
                 answer(found.page())

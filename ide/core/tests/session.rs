@@ -1,6 +1,7 @@
 //! A session as the page uses it: requests in, events out, with time passed in.
 
 use ide_core::Session;
+use ide_core::protocol::ladder::Ladder;
 use ide_core::protocol::{
     ApartWish, Event, File, LookWish, Problem, ProjectWish, Recording, Request, Status, TargetWish,
     TestResult, TextWish, Value, Wish,
@@ -287,4 +288,79 @@ fn an_edit_that_changes_nothing_keeps_the_values_and_another_program_ends_them()
     assert_eq!(edit("// a lamp\nLD I0.0\n= Q0.1\n"), "same");
     assert_eq!(edit("LD I0.1\n= Q0.1\n"), "other");
     assert_eq!(edit("LD I0.1\n= Q0.\n"), "other", "of a program with errors nothing is known");
+}
+
+#[test]
+fn the_network_at_the_cursor_is_a_ladder_with_power_flow() {
+    let mut page = Page::with("station1.awl", STATION);
+    let at = STATION.find("NETWORK 4").unwrap() as u32 + 20;
+    let file = || "station1.awl".to_owned();
+    let ladder = |page: &mut Page| -> Option<Ladder> {
+        page.answer(Wish::Text(TextWish::Ladder { file: file(), at }))
+    };
+    let shown = ladder(&mut page).unwrap();
+    assert_eq!((shown.number, shown.rungs.len()), (Some(4), 1));
+    let [rung] = &shown.rungs[..] else { panic!() };
+    let first = &rung.elements[0];
+    assert_eq!((first.shape.as_str(), first.is_switch), ("contact", true));
+    assert_eq!(
+        (first.pins[0].text.as_str(), first.pins[0].other.as_deref()),
+        ("HasPiece", Some("M0.0"))
+    );
+    assert!(rung.elements.iter().all(|one| (shown.lines.0..=shown.lines.1).contains(&one.line)));
+    page.target(TargetWish::Plant { spec: Some(PLANT.to_owned()) });
+    page.wish(Wish::Look(LookWish::View { from: shown.lines.0, to: shown.lines.1 }));
+    page.target(TargetWish::Run);
+    // What was told at any time, contact by contact.
+    let mut seen = vec![Vec::new(); rung.elements.len()];
+    for _ in 0..60 {
+        page.pass(100);
+        let power = page.last(|event| match event {
+            Event::Power { rungs, .. } => Some(rungs.clone()),
+            _ => None,
+        });
+        let power = &power.unwrap()[0];
+        assert!(power.nets.first().is_some_and(|rail| rail.is_none_or(|rail| rail)), "the rail");
+        for (seen, &now) in seen.iter_mut().zip(&power.elements) {
+            seen.extend(now);
+        }
+    }
+    assert!(seen[0].contains(&true) && seen[0].contains(&false), "a piece comes and goes");
+    // After an edit the page asks anew; what is not AWL is no ladder.
+    let text = STATION.replace("NETWORK 4", "NETWORK 44");
+    page.wish(Wish::Project(ProjectWish::Edit { file: file(), text }));
+    assert_eq!(ladder(&mut page).unwrap().number, Some(44));
+    let none: Option<Ladder> =
+        page.answer(Wish::Text(TextWish::Ladder { file: "none.awl".to_owned(), at: 0 }));
+    assert_eq!(none, None);
+}
+
+#[test]
+fn power_flow_in_a_ladder_is_that_of_the_program() {
+    let text = "LD I0.0\nLDW> MW0, 10\nO I0.1\nALD\nNOT\n= Q0.0\n";
+    let mut page = Page::with("lamp.awl", text);
+    let wish = TextWish::Ladder { file: "lamp.awl".to_owned(), at: 0 };
+    let ladder: Option<Ladder> = page.answer(Wish::Text(wish));
+    assert_eq!(ladder.unwrap().rungs[0].elements.len(), 5);
+    page.wish(Wish::Look(LookWish::View { from: 1, to: 6 }));
+    page.target(TargetWish::Run);
+    let elements = |page: &Page| -> Vec<Option<bool>> {
+        let power = page.last(|event| match event {
+            Event::Power { rungs, .. } => Some(rungs.clone()),
+            _ => None,
+        });
+        power.unwrap()[0].elements.clone()
+    };
+    page.pass(500);
+    // I0.0, MW0 > 10, I0.1; what goes into NOT, and into the coil.
+    assert_eq!(elements(&page), [false, false, false, false, true].map(Some));
+    for input in ["I0.0", "I0.1"] {
+        page.target(TargetWish::Drive { operand: input.to_owned(), value: 1 });
+    }
+    page.pass(500);
+    assert_eq!(elements(&page), [true, false, true, true, false].map(Some));
+    page.target(TargetWish::Drive { operand: "I0.1".to_owned(), value: 0 });
+    page.target(TargetWish::Set { operand: "MW0".to_owned(), value: "11".to_owned() });
+    page.pass(500);
+    assert_eq!(elements(&page), [true, true, false, true, false].map(Some));
 }

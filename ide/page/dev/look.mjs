@@ -7,7 +7,7 @@ import { serve } from "./serve.mjs";
 const OUT = new URL("./pictures/", import.meta.url).pathname;
 const AXE = await readFile(new URL("../node_modules/axe-core/axe.min.js", import.meta.url), "utf8");
 const WIDTHS = { 1280: 800, 1024: 768, 390: 844 };
-const PANELS = ["Problems", "Watch", "Oscilloscope", "Capture", "Plant", "Tests"];
+const PANELS = ["Problems", "Watch", "Oscilloscope", "Capture", "Plant", "Tests", "Ladder"];
 
 const server = await serve(0);
 const address = `http://127.0.0.1:${server.address().port}/`;
@@ -96,6 +96,14 @@ async function others(page, name) {
   await look("find");
 }
 
+/** The cursor into the largest network. */
+async function toNetwork4(page) {
+  await page.getByRole("textbox", { name: "station1.awl" }).focus();
+  await page.keyboard.press("Control+Home");
+  for (let line = 1; line < 64; line += 1) await page.keyboard.press("ArrowDown");
+  await page.getByRole("heading", { name: /NETWORK 4/ }).waitFor();
+}
+
 async function look(theme, width, height) {
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: theme });
   // axe-core is put into the page by the browser's own door; the page's policy stays as it is.
@@ -111,6 +119,7 @@ async function look(theme, width, height) {
   for (const panel of PANELS) {
     await page.getByRole("tab", { name: panel, exact: true }).click();
     if (panel === "Tests") await page.getByRole("button", { name: "Test all" }).click();
+    if (panel === "Ladder") await toNetwork4(page);
     await page.waitForTimeout(700);
     await page.screenshot({
       path: `${OUT}${theme}-${width}-${panel.toLowerCase()}.png`,

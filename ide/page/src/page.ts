@@ -17,6 +17,7 @@ import { Tabs } from "./page/tabs";
 import { unfitWords } from "./page/unfit";
 import { valueMenu, valuesMenu } from "./page/values";
 import { Capture } from "./panels/capture";
+import { Ladder } from "./panels/ladder";
 import { Operands } from "./panels/operands";
 import { Plant } from "./panels/plant";
 import { Problems } from "./panels/problems";
@@ -68,6 +69,14 @@ const scope = new Scope(core, operands);
 const capture = new Capture(core, project, operands);
 const plant = new Plant(core, project);
 const tests = new Tests(core, project, editors, () => tabs);
+const menu = new ProjectMenu(project, open, () => current);
+const header = new Header(core, {
+  project: (at) => menu.show(at),
+  settings,
+  help,
+  files: () => showFiles(sidebar.element.classList.contains("away")),
+});
+const ladder = new Ladder(core, editors, project, header);
 const tabs: Tabs = new Tabs("panels", [
   { id: "problems", text: "problems", element: problems.element },
   { id: "watch", text: "watch", element: watch.element, shown: (shown) => watch.shown(shown) },
@@ -85,15 +94,14 @@ const tabs: Tabs = new Tabs("panels", [
   },
   { id: "plant", text: "plant", element: plant.element },
   { id: "tests", text: "tests", element: tests.element },
+  {
+    id: "ladder",
+    text: "ladder",
+    element: ladder.element,
+    shown: (shown) => ladder.shown(shown),
+  },
 ]);
-const menu = new ProjectMenu(project, open, () => current);
-const header = new Header(core, {
-  project: (at) => menu.show(at),
-  settings,
-  help,
-  files: () => showFiles(sidebar.element.classList.contains("away")),
-});
-new LiveView(core, project, editors, header);
+new LiveView(core, project, editors, ladder, header);
 
 header.onStatus((status) => watch.showStatus(status));
 let lastFault: string | null = null;

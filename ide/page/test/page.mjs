@@ -66,6 +66,26 @@ await page.getByLabel("Operand or symbol").fill("Ready");
 await page.keyboard.press("Enter");
 await panel("Watch").getByRole("cell", { name: "0", exact: true }).first().waitFor();
 
+// The network with the cursor as a ladder: contacts are open or closed, a click leads to the line.
+await page
+  .getByRole("button", { name: /NETWORK 4/ })
+  .first()
+  .click();
+await tab("Ladder");
+const ladder = panel("Ladder");
+await ladder.getByRole("heading", { name: /NETWORK 4/ }).waitFor();
+const element = (name) => ladder.getByRole("button", { name });
+await element(/^contact HasPiece M0\.0, (open|closed)$/).waitFor();
+await element(/^inverted contact Measured M0\.1, (open|closed)$/).waitFor();
+await element(/^box TON Settle T101, PT = 5, with(out)? power$/).waitFor();
+await ladder.locator(".rail.on").first().waitFor();
+await element(/^contact AtTop I0\.2/).click();
+await page.locator(".cm-activeLine", { hasText: /^A\s+AtTop/ }).waitFor();
+await element(/^coil S Measure Q0\.3/).focus();
+await page.keyboard.press("Enter");
+await page.getByRole("menuitem", { name: "Force Measure to 1" }).waitFor();
+await page.keyboard.press("Escape");
+
 // The same figures as awl-sim.
 await tab("Capture");
 for (const signal of ["Push", "Height"]) {

@@ -232,42 +232,42 @@ macro_rules! core_instructions {
             /// On-delay timer: counts while power flows, its bit is 1 from the preset on; without
             /// power flow bit and current value are 0.
             Ton on_delay(timer: u8 = NUMBER, pt: WordSource = IN)
-                ["TON"] Timer, needs 1, adds 0, Drives, flags NONE {
+                ["TON"] Timer, needs 1 ("IN"), adds 0, Drives, flags NONE {
                     0x90..=0x90 (TimerSlot, Word);
                     0x91..=0x91 (TimerSlot, IntConst);
                 }
             /// Off-delay timer: its bit is 1 with power flow and until the preset has passed
             /// without it.
             Tof off_delay(timer: u8 = NUMBER, pt: WordSource = IN)
-                ["TOF" "TOFF"] Timer, needs 1, adds 0, Drives, flags NONE {
+                ["TOF" "TOFF"] Timer, needs 1 ("IN"), adds 0, Drives, flags NONE {
                     0x92..=0x92 (TimerSlot, Word);
                     0x93..=0x93 (TimerSlot, IntConst);
                 }
             /// Retentive on-delay timer: counts while power flows and holds bit and current value
             /// without it; only R resets it.
             Tonr retentive_on_delay(timer: u8 = NUMBER, pt: WordSource = IN)
-                ["TONR"] Timer, needs 1, adds 0, Drives, flags NONE {
+                ["TONR"] Timer, needs 1 ("IN"), adds 0, Drives, flags NONE {
                     0x94..=0x94 (TimerSlot, Word);
                     0x95..=0x95 (TimerSlot, IntConst);
                 }
             /// Count up: S1 counts on its rising edge, S0 resets; the bit is 1 from the preset on.
             /// Stops at 32767.
             Ctu count_up(counter: u8 = NUMBER, pv: WordSource = IN)
-                ["CTU" "ZV"] Counter, needs 2, adds 0, Drives, flags NONE {
+                ["CTU" "ZV"] Counter, needs 2 ("CU" "R"), adds 0, Drives, flags NONE {
                     0x98..=0x98 (CounterSlot, Word);
                     0x99..=0x99 (CounterSlot, IntConst);
                 }
             /// Count down: S1 counts on its rising edge, S0 loads the preset; the bit is 1 at zero,
             /// where it stops.
             Ctd count_down(counter: u8 = NUMBER, pv: WordSource = IN)
-                ["CTD" "ZR"] Counter, needs 2, adds 0, Drives, flags NONE {
+                ["CTD" "ZR"] Counter, needs 2 ("CD" "LD"), adds 0, Drives, flags NONE {
                     0x9A..=0x9A (CounterSlot, Word);
                     0x9B..=0x9B (CounterSlot, IntConst);
                 }
             /// Count up and down: S2 counts up, S1 counts down, S0 resets; the bit is 1 from the
             /// preset on. Wraps at the ends.
             Ctud count_up_down(counter: u8 = NUMBER, pv: WordSource = IN)
-                ["CTUD" "ZVR"] Counter, needs 3, adds 0, Drives, flags NONE {
+                ["CTUD" "ZVR"] Counter, needs 3 ("CU" "CD" "R"), adds 0, Drives, flags NONE {
                     0x9C..=0x9C (CounterSlot, Word);
                     0x9D..=0x9D (CounterSlot, IntConst);
                 }

@@ -26,7 +26,8 @@ macro_rules! engine {
         $(#[doc = $doc:literal])+
         $op:ident $method:ident ( $( $arg:ident : $value:ty = $role:expr ),* )
         [ $( $mnemonic:literal )* ] $group:ident,
-        needs $needs:literal, adds $adds:literal, $rung:ident, flags $( $flag:ident )|+ {
+        needs $needs:literal $( ( $( $input:literal )+ ) )?, adds $adds:literal, $rung:ident,
+        flags $( $flag:ident )|+ {
             $( $first:literal ..= $last:literal ( $( $kind:ident ),* ); )*
             $( wide $wide_first:literal ..= $wide_last:literal ( $( $wide_kind:ident ),* ); )*
         }

@@ -149,6 +149,9 @@ pub struct Instruction {
     pub group: Group,
     /// Its effect on the logic stack.
     pub stack: StackEffect,
+    /// The names of the values that it takes from the logic stack, the deepest first, as boxes
+    /// have them for their inputs; none where the only one is EN.
+    pub inputs: &'static [&'static str],
     /// How it takes part in a rung.
     pub rung: Rung,
     /// The bits of SMB1 that it sets or resets.
@@ -164,7 +167,8 @@ macro_rules! instruction_table {
         $(#[doc = $doc:literal])+
         $op:ident $method:ident ( $( $arg:ident : $value:ty = $role:expr ),* )
         [ $( $mnemonic:literal )* ] $group:ident,
-        needs $needs:literal, adds $adds:literal, $rung:ident, flags $( $flag:ident )|+ {
+        needs $needs:literal $( ( $( $input:literal )+ ) )?, adds $adds:literal, $rung:ident,
+        flags $( $flag:ident )|+ {
             $( $first:literal ..= $last:literal ( $( $kind:ident ),* ); )*
             $( wide $wide_first:literal ..= $wide_last:literal ( $( $wide_kind:ident ),* ); )*
         }
@@ -193,6 +197,7 @@ macro_rules! instruction_table {
                 roles: &[ $( $role ),* ],
                 group: Group::$group,
                 stack: StackEffect { needs: $needs, adds: $adds },
+                inputs: &[ $( $( $input ),+ )? ],
                 rung: Rung::$rung,
                 power_flow: Rung::$rung.power_flow(),
                 flags: $( $flag )|+,
@@ -220,6 +225,7 @@ macro_rules! instruction_table {
                 roles: &[ $( $module_role ),* ],
                 group: Group::$module_group,
                 stack: StackEffect { needs: $module_needs, adds: $module_adds },
+                inputs: &[],
                 rung: Rung::$module_rung,
                 power_flow: Rung::$module_rung.power_flow(),
                 flags: $( $module_flag )|+,
@@ -248,11 +254,14 @@ macro_rules! instruction_table {
 core_instructions! { module_instructions ! instruction_table }
 
 // The roles of a row are those of its kinds: there is one for each, and it writes where they do.
+// Named inputs are all that it takes.
 const _: () = {
     let mut index = 0;
     while index < INSTRUCTIONS.len() {
         let (roles, forms) = (INSTRUCTIONS[index].roles, INSTRUCTIONS[index].forms);
         let mut form = 0;
+        let (inputs, needs) = (INSTRUCTIONS[index].inputs.len(), INSTRUCTIONS[index].stack.needs);
+        assert!(inputs == needs as usize || inputs == 0 && needs <= 2);
         while form < forms.len() {
             let kinds = forms[form].kinds;
             assert!(kinds.len() == roles.len());

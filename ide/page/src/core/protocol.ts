@@ -90,6 +90,54 @@ export interface Line {
   values: Value[];
 }
 
+export interface LadderPin {
+  name: string;
+  side: "above" | "below" | "left" | "right";
+  text: string;
+  other: string | null;
+  comment: string;
+}
+
+export interface LadderElement {
+  shape: "contact" | "coil" | "box";
+  symbol: string;
+  mnemonic: string;
+  isSwitch: boolean;
+  line: number;
+  column: number;
+  row: number;
+  columns: number;
+  rows: number;
+  powers: [name: string, row: number, net: number][];
+  output: number | null;
+  pins: LadderPin[];
+}
+
+export interface LadderRung {
+  lines: [number, number];
+  obstacle: { line: number; why: string; message: string } | null;
+  columns: number;
+  rows: number;
+  elements: LadderElement[];
+  wires: { net: number; from: [number, number]; to: [number, number] }[];
+}
+
+export interface Ladder {
+  id: number;
+  file: string;
+  number: number | null;
+  title: string;
+  lines: [number, number];
+  first: number;
+  count: number;
+  rungs: LadderRung[];
+}
+
+export interface Power {
+  nets: (boolean | null)[];
+  elements: (boolean | null)[];
+}
+
 export interface Recording {
   names: string[];
   times: number[];
@@ -122,6 +170,7 @@ export interface Questions {
   renameSymbol: { wish: At & { to: string }; answer: Edit[] };
   format: { wish: { file: string }; answer: Edit[] };
   outline: { wish: { file: string }; answer: Item[] };
+  ladder: { wish: At; answer: Ladder | null };
   explain: { wish: { code: string }; answer: string };
   simulate: {
     wish: { signals: string[]; forMs: number; scanMs: number; plant: string | null };
@@ -165,6 +214,7 @@ interface Events {
   program: { program: Summary | null };
   status: { status: Status };
   live: { lines: Line[] };
+  power: { id: number; rungs: Power[] };
   watched: { values: Value[] };
   forced: { values: Value[] };
   pins: { inputs: number; outputs: number; analog: number[]; pwm: number[] };

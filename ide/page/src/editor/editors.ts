@@ -37,6 +37,7 @@ export class Editors {
   private words = new Compartment();
   private currentListeners: ((file: string | null) => void)[] = [];
   private viewListeners: (() => void)[] = [];
+  private cursorListeners: (() => void)[] = [];
 
   constructor(
     readonly element: HTMLElement,
@@ -100,6 +101,11 @@ export class Editors {
   /** Is told when other lines can be seen. */
   onView(listener: () => void): void {
     this.viewListeners.push(listener);
+  }
+
+  /** Is told when the cursor is elsewhere, or the text around it is another one. */
+  onCursor(listener: () => void): void {
+    this.cursorListeners.push(listener);
   }
 
   /** Shows a file, and a place in it. */
@@ -221,6 +227,8 @@ export class Editors {
         if (update.docChanged) this.project.edit(file, update.state.doc.toString());
         if (update.viewportChanged || update.docChanged)
           for (const listener of this.viewListeners) listener();
+        if (update.selectionSet || update.docChanged)
+          for (const listener of this.cursorListeners) listener();
       }),
     ];
   }

@@ -3,6 +3,7 @@ import type { Core } from "../core/core";
 import type { Line } from "../core/protocol";
 import type { Editors } from "../editor/editors";
 import type { Project } from "../project/project";
+import type { Ladder } from "../panels/ladder";
 import type { Header } from "./header";
 
 /** So long nothing is asked for while a text is being scrolled. */
@@ -17,6 +18,7 @@ export class LiveView {
     private core: Core,
     private project: Project,
     private editors: Editors,
+    private ladder: Ladder,
     header: Header,
   ) {
     core.on("live", ({ lines }) => {
@@ -29,6 +31,7 @@ export class LiveView {
       if (!isThis || status.mode === "OFFLINE") this.clear();
     });
     editors.onView(() => this.soon());
+    ladder.onNeeded(() => this.soon());
     project.onFiles(() => this.soon());
     project.onOpened(() => this.clear());
     document.addEventListener("visibilitychange", () => this.soon());
@@ -63,6 +66,8 @@ export class LiveView {
     if (!view || document.hidden) return { from: 0, to: 0 };
     const { from, to } = view.viewport;
     const { doc } = view.state;
-    return { from: doc.lineAt(from).number, to: doc.lineAt(to).number };
+    const lines = { from: doc.lineAt(from).number, to: doc.lineAt(to).number };
+    const ladder = this.ladder.needed() ?? lines;
+    return { from: Math.min(lines.from, ladder.from), to: Math.max(lines.to, ladder.to) };
   }
 }

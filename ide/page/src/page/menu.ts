@@ -28,7 +28,8 @@ export function openMenu(at: Element, groups: MenuGroups): void {
     if (at.hasAttribute("aria-expanded")) at.setAttribute("aria-expanded", "false");
     removeEventListener("pointerdown", outside, true);
     removeEventListener("resize", resized);
-    if (before instanceof HTMLElement && before.isConnected) before.focus();
+    if ((before instanceof HTMLElement || before instanceof SVGElement) && before.isConnected)
+      before.focus();
     act?.();
   };
   const outside = (event: Event) => {

@@ -45,6 +45,7 @@ export const TABLE = {
   capture: ["Capture", "Aufzeichnen", "Registrar"],
   plant: ["Plant", "Anlage", "Planta"],
   tests: ["Tests", "Prüfungen", "Pruebas"],
+  ladder: ["Ladder", "Kontaktplan", "Escalera"],
   sizeOfFiles: ["Width of the files", "Breite der Dateien", "Ancho de los archivos"],
   sizeOfPanels: ["Width of the panels", "Breite der Bereiche", "Ancho de los paneles"],
   showFiles: ["Files and outline", "Dateien und Gliederung", "Archivos y esquema"],
@@ -454,8 +455,84 @@ export const TABLE = {
     "Parte siguiente y anterior de la página",
   ],
   helpPanels: [
-    "Panels, from Problems to Tests",
-    "Bereiche, von Probleme bis Prüfungen",
-    "Paneles, de Problemas a Pruebas",
+    "Panels, from Problems to Ladder",
+    "Bereiche, von Probleme bis Kontaktplan",
+    "Paneles, de Problemas a Escalera",
+  ],
+
+  // The ladder
+  ladderRungs: ["Rungs", "Strompfade", "Peldaños"],
+  ladderNothing: [
+    "The network with the cursor is drawn here, where the editor has a program in AWL.",
+    "Hier wird das Netzwerk mit der Schreibmarke gezeichnet, wenn der Editor ein AWL-Programm zeigt.",
+    "Aquí se dibuja el segmento donde está el cursor, si el editor muestra un programa AWL.",
+  ],
+  ladderPartOf: [
+    "Rungs {0} to {1} of {2}",
+    "Strompfade {0} bis {1} von {2}",
+    "Peldaños {0} a {1} de {2}",
+  ],
+  ladderLines: [
+    "rung in lines {0} to {1}",
+    "Strompfad, Zeilen {0} bis {1}",
+    "peldaño, líneas {0} a {1}",
+  ],
+  ladderContact: ["contact {0}", "Kontakt {0}", "contacto {0}"],
+  ladderInverted: ["inverted contact {0}", "negierter Kontakt {0}", "contacto negado {0}"],
+  ladderCoil: ["coil {0}", "Spule {0}", "bobina {0}"],
+  ladderBox: ["box {0}", "Box {0}", "cuadro {0}"],
+  ladderClosed: ["closed", "geschlossen", "cerrado"],
+  ladderOpen: ["open", "offen", "abierto"],
+  ladderPower: ["with power", "mit Stromfluss", "con corriente"],
+  ladderNoPower: ["without power", "ohne Stromfluss", "sin corriente"],
+  ladderOperand: [
+    "an operand is missing or wrong.",
+    "ein Operand fehlt oder ist falsch.",
+    "falta un operando o es incorrecto.",
+  ],
+  ladderNoValue: [
+    "this rung has loaded no value that the line could take.",
+    "in diesem Strompfad ist kein Wert geladen, den die Zeile nehmen könnte.",
+    "en este peldaño no se ha cargado ningún valor que la línea pueda tomar.",
+  ],
+  ladderLeavesRail: [
+    "this would join a wire with the power rail that an output or LPS has branched off before.",
+    "das verbände die Stromschiene mit einer Leitung, die ein Ausgang oder LPS schon verzweigt hat.",
+    "esto uniría la barra con un conductor que una salida o LPS ya ha ramificado.",
+  ],
+  ladderPart: [
+    "NOT, EU or ED are for a part of the power flow alone; drawn, all of it would go through them.",
+    "NOT, EU oder ED gelten nur einem Teil des Stromflusses; gezeichnet ginge er ganz hindurch.",
+    "NOT, EU o ED son solo para una parte de la corriente; dibujados, pasaría toda por ellos.",
+  ],
+  ladderEno: [
+    "AENO does not stand right after a box in the same wire.",
+    "AENO steht nicht gleich hinter einer Box in derselben Leitung.",
+    "AENO no está justo detrás de un cuadro en el mismo conductor.",
+  ],
+  ladderInputGoesOn: [
+    "what an input of a box with several inputs takes goes on to something else.",
+    "was ein Eingang einer Box mit mehreren Eingängen nimmt, geht noch anderswohin.",
+    "lo que toma una entrada de un cuadro con varias entradas sigue hacia otra parte.",
+  ],
+  ladderLoop: [
+    "after a FOR in the same rung the power flow is another one in each pass.",
+    "nach einem FOR im selben Strompfad ist der Stromfluss in jedem Durchlauf ein anderer.",
+    "tras un FOR en el mismo peldaño la corriente es otra en cada pasada.",
+  ],
+  ladderStack: [
+    "the logic stack is used for what is neither series nor parallel.",
+    "der Logikstapel wird für etwas benutzt, das weder Reihe noch Parallele ist.",
+    "la pila lógica se usa para algo que no es ni serie ni paralelo.",
+  ],
+  ladderTooDeep: [
+    "more values than the logic stack has levels.",
+    "mehr Werte, als der Logikstapel Ebenen hat.",
+    "más valores que niveles tiene la pila lógica.",
+  ],
+  ladderTooLarge: [
+    "too many elements for a drawing.",
+    "zu viele Elemente für eine Zeichnung.",
+    "demasiados elementos para un dibujo.",
   ],
 } as const satisfies Record<string, Row>;
