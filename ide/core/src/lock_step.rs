@@ -62,7 +62,7 @@ pub fn compare(comparison: Comparison<'_>, chip: impl Chip) -> Result<(u64, usiz
     let (there, on_chip) = trace(&mut Emulated::new(chip, flash))?;
     let (here, on_host) = trace(&mut *host)?;
     if let Some((there, here)) = there.lines().zip(here.lines()).find(|(one, other)| one != other) {
-        let names = different_names(&here, &there, &on_host);
+        let names = different_names(here, there, &on_host);
         let fault = on_chip.fault.map(|fault| format!(" ({})", fault.text)).unwrap_or_default();
         return Err(format!("firmware  {there}{fault}\ninterpreter {here}\ndiffer in {names}"));
     }

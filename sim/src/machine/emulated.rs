@@ -1,13 +1,11 @@
-//! An Uno on an emulator that comes from outside, as a page has one, in lock-step: the harness holds
-//! the board's clock and gives it the time of each scan, so that a call of [`Machine::scan`] is one
-//! scan of the shipped firmware, which can be compared with any other machine.
+//! An Uno on an emulator that comes from outside, as a page has one, in lock-step: the harness
+//! holds the board's clock and gives it the time of each scan, so that a call of [`Machine::scan`]
+//! is one scan of the shipped firmware, which can be compared with any other machine.
 //!
 //! It needs the firmware's image alone: what it reads and writes in memory is at addresses that
 //! programs rely on, too.
 
-use plc_isa::{
-    AnalogInput, CLOCK, DIGITAL_INPUTS, Plan, Program, SLOT_END, SLOT_START, Settings, verify,
-};
+use plc_isa::{AnalogInput, CLOCK, Plan, Program, Settings, UNO, verify};
 use plc_vm::Inputs;
 
 use super::pins::{OUTPUT_PINS, duty, output_levels};
@@ -33,7 +31,7 @@ const DRIVEN: usize = 0x24;
 const ADMUX: usize = 0x7C;
 const TIMSK0: (u16, u8) = (0x6E, 1 << 1);
 /// Inputs I0.0 to I0.5 have a pin.
-const INPUT_PINS: u8 = (1 << DIGITAL_INPUTS) - 1;
+const INPUT_PINS: u8 = (1 << UNO.digital_inputs) - 1;
 
 /// An emulated ATmega328P.
 pub trait Chip {
@@ -70,8 +68,8 @@ pub struct Emulated<C> {
 impl<C: Chip> Emulated<C> {
     /// A chip with this in its flash, firmware and program. Power comes with the first scan.
     pub fn new(chip: C, flash: Vec<u8>) -> Emulated<C> {
-        let slot = usize::from(SLOT_START)..usize::from(SLOT_END);
-        let program = flash.get(slot).and_then(|image| verify(image.to_vec()).ok());
+        let slot = flash.get(usize::from(UNO.slot_start)..);
+        let program = slot.and_then(|image| verify(image.to_vec()).ok());
         Emulated {
             chip,
             flash,

@@ -1,10 +1,10 @@
 //! What the registers of the Uno's chip say of its output pins, for whoever emulates it: `data` is
 //! its data memory from address 0 on. Levels of pins that the emulator knows itself come in.
 
-use plc_isa::{PULSES_MODULE, state_at};
+use plc_isa::{PULSES_MODULE, UNO, state_at};
 
 /// A bit for each output with a pin, Q0.0 in bit 0.
-pub const OUTPUT_PINS: u8 = (1 << plc_isa::DIGITAL_OUTPUTS) - 1;
+pub const OUTPUT_PINS: u8 = (1 << UNO.digital_outputs) - 1;
 
 /// Timer 1: TIMSK1, TCCR1A, ICR1.
 const TIMER_1_INTERRUPTS: u16 = 0x6F;
