@@ -48,6 +48,7 @@ pub fn check() -> Result<()> {
         node.current_dir(&sources).arg(script);
         node
     };
+    run(node("test/virtual_uno.mjs").arg(&folder))?;
     run(node("test/lock_step.mjs").arg(&folder))?;
     figures()?;
     let mut server = Serving::start(&folder)?;

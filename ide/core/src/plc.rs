@@ -167,6 +167,9 @@ impl Plc {
     /// Puts the next question on the line, if one is due. Samples and the questions of a round take
     /// turns.
     fn ask(&mut self, now_ms: u64) {
+        if self.state.link == Link::Connecting && now_ms < self.next_round_ms {
+            return;
+        }
         // A PLC that has not said what it is may have another program, or none.
         if self.state.identity.is_some()
             && let Some(request) = self.sampler.request(now_ms)

@@ -26,9 +26,9 @@ use crate::told::Told;
 const LIVE_MS: u64 = 50;
 /// Most requests that a simulator answers in one go: no more are in a round.
 const EXCHANGES_MAX: usize = 1000;
-/// From a reset of the firmware until it hears, in milliseconds: at its start it converts every
-/// analog input once.
-const BOOT_MS: u64 = 30;
+/// From a reset of the firmware until it hears, in milliseconds: it checks the program first, and
+/// that takes 350 ms of the largest with the most modules. What is asked earlier is lost.
+const BOOT_MS: u64 = 400;
 
 /// An IDE.
 #[derive(Default)]

@@ -212,6 +212,9 @@ fn a_board_is_ordered_watched_and_forced_over_its_line() {
     page.look(&["Q0.1", "I0.0"]);
     assert!(page.refusal(TargetWish::Stop).contains("Run or Connect"));
     page.target(TargetWish::Connect);
+    page.pass(390);
+    let has_asked = |page: &Page| page.last(|one| matches!(one, Event::Send { .. }).then_some(()));
+    assert!(has_asked(&page).is_none(), "the firmware still boots");
     page.pass(300);
     assert_eq!(
         (page.status().mode.as_str(), page.watched()),
@@ -239,7 +242,7 @@ fn a_board_is_ordered_watched_and_forced_over_its_line() {
     page.pass(300);
     assert_eq!((page.status().mode.as_str(), page.status().scans), ("STOP", scans + 1));
     page.target(TargetWish::Reset);
-    page.pass(300);
+    page.pass(700);
     assert_eq!((page.resets, page.status().mode.as_str()), (1, "STOP"), "here nothing is reset");
     page.target(TargetWish::Disconnect);
     page.pass(100);
@@ -282,7 +285,7 @@ fn the_oscilloscope_has_what_the_line_gives_and_no_more() {
     let mut page = Page::with("count.awl", "LD SM0.0\nINCW MW0\n");
     page.wish(Wish::Look(LookWish::Scope { signals: vec!["MW0".to_owned()], every_ms: 10 }));
     page.target(TargetWish::Run);
-    page.pass(2_000);
+    page.pass(2_400);
     let samples = |page: &mut Page| {
         let mut all: Vec<(f64, f64, bool)> = Vec::new();
         for event in page.events.drain(..) {

@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
-import { build } from "esbuild";
+import { loadCore, loadSource } from "./load.mjs";
 
 const [, , folder] = process.argv;
 /** How long an example runs whose scenario is about what only time on the board itself brings. */
@@ -13,18 +13,8 @@ const ONLY_IN_REAL_TIME = /takes no (pulses|characters|setting)|does not show wh
 /** So many examples have a scenario that goes in lock-step; the rest are run without. */
 const WITH_SCENARIO_MIN = 10;
 
-const load = (text) =>
-  import(`data:text/javascript;base64,${Buffer.from(text).toString("base64")}`);
-const bundle = await build({
-  entryPoints: ["src/board/chip.ts"],
-  bundle: true,
-  format: "esm",
-  write: false,
-  logLevel: "warning",
-});
-const { Chip, CYCLES_PER_MS } = await load(bundle.outputFiles[0].text);
-const core = await load(await readFile(join(folder, "ide_core.js"), "utf8"));
-await core.default({ module_or_path: await readFile(join(folder, "ide_core_bg.wasm")) });
+const { Chip, CYCLES_PER_MS } = await loadSource("src/board/chip.ts");
+const core = await loadCore(folder);
 
 /** A chip as the core drives it. */
 class Driven {
@@ -90,15 +80,11 @@ for (const name of projects) {
 assert(withScenario >= WITH_SCENARIO_MIN, `${withScenario} with their scenarios`);
 
 // Its speed, in time of the processor: other work on the computer does not count.
-const { flash } = JSON.parse(
-  (() => {
-    const ide = new core.Ide();
-    ide.request(JSON.stringify({ id: 1, do: "target", kind: "virtualUno" }), 0);
-    const files = [{ name: "speed.awl", text: "LD I0.0\n= Q0.0\n" }];
-    ide.request(JSON.stringify({ id: 2, do: "open", files, main: null }), 0);
-    return ide.request(JSON.stringify({ id: 3, do: "connect" }), 0);
-  })(),
-).find((event) => event.is === "powerOn");
+const ide = new core.Ide();
+const ask = (wish) => JSON.parse(ide.request(JSON.stringify({ id: 1, ...wish }), 0));
+ask({ do: "open", files: [{ name: "speed.awl", text: "LD I0.0\n= Q0.0\n" }], main: null });
+ask({ do: "target", kind: "virtualUno" });
+const { flash } = ask({ do: "connect" }).find((event) => event.is === "powerOn");
 const chip = new Chip();
 chip.powerOn(Uint8Array.from(flash));
 let best = 0;
