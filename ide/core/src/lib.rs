@@ -122,6 +122,12 @@ mod page {
             self.0.chip_pins().to_vec()
         }
 
+        /// See [`Session::chip_bytes`].
+        #[wasm_bindgen(js_name = chipBytes)]
+        pub fn chip_bytes(&mut self) -> Vec<u8> {
+            self.0.chip_bytes()
+        }
+
         /// See [`Session::chip_passed`].
         #[wasm_bindgen(js_name = chipPassed)]
         pub fn chip_passed(&mut self, data: &[u8]) -> Vec<u16> {

@@ -151,6 +151,10 @@ impl Page {
                     let events = self.session.receive(&sent, self.now_ms);
                     self.take(events);
                 }
+                let bytes = self.session.chip_bytes();
+                if !bytes.is_empty() {
+                    self.take(vec![Event::Send { bytes }]);
+                }
             }
         }
     }

@@ -1,10 +1,21 @@
 // Loads the core and parts of the page into node, without a browser.
-import { readFile } from "node:fs/promises";
+import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { pathToFileURL } from "node:url";
 import { build } from "esbuild";
 
-const load = (text) =>
-  import(`data:text/javascript;base64,${Buffer.from(text).toString("base64")}`);
+/** A module, given as a text. */
+async function load(text) {
+  const folder = await mkdtemp(join(tmpdir(), "uno200-"));
+  try {
+    const file = join(folder, "module.mjs");
+    await writeFile(file, text);
+    return await import(pathToFileURL(file));
+  } finally {
+    await rm(folder, { recursive: true });
+  }
+}
 
 /** The core of the folder that a page is served from. */
 export async function loadCore(folder) {

@@ -16,6 +16,7 @@ class Page {
   uno = new VirtualUno();
   now = 0;
   last = {};
+  samples = [];
   refused;
 
   constructor(text) {
@@ -31,6 +32,7 @@ class Page {
 
   take(json) {
     for (const event of JSON.parse(json)) {
+      if (event.is === "samples") this.samples.push(event);
       if (event.is === "refused") this.refused = event.message;
       if (!this.uno.take(event, this.ide)) this.last[event.is] = event;
     }
@@ -93,6 +95,19 @@ const tests = {
     assert.deepEqual(page.watch("Ain0", "VW0"), ["512", "16016"]);
     const [duty] = page.last.pins.pwm;
     assert(Math.abs(duty - 500) <= 1, `${duty}`);
+  },
+
+  "the oscilloscope has a sample every 10 ms, however fast time goes"() {
+    const page = new Page("LD SM0.0\nINCW MW0\n");
+    page.tell("speed", { factor: 10 });
+    page.tell("run");
+    page.pass(BOOT_MS);
+    page.tell("scope", { signals: ["MW0"], everyMs: 10 });
+    page.samples = [];
+    page.pass(500);
+    const count = page.samples.reduce((sum, samples) => sum + samples.times.length, 0);
+    const lost = page.samples.filter((samples) => samples.lost).length;
+    assert(count > 450 && lost === 0, `${count} in 5 s, ${lost} gaps`);
   },
 
   "what is retained outlives a reset and another download, in EEPROM"() {

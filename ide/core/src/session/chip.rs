@@ -26,6 +26,14 @@ impl Session {
         self.chip.as_mut().map_or_else(Levels::default, |chip| chip.pass(data))
     }
 
+    /// Bytes that are due on its line at this millisecond.
+    pub fn chip_bytes(&mut self) -> Vec<u8> {
+        let line_ms = self.line_ms(self.now_ms);
+        let is_there = self.chip.is_some() && !self.bench.is_paused;
+        let plc = self.plc.as_mut().filter(|_| is_there);
+        plc.and_then(|plc| plc.transmit(line_ms)).unwrap_or_default()
+    }
+
     /// Runs the program on the reference interpreter and, with the firmware, on this chip: scan by
     /// scan, with a scenario or for so long, and with a plant. Gives the scans and the operands
     /// that were the same after each of them, or what differs first.

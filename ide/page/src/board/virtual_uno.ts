@@ -11,6 +11,8 @@ export interface Surroundings {
   chipPassed(data: Uint8Array): Uint16Array;
   /** What is at the pins before the first one. */
   chipPins(): Uint16Array;
+  /** Bytes that are due on its line now. */
+  chipBytes(): Uint8Array;
 }
 
 export class VirtualUno {
@@ -49,6 +51,7 @@ export class VirtualUno {
       this.drive(core.chipPassed(this.chip.data));
       const bytes = this.chip.takeSent();
       if (bytes.length > 0) sent(bytes);
+      this.chip.receive(core.chipBytes());
       if (performance.now() >= end) return;
     }
   }

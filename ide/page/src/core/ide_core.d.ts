@@ -12,4 +12,5 @@ export class Ide {
   chipDueMs(): number;
   chipPassed(data: Uint8Array): Uint16Array;
   chipPins(): Uint16Array;
+  chipBytes(): Uint8Array;
 }
