@@ -1,5 +1,7 @@
 //! Everything together: takes the page's requests, lets time pass, tells what is new.
 
+mod chip;
+
 use awl_asm::diagnostic::Code;
 use awl_sim::operand::Operand;
 use client::line::Framing;
@@ -18,12 +20,16 @@ use crate::protocol::{
 use crate::pulse::Pulse;
 use crate::scope::{Scope, signals};
 use crate::simulator::{Bench, Simulator};
+use crate::surroundings::Surroundings;
 use crate::told::Told;
 
 /// How often the page is told what is live, in milliseconds.
 const LIVE_MS: u64 = 50;
 /// Most requests that a simulator answers in one go: no more are in a round.
 const EXCHANGES_MAX: usize = 1000;
+/// From a reset of the firmware until it hears, in milliseconds: it checks the program first, and
+/// that takes 350 ms of the largest with the most modules. What is asked earlier is lost.
+const BOOT_MS: u64 = 400;
 
 /// An IDE.
 #[derive(Default)]
@@ -34,6 +40,8 @@ pub struct Session {
     kind: TargetKind,
     plc: Option<Plc>,
     simulator: Option<Simulator>,
+    /// What is around the chip of the virtual Uno.
+    chip: Option<Surroundings>,
     bench: Bench,
     scope: Scope,
     scope_names: (Vec<String>, u32),
@@ -47,6 +55,8 @@ pub struct Session {
     told: Told,
     live: Option<Pulse>,
     now_ms: u64,
+    /// What the page is to do for a target outside, apart from sending bytes.
+    errands: Vec<Event>,
 }
 
 /// Events as JSON.
@@ -85,17 +95,24 @@ impl Session {
 
     /// Bytes have come on the line of a target outside.
     pub fn receive(&mut self, bytes: &[u8], now_ms: u64) -> Vec<Event> {
+        let line_ms = self.line_ms(now_ms);
         if let Some(plc) = &mut self.plc {
-            plc.receive(bytes, now_ms);
+            plc.receive(bytes, line_ms);
         }
         self.tick(now_ms, 0)
+    }
+
+    /// The time on the line of the target: a chip in the page has its own, and whoever asks it
+    /// waits as long as it takes there.
+    fn line_ms(&self, now_ms: u64) -> u64 {
+        self.chip.as_ref().map_or(now_ms, Surroundings::time_ms)
     }
 
     /// Time has passed: a simulator runs so many scans at most. To be called often.
     pub fn tick(&mut self, now_ms: u64, scans_max: u32) -> Vec<Event> {
         let elapsed_ms = now_ms.saturating_sub(self.now_ms);
         self.now_ms = self.now_ms.max(now_ms);
-        let mut events = Vec::new();
+        let mut events = std::mem::take(&mut self.errands);
         if std::mem::take(&mut self.is_edited) {
             events.extend(self.checked());
         }
@@ -106,17 +123,22 @@ impl Session {
             if let Some(plc) = &mut self.plc {
                 plc.receive(&answers, now_ms);
             }
+        } else if scans_max > 0
+            && let Some(chip) = &mut self.chip
+        {
+            chip.is_due(elapsed_ms, &self.bench);
         } else if scans_max == 0 {
             // This time is still to be gone through.
             self.now_ms = self.now_ms.saturating_sub(elapsed_ms);
         }
         if !self.bench.is_paused {
-            events.extend(self.exchange(now_ms));
+            events.extend(self.exchange(self.line_ms(now_ms)));
         }
         if self.live.get_or_insert_with(|| Pulse::every(LIVE_MS)).is_due(now_ms) {
             let states = self.states();
             events.extend(states.into_iter().filter_map(|state| self.told.news(state)));
-            events.extend(self.scope.take());
+            events.extend(self.samples());
+            events.extend(self.complaint());
         }
         events
     }
@@ -133,6 +155,21 @@ impl Session {
             }
         }
         events
+    }
+
+    /// What the oscilloscope has measured.
+    fn samples(&mut self) -> impl Iterator<Item = Event> + use<> {
+        let samples = self.plc.as_mut().map(Plc::samples).unwrap_or_default();
+        for sample in samples {
+            self.scope.add(sample.at_ms, sample.values, sample.is_late);
+        }
+        self.scope.take()
+    }
+
+    /// What the PLC has refused, and what nobody waits for an answer to.
+    fn complaint(&mut self) -> Option<Event> {
+        let message = self.plc.as_mut()?.complaint()?;
+        Some(Event::Notice { message, bad: true })
     }
 
     /// What is wrong with the texts, and what the program takes; the target is shown with it.
@@ -161,11 +198,15 @@ impl Session {
                     .map(|shown| Event::Power { id: shown.id, rungs: shown.power(&plc.state) }),
             );
         }
+        let spec = self.bench.plant.as_deref().unwrap_or_default();
+        let name = spec.split_whitespace().next().unwrap_or_default();
         if let Some(simulator) = &mut self.simulator {
             events.push(simulator.pins());
-            let spec = self.bench.plant.as_deref().unwrap_or_default();
-            let name = spec.split_whitespace().next().unwrap_or_default();
             events.extend(simulator.plant(name, &mut self.plant_events));
+        }
+        if let Some(chip) = &self.chip {
+            events.push(chip.pins());
+            events.extend(chip.plant(name, &mut self.plant_events));
         }
         events
     }
@@ -205,7 +246,12 @@ impl Session {
             mode: mode.to_owned(),
             agreement: agreement.to_owned(),
             scans: identity.map_or(0, |identity| identity.scans),
-            time_ms: self.simulator.as_ref().map_or(0, Simulator::time_ms),
+            time_ms: match (&self.simulator, &self.chip) {
+                (Some(simulator), _) => simulator.time_ms(),
+                (None, Some(chip)) => chip.time_ms(),
+                (None, None) => 0,
+            },
+            pace: self.chip.as_ref().and_then(Surroundings::pace),
             scan_us: measured.map(|one| {
                 let us = |counts: u32| f64::from(counts) * 1000.0 / f64::from(one.counts_per_ms);
                 (us(one.shortest), us(one.last), us(one.longest))
@@ -302,7 +348,8 @@ impl Session {
             }
             TargetWish::Connect => self.connect()?,
             TargetWish::Disconnect => self.disconnect(),
-            TargetWish::Download | TargetWish::Reset => self.download()?,
+            TargetWish::Download => self.download()?,
+            TargetWish::Reset => self.reset()?,
             TargetWish::Run => {
                 self.bench.is_paused = false;
                 if self.has_program() {
@@ -386,8 +433,8 @@ impl Session {
 
     fn connect(&mut self) -> Result<(), String> {
         match self.kind {
-            TargetKind::Simulator => self.download(),
-            TargetKind::VirtualUno | TargetKind::Usb | TargetKind::Bridge => {
+            TargetKind::Simulator | TargetKind::VirtualUno => self.download(),
+            TargetKind::Usb | TargetKind::Bridge => {
                 Err("this target cannot be reached from here yet; choose Simulator".to_owned())
             }
         }
@@ -395,21 +442,54 @@ impl Session {
 
     /// Puts the program on the target, which starts with it.
     fn download(&mut self) -> Result<(), String> {
-        if self.kind != TargetKind::Simulator {
-            return self.connect();
+        match self.kind {
+            TargetKind::Simulator => self.switch_on_simulator(),
+            TargetKind::VirtualUno => self.switch_on_chip(),
+            TargetKind::Usb | TargetKind::Bridge => self.connect(),
         }
+    }
+
+    fn switch_on_simulator(&mut self) -> Result<(), String> {
         let program = build::program(&self.editor)?;
         let files = build::files(&self.editor)?;
         self.simulator = Some(Simulator::new(&files, &self.bench)?);
-        let mut plc = Plc::new(Framing::Tcp { unit: 1, transaction: 0 }, program, "the simulator");
+        (self.plant_events, self.bench.is_paused) = (0, false);
+        let framing = Framing::Tcp { unit: 1, transaction: 0 };
+        self.attach(Plc::new(framing, program, "the simulator", 0));
+        Ok(())
+    }
+
+    /// The virtual Uno with firmware and program. It boots before it hears.
+    fn switch_on_chip(&mut self) -> Result<(), String> {
+        let program = build::board_program(&self.editor)?;
+        let settings = build::settings(&program);
+        self.chip = Some(Surroundings::new(settings, &self.bench)?);
+        self.errands.push(Event::PowerOn { flash: build::flash(&program)? });
+        (self.plant_events, self.bench.is_paused) = (0, false);
+        self.attach(Plc::new(build::framing(settings), program, "the virtual Uno", BOOT_MS));
+        Ok(())
+    }
+
+    /// A PLC is at the other end of the line: it is asked from now on for what is to be seen.
+    fn attach(&mut self, mut plc: Plc) {
         plc.watch(&self.watched);
         plc.view(self.view.0, self.view.1);
         self.plc = Some(plc);
-        (self.plant_events, self.bench.is_paused) = (0, false);
         self.scope.restart();
         // Signals of the last program may not be in this one.
         if self.choose_signals().is_err() {
             self.scope.choose(Vec::new(), 0);
+        }
+    }
+
+    /// As switched on again; a board with the program that it has.
+    fn reset(&mut self) -> Result<(), String> {
+        let (Some(_), Some(chip)) = (&self.plc, &self.chip) else { return self.download() };
+        let begin_ms = chip.time_ms() + BOOT_MS;
+        self.errands.push(Event::ResetBoard);
+        self.bench.is_paused = false;
+        if let Some(plc) = &mut self.plc {
+            plc.reset(begin_ms);
         }
         Ok(())
     }
@@ -417,13 +497,18 @@ impl Session {
     fn disconnect(&mut self) {
         // Whoever connects again is told everything again.
         self.told = Told::default();
+        if self.chip.take().is_some() {
+            self.errands.push(Event::PowerOff);
+        }
         (self.plc, self.simulator) = (None, None);
         self.bench.is_paused = false;
     }
 
     fn pause(&mut self, on: bool) -> Result<(), String> {
-        if self.simulator.is_none() {
-            return Err("only the simulator can pause; a board has Stop and Single scan".to_owned());
+        if self.simulator.is_none() && self.chip.is_none() {
+            return Err(
+                "only what is in the page can pause; a board has Stop and Single scan".to_owned()
+            );
         }
         self.bench.is_paused = on;
         Ok(())
@@ -431,7 +516,7 @@ impl Session {
 
     /// One scan: of a simulator that runs, which pauses then, or of a PLC in STOP.
     fn single_scan(&mut self) -> Result<(), String> {
-        if self.plc.is_none() {
+        if self.plc.is_none() && self.kind == TargetKind::Simulator {
             self.download()?;
             self.bench.is_paused = true;
         }
@@ -457,6 +542,9 @@ impl Session {
                     plc.receive(&answers, now_ms);
                 }
             }
+            (Some(plc), None) if is_running(plc) => {
+                return Err("single scans go from STOP: press Stop first".to_owned());
+            }
             (Some(plc), _) => {
                 let scan = plc.state.single_scan();
                 plc.order(scan);
@@ -466,14 +554,15 @@ impl Session {
         Ok(())
     }
 
-    /// Another plant: the simulator is switched on anew with it.
+    /// Another plant: what it is wired to is switched on anew with it.
     fn wire(&mut self, spec: Option<String>) -> Result<(), String> {
         let before = std::mem::replace(&mut self.bench.plant, spec);
         if let Err(message) = self.bench.new_plant() {
             self.bench.plant = before;
             return Err(message);
         }
-        if self.simulator.is_some() { self.download() } else { Ok(()) }
+        let is_on = self.simulator.is_some() || self.chip.is_some();
+        if is_on { self.download() } else { Ok(()) }
     }
 
     fn drive(&mut self, name: &str, value: i32) -> Result<(), String> {
@@ -481,13 +570,20 @@ impl Session {
         if let Some(simulator) = &mut self.simulator {
             simulator.drive(operand, value)?;
         }
+        if let Some(chip) = &mut self.chip {
+            chip.drive(operand, value)?;
+        }
         self.bench.driven.insert(operand, value);
         Ok(())
     }
 
     fn choose_signals(&mut self) -> Result<(), String> {
         let (names, every_ms) = &self.scope_names;
-        let Some(simulator) = &mut self.simulator else { return Ok(()) };
+        let Some(simulator) = &mut self.simulator else {
+            self.scope.choose(Vec::new(), 0);
+            let plc = self.plc.as_mut();
+            return plc.map_or(Ok(()), |plc| plc.sample(names, u64::from(*every_ms)));
+        };
         let operands = signals(names, &simulator.symbols)?;
         operands.iter().try_for_each(|&operand| simulator.has(operand))?;
         self.scope.choose(operands, u64::from(*every_ms));

@@ -6,10 +6,12 @@ use std::fmt;
 use crate::action::Action;
 use crate::operand::Operand;
 
+pub mod emulated;
 #[cfg(test)]
 pub(crate) mod fake;
 mod fault;
 pub mod host;
+pub mod pins;
 mod points;
 #[cfg(feature = "simavr")]
 pub mod uno;

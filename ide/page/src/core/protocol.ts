@@ -68,6 +68,7 @@ export interface Status {
   agreement: string;
   scans: number;
   timeMs: number;
+  pace: number | null;
   scanUs: [number, number, number] | null;
   fault: string | null;
   faultAt: Place | null;
@@ -221,6 +222,9 @@ interface Events {
   plant: { name: string; state: [string, number][]; news: string[] };
   samples: { times: number[]; columns: number[][]; lost: boolean };
   send: { bytes: number[] };
+  powerOn: { flash: number[] };
+  powerOff: object;
+  resetBoard: object;
   notice: { message: string; bad: boolean };
 }
 

@@ -1,0 +1,32 @@
+// Loads the core and parts of the page into node, without a browser.
+import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { build } from "esbuild";
+
+/** A module, given as a text. */
+async function load(text) {
+  const folder = await mkdtemp(join(tmpdir(), "uno200-"));
+  try {
+    const file = join(folder, "module.mjs");
+    await writeFile(file, text);
+    return await import(pathToFileURL(file));
+  } finally {
+    await rm(folder, { recursive: true });
+  }
+}
+
+/** The core of the folder that a page is served from. */
+export async function loadCore(folder) {
+  const core = await load(await readFile(join(folder, "ide_core.js"), "utf8"));
+  await core.default({ module_or_path: await readFile(join(folder, "ide_core_bg.wasm")) });
+  return core;
+}
+
+/** A source of the page with all that it imports. */
+export async function loadSource(path) {
+  const options = { bundle: true, format: "esm", write: false, logLevel: "warning" };
+  const { outputFiles } = await build({ ...options, entryPoints: [path] });
+  return load(outputFiles[0].text);
+}
