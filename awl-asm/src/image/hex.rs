@@ -82,9 +82,35 @@ pub fn firmware(text: &str) -> Result<Vec<u8>, NoFirmware> {
     if starts_at_zero { Ok(bytes) } else { Err(NoFirmware::Headless) }
 }
 
+/// The Uno's flash from address 0 on with this firmware, Intel HEX, and the image in the program
+/// slot. What neither of them uses is erased; what follows the slot is not there.
+pub fn flash(firmware: &str, image: &[u8]) -> Result<Vec<u8>, NoFirmware> {
+    let slot = usize::from(UNO.slot_start);
+    let mut flash = self::firmware(firmware)?;
+    flash.resize(slot, BLANK);
+    flash.extend_from_slice(image);
+    flash.resize(slot + usize::from(UNO.slot_len), BLANK);
+    Ok(flash)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn firmware_and_program_lie_in_flash_where_their_records_say() {
+        let image = [1, 2, 3];
+        let flash = flash(FIRMWARE, &image).unwrap();
+        let slot = usize::from(UNO.slot_start);
+        assert_eq!(flash.len(), slot + usize::from(UNO.slot_len));
+        assert_eq!(flash[slot..slot + 4], [1, 2, 3, 0xFF]);
+        for record in Reader::new(FIRMWARE).chain(Reader::new(&intel_hex(&image).unwrap())) {
+            if let Record::Data { offset, value } = record.unwrap() {
+                assert_eq!(flash[usize::from(offset)..][..value.len()], value);
+            }
+        }
+        assert!(super::flash(":00000001FE\n", &image).is_err(), "a wrong checksum");
+    }
 
     #[test]
     fn what_is_part_of_this_program_is_firmware() {

@@ -2,10 +2,12 @@
 
 use awl_asm::ast::Value;
 use awl_asm::cost::{Stated, cost_with};
+use awl_asm::hex;
 use awl_sim::open::File;
 use client::Program;
+use client::line::Framing;
 use client::program::{ProgramError, symbols_of};
-use plc_isa::UNO;
+use plc_isa::{LineSettings, Settings, UNO};
 
 use crate::editor::Editor;
 use crate::protocol::Summary;
@@ -46,6 +48,30 @@ pub fn program(editor: &Editor) -> Result<Program, String> {
     let symbols = symbols.map_err(|error| error.to_string())?.into_iter().flatten().collect();
     Program::of_bytes(&program.name, &program.bytes, symbols)
         .map_err(|_| errors(editor, &program.name))
+}
+
+/// The program as a board takes it: what the board has no room or no hardware for is an error.
+pub fn board_program(editor: &Editor) -> Result<Program, String> {
+    let mut program = program(editor)?;
+    program.require_board().map_err(|error| format!("the Uno cannot take it: {error}"))?;
+    Ok(program)
+}
+
+/// What the program sets for the board.
+pub fn settings(program: &Program) -> Settings {
+    let checked = plc_isa::verify(program.image.as_slice());
+    checked.map_or(Settings::DEFAULT, |program| program.plan().header.settings)
+}
+
+/// How a board with these settings frames requests and answers.
+pub fn framing(settings: Settings) -> Framing {
+    let LineSettings { rate, .. } = LineSettings::of_byte(settings.line);
+    Framing::Rtu { unit: settings.modbus_address, baud: LineSettings::RATES[usize::from(rate & 7)] }
+}
+
+/// The flash of an Uno with firmware and program.
+pub fn flash(program: &Program) -> Result<Vec<u8>, String> {
+    hex::flash(hex::FIRMWARE, &program.image).map_err(|error| error.to_string())
 }
 
 /// That there are errors, and how many.

@@ -6,10 +6,13 @@
 
 mod apart;
 mod build;
+mod chip;
 mod editor;
 mod offsets;
+mod pace;
 mod plc;
 mod pulse;
+mod sampler;
 mod scope;
 mod session;
 mod simulator;
@@ -52,6 +55,18 @@ mod page {
         /// See [`Session::receive`].
         pub fn receive(&mut self, bytes: &[u8], now_ms: f64) -> String {
             crate::session::json(&self.0.receive(bytes, now_ms as u64))
+        }
+
+        /// See [`Session::chip_due_ms`].
+        #[wasm_bindgen(js_name = chipDueMs)]
+        pub fn chip_due_ms(&self) -> u32 {
+            self.0.chip_due_ms()
+        }
+
+        /// See [`Session::chip_passed`].
+        #[wasm_bindgen(js_name = chipPassed)]
+        pub fn chip_passed(&mut self, data: &[u8]) -> Vec<u16> {
+            self.0.chip_passed(data).to_vec()
         }
     }
 }

@@ -12,6 +12,7 @@ use client::value::{Base, Form};
 use client::{Error, Program};
 
 use crate::protocol::{Event, Line as Live, Value};
+use crate::sampler::{Sample, Sampler, number};
 
 /// How long an answer may take, in milliseconds.
 const PATIENCE_MS: u64 = 1000;
@@ -23,31 +24,42 @@ struct Watched {
     operand: Result<Operand, OperandError>,
 }
 
+/// Whose request is on its way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Asking {
+    Round,
+    Sample,
+}
+
 /// The connection, and what is known.
 #[derive(Debug)]
 pub struct Plc {
+    framing: Framing,
     line: Line,
     rounds: Rounds,
     /// The program on the screen, with the values that belong to it.
     pub state: State,
     watched: Vec<Watched>,
-    /// Whether a request is on its way.
-    is_asking: bool,
+    /// What the oscilloscope asks in between.
+    sampler: Sampler,
+    asking: Option<Asking>,
     next_round_ms: u64,
     /// First and last line that can be seen, from 1.
     view: Option<(u32, u32)>,
 }
 
 impl Plc {
-    /// A PLC that has not answered yet.
-    pub fn new(framing: Framing, program: Program, place: &str) -> Plc {
+    /// A PLC that has not answered yet, and is not asked before `begin_ms`.
+    pub fn new(framing: Framing, program: Program, place: &str, begin_ms: u64) -> Plc {
         Plc {
-            line: Line::new(framing, PATIENCE_MS),
+            sampler: Sampler::new(&framing),
+            line: Line::new(framing.clone(), PATIENCE_MS),
+            framing,
             rounds: Rounds::default(),
             state: State::new(program, place.to_owned()),
             watched: Vec::new(),
-            is_asking: false,
-            next_round_ms: 0,
+            asking: None,
+            next_round_ms: begin_ms,
             view: None,
         }
     }
@@ -61,7 +73,15 @@ impl Plc {
         let names: Vec<String> = self.watched.iter().map(|watched| watched.name.clone()).collect();
         self.watch(&names);
         self.look();
-        self.next_round_ms = 0;
+    }
+
+    /// The PLC begins anew, and is not asked before `begin_ms`. What was asked is forgotten.
+    pub fn reset(&mut self, begin_ms: u64) {
+        self.line = Line::new(self.framing.clone(), PATIENCE_MS);
+        self.rounds = Rounds::default();
+        (self.asking, self.next_round_ms) = (None, begin_ms);
+        self.state.link = Link::Connecting;
+        self.state.identity = None;
     }
 
     /// What the watch table has.
@@ -73,14 +93,26 @@ impl Plc {
             operand: Operand::parse(name, symbols).map(|operand| operand.in_program(&reals)),
         };
         self.watched = names.iter().map(parse).collect();
-        self.next_round_ms = 0;
+        self.hurry();
+    }
+
+    /// What the oscilloscope shows, and how often.
+    pub fn sample(&mut self, names: &[String], every_ms: u64) -> Result<(), String> {
+        let operands = names.iter().map(|name| self.operand(name)).collect::<Result<_, _>>()?;
+        self.sampler.choose(operands, every_ms);
+        Ok(())
+    }
+
+    /// The samples since the last time.
+    pub fn samples(&mut self) -> Vec<Sample> {
+        self.sampler.take()
     }
 
     /// Which lines can be seen; none are `(0, 0)`.
     pub fn view(&mut self, from: u32, to: u32) {
         self.view = (from > 0).then_some((from, to));
         self.look();
-        self.next_round_ms = 0;
+        self.hurry();
     }
 
     fn look(&mut self) {
@@ -92,7 +124,7 @@ impl Plc {
     /// Has something done.
     pub fn order(&mut self, order: Order) {
         self.rounds.order(order);
-        self.next_round_ms = 0;
+        self.hurry();
     }
 
     /// An operand as it is written.
@@ -102,9 +134,11 @@ impl Plc {
         Ok(operand.map_err(|error| error.to_string())?.in_program(&reals))
     }
 
-    /// Has everything asked anew, now.
+    /// Has everything asked anew, now; of a PLC that has not answered yet, when its time has come.
     pub fn hurry(&mut self) {
-        self.next_round_ms = 0;
+        if self.state.link != Link::Connecting {
+            self.next_round_ms = 0;
+        }
     }
 
     /// Bytes have come.
@@ -116,22 +150,59 @@ impl Plc {
     pub fn transmit(&mut self, now_ms: u64) -> Option<Vec<u8>> {
         self.line.expire(now_ms);
         if let Some(answer) = self.line.answer() {
-            self.is_asking = false;
-            let news = self.rounds.answer(answer);
-            self.hear(news, now_ms);
+            match self.asking.take() {
+                Some(Asking::Sample) => self.sampled(answer, now_ms),
+                Some(Asking::Round) | None => {
+                    let news = self.rounds.answer(answer);
+                    self.hear(news, now_ms);
+                }
+            }
         }
-        while !self.is_asking {
+        if self.asking.is_none() {
+            self.ask(now_ms);
+        }
+        self.line.transmit(now_ms)
+    }
+
+    /// Puts the next question on the line, if one is due. Samples and the questions of a round take
+    /// turns.
+    fn ask(&mut self, now_ms: u64) {
+        // A PLC that has not said what it is may have another program, or none.
+        if self.state.identity.is_some()
+            && let Some(request) = self.sampler.request(now_ms)
+        {
+            match request {
+                Ok(request) => {
+                    self.line.request(request, true, now_ms);
+                    self.asking = Some(Asking::Sample);
+                }
+                Err(error) => self.sampler.refused(&error),
+            }
+        }
+        while self.asking.is_none() {
             match self.rounds.request() {
                 Ok(Some(request)) => {
                     self.line.request(request.bytes, request.is_repeatable, now_ms);
-                    self.is_asking = true;
+                    (self.asking, self.sampler.has_turn) = (Some(Asking::Round), true);
                 }
-                Ok(None) if now_ms < self.next_round_ms => return None,
+                Ok(None) if now_ms < self.next_round_ms => {
+                    if std::mem::replace(&mut self.sampler.has_turn, true) {
+                        return;
+                    }
+                    return self.ask(now_ms);
+                }
                 Ok(None) => self.begin(now_ms),
                 Err(error) => self.hear(Err(error), now_ms),
             }
         }
-        self.line.transmit(now_ms)
+    }
+
+    fn sampled(&mut self, answer: Result<Vec<u8>, Error>, now_ms: u64) {
+        match answer.and_then(|answer| self.sampler.answer(&answer, now_ms)) {
+            Ok(()) => {}
+            Err(error) if error.is_refusal() => self.sampler.refused(&error),
+            Err(error) => self.hear(Err(error), now_ms),
+        }
     }
 
     fn begin(&mut self, now_ms: u64) {
@@ -229,15 +300,19 @@ impl Plc {
         Event::Forced { values }
     }
 
+    /// What went wrong last with an order or a question, once.
+    pub fn complaint(&mut self) -> Option<String> {
+        let refused = self.sampler.complaint();
+        let (message, _) = self.state.message.take_if(|(_, is_bad)| *is_bad).unzip();
+        message.or(refused)
+    }
+
     fn value(&self, operand: &Operand, raw: Option<u32>) -> Value {
         let form = operand.form;
         Value {
             name: operand.name.clone(),
             text: raw.map_or(String::new(), |raw| operand.text(raw, Base::Decimal)),
-            number: raw.map(|raw| match form {
-                Form::Real => f64::from(f32::from_bits(raw)),
-                Form::Bit | Form::Byte | Form::Word | Form::Double => f64::from(form.number(raw)),
-            }),
+            number: raw.map(|raw| number(operand, raw)),
             form: match form {
                 Form::Bit => "bit",
                 Form::Byte => "byte",

@@ -95,17 +95,18 @@ pub enum TargetWish {
     Run,
     /// Goes to STOP: outputs are off.
     Stop,
-    /// The simulator stands still, with all values and outputs as they are; or goes on.
+    /// The simulator or the virtual Uno stands still, with all values and outputs as they are; or
+    /// goes on.
     Pause { on: bool },
     /// One scan; a simulator that runs pauses before it.
     SingleScan,
-    /// As switched on again.
+    /// The simulator as switched on again; a board as by its button.
     Reset,
-    /// How fast the simulator's time goes: 1 is real time, 0 as fast as it can.
+    /// How fast their time goes: 1 is real time, 0 as fast as it can.
     Speed { factor: f64 },
-    /// The plant that is wired to the simulator, as `awl-sim --plant` takes it; none without it.
+    /// The plant that is wired to them, as `awl-sim --plant` takes it; none without it.
     Plant { spec: Option<String> },
-    /// The simulator's input gets a value: `I0.0` to `I0.5` logically, `Ain0` to `Ain5` in counts.
+    /// Their input gets a value: `I0.0` to `I0.5` logically, `Ain0` to `Ain5` in counts.
     Drive { operand: String, value: i32 },
     /// Writes a value once. `value` as people write it.
     Set { operand: String, value: String },
@@ -125,7 +126,8 @@ pub enum LookWish {
     /// Which lines of the program can be seen, from 1; live values come for these alone. Both 0:
     /// none.
     View { from: u32, to: u32 },
-    /// What the oscilloscope shows, and how often a sample is taken; 0: after each scan.
+    /// What the oscilloscope shows, and how often a sample is taken; 0: after each scan, or as
+    /// often as the line can.
     Scope { signals: Vec<String>, every_ms: u32 },
 }
 
@@ -176,14 +178,22 @@ pub enum Event {
     Watched { values: Vec<Value> },
     /// What is forced, wherever it was done.
     Forced { values: Vec<Value> },
-    /// Levels at the simulator's pins. Outputs are logical.
+    /// The points of the simulator or the virtual Uno, logical. `pwm`: the part of the time in
+    /// thousandths that Q0.1 and Q0.2 are on, of those that are modulated.
     Pins { inputs: u8, outputs: u8, analog: Vec<u16>, pwm: Vec<u16> },
     /// How the plant is: what its picture needs.
     Plant { name: String, state: Vec<(String, f64)>, news: Vec<String> },
-    /// Samples of the oscilloscope, in its order of signals; `lost` where some could not be taken.
+    /// Samples of the oscilloscope, in its order of signals; `lost` where some could not be taken
+    /// before the first of these.
     Samples { times: Vec<f64>, columns: Vec<Vec<f64>>, lost: bool },
-    /// Bytes for the target's line; the page sends them.
+    /// Bytes for the line of a target outside; the page sends them.
     Send { bytes: Vec<u8> },
+    /// The virtual Uno is switched on with this in its flash, from address 0 on. Its EEPROM stays.
+    PowerOn { flash: Vec<u8> },
+    /// The virtual Uno is unplugged.
+    PowerOff,
+    /// A board outside is to be reset, as by its button.
+    ResetBoard,
     /// Something to tell, for a moment.
     Notice { message: String, bad: bool },
 }
@@ -319,8 +329,11 @@ pub struct Status {
     pub agreement: String,
     /// Scans since RUN.
     pub scans: u32,
-    /// Time of the simulator, from its first scan.
+    /// Time of the simulator, from its first scan; of the virtual Uno, since power came.
     pub time_ms: u64,
+    /// How many times as fast as a clock the virtual Uno goes, where that is not what was asked
+    /// for: the computer is not faster.
+    pub pace: Option<f64>,
     /// Shortest, last and longest scan in microseconds, where they are measured.
     pub scan_us: Option<(f64, f64, f64)>,
     /// Why it stopped by itself.

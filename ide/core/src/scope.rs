@@ -1,5 +1,5 @@
-//! The oscilloscope: samples of some signals, taken after a scan of the simulator. What was not
-//! measured is not there.
+//! The oscilloscope: samples of some signals, taken after a scan of the simulator, or as they come
+//! from a PLC on its line. What was not measured is not there.
 
 use awl_asm::ast::Symbol;
 use awl_sim::machine::Machine;
@@ -16,16 +16,24 @@ pub struct Scope {
     signals: Vec<Operand>,
     every_ms: u64,
     next_ms: u64,
+    batches: Vec<Batch>,
+    /// Whether samples are missing before the next one.
+    is_lossy: bool,
+}
+
+/// Samples without a gap between them.
+#[derive(Debug, Default)]
+struct Batch {
     times: Vec<f64>,
     columns: Vec<Vec<f64>>,
+    /// Some are missing before them.
     is_lossy: bool,
 }
 
 impl Scope {
-    /// Other signals.
+    /// Other signals, which the simulator gives.
     pub fn choose(&mut self, signals: Vec<Operand>, every_ms: u64) {
-        let columns = vec![Vec::new(); signals.len()];
-        *self = Scope { signals, every_ms, columns, ..Scope::default() };
+        *self = Scope { signals, every_ms, ..Scope::default() };
     }
 
     /// A scan that started at this time is over.
@@ -34,13 +42,29 @@ impl Scope {
             return;
         }
         self.next_ms = now_ms + self.every_ms.max(1);
-        if self.times.len() >= WAITING_MAX {
+        let read = |&signal: &Operand| {
+            machine.read(signal).map_or(f64::NAN, |value| number(signal, value))
+        };
+        let values = self.signals.iter().map(read).collect();
+        self.add(now_ms, values, false);
+    }
+
+    /// A sample has come: a value of each signal. `is_lossy`: others are missing before it.
+    pub fn add(&mut self, now_ms: u64, values: Vec<f64>, is_lossy: bool) {
+        self.is_lossy |= is_lossy;
+        if self.batches.iter().map(|batch| batch.times.len()).sum::<usize>() >= WAITING_MAX {
             self.is_lossy = true;
             return;
         }
-        self.times.push(now_ms as f64);
-        for (signal, column) in self.signals.iter().zip(&mut self.columns) {
-            column.push(machine.read(*signal).map_or(f64::NAN, |value| number(*signal, value)));
+        let is_lossy = std::mem::take(&mut self.is_lossy);
+        if is_lossy || self.batches.is_empty() {
+            let columns = vec![Vec::new(); values.len()];
+            self.batches.push(Batch { times: Vec::new(), columns, is_lossy });
+        }
+        let Some(batch) = self.batches.last_mut() else { return };
+        batch.times.push(now_ms as f64);
+        for (column, value) in batch.columns.iter_mut().zip(values) {
+            column.push(value);
         }
     }
 
@@ -50,13 +74,12 @@ impl Scope {
     }
 
     /// The samples since the last time.
-    pub fn take(&mut self) -> Option<Event> {
-        if self.times.is_empty() {
-            return None;
-        }
-        let columns = self.columns.iter_mut().map(std::mem::take).collect();
-        let lost = std::mem::take(&mut self.is_lossy);
-        Some(Event::Samples { times: std::mem::take(&mut self.times), columns, lost })
+    pub fn take(&mut self) -> impl Iterator<Item = Event> + use<> {
+        std::mem::take(&mut self.batches).into_iter().map(|batch| Event::Samples {
+            times: batch.times,
+            columns: batch.columns,
+            lost: batch.is_lossy,
+        })
     }
 }
 
@@ -71,5 +94,27 @@ pub fn number(operand: Operand, value: i32) -> f64 {
     match operand.width() {
         Width::Real => f64::from(f32::from_bits(value as u32)),
         Width::Bit | Width::Byte | Width::Word | Width::Double => f64::from(value),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gap_is_told_where_it_is() {
+        let mut scope = Scope::default();
+        for (now_ms, is_lossy) in [(0, false), (5, false), (30, true), (35, false)] {
+            scope.add(now_ms, vec![1.0], is_lossy);
+        }
+        let told: Vec<_> = scope
+            .take()
+            .map(|event| match event {
+                Event::Samples { times, lost, .. } => (times, lost),
+                other => panic!("{other:?}"),
+            })
+            .collect();
+        assert_eq!(told, [(vec![0.0, 5.0], false), (vec![30.0, 35.0], true)]);
+        assert_eq!(scope.take().count(), 0);
     }
 }

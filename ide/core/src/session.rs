@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use crate::apart::{self, Wanted};
 use crate::build;
+use crate::chip::{Chip, Levels};
 use crate::editor::Editor;
 use crate::plc::Plc;
 use crate::protocol::{
@@ -23,6 +24,9 @@ use crate::told::Told;
 const LIVE_MS: u64 = 50;
 /// Most requests that a simulator answers in one go: no more are in a round.
 const EXCHANGES_MAX: usize = 1000;
+/// From a reset of the firmware until it hears, in milliseconds: at its start it converts every
+/// analog input once.
+const BOOT_MS: u64 = 30;
 
 /// An IDE.
 #[derive(Default)]
@@ -33,6 +37,8 @@ pub struct Session {
     kind: TargetKind,
     plc: Option<Plc>,
     simulator: Option<Simulator>,
+    /// What is around the chip of the virtual Uno.
+    chip: Option<Chip>,
     bench: Bench,
     scope: Scope,
     scope_names: (Vec<String>, u32),
@@ -42,6 +48,8 @@ pub struct Session {
     told: Told,
     live: Option<Pulse>,
     now_ms: u64,
+    /// What the page is to do for a target outside, apart from sending bytes.
+    errands: Vec<Event>,
 }
 
 /// Events as JSON.
@@ -80,17 +88,36 @@ impl Session {
 
     /// Bytes have come on the line of a target outside.
     pub fn receive(&mut self, bytes: &[u8], now_ms: u64) -> Vec<Event> {
+        let line_ms = self.line_ms(now_ms);
         if let Some(plc) = &mut self.plc {
-            plc.receive(bytes, now_ms);
+            plc.receive(bytes, line_ms);
         }
         self.tick(now_ms, 0)
+    }
+
+    /// How many milliseconds of the virtual Uno's chip are due. Each that has passed is told by
+    /// [`chip_passed`](Session::chip_passed); fewer make it slower.
+    pub fn chip_due_ms(&self) -> u32 {
+        self.chip.as_ref().map_or(0, Chip::due_ms)
+    }
+
+    /// A millisecond of the virtual Uno's chip has passed, `data` is its data memory now. Gives
+    /// what is at its pins from now on: levels of D2 to D7, then converter counts of A0 to A5.
+    pub fn chip_passed(&mut self, data: &[u8]) -> Levels {
+        self.chip.as_mut().map_or_else(Levels::default, |chip| chip.pass(data))
+    }
+
+    /// The time on the line of the target: a chip in the page has its own, and whoever asks it
+    /// waits as long as it takes there.
+    fn line_ms(&self, now_ms: u64) -> u64 {
+        self.chip.as_ref().map_or(now_ms, Chip::time_ms)
     }
 
     /// Time has passed: a simulator runs so many scans at most. To be called often.
     pub fn tick(&mut self, now_ms: u64, scans_max: u32) -> Vec<Event> {
         let elapsed_ms = now_ms.saturating_sub(self.now_ms);
         self.now_ms = self.now_ms.max(now_ms);
-        let mut events = Vec::new();
+        let mut events = std::mem::take(&mut self.errands);
         if std::mem::take(&mut self.is_edited) {
             events.extend(self.checked());
         }
@@ -101,17 +128,22 @@ impl Session {
             if let Some(plc) = &mut self.plc {
                 plc.receive(&answers, now_ms);
             }
+        } else if scans_max > 0
+            && let Some(chip) = &mut self.chip
+        {
+            chip.is_due(elapsed_ms, &self.bench);
         } else if scans_max == 0 {
             // This time is still to be gone through.
             self.now_ms = self.now_ms.saturating_sub(elapsed_ms);
         }
         if !self.bench.is_paused {
-            events.extend(self.exchange(now_ms));
+            events.extend(self.exchange(self.line_ms(now_ms)));
         }
         if self.live.get_or_insert_with(|| Pulse::every(LIVE_MS)).is_due(now_ms) {
             let states = self.states();
             events.extend(states.into_iter().filter_map(|state| self.told.news(state)));
-            events.extend(self.scope.take());
+            events.extend(self.samples());
+            events.extend(self.complaint());
         }
         events
     }
@@ -128,6 +160,21 @@ impl Session {
             }
         }
         events
+    }
+
+    /// What the oscilloscope has measured.
+    fn samples(&mut self) -> impl Iterator<Item = Event> + use<> {
+        let samples = self.plc.as_mut().map(Plc::samples).unwrap_or_default();
+        for sample in samples {
+            self.scope.add(sample.at_ms, sample.values, sample.is_late);
+        }
+        self.scope.take()
+    }
+
+    /// What the PLC has refused, and what nobody waits for an answer to.
+    fn complaint(&mut self) -> Option<Event> {
+        let message = self.plc.as_mut()?.complaint()?;
+        Some(Event::Notice { message, bad: true })
     }
 
     /// What is wrong with the texts, and what the program takes; the target is shown with it.
@@ -148,11 +195,15 @@ impl Session {
         if let Some(plc) = &self.plc {
             events.extend([plc.live(), plc.watched(), plc.forced()]);
         }
+        let spec = self.bench.plant.as_deref().unwrap_or_default();
+        let name = spec.split_whitespace().next().unwrap_or_default();
         if let Some(simulator) = &mut self.simulator {
             events.push(simulator.pins());
-            let spec = self.bench.plant.as_deref().unwrap_or_default();
-            let name = spec.split_whitespace().next().unwrap_or_default();
             events.extend(simulator.plant(name, &mut self.plant_events));
+        }
+        if let Some(chip) = &self.chip {
+            events.push(chip.pins());
+            events.extend(chip.plant(name, &mut self.plant_events));
         }
         events
     }
@@ -192,7 +243,12 @@ impl Session {
             mode: mode.to_owned(),
             agreement: agreement.to_owned(),
             scans: identity.map_or(0, |identity| identity.scans),
-            time_ms: self.simulator.as_ref().map_or(0, Simulator::time_ms),
+            time_ms: match (&self.simulator, &self.chip) {
+                (Some(simulator), _) => simulator.time_ms(),
+                (None, Some(chip)) => chip.time_ms(),
+                (None, None) => 0,
+            },
+            pace: self.chip.as_ref().and_then(Chip::pace),
             scan_us: measured.map(|one| {
                 let us = |counts: u32| f64::from(counts) * 1000.0 / f64::from(one.counts_per_ms);
                 (us(one.shortest), us(one.last), us(one.longest))
@@ -282,7 +338,8 @@ impl Session {
             }
             TargetWish::Connect => self.connect()?,
             TargetWish::Disconnect => self.disconnect(),
-            TargetWish::Download | TargetWish::Reset => self.download()?,
+            TargetWish::Download => self.download()?,
+            TargetWish::Reset => self.reset()?,
             TargetWish::Run => {
                 self.bench.is_paused = false;
                 if self.has_program() {
@@ -366,8 +423,8 @@ impl Session {
 
     fn connect(&mut self) -> Result<(), String> {
         match self.kind {
-            TargetKind::Simulator => self.download(),
-            TargetKind::VirtualUno | TargetKind::Usb | TargetKind::Bridge => {
+            TargetKind::Simulator | TargetKind::VirtualUno => self.download(),
+            TargetKind::Usb | TargetKind::Bridge => {
                 Err("this target cannot be reached from here yet; choose Simulator".to_owned())
             }
         }
@@ -375,21 +432,54 @@ impl Session {
 
     /// Puts the program on the target, which starts with it.
     fn download(&mut self) -> Result<(), String> {
-        if self.kind != TargetKind::Simulator {
-            return self.connect();
+        match self.kind {
+            TargetKind::Simulator => self.switch_on_simulator(),
+            TargetKind::VirtualUno => self.switch_on_chip(),
+            TargetKind::Usb | TargetKind::Bridge => self.connect(),
         }
+    }
+
+    fn switch_on_simulator(&mut self) -> Result<(), String> {
         let program = build::program(&self.editor)?;
         let files = build::files(&self.editor)?;
         self.simulator = Some(Simulator::new(&files, &self.bench)?);
-        let mut plc = Plc::new(Framing::Tcp { unit: 1, transaction: 0 }, program, "the simulator");
+        (self.plant_events, self.bench.is_paused) = (0, false);
+        let framing = Framing::Tcp { unit: 1, transaction: 0 };
+        self.attach(Plc::new(framing, program, "the simulator", 0));
+        Ok(())
+    }
+
+    /// The virtual Uno with firmware and program. It boots before it hears.
+    fn switch_on_chip(&mut self) -> Result<(), String> {
+        let program = build::board_program(&self.editor)?;
+        let settings = build::settings(&program);
+        self.chip = Some(Chip::new(settings, &self.bench)?);
+        self.errands.push(Event::PowerOn { flash: build::flash(&program)? });
+        (self.plant_events, self.bench.is_paused) = (0, false);
+        self.attach(Plc::new(build::framing(settings), program, "the virtual Uno", BOOT_MS));
+        Ok(())
+    }
+
+    /// A PLC is at the other end of the line: it is asked from now on for what is to be seen.
+    fn attach(&mut self, mut plc: Plc) {
         plc.watch(&self.watched);
         plc.view(self.view.0, self.view.1);
         self.plc = Some(plc);
-        (self.plant_events, self.bench.is_paused) = (0, false);
         self.scope.restart();
         // Signals of the last program may not be in this one.
         if self.choose_signals().is_err() {
             self.scope.choose(Vec::new(), 0);
+        }
+    }
+
+    /// As switched on again; a board with the program that it has.
+    fn reset(&mut self) -> Result<(), String> {
+        let (Some(_), Some(chip)) = (&self.plc, &self.chip) else { return self.download() };
+        let begin_ms = chip.time_ms() + BOOT_MS;
+        self.errands.push(Event::ResetBoard);
+        self.bench.is_paused = false;
+        if let Some(plc) = &mut self.plc {
+            plc.reset(begin_ms);
         }
         Ok(())
     }
@@ -397,13 +487,18 @@ impl Session {
     fn disconnect(&mut self) {
         // Whoever connects again is told everything again.
         self.told = Told::default();
+        if self.chip.take().is_some() {
+            self.errands.push(Event::PowerOff);
+        }
         (self.plc, self.simulator) = (None, None);
         self.bench.is_paused = false;
     }
 
     fn pause(&mut self, on: bool) -> Result<(), String> {
-        if self.simulator.is_none() {
-            return Err("only the simulator can pause; a board has Stop and Single scan".to_owned());
+        if self.simulator.is_none() && self.chip.is_none() {
+            return Err(
+                "only what is in the page can pause; a board has Stop and Single scan".to_owned()
+            );
         }
         self.bench.is_paused = on;
         Ok(())
@@ -411,7 +506,7 @@ impl Session {
 
     /// One scan: of a simulator that runs, which pauses then, or of a PLC in STOP.
     fn single_scan(&mut self) -> Result<(), String> {
-        if self.plc.is_none() {
+        if self.plc.is_none() && self.kind == TargetKind::Simulator {
             self.download()?;
             self.bench.is_paused = true;
         }
@@ -437,6 +532,9 @@ impl Session {
                     plc.receive(&answers, now_ms);
                 }
             }
+            (Some(plc), None) if is_running(plc) => {
+                return Err("single scans go from STOP: press Stop first".to_owned());
+            }
             (Some(plc), _) => {
                 let scan = plc.state.single_scan();
                 plc.order(scan);
@@ -446,14 +544,15 @@ impl Session {
         Ok(())
     }
 
-    /// Another plant: the simulator is switched on anew with it.
+    /// Another plant: what it is wired to is switched on anew with it.
     fn wire(&mut self, spec: Option<String>) -> Result<(), String> {
         let before = std::mem::replace(&mut self.bench.plant, spec);
         if let Err(message) = self.bench.new_plant() {
             self.bench.plant = before;
             return Err(message);
         }
-        if self.simulator.is_some() { self.download() } else { Ok(()) }
+        let is_on = self.simulator.is_some() || self.chip.is_some();
+        if is_on { self.download() } else { Ok(()) }
     }
 
     fn drive(&mut self, name: &str, value: i32) -> Result<(), String> {
@@ -461,13 +560,20 @@ impl Session {
         if let Some(simulator) = &mut self.simulator {
             simulator.drive(operand, value)?;
         }
+        if let Some(chip) = &mut self.chip {
+            chip.drive(operand, value)?;
+        }
         self.bench.driven.insert(operand, value);
         Ok(())
     }
 
     fn choose_signals(&mut self) -> Result<(), String> {
         let (names, every_ms) = &self.scope_names;
-        let Some(simulator) = &mut self.simulator else { return Ok(()) };
+        let Some(simulator) = &mut self.simulator else {
+            self.scope.choose(Vec::new(), 0);
+            let plc = self.plc.as_mut();
+            return plc.map_or(Ok(()), |plc| plc.sample(names, u64::from(*every_ms)));
+        };
         let operands = signals(names, &simulator.symbols)?;
         operands.iter().try_for_each(|&operand| simulator.has(operand))?;
         self.scope.choose(operands, u64::from(*every_ms));

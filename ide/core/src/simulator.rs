@@ -170,7 +170,7 @@ impl Simulator {
         };
         let (inputs, outputs) = (bits('I'), bits('Q'));
         let analog = self.host.inputs().raw.to_vec();
-        let pwm = [1, 3]
+        let pwm = [1, 2]
             .iter()
             .filter_map(|&bit| self.host.read(Operand::Duty(bit)).ok().map(|duty| duty as u16))
             .collect();
@@ -179,15 +179,19 @@ impl Simulator {
 
     /// The plant as a picture needs it; `told`: events that were told before.
     pub fn plant(&self, name: &str, told: &mut usize) -> Option<Event> {
-        let plant = self.endpoint.plant()?;
-        let state = plant.view().into_iter().map(|(key, value)| (key.to_owned(), value)).collect();
-        let events = plant.report().events;
-        let news = events
-            .iter()
-            .skip(*told)
-            .map(|event| format!("{:.3} s: {}", event.time_ms as f64 / 1000.0, event.text));
-        let news = news.collect();
-        *told = events.len();
-        Some(Event::Plant { name: name.to_owned(), state, news })
+        Some(plant_event(self.endpoint.plant()?, name, told))
     }
+}
+
+/// A plant as a picture needs it; `told`: events that were told before.
+pub fn plant_event(plant: &dyn Plant, name: &str, told: &mut usize) -> Event {
+    let state = plant.view().into_iter().map(|(key, value)| (key.to_owned(), value)).collect();
+    let events = plant.report().events;
+    let news = events
+        .iter()
+        .skip(*told)
+        .map(|event| format!("{:.3} s: {}", event.time_ms as f64 / 1000.0, event.text));
+    let news = news.collect();
+    *told = events.len();
+    Event::Plant { name: name.to_owned(), state, news }
 }

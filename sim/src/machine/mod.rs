@@ -10,6 +10,7 @@ use crate::operand::Operand;
 pub(crate) mod fake;
 mod fault;
 pub mod host;
+pub mod pins;
 mod points;
 #[cfg(feature = "simavr")]
 pub mod uno;

@@ -3,13 +3,11 @@
 
 use std::ops::Range;
 
-use plc_isa::{
-    DATA_END, DATA_START, DIGITAL_INPUTS, DIGITAL_OUTPUTS, PULSES_MODULE, SLOT_END, SLOT_START,
-    state_at,
-};
+use plc_isa::{DATA_END, DATA_START, DIGITAL_INPUTS, DIGITAL_OUTPUTS, SLOT_END, SLOT_START};
 use plc_vm::{Fault, Inputs, TimeOfDay};
 use simavr::{Avr, LoadError, Pin, Reset, Stopped};
 
+use super::super::pins;
 use super::characters::BoardCharacters;
 use super::firmware::{Firmware, Places};
 use super::pulses::BoardPulses;
@@ -27,22 +25,6 @@ const FIRST_OUTPUT: u8 = 8;
 
 /// Enables the interrupt that counts the milliseconds: register and bit.
 const TICK_INTERRUPT: (usize, u8) = (0x6E, 1 << 1);
-
-/// Timer 1: TIMSK1, TCCR1A, ICR1.
-const TIMER_1_INTERRUPTS: u16 = 0x6F;
-const TIMER_1_MODE: u16 = 0x80;
-const TIMER_1_TOP: u16 = 0x86;
-/// For Q0.1 and Q0.2 where in TCCR1A the two bits are that connect the pin, and the compare
-/// register. The pin is high up to that, or, if both are set, from there on.
-const MODULATED: [(u8, u16); 2] = [(6, 0x88), (4, 0x8A)];
-/// Where the module of pulse outputs has the ticks of a cycle that the output is on, and after
-/// them those that it is off, while the interrupt makes the edges.
-const TICKS: u16 = state_at(PULSES_MODULE) + 6;
-
-/// A flag of the modules in GPIOR1: analog outputs are on. And the levels that the process image
-/// gives the pins, PORTB.
-const ANALOG_OUTPUTS_ON: (u16, u8) = (0x4A, 1 << 4);
-const IMAGE_LEVELS: u16 = 0x25;
 
 /// Longest time from power to the start of the first scan.
 pub const BOOT_MAX: u64 = 5_000 * MS;
@@ -232,33 +214,14 @@ impl Board {
     pub fn output_levels(&self, off_levels: u8) -> u8 {
         let driven = self.driven_outputs();
         let is_high = |output: &u8| self.avr.level(Pin::of_uno(FIRST_OUTPUT + output));
-        let levels = match self.byte(ANALOG_OUTPUTS_ON.0) & ANALOG_OUTPUTS_ON.1 {
-            0 => (0..DIGITAL_OUTPUTS).filter(is_high).fold(0, |bits, output| bits | 1 << output),
-            _ => self.byte(IMAGE_LEVELS),
-        };
-        levels & driven | off_levels & !driven
+        let levels =
+            (0..DIGITAL_OUTPUTS).filter(is_high).fold(0, |bits, output| bits | 1 << output);
+        pins::output_levels(self.avr.data(), levels, driven, off_levels)
     }
 
-    /// The part of the time in thousandths that the pin of output Q0.`output` is high, or with
-    /// trains and modulation in milliseconds the output is on, where timer 1 modulates it up to
-    /// ICR1.
+    /// The part of the time in thousandths that an output is on, where it is modulated.
     pub fn duty(&self, output: u8) -> Option<u16> {
-        let (mode_at, compare) = *MODULATED.get(usize::from(output).checked_sub(1)?)?;
-        let word = |low: u16| u32::from(u16::from_le_bytes([self.byte(low), self.byte(low + 1)]));
-        let (on, off) =
-            match (self.byte(TIMER_1_MODE) >> mode_at & 3, self.byte(TIMER_1_INTERRUPTS) & 1) {
-                (0, _) => return None,
-                (_, 1) => (word(TICKS), word(TICKS + 2)),
-                (mode, _) => {
-                    let (top, compare) = (word(TIMER_1_TOP), word(compare).min(word(TIMER_1_TOP)));
-                    if mode == 3 {
-                        (top - compare, compare + 1)
-                    } else {
-                        (compare + 1, top - compare)
-                    }
-                }
-            };
-        Some((1000 * on / (on + off).max(1)) as u16)
+        pins::duty(self.avr.data(), output)
     }
 
     /// Sets the voltages at the analog inputs.

@@ -16,6 +16,7 @@ use plc_isa::{DIGITAL_INPUTS, ENTRY_LEN, LABEL_LEN, Op, Plan, Program, Settings,
 use plc_vm::{Fault, Inputs, TimeOfDay};
 use simavr::Avr;
 
+use super::pins::OUTPUT_PINS;
 use super::points::{self, Points, input_byte, output_byte, replaced};
 use super::{Machine, MachineError, Mode, PlaceOf, fault};
 use crate::action::Action;
@@ -29,8 +30,6 @@ use pulses::BoardPulses;
 
 /// Inputs I0.0 to I0.5 have a pin.
 const INPUT_PINS: u8 = (1 << DIGITAL_INPUTS) - 1;
-/// Outputs Q0.0 to Q0.5 too.
-const OUTPUT_PINS: u8 = INPUT_PINS;
 
 /// Whose time it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
