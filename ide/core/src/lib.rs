@@ -9,6 +9,7 @@ mod build;
 mod chip;
 mod editor;
 mod offsets;
+mod outside;
 mod pace;
 mod plc;
 mod pulse;

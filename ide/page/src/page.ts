@@ -23,6 +23,7 @@ import { Problems } from "./panels/problems";
 import { Scope } from "./panels/scope";
 import { Tests } from "./panels/tests";
 import { Watch } from "./panels/watch";
+import { Outside } from "./ports/outside";
 import { fragmentFor, fromAddress, lastOrBlink, type Opened } from "./project/begin";
 import { Project, Unfit } from "./project/project";
 import { Keeper } from "./project/storage";
@@ -93,6 +94,7 @@ const header = new Header(core, {
   help,
   files: () => showFiles(sidebar.element.classList.contains("away")),
 });
+new Outside(core, () => header.status?.target ?? "simulator");
 new LiveView(core, project, editors, header);
 
 header.onStatus((status) => watch.showStatus(status));
