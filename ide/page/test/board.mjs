@@ -62,8 +62,8 @@ await page.addInitScript((name) => {
   Object.defineProperty(navigator, "serial", { value: serial });
 }, port);
 
-await page.goto(`${address}#example=lamp`);
-const editor = page.getByRole("textbox", { name: "lamp.awl" });
+await page.goto(`${address}#example=motor`);
+const editor = page.getByRole("textbox", { name: "motor.awl" });
 await editor.waitFor();
 assert.ok(!page.url().includes("token"), "the token stays in the address");
 
