@@ -29,18 +29,18 @@ const page = await build({
   alias: { "style-mod": "./src/editor/style-mod.ts" },
 });
 // The core is beside the worker: `ide_core.js` and `ide_core_bg.wasm`, by wasm-bindgen.
-await build({
+const worker = await build({
   ...options,
   entryPoints: { worker: "src/core/worker.ts" },
   outdir: OUT,
   external: ["./ide_core.js"],
 });
 await writeFile(join(OUT, "index.html"), await readFile("index.html"));
-await writeFile(join(OUT, "licences.txt"), await licences(page.metafile));
+await writeFile(join(OUT, "licences.txt"), await licences([page, worker]));
 
-/** The licences of what is in the bundle, in the order of the names of the packages. */
-async function licences(metafile) {
-  const inputs = Object.keys(metafile.inputs);
+/** The licences of what is in the bundles, in the order of the names of the packages. */
+async function licences(bundles) {
+  const inputs = bundles.flatMap(({ metafile }) => Object.keys(metafile.inputs));
   const name = (path) => /^node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(path)?.[1];
   const packages = [...new Set(inputs.map(name).filter(Boolean))].sort();
   const texts = packages.map(async (name) => {

@@ -27,7 +27,8 @@ const PLANTS: &[(&str, &str)] = &[
 /// What awl-sim writes of the same run that the page is asked for.
 const FIGURES: &str = "target/ide-figures.csv";
 
-/// Checks that the committed page is what its sources say, and uses it with its core in a browser.
+/// Checks that the committed page is what its sources say, that the firmware on its emulated chip
+/// does what the reference interpreter does, and uses the page with its core in a browser.
 pub fn check() -> Result<()> {
     packages::ensure_installed(packages::BROWSER)?;
     packages::ensure_npm()?;
@@ -42,13 +43,16 @@ pub fn check() -> Result<()> {
         "{PAGE} was not what its sources say: it is now, and is to be committed"
     );
     let folder = build()?;
+    let node = |script: &str| {
+        let mut node = Command::new("node");
+        node.current_dir(&sources).arg(script);
+        node
+    };
+    run(node("test/lock_step.mjs").arg(&folder))?;
     figures()?;
     let mut server = Serving::page(&folder, &[])?;
     let address = server.line()?;
-    run(Command::new("node")
-        .current_dir(&sources)
-        .args(["test/page.mjs", &address])
-        .arg(root().join(FIGURES)))?;
+    run(node("test/page.mjs").arg(&address).arg(root().join(FIGURES)))?;
     check_board(&folder, &sources)
 }
 

@@ -6,8 +6,8 @@
 
 mod apart;
 mod build;
-mod chip;
 mod editor;
+mod lock_step;
 mod offsets;
 mod outside;
 mod pace;
@@ -17,6 +17,7 @@ mod sampler;
 mod scope;
 mod session;
 mod simulator;
+mod surroundings;
 mod told;
 
 pub mod protocol;
@@ -26,9 +27,48 @@ pub use session::Session;
 /// What JavaScript calls.
 #[cfg(target_arch = "wasm32")]
 mod page {
+    use awl_sim::machine::emulated::Chip;
     use wasm_bindgen::prelude::wasm_bindgen;
 
     use crate::Session;
+
+    #[wasm_bindgen]
+    extern "C" {
+        /// An emulated chip, whatever emulates it. What its methods are is told in [`Chip`].
+        pub type JsChip;
+        #[wasm_bindgen(method, js_name = powerOn)]
+        fn power_on(this: &JsChip, flash: &[u8]);
+        #[wasm_bindgen(method)]
+        fn run(this: &JsChip, cycles: u32) -> u8;
+        #[wasm_bindgen(method)]
+        fn data(this: &JsChip) -> Vec<u8>;
+        #[wasm_bindgen(method)]
+        fn write(this: &JsChip, address: u16, byte: u8);
+        #[wasm_bindgen(method)]
+        fn drive(this: &JsChip, levels: u8, counts: &[u16]);
+    }
+
+    impl Chip for JsChip {
+        fn power_on(&mut self, flash: &[u8]) {
+            JsChip::power_on(self, flash);
+        }
+
+        fn run(&mut self, cycles: u32) -> u8 {
+            JsChip::run(self, cycles)
+        }
+
+        fn data(&self) -> Vec<u8> {
+            JsChip::data(self)
+        }
+
+        fn write(&mut self, address: u16, byte: u8) {
+            JsChip::write(self, address, byte);
+        }
+
+        fn drive(&mut self, levels: u8, counts: &[u16]) {
+            JsChip::drive(self, levels, counts);
+        }
+    }
 
     /// A [`Session`]; what it takes and gives is JSON.
     #[wasm_bindgen]
@@ -58,10 +98,29 @@ mod page {
             crate::session::json(&self.0.receive(bytes, now_ms as u64))
         }
 
+        /// See [`Session::compare`]; the answer is scans and operands, or text: what differs.
+        #[wasm_bindgen(js_name = compare)]
+        pub fn compare(
+            &self,
+            chip: JsChip,
+            scenario: Option<String>,
+            for_ms: u32,
+            plant: Option<String>,
+        ) -> Result<Vec<u32>, String> {
+            let compared = self.0.compare(chip, scenario.as_deref(), for_ms, plant.as_deref());
+            compared.map(|(scans, operands)| vec![scans as u32, operands as u32])
+        }
+
         /// See [`Session::chip_due_ms`].
         #[wasm_bindgen(js_name = chipDueMs)]
         pub fn chip_due_ms(&self) -> u32 {
             self.0.chip_due_ms()
+        }
+
+        /// See [`Session::chip_pins`].
+        #[wasm_bindgen(js_name = chipPins)]
+        pub fn chip_pins(&self) -> Vec<u16> {
+            self.0.chip_pins().to_vec()
         }
 
         /// See [`Session::chip_passed`].

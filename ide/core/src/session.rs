@@ -4,6 +4,7 @@ mod reach;
 mod status;
 
 use awl_asm::diagnostic::Code;
+use awl_sim::machine::emulated::Chip;
 use awl_sim::operand::Operand;
 use client::line::Framing;
 use client::show::state::{Agreement, Order};
@@ -11,8 +12,8 @@ use serde::Serialize;
 
 use crate::apart::{self, Wanted};
 use crate::build;
-use crate::chip::{Chip, Levels};
 use crate::editor::Editor;
+use crate::lock_step::{self, Comparison};
 use crate::outside::{Outside, Then};
 use crate::plc::Plc;
 use crate::protocol::{
@@ -21,6 +22,7 @@ use crate::protocol::{
 use crate::pulse::Pulse;
 use crate::scope::{Scope, signals};
 use crate::simulator::{Bench, Simulator};
+use crate::surroundings::{Levels, Surroundings};
 use crate::told::Told;
 
 /// How often the page is told what is live, in milliseconds.
@@ -41,7 +43,7 @@ pub struct Session {
     plc: Option<Plc>,
     simulator: Option<Simulator>,
     /// What is around the chip of the virtual Uno.
-    chip: Option<Chip>,
+    chip: Option<Surroundings>,
     /// The way to a target that is not in the page.
     outside: Outside,
     bench: Bench,
@@ -105,19 +107,43 @@ impl Session {
     /// How many milliseconds of the virtual Uno's chip are due. Each that has passed is told by
     /// [`chip_passed`](Session::chip_passed); fewer make it slower.
     pub fn chip_due_ms(&self) -> u32 {
-        self.chip.as_ref().map_or(0, Chip::due_ms)
+        self.chip.as_ref().map_or(0, Surroundings::due_ms)
+    }
+
+    /// What is at the pins of the virtual Uno's chip: levels of D2 to D7, then converter counts of
+    /// A0 to A5.
+    pub fn chip_pins(&self) -> Levels {
+        self.chip.as_ref().map_or_else(Levels::default, Surroundings::levels)
     }
 
     /// A millisecond of the virtual Uno's chip has passed, `data` is its data memory now. Gives
-    /// what is at its pins from now on: levels of D2 to D7, then converter counts of A0 to A5.
+    /// what is at its pins from now on.
     pub fn chip_passed(&mut self, data: &[u8]) -> Levels {
         self.chip.as_mut().map_or_else(Levels::default, |chip| chip.pass(data))
+    }
+
+    /// Runs the program on the reference interpreter and, with the firmware, on this chip: scan by
+    /// scan, with a scenario or for so long, and with a plant. Gives the scans and the operands
+    /// that were the same after each of them, or what differs first.
+    pub fn compare(
+        &self,
+        chip: impl Chip,
+        scenario: Option<&str>,
+        for_ms: u32,
+        plant: Option<&str>,
+    ) -> Result<(u64, usize), String> {
+        let program = build::board_program(&self.editor)?;
+        let text = |name| self.editor.text(name).ok_or_else(|| format!("there is no file {name}"));
+        let scenario = scenario.map(|name| text(name).map(|text| (name, text))).transpose()?;
+        let (files, flash) = (build::files(&self.editor)?, build::flash(&program)?);
+        let comparison = Comparison { files: &files, flash, scenario, for_ms, plant };
+        lock_step::compare(comparison, chip)
     }
 
     /// The time on the line of the target: a chip in the page has its own, and whoever asks it
     /// waits as long as it takes there.
     fn line_ms(&self, now_ms: u64) -> u64 {
-        self.chip.as_ref().map_or(now_ms, Chip::time_ms)
+        self.chip.as_ref().map_or(now_ms, Surroundings::time_ms)
     }
 
     /// Time has passed: a simulator runs so many scans at most. To be called often.
@@ -409,7 +435,7 @@ impl Session {
     fn switch_on_chip(&mut self) -> Result<(), String> {
         let program = build::board_program(&self.editor)?;
         let settings = build::settings(&program);
-        self.chip = Some(Chip::new(settings, &self.bench)?);
+        self.chip = Some(Surroundings::new(settings, &self.bench)?);
         self.errands.push(Event::PowerOn { flash: build::flash(&program)? });
         (self.plant_events, self.bench.is_paused) = (0, false);
         self.attach(Plc::new(build::framing(settings), program, "the virtual Uno", BOOT_MS));

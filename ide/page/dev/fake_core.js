@@ -35,6 +35,10 @@ export class Ide {
     return "[]";
   }
 
+  chipDueMs() {
+    return 0;
+  }
+
   tick(now) {
     const dt = now - this.lastTick;
     this.lastTick = now;
@@ -317,6 +321,7 @@ export class Ide {
         agreement: isOn ? "same" : "none",
         scans: Math.floor(this.timeMs),
         timeMs: Math.floor(this.timeMs),
+        pace: null,
         scanUs: isOn ? [11.2, 12.4, 48.9] : null,
         fault: null,
         faultAt: null,

@@ -80,6 +80,70 @@ assert.equal(csv, await readFile(figures, "utf8"), "the figures of awl-sim");
 
 await button("Stop").click();
 await mode("STOP");
+
+// The same on the virtual Uno: the firmware in the page, behind its serial line.
+await page.getByRole("combobox", { name: "Target" }).selectOption({ label: "Virtual Uno" });
+await mode("OFFLINE");
+await button("Run").click();
+await mode("RUN");
+await page.getByRole("combobox", { name: "Speed" }).selectOption("0");
+await tab("Plant");
+// From power on the plant is anew.
+const CHIP_PATIENCE = { timeout: 300_000 };
+await panel("Plant").getByText("good: 1").waitFor(CHIP_PATIENCE);
+await panel("Plant").getByText("rejected: 1").waitFor(CHIP_PATIENCE);
+await mode("×");
+const status = await page.getByRole("status").first().innerText();
+const pace = Number(/([\d.]+) × real time/.exec(status)?.[1]);
+console.log(`the virtual Uno in the page: ${pace} times as fast as a real one`);
+// What a busy computer of two cores leaves of it; how fast it can be lock_step.mjs asserts.
+assert(pace > 0.25, status);
+await page.getByRole("combobox", { name: "Speed" }).selectOption("1");
+
+const row = (operand) => panel("Watch").getByRole("row").filter({ hasText: operand });
+const watch = async (operand) => {
+  await page.getByLabel("Operand or symbol").fill(operand);
+  await page.keyboard.press("Enter");
+};
+await tab("Watch");
+await watch("I0.4");
+await row("I0.4").getByRole("cell", { name: "0", exact: true }).waitFor();
+await page.getByLabel("New value of I0.4").fill("1");
+await page.getByRole("button", { name: "Force I0.4" }).click();
+await row("I0.4").getByRole("cell", { name: "1", exact: true }).waitFor();
+await page.getByRole("button", { name: "Release all" }).click();
+await row("I0.4").getByRole("cell", { name: "0", exact: true }).waitFor();
+
+// A plot of what its line gives: a click puts a cursor, which has a value.
+await tab("Oscilloscope");
+await panel("Oscilloscope").getByLabel("Signal", { exact: true }).fill("Height");
+await page.keyboard.press("Enter");
+await panel("Oscilloscope").getByRole("combobox", { name: "Window" }).selectOption("1");
+await page.waitForTimeout(3000);
+await panel("Oscilloscope").getByRole("button", { name: "Hold", exact: true }).click();
+const over = panel("Oscilloscope").locator(".u-over").first();
+const { width } = await over.boundingBox();
+await over.click({ position: { x: width / 2, y: 10 } });
+await panel("Oscilloscope")
+  .getByRole("row")
+  .filter({ hasText: "Height" })
+  .getByRole("cell", { name: /^\d+$/ })
+  .first()
+  .waitFor();
+
+// A board's switch, in STOP and single scans.
+await button("Stop").click();
+await mode("STOP");
+await button("Single scan").click();
+await mode("STOP");
+await button("Reset").click();
+await mode("RUN");
+await button("Pause").click();
+await mode("PAUSE");
+await button("Run").click();
+await mode("RUN");
+await button("Stop").click();
+await mode("STOP");
 assert.deepEqual(errors, []);
 await browser.close();
 console.log("the page does what it should");

@@ -6,6 +6,7 @@ use std::fmt;
 use crate::action::Action;
 use crate::operand::Operand;
 
+pub mod emulated;
 #[cfg(test)]
 pub(crate) mod fake;
 mod fault;

@@ -3,8 +3,8 @@
 use client::show::state::{Agreement, Link};
 
 use super::Session;
-use crate::chip::Chip;
 use crate::protocol::{Place, Status};
+use crate::surroundings::Surroundings;
 
 impl Session {
     /// How the target is.
@@ -46,7 +46,7 @@ impl Session {
                 (None, Some(chip)) => chip.time_ms(),
                 (None, None) => 0,
             },
-            pace: self.chip.as_ref().and_then(Chip::pace),
+            pace: self.chip.as_ref().and_then(Surroundings::pace),
             scan_us: measured.map(|one| {
                 let us = |counts: u32| f64::from(counts) * 1000.0 / f64::from(one.counts_per_ms);
                 (us(one.shortest), us(one.last), us(one.longest))

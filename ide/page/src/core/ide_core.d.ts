@@ -9,4 +9,7 @@ export class Ide {
   request(json: string, nowMs: number): string;
   tick(nowMs: number, scansMax: number): string;
   receive(bytes: Uint8Array, nowMs: number): string;
+  chipDueMs(): number;
+  chipPassed(data: Uint8Array): Uint16Array;
+  chipPins(): Uint16Array;
 }

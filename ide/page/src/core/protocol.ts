@@ -71,6 +71,7 @@ export interface Status {
   agreement: string;
   scans: number;
   timeMs: number;
+  pace: number | null;
   scanUs: [number, number, number] | null;
   fault: string | null;
   faultAt: Place | null;
@@ -177,6 +178,8 @@ interface Events {
   plant: { name: string; state: [string, number][]; news: string[] };
   samples: { times: number[]; columns: number[][]; lost: boolean };
   send: { bytes: number[] };
+  powerOn: { flash: number[] };
+  powerOff: object;
   resetBoard: object;
   openPort: { baud: number; parity: Parity };
   closePort: object;

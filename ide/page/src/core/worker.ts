@@ -1,5 +1,6 @@
 // The worker that the core runs in: passes requests and bytes on to it, lets its time go by, posts
-// its events.
+// its events. The virtual Uno is here, too: nothing is between it and the core.
+import { VirtualUno } from "../board/virtual_uno";
 import init, { Ide } from "./ide_core.js";
 import type { Event } from "./protocol";
 
@@ -19,24 +20,27 @@ interface Surroundings {
 const surroundings = self as unknown as Surroundings;
 
 let ide: Ide | undefined;
+const uno = new VirtualUno();
 let isBusy = false;
 let scansMax = 1000;
 const early: (string | Uint8Array)[] = [];
 
-function post(json: string): void {
-  const events = JSON.parse(json) as Event[];
+/** Posts events of the core, apart from those that are for the virtual Uno. */
+function post(ide: Ide, json: string): void {
+  const events = (JSON.parse(json) as Event[]).filter((event) => !uno.take(event, ide));
   for (const event of events) if (event.is === "status") isBusy = event.status.mode === "RUN";
   if (events.length > 0) surroundings.postMessage(events);
 }
 
 function take(ide: Ide, message: string | Uint8Array): void {
   const now = performance.now();
-  post(typeof message === "string" ? ide.request(message, now) : ide.receive(message, now));
+  post(ide, typeof message === "string" ? ide.request(message, now) : ide.receive(message, now));
 }
 
 function tick(ide: Ide): void {
   const began = performance.now();
-  post(ide.tick(began, scansMax));
+  post(ide, ide.tick(began, scansMax));
+  uno.goOn(ide, began + TICK_MS_MAX, (bytes) => post(ide, ide.receive(bytes, performance.now())));
   const took = performance.now() - began;
   if (took > TICK_MS_MAX) scansMax = Math.max(SCANS_MIN, scansMax >> 1);
   else if (took > TICK_MS_MAX / 4) scansMax = Math.min(SCANS_MAX, scansMax + (scansMax >> 2));
@@ -57,7 +61,10 @@ function guard(action: () => void): boolean {
 
 function goOn(): void {
   const core = ide;
-  if (core && guard(() => tick(core))) setTimeout(goOn, isBusy ? BUSY_MS : IDLE_MS);
+  const began = performance.now();
+  if (!core || !guard(() => tick(core))) return;
+  const took = performance.now() - began;
+  setTimeout(goOn, Math.max(0, (isBusy || uno.isOn ? BUSY_MS : IDLE_MS) - took));
 }
 
 surroundings.onmessage = ({ data }) => {

@@ -13,7 +13,7 @@ const TARGETS = [
   ["bridge", "bridge"],
 ] as const;
 
-/** How fast the simulator's time goes. */
+/** How fast the time of a target in the page goes. */
 const SPEEDS = [
   ["0.01", { plain: "1/100 ×" }],
   ["0.1", { plain: "1/10 ×" }],
@@ -85,6 +85,7 @@ export class Header {
       agreement: "none",
       scans: 0,
       timeMs: 0,
+      pace: null,
       scanUs: null,
       fault: null,
       faultAt: null,
@@ -140,7 +141,7 @@ export class Header {
   private show(status: Status): void {
     this.status = status;
     this.target.value = status.target;
-    this.speed.hidden = status.target !== "simulator";
+    this.speed.hidden = !isInPage(status.target);
     this.press("pause", status.mode === "PAUSE");
     this.press("connect", isConnected(status.mode));
     const mode = h("strong", { class: `mode ${status.mode.toLowerCase()}` }, status.mode);
@@ -157,6 +158,11 @@ export class Header {
   }
 }
 
+/** Whether its time is the page's. */
+function isInPage(target: TargetKind): boolean {
+  return target === "simulator" || target === "virtualUno";
+}
+
 function isConnected(mode: string): boolean {
   return mode !== "OFFLINE" && mode !== "LOST";
 }
@@ -170,8 +176,9 @@ export function statusWords(status: Status): string {
     words.push(t("scanTime", last ?? "", least ?? "", most ?? ""));
   }
   if (status.mode !== "OFFLINE") words.push(t("scansDone", status.scans.toLocaleString()));
-  if (status.target === "simulator" && status.mode !== "OFFLINE")
+  if (isInPage(status.target) && status.mode !== "OFFLINE")
     words.push(`${(status.timeMs / 1000).toFixed(1)} s`);
+  if (status.pace !== null) words.push(t("pace", status.pace.toFixed(2)));
   if (status.agreement === "other") words.push(t("otherProgram"));
   if (status.fault) words.push(t("fault", status.fault));
   if (status.lost) words.push(t("linkLost", status.lost));

@@ -22,6 +22,7 @@ export const TABLE = {
   download: ["Download", "Laden", "Cargar"],
   connect: ["Connect", "Verbinden", "Conectar"],
   scanTime: ["scan {0} ({1} to {2})", "Zyklus {0} ({1} bis {2})", "ciclo {0} ({1} a {2})"],
+  pace: ["{0} × real time", "{0} × Echtzeit", "{0} × tiempo real"],
   scansDone: ["{0} scans", "{0} Zyklen", "{0} ciclos"],
   otherProgram: [
     "another program is in it",

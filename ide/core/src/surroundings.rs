@@ -22,7 +22,7 @@ const MODULATED: [u8; 2] = [1, 2];
 pub type Levels = [u16; 7];
 
 /// The chip's surroundings, since power came.
-pub struct Chip {
+pub struct Surroundings {
     settings: Settings,
     plant: Option<Box<dyn Plant>>,
     /// What the plant drives.
@@ -37,10 +37,10 @@ pub struct Chip {
     pace: Pace,
 }
 
-impl Chip {
+impl Surroundings {
     /// A chip with a program that has these settings.
-    pub fn new(settings: Settings, bench: &Bench) -> Result<Chip, String> {
-        let mut chip = Chip {
+    pub fn new(settings: Settings, bench: &Bench) -> Result<Surroundings, String> {
+        let mut chip = Surroundings {
             settings,
             plant: bench.new_plant()?,
             wired: Inputs::default(),
@@ -108,7 +108,8 @@ impl Chip {
         self.levels()
     }
 
-    fn levels(&self) -> Levels {
+    /// What is at its pins.
+    pub fn levels(&self) -> Levels {
         let signals = self.plant.as_ref().map(|plant| plant.signals()).unwrap_or_default();
         let source =
             |mask: u8, input: u8| if mask >> input & 1 != 0 { &self.wired } else { &self.set };
