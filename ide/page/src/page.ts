@@ -168,7 +168,7 @@ async function begin(): Promise<void> {
 }
 
 addEventListener("beforeunload", (event) => {
-  if (watch.forced.length > 0) event.preventDefault();
+  if (watch.forced.length > 0 || header.status?.loading) event.preventDefault();
 });
 addEventListener("hashchange", () => void begin());
 shortcuts({ header, tabs, menu, editors, search: () => (showFiles(true), sidebar.focusSearch()) });

@@ -30,6 +30,7 @@ const KEY = "bridge";
 
 export class Bridge {
   private socket: WebSocket | undefined;
+  private connected: Promise<void> | undefined;
   private waiting: { told(told: Told): void; failed(error: Error): void }[] = [];
   private listener: Listener | undefined;
 
@@ -50,17 +51,25 @@ export class Bridge {
     return session === null ? null : new Bridge({ session });
   }
 
+  /** Whether it has a token that is to be exchanged. */
+  get isNew(): boolean {
+    return this.hello.token !== undefined;
+  }
+
   /** Says who this is. The token is good for once: a reload comes back with the key. */
-  async connect(): Promise<void> {
-    if (this.socket) return;
+  connect(): Promise<void> {
+    this.connected ??= this.begin();
+    return this.connected;
+  }
+
+  private async begin(): Promise<void> {
     const socket = new WebSocket(`ws://${location.host}/bridge`);
     socket.binaryType = "arraybuffer";
     this.socket = socket;
     socket.onmessage = ({ data }: MessageEvent<string | ArrayBuffer>) => this.take(data);
-    const failed = () => this.gone();
     await new Promise<void>((resolve) => {
       socket.onopen = () => resolve();
-      socket.onclose = () => (failed(), resolve());
+      socket.onclose = () => (this.gone(), resolve());
     });
     const told = await this.ask({ do: "hello", ...this.hello });
     if (told.is !== "welcome") return;
@@ -123,7 +132,7 @@ export class Bridge {
   }
 
   private gone(): void {
-    this.socket = undefined;
+    this.socket = this.connected = undefined;
     for (const { failed } of this.waiting.splice(0)) failed(new BridgeRefusal(""));
     this.lost("");
   }

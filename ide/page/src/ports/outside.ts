@@ -27,7 +27,8 @@ export class Outside {
     private target: () => TargetKind,
   ) {
     // A token is good for once: it is exchanged before somebody reloads the page.
-    this.bridge?.connect().catch((error: unknown) => notice(words(error), true));
+    if (this.bridge?.isNew)
+      this.bridge.connect().catch((error: unknown) => notice(words(error), true));
     core.on("openPort", (line) => this.then(() => this.open(line)));
     core.on("closePort", () => this.then(() => this.close()));
     core.on("send", ({ bytes }) => this.then(() => this.port?.send(Uint8Array.from(bytes))));
