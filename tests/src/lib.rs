@@ -22,6 +22,8 @@ pub mod naive;
 #[cfg(feature = "uno")]
 pub mod own_clock;
 #[cfg(feature = "uno")]
+pub mod plugged;
+#[cfg(feature = "uno")]
 pub mod power;
 pub mod random;
 pub mod retained;

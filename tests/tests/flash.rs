@@ -3,49 +3,31 @@
 
 #![cfg(feature = "uno")]
 
-use std::fs::{self, OpenOptions};
-use std::io::{Read, Write};
-use std::os::unix::fs::OpenOptionsExt;
+use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 use std::sync::LazyLock;
 use std::thread;
 use std::time::Duration;
 
-use awl_asm::assemble::assemble;
 use awl_asm::firmware;
-use awl_asm::source::Source;
 use plc_isa::{SLOT_LEN, SLOT_START};
-use simavr::{Avr, Pin};
 use tempfile::TempDir;
 use tests::commands;
 use tests::flash_responder::{Flaw, Responder};
-use tests::link::{UNIT, checksum, frame};
+use tests::plugged::{
+    FOLLOW, INVERT, asked, behaviour, behaviour_after, board, expected_firmware_flash,
+    firmware_flash, image, is_on, pass, said, slot_has,
+};
 use virtual_uno::VirtualUno;
-
-/// The output follows the input.
-const FOLLOW: &str = "//# name follow\nLD I0.0\n= Q0.0\n";
-/// It does the contrary, after a few networks that make it another length.
-const INVERT: &str = "//# name invert\nLD SM0.0\nMOVW 17, VW0\nMOVW VW0, VW2\nLDN I0.0\n= Q0.0\n";
-
-/// I0.0 and Q0.0 on the board.
-const INPUT: u8 = 2;
-const OUTPUT: u8 = 8;
 
 /// From the end of avrdude to the first scan: the bootloader's 16 ms watchdog, and the firmware's
 /// check of the program.
 const START_MS: u32 = 300;
 /// The same for a program that fills the slot.
 const START_LONGEST_MS: u32 = 2_000;
-/// Long enough for some scans.
-const SCANS_MS: u32 = 20;
 /// The same for a program that fills the slot.
 const SCANS_LONGEST_MS: u32 = 600;
-/// The bootloader waits a second for avrdude before it starts the firmware, and flashes its lamp
-/// before that.
-const BOOTLOADER_MS: u32 = 1_800;
-/// A short request, its answer and the pauses after them.
-const ANSWER_MS: u32 = 20;
 
 static AWL_ASM: LazyLock<PathBuf> = LazyLock::new(|| commands::built("awl-asm"));
 static UNO200: LazyLock<PathBuf> = LazyLock::new(|| commands::built("uno200"));
@@ -88,103 +70,6 @@ fn wait() {
 
 fn run_beside(uno: &mut VirtualUno, command: Command) -> (Option<i32>, String) {
     run(command, || uno.step().unwrap())
-}
-
-fn pass(uno: &mut VirtualUno, milliseconds: u32) {
-    for _ in 0..milliseconds {
-        uno.step().unwrap();
-    }
-}
-
-/// A board from the factory with a switch at every input, all off.
-fn board() -> VirtualUno {
-    let mut uno = VirtualUno::new().unwrap();
-    for pin in 2..=7 {
-        uno.avr_mut().drive(Pin::of_uno(pin), false);
-    }
-    uno
-}
-
-/// What the output does when the input is 0, 1 and 0 again.
-fn behaviour(uno: &mut VirtualUno) -> [bool; 3] {
-    behaviour_after(uno, SCANS_MS)
-}
-
-fn behaviour_after(uno: &mut VirtualUno, milliseconds: u32) -> [bool; 3] {
-    [false, true, false].map(|input| {
-        uno.avr_mut().drive(Pin::of_uno(INPUT), input);
-        pass(uno, milliseconds);
-        is_on(uno.avr())
-    })
-}
-
-/// A lamp at the output, to ground.
-fn is_on(avr: &Avr) -> bool {
-    avr.is_output(Pin::of_uno(OUTPUT)) && avr.level(Pin::of_uno(OUTPUT))
-}
-
-/// What a board answers on its line.
-#[derive(Debug, PartialEq)]
-struct Said {
-    runs: bool,
-    has_fault: bool,
-    /// The program's name; empty without one.
-    program: String,
-}
-
-fn said(runs: bool, program: &str) -> Said {
-    Said { runs, has_fault: false, program: program.to_string() }
-}
-
-/// Asks a board by a terminal that is opened, which resets it.
-fn asked(uno: &mut VirtualUno) -> Said {
-    let nonblocking = rustix::fs::OFlags::NONBLOCK.bits().cast_signed();
-    let mut terminal = OpenOptions::new()
-        .read(true)
-        .write(true)
-        .custom_flags(nonblocking)
-        .open(uno.port())
-        .unwrap();
-    pass(uno, BOOTLOADER_MS);
-    let mut exchange = |pdu: &[u8]| {
-        terminal.write_all(&frame(UNIT, pdu)).unwrap();
-        pass(uno, ANSWER_MS);
-        let mut answer = [0; 256];
-        let len = terminal.read(&mut answer).expect("there is an answer");
-        let (answer, crc) = answer[..len].split_at(len - 2);
-        assert_eq!(crc, checksum(answer).to_le_bytes());
-        answer[1..].to_vec()
-    };
-    let identity = exchange(&[65]);
-    // One object: a head of seven bytes, its number and length, its text.
-    let program = match *exchange(&[43, 14, 4, 6]) {
-        [0xAB, _] => String::new(),
-        ref answer => String::from_utf8(answer[9..].to_vec()).unwrap(),
-    };
-    Said { runs: identity[3] & 1 != 0, has_fault: identity[4] != 0, program }
-}
-
-fn image(program: &str) -> Vec<u8> {
-    assemble(&Source::new("p.awl", program).unwrap(), Vec::new())
-        .image
-        .expect("a program without errors")
-}
-
-/// The program slot up to the end of this program.
-fn slot_has(avr: &Avr, program: &str) -> bool {
-    let image = image(program);
-    avr.flash()[usize::from(SLOT_START)..].starts_with(&image)
-}
-
-fn firmware_flash(avr: &Avr) -> Vec<u8> {
-    avr.flash()[..usize::from(SLOT_START)].to_vec()
-}
-
-/// The same flash with the firmware put in by other means than avrdude.
-fn expected_firmware_flash() -> Vec<u8> {
-    let mut avr = Avr::new();
-    avr.load_hex(&fs::read_to_string(firmware_file()).unwrap()).unwrap();
-    firmware_flash(&avr)
 }
 
 #[test]

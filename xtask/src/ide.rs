@@ -51,9 +51,22 @@ pub fn check() -> Result<()> {
     run(node("test/virtual_uno.mjs").arg(&folder))?;
     run(node("test/lock_step.mjs").arg(&folder))?;
     figures()?;
-    let mut server = Serving::start(&folder)?;
-    let address = server.address()?;
-    run(node("test/page.mjs").arg(&address).arg(root().join(FIGURES)))
+    let mut server = Serving::page(&folder, &[])?;
+    let address = server.line()?;
+    run(node("test/page.mjs").arg(&address).arg(root().join(FIGURES)))?;
+    check_board(&folder, &sources)
+}
+
+/// Has the page write a board from the factory, with its real bootloader, and talk to it.
+fn check_board(folder: &Path, sources: &Path) -> Result<()> {
+    packages::ensure_installed(packages::VIRTUAL_BOARD)?;
+    packages::ensure_installed(packages::AVR_LINKER)?;
+    run(cargo().args(["build", "--quiet", "--package", "virtual-uno", "--features", "link"]))?;
+    let mut board = Serving::start(&mut Command::new(root().join("target/debug/virtual-uno")))?;
+    let port = board.line()?;
+    let mut server = Serving::page(folder, &["--port", &port])?;
+    let address = server.line()?;
+    run(Command::new("node").current_dir(sources).args(["test/board.mjs", &address, &port]))
 }
 
 /// The files of a folder with their bytes.
@@ -81,25 +94,31 @@ fn figures() -> Result<()> {
         ]))
 }
 
-/// A server that ends with this.
+/// A server, or a board, that ends with this.
 struct Serving(Child);
 
 impl Serving {
-    fn start(folder: &Path) -> Result<Serving> {
+    /// Serves the page in a folder.
+    fn page(folder: &Path, arguments: &[&str]) -> Result<Serving> {
         run(cargo().args(["build", "--quiet", "--package", "uno200"]))?;
         // Not by way of cargo, which would be ended in its place.
         let mut ide = Command::new(root().join("target/debug/uno200"));
         ide.args(["ide", "--no-open", "--listen", "127.0.0.1:0", "--page"]).arg(folder);
-        ide.stdout(Stdio::piped());
-        Ok(Serving(ide.spawn().context("cannot start uno200 ide")?))
+        Serving::start(ide.args(arguments))
     }
 
-    /// The line that it prints.
-    fn address(&mut self) -> Result<String> {
-        let output = self.0.stdout.take().context("uno200 ide has no output")?;
+    fn start(command: &mut Command) -> Result<Serving> {
+        // It would take the end of the input for its own.
+        command.stdin(Stdio::null()).stdout(Stdio::piped());
+        Ok(Serving(command.spawn().context("cannot start what the page needs")?))
+    }
+
+    /// The line that it prints: address, or port.
+    fn line(&mut self) -> Result<String> {
+        let output = self.0.stdout.take().context("it has no output")?;
         let mut line = String::new();
         BufReader::new(output).read_line(&mut line)?;
-        ensure!(line.starts_with("http://"), "uno200 ide says no address but {line:?}");
+        ensure!(!line.trim().is_empty(), "it ended before it was there");
         Ok(line.trim().to_owned())
     }
 }

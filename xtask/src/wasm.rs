@@ -11,7 +11,7 @@ use crate::{avr, packages};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 /// The libraries that run anywhere, and what uses them all.
-const LIBRARIES: [&str; 10] = [
+const LIBRARIES: [&str; 11] = [
     "plc-isa",
     "plc-vm",
     "plc-link",
@@ -21,6 +21,7 @@ const LIBRARIES: [&str; 10] = [
     "awl-sim",
     "analysis",
     "client",
+    "flash",
     "wasm-smoke",
 ];
 const MODULE: &str = "wasm_smoke";

@@ -5,11 +5,9 @@ use std::env;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail, ensure};
-use ihex::{Reader, Record};
-use plc_isa::UNO;
+use anyhow::{Context, Result, bail};
 
-use crate::hex::FIRMWARE;
+use crate::hex::{self, FIRMWARE};
 use crate::host::files::read;
 
 /// The environment variable that names the firmware's file, in whatever format.
@@ -27,7 +25,7 @@ pub fn hex(named: Option<&Path>) -> Result<String> {
     let path = named.map(Path::to_path_buf).or_else(|| in_variable("hex"));
     let Some(path) = path else { return Ok(FIRMWARE.to_owned()) };
     let text = String::from_utf8(read(&path)?).unwrap_or_default();
-    check_records(&text).with_context(|| format!("{} is no firmware", path.display()))?;
+    hex::firmware(&text).with_context(|| format!("{} is no firmware", path.display()))?;
     Ok(text)
 }
 
@@ -81,41 +79,11 @@ fn find_in(candidates: &[PathBuf]) -> Result<PathBuf> {
     }
 }
 
-/// Intel HEX that is where firmware is: from address 0, and not in the program slot.
-///
-/// A program that was taken for it would leave a new board without any.
-fn check_records(text: &str) -> Result<()> {
-    let mut starts_at_zero = false;
-    for record in Reader::new(text) {
-        match record? {
-            Record::Data { offset, value } => {
-                starts_at_zero |= offset == 0;
-                let end = usize::from(offset) + value.len();
-                ensure!(
-                    end <= usize::from(UNO.slot_start),
-                    "it reaches into the program slot, which begins at {:#06x}",
-                    UNO.slot_start
-                );
-            }
-            Record::EndOfFile => {}
-            Record::StartSegmentAddress { .. } | Record::StartLinearAddress(_) => {}
-            Record::ExtendedSegmentAddress(base) | Record::ExtendedLinearAddress(base) => {
-                ensure!(base == 0, "it lies beyond the board's flash")
-            }
-        }
-    }
-    ensure!(starts_at_zero, "there is nothing at address 0");
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use std::fs;
 
-    use ihex::create_object_file_representation;
-
     use super::*;
-    use crate::image::hex::intel_hex;
 
     #[test]
     fn beside_the_program_first_then_upwards() {
@@ -127,11 +95,6 @@ mod tests {
             "/target/firmware/uno200.elf",
         ];
         assert_eq!(paths, expected.map(PathBuf::from));
-    }
-
-    #[test]
-    fn what_is_part_of_this_program_is_firmware() {
-        check_records(FIRMWARE).unwrap();
     }
 
     #[test]
@@ -151,30 +114,6 @@ mod tests {
         assert!(
             missing.contains("cargo xtask firmware") && missing.contains(VARIABLE),
             "{missing}"
-        );
-    }
-
-    #[test]
-    fn firmware_lies_below_the_slot() {
-        let hex = |records: &[Record]| create_object_file_representation(records).unwrap();
-        let data = |offset: u16| Record::Data { offset, value: vec![0x0C, 0x94] };
-        let why = |records: &[Record]| check_records(&hex(records)).unwrap_err().to_string();
-        assert!(
-            check_records(&hex(&[data(0), data(UNO.slot_start - 2), Record::EndOfFile])).is_ok()
-        );
-        assert!(
-            why(&[data(0), data(UNO.slot_start - 1), Record::EndOfFile]).contains("program slot")
-        );
-        assert!(why(&[data(2), Record::EndOfFile]).contains("address 0"));
-        assert!(
-            why(&[Record::ExtendedLinearAddress(1), data(0), Record::EndOfFile]).contains("beyond")
-        );
-        let program = intel_hex(&[1, 2, 3]).unwrap();
-        assert!(check_records(&program).unwrap_err().to_string().contains("program slot"));
-        assert!(check_records("not a hex file").is_err());
-        assert!(
-            check_records(&hex(&[data(0), Record::EndOfFile]).replacen("0C", "0D", 1)).is_err(),
-            "wrong checksum"
         );
     }
 }

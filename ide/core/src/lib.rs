@@ -10,6 +10,7 @@ mod editor;
 mod ladder;
 mod lock_step;
 mod offsets;
+mod outside;
 mod pace;
 mod plc;
 mod pulse;

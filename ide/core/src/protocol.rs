@@ -96,6 +96,13 @@ pub enum TargetWish {
     Disconnect,
     /// Puts the program on it, which starts.
     Download,
+    /// Puts firmware and program on a board, which starts.
+    DownloadFirmware,
+    /// The page has opened the port that it was asked for; whether it is a connection of the
+    /// network, with Modbus TCP on it.
+    Plugged { network: bool },
+    /// The port is gone, or was not opened: why; empty where nobody wanted it.
+    Unplugged { why: String },
     /// Connects and downloads if need be, and goes to RUN.
     Run,
     /// Goes to STOP: outputs are off.
@@ -199,6 +206,16 @@ pub enum Event {
     PowerOn { flash: Vec<u8> },
     /// The virtual Uno is unplugged.
     PowerOff,
+    /// The port to a target outside is to be opened, 8 bits and one stop bit; one that was opened
+    /// before, again. Opening it may reset a board, so people are asked before the first time.
+    /// Answer: [`TargetWish::Plugged`] or [`TargetWish::Unplugged`]. `parity`: `none`, `even`, `odd`.
+    OpenPort { baud: u32, parity: String },
+    /// The port is to be closed.
+    ClosePort,
+    /// DTR and RTS of the port are to be switched.
+    Lines { on: bool },
+    /// The board does not hold the firmware: whether it shall be written, too, is to be asked.
+    AskFirmware,
     /// A board outside is to be reset, as by its button.
     ResetBoard,
     /// Something to tell, for a moment.
@@ -329,8 +346,10 @@ pub struct Summary {
 pub struct Status {
     /// What it is.
     pub target: TargetKind,
-    /// `OFFLINE`, `RUN`, `STOP`, `PAUSE`, `LOST`.
+    /// `OFFLINE`, `RUN`, `STOP`, `PAUSE`, `LOST`, `LOADING`.
     pub mode: String,
+    /// How far the writing of a board is.
+    pub loading: Option<Loading>,
     /// How the program in it relates to the one on the screen: `same`, `native`, `other`, `none`,
     /// `unknown`.
     pub agreement: String,
@@ -349,6 +368,15 @@ pub struct Status {
     pub fault_at: Option<Place>,
     /// Why the link is lost.
     pub lost: Option<String>,
+}
+
+/// How far the writing of a board is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Loading {
+    /// `connecting`, `writing`, `verifying`, `starting`.
+    pub phase: String,
+    /// Of all that is written and read.
+    pub percent: u32,
 }
 
 /// Live values beside a line.

@@ -1,6 +1,8 @@
 //! Everything together: takes the page's requests, lets time pass, tells what is new.
 
 mod chip;
+mod reach;
+mod status;
 
 use awl_asm::diagnostic::Code;
 use awl_sim::operand::Operand;
@@ -12,10 +14,10 @@ use crate::apart::{self, Wanted};
 use crate::build;
 use crate::editor::Editor;
 use crate::ladder::Shown;
+use crate::outside::{Outside, Then};
 use crate::plc::Plc;
 use crate::protocol::{
-    ApartWish, Event, LookWish, Place, ProjectWish, Request, Status, TargetKind, TargetWish,
-    TextWish, Wish,
+    ApartWish, Event, LookWish, ProjectWish, Request, TargetKind, TargetWish, TextWish, Wish,
 };
 use crate::pulse::Pulse;
 use crate::scope::{Scope, signals};
@@ -42,6 +44,8 @@ pub struct Session {
     simulator: Option<Simulator>,
     /// What is around the chip of the virtual Uno.
     chip: Option<Surroundings>,
+    /// The way to a target that is not in the page.
+    outside: Outside,
     bench: Bench,
     scope: Scope,
     scope_names: (Vec<String>, u32),
@@ -96,7 +100,9 @@ impl Session {
     /// Bytes have come on the line of a target outside.
     pub fn receive(&mut self, bytes: &[u8], now_ms: u64) -> Vec<Event> {
         let line_ms = self.line_ms(now_ms);
-        if let Some(plc) = &mut self.plc {
+        if !self.outside.receive(bytes, now_ms)
+            && let Some(plc) = &mut self.plc
+        {
             plc.receive(bytes, line_ms);
         }
         self.tick(now_ms, 0)
@@ -116,6 +122,9 @@ impl Session {
         if std::mem::take(&mut self.is_edited) {
             events.extend(self.checked());
         }
+        events.extend(self.go_on_outside(now_ms));
+        // What comes of that is not for the next time.
+        events.append(&mut self.errands);
         if scans_max > 0
             && let Some(simulator) = &mut self.simulator
         {
@@ -211,66 +220,6 @@ impl Session {
         events
     }
 
-    fn status(&self) -> Status {
-        let status = Status { target: self.kind, ..Status::default() };
-        let Some(plc) = &self.plc else {
-            return Status {
-                mode: "OFFLINE".to_owned(),
-                agreement: "unknown".to_owned(),
-                ..status
-            };
-        };
-        let state = &plc.state;
-        let identity = state.identity.as_ref();
-        let mode = match (&state.link, identity) {
-            (Link::Lost(_), _) => "LOST",
-            _ if self.bench.is_paused => "PAUSE",
-            (_, Some(identity)) if identity.is_running => "RUN",
-            (_, Some(_)) => "STOP",
-            (_, None) => "OFFLINE",
-        };
-        let agreement = match state.agreement() {
-            Agreement::Same => "same",
-            Agreement::Native => "native",
-            Agreement::Other => "other",
-            Agreement::NoProgram => "none",
-            Agreement::Unknown => "unknown",
-        };
-        let lost = match &state.link {
-            Link::Lost(why) => Some(why.clone()),
-            Link::Up | Link::Connecting => None,
-        };
-        let fault = state.fault();
-        let measured = identity.filter(|one| self.simulator.is_none() && one.counts_per_ms > 0);
-        Status {
-            mode: mode.to_owned(),
-            agreement: agreement.to_owned(),
-            scans: identity.map_or(0, |identity| identity.scans),
-            time_ms: match (&self.simulator, &self.chip) {
-                (Some(simulator), _) => simulator.time_ms(),
-                (None, Some(chip)) => chip.time_ms(),
-                (None, None) => 0,
-            },
-            pace: self.chip.as_ref().and_then(Surroundings::pace),
-            scan_us: measured.map(|one| {
-                let us = |counts: u32| f64::from(counts) * 1000.0 / f64::from(one.counts_per_ms);
-                (us(one.shortest), us(one.last), us(one.longest))
-            }),
-            fault_at: fault.as_deref().and_then(|fault| self.place_in(fault)),
-            fault,
-            lost,
-            ..status
-        }
-    }
-
-    /// The place that a fault names: `file:line`.
-    fn place_in(&self, fault: &str) -> Option<Place> {
-        let main = self.editor.main()?;
-        let (_, after) = fault.split_once(&format!("{main}:"))?;
-        let digits: String = after.chars().take_while(char::is_ascii_digit).collect();
-        self.editor.line(main, digits.parse().ok()?)
-    }
-
     fn fulfil(&mut self, wish: Wish) -> Done {
         match wish {
             Wish::Project(wish) => self.change(wish).map(|()| None),
@@ -341,6 +290,7 @@ impl Session {
 
     /// What is done with the target.
     fn act(&mut self, wish: TargetWish) -> Result<(), String> {
+        self.check_not_loading(&wish)?;
         match wish {
             TargetWish::Target { kind } => {
                 self.disconnect();
@@ -349,11 +299,16 @@ impl Session {
             TargetWish::Connect => self.connect()?,
             TargetWish::Disconnect => self.disconnect(),
             TargetWish::Download => self.download()?,
+            TargetWish::DownloadFirmware => self.reach(Then::Download { with_firmware: true })?,
+            TargetWish::Plugged { network } => self.plugged(network)?,
+            TargetWish::Unplugged { why } => self.unplugged(&why)?,
             TargetWish::Reset => self.reset()?,
             TargetWish::Run => {
                 self.bench.is_paused = false;
                 if self.has_program() {
                     self.order(Order::Run)?;
+                } else if self.is_outside() && self.plc.is_none() {
+                    self.reach(Then::Run)?;
                 } else {
                     self.download()?;
                 }
@@ -434,9 +389,7 @@ impl Session {
     fn connect(&mut self) -> Result<(), String> {
         match self.kind {
             TargetKind::Simulator | TargetKind::VirtualUno => self.download(),
-            TargetKind::Usb | TargetKind::Bridge => {
-                Err("this target cannot be reached from here yet; choose Simulator".to_owned())
-            }
+            TargetKind::Usb | TargetKind::Bridge => self.reach(Then::Connect),
         }
     }
 
@@ -445,7 +398,9 @@ impl Session {
         match self.kind {
             TargetKind::Simulator => self.switch_on_simulator(),
             TargetKind::VirtualUno => self.switch_on_chip(),
-            TargetKind::Usb | TargetKind::Bridge => self.connect(),
+            TargetKind::Usb | TargetKind::Bridge => {
+                self.reach(Then::Download { with_firmware: false })
+            }
         }
     }
 
@@ -484,6 +439,9 @@ impl Session {
 
     /// As switched on again; a board with the program that it has.
     fn reset(&mut self) -> Result<(), String> {
+        if self.is_outside() {
+            return self.reset_outside();
+        }
         let (Some(_), Some(chip)) = (&self.plc, &self.chip) else { return self.download() };
         let begin_ms = chip.time_ms() + BOOT_MS;
         self.errands.push(Event::ResetBoard);
@@ -500,7 +458,10 @@ impl Session {
         if self.chip.take().is_some() {
             self.errands.push(Event::PowerOff);
         }
-        (self.plc, self.simulator) = (None, None);
+        if self.outside.is_open() {
+            self.errands.push(Event::ClosePort);
+        }
+        (self.plc, self.simulator, self.outside) = (None, None, Outside::default());
         self.bench.is_paused = false;
     }
 

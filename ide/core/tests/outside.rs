@@ -1,16 +1,9 @@
 //! A session with a PLC outside: bytes go out as events and come in, on the virtual Uno with its
-//! chip's time. In the chip's place is the reference interpreter, with RTU frames around it.
+//! chip's time. What is in the chip's place is in `board`.
 
-use core::net::Ipv4Addr;
-use std::time::Duration;
+mod board;
 
-use awl_sim::machine::Machine;
-use awl_sim::machine::host::Host;
-use awl_sim::operand::Operand;
-use awl_sim::run::Course;
-use awl_sim::scenario::Scenario;
-use awl_sim::serve::{Access, Endpoint, Request as Asked};
-use client::line::rtu;
+use board::Board;
 use ide_core::Session;
 use ide_core::protocol::{
     Event, File, LookWish, ProjectWish, Request, Status, TargetKind, TargetWish, Value, Wish,
@@ -18,62 +11,6 @@ use ide_core::protocol::{
 
 const STATION: &str = include_str!("../../../examples/station1.awl");
 const PLANT: &str = "station1 pieces=normal,small,normal noise=3 seed=7 button=auto";
-/// Where the program slot is in flash.
-const SLOT: usize = 0x6000;
-
-/// What is in the chip's place: a PLC at the end of a serial line.
-struct Board {
-    host: Host,
-    endpoint: Endpoint<()>,
-    unit: u8,
-    now_ms: u64,
-    sent: Vec<u8>,
-}
-
-impl Board {
-    fn with(flash: &[u8], unit: u8) -> Board {
-        let len = u16::from_le_bytes([flash[SLOT + 6], flash[SLOT + 7]]);
-        let image = flash[SLOT..SLOT + usize::from(len)].to_vec();
-        let host = Host::new(image, Box::new(|_| String::new()));
-        let course = Course::new(&Scenario::default(), None, 1);
-        let endpoint = Endpoint::new(course, 1, Access::default(), Duration::ZERO);
-        Board { host, endpoint, unit, now_ms: 0, sent: Vec::new() }
-    }
-
-    fn receive(&mut self, frame: &[u8]) {
-        // Whoever asks another unit gets no answer.
-        let Some(pdu) = rtu::answer(self.unit, frame) else { return };
-        let client = Ipv4Addr::LOCALHOST.into();
-        self.endpoint.ask(&mut self.host, Asked { client, pdu: pdu.to_vec(), from: () });
-        self.answer();
-    }
-
-    fn answer(&mut self) {
-        let answers: Vec<_> = self.endpoint.answers().collect();
-        self.sent.extend(answers.iter().flat_map(|answer| rtu::frame(self.unit, &answer.pdu)));
-    }
-
-    /// A millisecond; gives what the chip's data memory says of the pins.
-    fn pass(&mut self) -> Vec<u8> {
-        self.endpoint.go_on(&mut self.host, Duration::from_millis(self.now_ms)).unwrap();
-        self.now_ms += 1;
-        self.answer();
-        let mut data = vec![0; 0x900];
-        (data[0x23], data[0x24]) = (self.host.pin_levels(), 0x3F);
-        data
-    }
-
-    fn drive(&mut self, [levels, analog @ ..]: [u16; 7]) {
-        for input in 0..6 {
-            self.host.drive_pin(input, levels >> input & 1 != 0);
-        }
-        for (channel, counts) in analog.iter().enumerate() {
-            let operand = Operand::parse(&format!("Ain{channel}"), &[]).unwrap();
-            self.host.write(operand, i32::from(*counts)).unwrap();
-        }
-    }
-}
-
 /// A page with a board at its line.
 #[derive(Default)]
 struct Page {

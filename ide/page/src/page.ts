@@ -24,6 +24,7 @@ import { Problems } from "./panels/problems";
 import { Scope } from "./panels/scope";
 import { Tests } from "./panels/tests";
 import { Watch } from "./panels/watch";
+import { Outside } from "./ports/outside";
 import { fragmentFor, fromAddress, lastOrBlink, type Opened } from "./project/begin";
 import { Project, Unfit } from "./project/project";
 import { Keeper } from "./project/storage";
@@ -101,6 +102,7 @@ const tabs: Tabs = new Tabs("panels", [
     shown: (shown) => ladder.shown(shown),
   },
 ]);
+new Outside(core, () => header.status?.target ?? "simulator");
 new LiveView(core, project, editors, ladder, header);
 
 header.onStatus((status) => watch.showStatus(status));
@@ -174,7 +176,7 @@ async function begin(): Promise<void> {
 }
 
 addEventListener("beforeunload", (event) => {
-  if (watch.forced.length > 0) event.preventDefault();
+  if (watch.forced.length > 0 || header.status?.loading) event.preventDefault();
 });
 addEventListener("hashchange", () => void begin());
 shortcuts({ header, tabs, menu, editors, search: () => (showFiles(true), sidebar.focusSearch()) });

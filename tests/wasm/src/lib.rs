@@ -1,9 +1,10 @@
 //! What all libraries do together, told in a text: a program assembled, run with its plant, asked
-//! over its line, shown, traced, edited. The same function natively and as WebAssembly; no file,
+//! over its line, shown, traced, edited, written to a board. The same function natively and as WebAssembly; no file,
 //! clock or socket on the way. That both say the same, `cargo xtask wasm` checks.
 
 mod ask;
 mod digest;
+mod write;
 
 use std::time::Duration;
 
@@ -35,6 +36,7 @@ pub fn report() -> Result<String, Box<dyn std::error::Error>> {
     lines.extend(served()?);
     lines.extend(traced()?);
     lines.push(edited()?);
+    lines.push(write::written(&program_of_board()?)?);
     lines.push(refused());
     Ok(lines.join("\n") + "\n")
 }
@@ -106,6 +108,12 @@ fn traced() -> Result<Vec<String>, Box<dyn std::error::Error>> {
     ])
 }
 
+/// The image that a board gets.
+fn program_of_board() -> Result<Vec<u8>, Box<dyn std::error::Error>> {
+    let program = client::Program::of_bytes(NAME, PROGRAM, Vec::new());
+    Ok(program.map_err(|error| error.to_string())?.image)
+}
+
 /// What an editor is told of the program.
 fn edited() -> Result<String, Box<dyn std::error::Error>> {
     let text = std::str::from_utf8(PROGRAM)?;
@@ -168,6 +176,7 @@ mod tests {
         assert!(value("scenario: ").starts_with("1000 scans, 1 met"), "{text}");
         assert!(count(&value("editor: "), " changes") > 2, "{text}");
         assert!(count(&value("editor: "), " places of a name") > 2, "{text}");
+        assert!(value("board: ").starts_with("written, "), "{text}");
         assert!(value("wrong.awl:2:5: ").len() > 5, "{text}");
         assert_eq!(text, super::report().unwrap(), "it does not depend on anything else");
     }

@@ -65,7 +65,8 @@ fn run(arguments: Arguments) -> Result<u8> {
                 .map(|()| true)
         }
         Command::Ide(Ide { page, listen, no_open }) => {
-            ide::serve(&ide::Settings { page, listen, opens: !no_open }).map(|()| true)
+            let Connection { port, tcp, .. } = connection;
+            ide::serve(&ide::Settings { page, listen, port, tcp }, !no_open).map(|()| true)
         }
         Command::Test(arguments) => return test::test(&connection, &files, &arguments),
         Command::Shell { script } => {

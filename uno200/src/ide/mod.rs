@@ -1,16 +1,25 @@
-//! `uno200 ide`: the page of the IDE from a folder, for browsers on this computer alone. What the
-//! page does is in `ide`.
+//! `uno200 ide`: the page of the IDE from a folder, for browsers on this computer alone, and the
+//! bridge through which that page reaches ports. What the page does is in `ide`.
 
+mod access;
+pub mod bridge;
+mod http;
 mod page;
 
 use std::fs;
-use std::net::{Ipv4Addr, SocketAddr};
+use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::thread;
 
 use anyhow::{Context, Result, bail, ensure};
-use tiny_http::{Method, Request, Response, Server};
+use tungstenite::handshake::server::{Request, create_response, write_response};
+use tungstenite::http::{Method, StatusCode};
 
-use page::{HEADERS, Page};
+use access::Access;
+use bridge::Ports;
+use bridge::protocol::{Kind, Port};
+use page::Page;
 
 /// Where a build leaves the page.
 const BUILT: &str = "target/ide";
@@ -22,30 +31,110 @@ pub struct Settings {
     pub page: Option<PathBuf>,
     /// Where browsers find it. Only addresses of this computer.
     pub listen: SocketAddr,
-    /// Whether a browser is started.
-    pub opens: bool,
+    /// A serial port that the bridge opens besides those that the system lists.
+    pub port: Option<String>,
+    /// A PLC on the network that it connects to, `HOST:PORT`.
+    pub tcp: Option<String>,
+}
+
+/// A server that is there, and serves when it is [run](Self::run).
+#[derive(Debug)]
+pub struct Server {
+    listener: TcpListener,
+    url: String,
+    site: Arc<Site>,
+}
+
+/// What all connections share.
+#[derive(Debug)]
+struct Site {
+    page: Page,
+    access: Access,
+    ports: Arc<Ports>,
 }
 
 /// Serves the page until the process ends. The first line on standard output is its address.
-pub fn serve(settings: &Settings) -> Result<()> {
-    let address = settings.listen;
-    ensure!(
-        address.ip().is_loopback(),
-        "{address}: others could reach it; the IDE listens on this computer alone, such as \
-         127.0.0.1:8200"
-    );
-    let page = Page::new(folder(settings.page.clone())?);
-    let server = Server::http(address).map_err(|error| anyhow::anyhow!("{address}: {error}"))?;
-    let address = server.server_addr().to_ip().unwrap_or(address);
-    let url = format!("http://{address}/");
-    println!("{url}");
-    if settings.opens {
-        open_browser(&url);
+pub fn serve(settings: &Settings, opens: bool) -> Result<()> {
+    let server = Server::new(settings)?;
+    println!("{}", server.url());
+    if opens {
+        open_browser(server.url());
     }
-    loop {
-        let request = server.recv().context("the server has ended")?;
-        answer(&page, address, request);
+    server.run()
+}
+
+impl Server {
+    /// Listens.
+    pub fn new(settings: &Settings) -> Result<Server> {
+        let address = settings.listen;
+        ensure!(
+            address.ip().is_loopback(),
+            "{address}: others could reach it; the IDE listens on this computer alone, such as \
+             127.0.0.1:8200"
+        );
+        let page = Page::new(folder(settings.page.clone())?);
+        let listener = TcpListener::bind(address).with_context(|| format!("{address}"))?;
+        let address = listener.local_addr()?;
+        let (access, token) = Access::new(address.port())?;
+        let serial = settings.port.iter().map(|name| (name, Kind::Serial));
+        let tcp = settings.tcp.iter().map(|name| (name, Kind::Tcp));
+        let named = serial.chain(tcp).map(|(name, kind)| Port { name: name.clone(), kind });
+        let ports = Arc::new(Ports::new(named.collect()));
+        let url = format!("http://{address}/?token={token}");
+        Ok(Server { listener, url, site: Arc::new(Site { page, access, ports }) })
     }
+
+    /// The address with the token that is good for once. A fragment can be appended.
+    pub fn url(&self) -> &str {
+        &self.url
+    }
+
+    /// Serves until the process ends.
+    pub fn run(&self) -> Result<()> {
+        loop {
+            let (stream, _) = self.listener.accept().context("the server has ended")?;
+            let site = Arc::clone(&self.site);
+            // A browser that has gone away misses nothing.
+            thread::spawn(move || site.answer(stream));
+        }
+    }
+}
+
+impl Site {
+    /// Answers the request of a connection, or is the bridge for it.
+    fn answer(&self, mut stream: TcpStream) -> std::io::Result<()> {
+        let request = http::read(&mut stream)?;
+        if self.access.is_here(&request) && request.uri().path() == bridge::PATH {
+            return self.open_bridge(stream, &request);
+        }
+        let is_head = request.method() == Method::HEAD;
+        let is_asking = is_head || request.method() == Method::GET;
+        let (status, bytes, kind) = match self.page.file(request.uri().path()) {
+            _ if !self.access.is_here(&request) => refusal(StatusCode::FORBIDDEN),
+            Some((bytes, kind)) if is_asking => (StatusCode::OK, bytes, kind),
+            _ => refusal(StatusCode::NOT_FOUND),
+        };
+        let mut headers = page::headers(http::header(&request, "Host"));
+        headers.push(("Content-Type", kind.to_owned()));
+        http::answer(&mut stream, status, &headers, &bytes, is_head)
+    }
+
+    fn open_bridge(&self, mut stream: TcpStream, request: &Request) -> std::io::Result<()> {
+        let response = create_response(request).ok().filter(|_| self.access.is_own_page(request));
+        let Some(response) = response else {
+            let (status, bytes, _) = refusal(StatusCode::FORBIDDEN);
+            return http::answer(&mut stream, status, &[], &bytes, false);
+        };
+        let mut head = Vec::new();
+        write_response(&mut head, &response).map_err(std::io::Error::other)?;
+        std::io::Write::write_all(&mut stream, &head)?;
+        bridge::serve(stream, &self.access, &self.ports)
+    }
+}
+
+fn refusal(status: StatusCode) -> (StatusCode, Vec<u8>, &'static str) {
+    let text = if status == StatusCode::FORBIDDEN { "not for you\n" } else { "no such file\n" };
+    (status, text.as_bytes().to_vec(), "text/plain; charset=utf-8")
 }
 
 fn folder(given: Option<PathBuf>) -> Result<PathBuf> {
@@ -58,40 +147,6 @@ fn folder(given: Option<PathBuf>) -> Result<PathBuf> {
         );
     }
     Ok(fs::canonicalize(folder)?)
-}
-
-/// Answers a request. Who asks under another name than this computer's has been led here by a page
-/// of somebody else.
-fn answer(page: &Page, address: SocketAddr, request: Request) {
-    let host = request.headers().iter().find(|header| header.field.equiv("Host"));
-    let is_here = host.is_some_and(|host| is_own(host.value.as_str(), address.port()));
-    let is_asking = matches!(request.method(), Method::Get | Method::Head);
-    let found = if is_here && is_asking { page.file(request.url()) } else { None };
-    let response = match found {
-        Some((bytes, kind)) => {
-            let response = Response::from_data(bytes);
-            let all = HEADERS.iter().copied().chain([("Content-Type", kind)]);
-            all.filter_map(|(name, value)| {
-                tiny_http::Header::from_bytes(name.as_bytes(), value.as_bytes()).ok()
-            })
-            .fold(response, Response::with_header)
-        }
-        None if !is_here => Response::from_string("not for you\n").with_status_code(403),
-        None => Response::from_string("there is no such file\n").with_status_code(404),
-    };
-    // A browser that has gone away misses nothing.
-    let _ = request.respond(response);
-}
-
-/// Whether a `Host` header names this computer and port.
-fn is_own(host: &str, port: u16) -> bool {
-    [
-        format!("{}:{port}", Ipv4Addr::LOCALHOST),
-        format!("localhost:{port}"),
-        format!("[::1]:{port}"),
-    ]
-    .iter()
-    .any(|own| own.eq_ignore_ascii_case(host))
 }
 
 /// Starts the browser. Who has none has the address.
@@ -109,26 +164,5 @@ fn open_browser(url: &str) {
         .spawn();
     if started.is_err() {
         eprintln!("no browser could be started: open the address by hand");
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_this_computer_is_served() {
-        for (host, is_served) in [
-            ("127.0.0.1:8200", true),
-            ("LocalHost:8200", true),
-            ("127.0.0.1:8201", false),
-            ("example.org:8200", false),
-            ("127.0.0.1", false),
-        ] {
-            assert_eq!(is_own(host, 8200), is_served, "{host}");
-        }
-        let listen = "0.0.0.0:8200".parse().unwrap();
-        let error = serve(&Settings { page: None, listen, opens: false }).unwrap_err();
-        assert!(error.to_string().contains("127.0.0.1"), "{error}");
     }
 }

@@ -15,20 +15,25 @@ pub const ENDINGS: &[(&str, &str)] = &[
     ("txt", "text/plain; charset=utf-8"),
 ];
 
-/// Nothing but what is served here, in no frame of others, and no address given away.
-pub const HEADERS: &[(&str, &str)] = &[
-    (
-        "Content-Security-Policy",
+/// What a browser may do with the page at a host: nothing but what is served here, in no frame of
+/// others, and no address given away. That a page's own WebSockets are of its site is no news to
+/// all browsers yet.
+pub fn headers(host: &str) -> Vec<(&'static str, String)> {
+    let policy = format!(
         "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; \
-         img-src 'self' data: blob:; connect-src 'self'; worker-src 'self'; \
-         object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
-    ),
-    ("X-Content-Type-Options", "nosniff"),
-    ("Referrer-Policy", "no-referrer"),
-    ("Cross-Origin-Opener-Policy", "same-origin"),
-    ("Cross-Origin-Resource-Policy", "same-origin"),
-    ("Cache-Control", "no-cache"),
-];
+         img-src 'self' data: blob:; connect-src 'self' ws://{host}; worker-src 'self'; \
+         object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    );
+    let others = [
+        ("X-Content-Type-Options", "nosniff"),
+        ("Referrer-Policy", "no-referrer"),
+        ("Cross-Origin-Opener-Policy", "same-origin"),
+        ("Cross-Origin-Resource-Policy", "same-origin"),
+        ("Cache-Control", "no-cache"),
+    ];
+    let others = others.map(|(name, value)| (name, value.to_owned()));
+    [("Content-Security-Policy", policy)].into_iter().chain(others).collect()
+}
 
 /// The page in its folder.
 #[derive(Debug)]
@@ -43,8 +48,8 @@ impl Page {
     }
 
     /// The file of an address's path, with its type; `/` is the page itself.
-    pub fn file(&self, url: &str) -> Option<(Vec<u8>, &'static str)> {
-        let path = url.split(['?', '#']).next()?.trim_start_matches('/');
+    pub fn file(&self, path: &str) -> Option<(Vec<u8>, &'static str)> {
+        let path = path.trim_start_matches('/');
         let path = Path::new(if path.is_empty() { "index.html" } else { path });
         let is_plain = |part: Component<'_>| match part {
             Component::Normal(name) => !name.to_string_lossy().starts_with('.'),
@@ -87,7 +92,7 @@ mod tests {
         std::os::unix::fs::symlink(outer.path().join("secret.json"), folder.join("link.json"))
             .unwrap();
         let page = Page::new(fs::canonicalize(&folder).unwrap());
-        assert_eq!(page.file("/?x=1").unwrap().0, b"<p>");
+        assert_eq!(page.file("/").unwrap().0, b"<p>");
         assert_eq!(page.file("/examples/a.json").unwrap().1, ENDINGS[3].1);
         for url in [
             "/notes.zip",

@@ -12,7 +12,9 @@ use std::time::Duration;
 use client::Error;
 
 pub use plc_isa::Parity;
-pub use serial::SerialSettings;
+pub use serial::{SerialSettings, open_port as open_serial};
+pub use stream::{is_only_late, reason as reason_of};
+pub use tcp::connect as open_tcp;
 
 /// A way to the PLC that is open.
 pub trait Transport: Send {

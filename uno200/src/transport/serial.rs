@@ -87,11 +87,17 @@ pub(super) fn open(settings: &SerialSettings) -> Result<Serial, Error> {
         Some(name) => name.clone(),
         None => ports::only_port()?,
     };
-    let kept = keep_dtr(&name);
-    let builder = serialport::new(&name, settings.baud)
+    let port = open_port(&name, settings.baud, settings.parity)?;
+    Ok(Serial { port, framing: Framing::Rtu { unit: settings.unit, baud: settings.baud } })
+}
+
+/// Opens a port as it is set for a PLC. Reading waits 50 ms at most.
+pub fn open_port(name: &str, baud: u32, parity: Parity) -> Result<Box<dyn SerialPort>, Error> {
+    let kept = keep_dtr(name);
+    let builder = serialport::new(name, baud)
         .data_bits(DataBits::Eight)
         .stop_bits(StopBits::One)
-        .parity(match settings.parity {
+        .parity(match parity {
             Parity::None => serialport::Parity::None,
             Parity::Even => serialport::Parity::Even,
             Parity::Odd => serialport::Parity::Odd,
@@ -100,9 +106,9 @@ pub(super) fn open(settings: &SerialSettings) -> Result<Serial, Error> {
     // Elsewhere DTR stays as the system has it: what is switched off now resets the board when it
     // comes on again.
     let builder = if cfg!(windows) { builder.dtr_on_open(false) } else { builder };
-    let port = builder.open().map_err(|error| not_opened(&name, &error))?;
+    let port = builder.open().map_err(|error| not_opened(name, &error))?;
     drop(kept);
-    Ok(Serial { port, framing: Framing::Rtu { unit: settings.unit, baud: settings.baud } })
+    Ok(port)
 }
 
 /// Has the system leave DTR on when the port is closed, so that the next opening is no edge of it

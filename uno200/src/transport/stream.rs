@@ -17,7 +17,7 @@ pub(super) trait Stream {
 }
 
 /// Why bytes do not get through, in words that help; else the system's.
-fn reason(error: &io::Error) -> String {
+pub fn reason(error: &io::Error) -> String {
     match error.kind() {
         ErrorKind::BrokenPipe
         | ErrorKind::ConnectionReset
@@ -28,7 +28,7 @@ fn reason(error: &io::Error) -> String {
 }
 
 /// Whether nothing has come yet: not all systems say it in the same way.
-pub(super) fn is_only_late(error: &io::Error) -> bool {
+pub fn is_only_late(error: &io::Error) -> bool {
     #[cfg(unix)]
     if rustix::io::Errno::from_io_error(error) == Some(rustix::io::Errno::INPROGRESS) {
         return true;

@@ -18,6 +18,12 @@ pub(super) struct Tcp {
 }
 
 pub(super) fn open(address: &str, unit: u8) -> Result<Tcp, Error> {
+    let stream = connect(address)?;
+    Ok(Tcp { stream, framing: Framing::Tcp { unit, transaction: 0 } })
+}
+
+/// Connects to `HOST:PORT`.
+pub fn connect(address: &str) -> Result<TcpStream, Error> {
     let failed = |error: io::Error| {
         let hint = match error.kind() {
             ErrorKind::ConnectionRefused => ": nothing listens there; does `awl-sim --serve` run?",
@@ -32,7 +38,7 @@ pub(super) fn open(address: &str, unit: u8) -> Result<Tcp, Error> {
         match TcpStream::connect_timeout(&place, CONNECT_TIMEOUT) {
             Ok(stream) => {
                 stream.set_nodelay(true).map_err(failed)?;
-                return Ok(Tcp { stream, framing: Framing::Tcp { unit, transaction: 0 } });
+                return Ok(stream);
             }
             Err(error) => last = error,
         }

@@ -1,6 +1,7 @@
 //! The command `uno200` from outside, against a PLC that runs in this process: the simulator's, on
 //! TCP and after a serial port.
 
+mod bridge;
 mod plc;
 mod scenarios;
 #[cfg(unix)]

@@ -2,7 +2,7 @@
 //! threads, clocks or environment, and no random numbers that the operating system seeds.
 
 /// Where such libraries are.
-const LIBRARIES: [&str; 11] = [
+const LIBRARIES: [&str; 12] = [
     "plc/isa/src/",
     "plc/vm/src/",
     "plc/link/src/",
@@ -13,6 +13,7 @@ const LIBRARIES: [&str; 11] = [
     "analysis/src/",
     "ide/core/src/",
     "client/src/",
+    "flash/src/",
     "sim/src/",
 ];
 

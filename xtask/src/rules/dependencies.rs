@@ -19,8 +19,9 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("awl-sim", &["plc-isa", "plc-vm", "plc-link", "diagnostics", "awl-asm", "project", "simavr"]),
     ("virtual-uno", &["simavr"]),
     ("client", &["plc-isa", "plc-vm", "plc-link", "awl-asm"]),
+    ("flash", &["plc-isa"]),
     ("uno200", &["plc-isa", "diagnostics", "awl-asm", "awl-sim", "analysis", "client", "project"]),
-    ("ide-core", &["plc-isa", "diagnostics", "awl-asm", "awl-sim", "analysis", "client"]),
+    ("ide-core", &["plc-isa", "diagnostics", "awl-asm", "awl-sim", "analysis", "client", "flash"]),
     (
         "tests",
         &[
@@ -35,7 +36,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "virtual-uno",
         ],
     ),
-    ("wasm-smoke", &["plc-isa", "awl-sim", "analysis", "client"]),
+    ("wasm-smoke", &["plc-isa", "awl-asm", "awl-sim", "analysis", "client", "flash"]),
     ("xtask", &["plc-isa", "plc-vm", "awl-asm", "awl-sim", "uno200"]),
     ("bind", &[]),
 ];

@@ -1,6 +1,8 @@
 // What the page asks of the core and what it is told, as ide/core/src/protocol.rs has it; what each
 // means is written there.
 
+import type { Parity } from "../ports/port";
+
 export type TargetKind = "simulator" | "virtualUno" | "usb" | "bridge";
 
 export interface File {
@@ -65,6 +67,7 @@ export interface Summary {
 export interface Status {
   target: TargetKind;
   mode: string;
+  loading: { phase: string; percent: number } | null;
   agreement: string;
   scans: number;
   timeMs: number;
@@ -189,6 +192,9 @@ export interface Orders {
   choose: { main: string };
   target: { kind: TargetKind };
   connect: object;
+  downloadFirmware: object;
+  plugged: { network: boolean };
+  unplugged: { why: string };
   disconnect: object;
   download: object;
   run: object;
@@ -225,6 +231,10 @@ interface Events {
   powerOn: { flash: number[] };
   powerOff: object;
   resetBoard: object;
+  openPort: { baud: number; parity: Parity };
+  closePort: object;
+  lines: { on: boolean };
+  askFirmware: object;
   notice: { message: string; bad: boolean };
 }
 

@@ -81,6 +81,7 @@ export class Header {
     this.show({
       target: "simulator",
       mode: "OFFLINE",
+      loading: null,
       agreement: "none",
       scans: 0,
       timeMs: 0,
@@ -168,6 +169,7 @@ function isConnected(mode: string): boolean {
 
 /** Scan time, scans, and what is wrong, in words. */
 export function statusWords(status: Status): string {
+  if (status.loading) return loadingWords(status.loading);
   const words: string[] = [];
   if (status.scanUs) {
     const [least, last, most] = status.scanUs.map(microseconds);
@@ -181,6 +183,20 @@ export function statusWords(status: Status): string {
   if (status.fault) words.push(t("fault", status.fault));
   if (status.lost) words.push(t("linkLost", status.lost));
   return words.join(" · ");
+}
+
+/** How far the writing of a board is, in words. */
+function loadingWords({ phase, percent }: NonNullable<Status["loading"]>): string {
+  switch (phase) {
+    case "writing":
+      return t("loadingWriting", percent);
+    case "verifying":
+      return t("loadingVerifying", percent);
+    case "starting":
+      return t("loadingStarting");
+    default:
+      return t("loadingConnecting");
+  }
 }
 
 function microseconds(us: number): string {

@@ -1,0 +1,113 @@
+// A board at a port, in a real Chromium: a new Uno with the real bootloader at the bridge gets
+// firmware and program, answers, and gets another program by Web Serial, whose port leads to the same
+// board. `node test/board.mjs ADDRESS PORT`; the address has a token, the port is known to the bridge.
+import assert from "node:assert/strict";
+import { chromium } from "playwright-core";
+
+const [, , address, port] = process.argv;
+const PATIENCE = 120_000;
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-sync"],
+});
+const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+page.setDefaultTimeout(PATIENCE);
+const errors = [];
+page.on("pageerror", (error) => errors.push(error.message));
+page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+
+const button = (name) => page.getByRole("button", { name, exact: true });
+const mode = (wanted) => page.getByRole("status").first().filter({ hasText: wanted }).waitFor();
+const dialog = (name) => page.getByRole("dialog", { name });
+const agree = (name, words) =>
+  dialog(name).getByRole("button", { name: words, exact: true }).click();
+
+/** Web Serial whose only port is the bridge's: what it is asked for goes through a WebSocket. */
+await page.addInitScript((name) => {
+  class FakePort {
+    readable = null;
+    writable = null;
+    async open({ baudRate, parity }) {
+      const socket = new WebSocket(`ws://${location.host}/bridge`);
+      socket.binaryType = "arraybuffer";
+      await new Promise((opened) => (socket.onopen = opened));
+      this.socket = socket;
+      const waiting = [];
+      let stream;
+      socket.onmessage = ({ data }) => {
+        if (typeof data !== "string") return stream.enqueue(new Uint8Array(data));
+        waiting.shift()?.(JSON.parse(data));
+      };
+      this.ask = (wish) =>
+        new Promise((told) => {
+          waiting.push(told);
+          socket.send(JSON.stringify(wish));
+        });
+      await this.ask({ do: "hello", session: sessionStorage.getItem("bridge") });
+      const told = await this.ask({ do: "open", name, baud: baudRate, parity });
+      if (told.is !== "done") throw new DOMException(told.message, "NetworkError");
+      this.readable = new ReadableStream({ start: (controller) => (stream = controller) });
+      this.writable = new WritableStream({ write: (bytes) => socket.send(bytes) });
+    }
+    async setSignals({ dataTerminalReady }) {
+      await this.ask({ do: "lines", on: dataTerminalReady });
+    }
+    async close() {
+      await this.ask({ do: "close" });
+      this.socket.close();
+      this.readable = this.writable = null;
+    }
+  }
+  const serial = { requestPort: async () => new FakePort() };
+  Object.defineProperty(navigator, "serial", { value: serial });
+}, port);
+
+await page.goto(`${address}#example=motor`);
+const editor = page.getByRole("textbox", { name: "motor.awl" });
+await editor.waitFor();
+assert.ok(!page.url().includes("token"), "the token stays in the address");
+
+// A new board: its bootloader and nothing else.
+await page.getByRole("combobox", { name: "Target" }).selectOption("Bridge");
+await button("Download").click();
+await dialog("Choose a port").getByLabel("Port").selectOption(port);
+await agree("Choose a port", "Go on");
+await agree("Other firmware", "Write both");
+await mode("LOADING");
+await mode("writing");
+await mode("reading back");
+await mode("RUN");
+
+// It survives a reload, in which the token is gone.
+await button("Connect").click();
+await mode("OFFLINE");
+await page.reload();
+await editor.waitFor();
+await page.getByRole("combobox", { name: "Target" }).selectOption("Bridge");
+await button("Connect").click();
+await agree("Choose a port", "Go on");
+await mode("RUN");
+await button("Stop").click();
+await mode("STOP");
+await button("Connect").click();
+await mode("OFFLINE");
+
+// Another program by Web Serial. The firmware is there, so nobody is asked for it.
+await editor.click();
+await page.keyboard.press("Control+End");
+await page.keyboard.type("\nLD SM0.0\n= Q0.4\n");
+await page.getByRole("combobox", { name: "Target" }).selectOption("Uno on USB");
+await button("Run").click();
+await agree("Choose a port", "Go on");
+await mode("LOADING");
+await mode("RUN");
+await page.getByRole("tab", { name: "Watch", exact: true }).click();
+await page.getByLabel("Operand or symbol").fill("Q0.4");
+await page.keyboard.press("Enter");
+const watch = page.getByRole("tabpanel", { name: "Watch" });
+await watch.getByRole("cell", { name: "1", exact: true }).first().waitFor();
+await button("Connect").click();
+await mode("OFFLINE");
+assert.deepEqual(errors, []);
+await browser.close();
+console.log("the page writes a board");
