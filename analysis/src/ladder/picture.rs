@@ -179,9 +179,13 @@ impl Picture {
 
 /// One is enough; all must be known to be none.
 fn joined(flows: impl Iterator<Item = Option<bool>>) -> Option<bool> {
-    flows.fold(Some(false), |all, flow| match (all, flow) {
-        (Some(true), _) | (_, Some(true)) => Some(true),
-        (Some(false), Some(false)) => Some(false),
-        _ => None,
-    })
+    let mut is_known = true;
+    for flow in flows {
+        match flow {
+            Some(true) => return Some(true),
+            Some(false) => {}
+            None => is_known = false,
+        }
+    }
+    is_known.then_some(false)
 }

@@ -1,3 +1,5 @@
+//! What is drawn of small texts: places, symbols, and why something is not drawn.
+
 use awl_asm::assemble::Assembly;
 use awl_asm::assemble::assemble;
 use diagnostics::Source;

@@ -173,7 +173,7 @@ impl Live<'_> {
             // A counter has power where one of its inputs has.
             let mut powers = element.powers.iter().map(|power| flow(power.net));
             let first = powers.next().flatten();
-            powers.fold(first, |all, power| Some(all? | power?))
+            powers.try_fold(first?, |all, power| Some(all | power?))
         });
         let elements = elements.collect();
         page::Power { nets, elements }

@@ -35,7 +35,8 @@ await page.addInitScript((name) => {
       const waiting = [];
       let stream;
       socket.onmessage = ({ data }) => {
-        if (typeof data !== "string") return stream.enqueue(new Uint8Array(data));
+        // As at a real port, what comes after the reader has gone is lost.
+        if (typeof data !== "string") return stream?.enqueue(new Uint8Array(data));
         waiting.shift()?.(JSON.parse(data));
       };
       this.ask = (wish) =>
@@ -46,7 +47,10 @@ await page.addInitScript((name) => {
       await this.ask({ do: "hello", session: sessionStorage.getItem("bridge") });
       const told = await this.ask({ do: "open", name, baud: baudRate, parity });
       if (told.is !== "done") throw new DOMException(told.message, "NetworkError");
-      this.readable = new ReadableStream({ start: (controller) => (stream = controller) });
+      this.readable = new ReadableStream({
+        start: (controller) => (stream = controller),
+        cancel: () => (stream = undefined),
+      });
       this.writable = new WritableStream({ write: (bytes) => socket.send(bytes) });
     }
     async setSignals({ dataTerminalReady }) {

@@ -78,7 +78,7 @@ const element = (name) => ladder.getByRole("button", { name });
 await element(/^contact HasPiece M0\.0, (open|closed)$/).waitFor();
 await element(/^inverted contact Measured M0\.1, (open|closed)$/).waitFor();
 await element(/^box TON Settle T101, PT = 5, with(out)? power$/).waitFor();
-await ladder.locator(".rail.on").first().waitFor();
+await ladder.locator(".rail.on").first().waitFor({ state: "attached" });
 await element(/^contact AtTop I0\.2/).click();
 await page.locator(".cm-activeLine", { hasText: /^A\s+AtTop/ }).waitFor();
 await element(/^coil S Measure Q0\.3/).focus();

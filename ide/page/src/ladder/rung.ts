@@ -40,13 +40,13 @@ export class Rung {
     for (const [index, shape] of this.shapes.entries()) {
       const state = power?.elements[index] ?? null;
       shape.show(nets, state, lines.get(shape.element.line)?.values ?? []);
-      this.name(shape.group, shape.element, state);
+      this.name(shape.button, shape.element, state);
     }
   }
 
-  private name(group: SVGGElement, element: LadderElement, state: boolean | null): void {
+  private name(button: SVGGElement, element: LadderElement, state: boolean | null): void {
     const name = nameOf(element, state);
-    if (group.getAttribute("aria-label") !== name) group.setAttribute("aria-label", name);
+    if (button.getAttribute("aria-label") !== name) button.setAttribute("aria-label", name);
     const words = t("ladderLines", this.rung.lines[0], this.rung.lines[1]);
     if (this.element.getAttribute("aria-label") !== words)
       this.element.setAttribute("aria-label", words);

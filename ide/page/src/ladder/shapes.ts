@@ -16,7 +16,11 @@ interface Written {
 
 /** An element that is drawn. */
 export class Shape {
+  /** All of it. */
   readonly group: SVGGElement;
+  /** What has the focus and the name. */
+  readonly button: SVGGElement;
+  private picture: SVGGElement;
   private before: [SVGElement, number][] = [];
   private after: SVGElement[] = [];
   private written: Written[] = [];
@@ -32,25 +36,24 @@ export class Shape {
       class: "frame",
     });
     const line = [element.mnemonic, element.pins.map(({ text }) => text).join(", ")].join(" ");
-    this.group = s(
-      "g",
-      { class: `element ${element.shape}`, role: "button", tabindex: -1 },
-      s("title", {}, line),
-      frame,
-    );
+    // Its name says all that is written around it.
+    this.button = s("g", { role: "button", tabindex: -1 }, frame);
+    const picture = s("g", { "aria-hidden": "true" }, s("title", {}, line));
+    this.group = s("g", { class: `element ${element.shape}` }, this.button, picture);
+    this.picture = picture;
     if (element.shape === "box") this.box();
     else this.symbol();
   }
 
   /** A contact or coil. */
   private symbol(): void {
-    const { element, group } = this;
+    const { element, picture } = this;
     const middle = x(element.column) + CELL.width / 2;
     const flow = y(element.row);
     const wide = half(element.symbol);
     this.lead(x(element.column), middle - wide, flow, element.powers[0]?.[2] ?? 0);
     if (element.shape === "contact") {
-      group.append(
+      picture.append(
         s("path", {
           d: `M${middle - wide} ${flow - 12}v24M${middle + wide} ${flow - 12}v24`,
           class: "bars",
@@ -60,12 +63,12 @@ export class Shape {
     } else {
       const arc = (side: 1 | -1) =>
         `M${middle + side * (wide - 5)} ${flow - 13}q${side * 10} 13 0 26`;
-      group.append(s("path", { d: arc(-1) + arc(1), class: "bars" }));
+      picture.append(s("path", { d: arc(-1) + arc(1), class: "bars" }));
     }
     if (element.symbol === "/")
-      group.append(s("path", { d: `M${middle - 7} ${flow + 11}l14 -22`, class: "bars" }));
+      picture.append(s("path", { d: `M${middle - 7} ${flow + 11}l14 -22`, class: "bars" }));
     else if (element.symbol)
-      group.append(
+      picture.append(
         s("text", { x: middle, y: flow + 4.5, "text-anchor": "middle" }, element.symbol),
       );
     for (const pin of element.pins) {
@@ -76,7 +79,7 @@ export class Shape {
   }
 
   private box(): void {
-    const { element, group } = this;
+    const { element, picture } = this;
     const { column, row, rows, powers, pins } = element;
     const left = x(column + 1);
     const right = left + CELL.width;
@@ -84,7 +87,7 @@ export class Shape {
     const top = row * CELL.height + (above ? 18 : 6);
     const last = powers.at(-1)?.[1] ?? 0;
     const beside = (side: string) => pins.filter((pin) => pin.side === side);
-    group.append(
+    picture.append(
       s("rect", {
         x: left,
         y: top,
@@ -101,14 +104,14 @@ export class Shape {
     if (above) this.one(above, left + CELL.width / 2, top - 5, "middle", CHARACTERS + 8);
     for (const [name, at, net] of powers) {
       this.lead(x(column), left, y(row + at), net);
-      group.append(s("text", { x: left + 6, y: y(row + at) + 4 }, name));
+      picture.append(s("text", { x: left + 6, y: y(row + at) + 4 }, name));
     }
     for (const [index, pin] of beside("left").entries())
       this.pin(pin, left, y(row + last) + (index + 1) * PIN_PITCH, -1);
     for (const [index, pin] of beside("right").entries())
       this.pin(pin, right, y(row) + (index + 1) * PIN_PITCH, 1);
     if (element.output === null) return;
-    group.append(s("text", { x: right - 6, y: y(row) + 4, "text-anchor": "end" }, "ENO"));
+    picture.append(s("text", { x: right - 6, y: y(row) + 4, "text-anchor": "end" }, "ENO"));
     this.after.push(this.line(right, x(column + element.columns), y(row)));
   }
 
@@ -116,7 +119,7 @@ export class Shape {
   private pin(pin: LadderPin, edge: number, at: number, side: 1 | -1): void {
     const anchor = side < 0 ? "end" : "start";
     const inside = side < 0 ? "start" : "end";
-    this.group.append(
+    this.picture.append(
       s("path", { d: `M${edge} ${at}h${side * 7}`, class: "bars" }),
       s("text", { x: edge - side * 6, y: at + 4, "text-anchor": inside }, fit(pin.name, 8)),
     );
@@ -125,7 +128,7 @@ export class Shape {
 
   private line(from: number, to: number, at: number): SVGElement {
     const line = s("path", { d: `M${from} ${at}H${to}`, class: "wire" });
-    this.group.append(line);
+    this.picture.append(line);
     return line;
   }
 
@@ -145,7 +148,7 @@ export class Shape {
     );
     this.written.push({ pin, element, name, value, characters });
     element.prepend(s("title", {}, title(pin)));
-    this.group.append(element);
+    this.picture.append(element);
   }
 
   /** An operand in two lines: its value is in place of its other name. */
@@ -155,7 +158,7 @@ export class Shape {
     const element = s("text", { "text-anchor": "middle", class: "operand" }, name, value);
     this.written.push({ pin, element, name, value, characters: 0 });
     element.prepend(s("title", {}, title(pin)));
-    this.group.append(element);
+    this.picture.append(element);
   }
 
   /** The operand that is written where this is. */

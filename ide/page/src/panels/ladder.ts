@@ -143,7 +143,7 @@ export class Ladder {
       h("p", { class: "part" }, t("ladderPartOf", network.first, last, network.count));
     this.place.replaceChildren(...(part ? [part] : []), ...parts);
     this.show();
-    this.shapes()[0]?.group.setAttribute("tabindex", "0");
+    this.shapes()[0]?.button.setAttribute("tabindex", "0");
   }
 
   /** Why a rung is not drawn. */
@@ -210,9 +210,9 @@ export class Ladder {
   }
 
   private focus(shape: Shape): void {
-    for (const { group } of this.shapes()) group.setAttribute("tabindex", "-1");
-    shape.group.setAttribute("tabindex", "0");
-    shape.group.focus();
+    for (const { button } of this.shapes()) button.setAttribute("tabindex", "-1");
+    shape.button.setAttribute("tabindex", "0");
+    shape.button.focus();
   }
 
   private keys(event: KeyboardEvent): void {
@@ -234,7 +234,7 @@ export class Ladder {
       const next = shapes[goal];
       if (next) this.focus(next);
     } else if (event.key === "Enter" && values.length > 0)
-      valuesMenu(this.core, values, shape.group);
+      valuesMenu(this.core, values, shape.button);
     else if (event.key === "Enter" || event.key === " ") this.goTo(shape.element.line);
     else return;
     event.preventDefault();
