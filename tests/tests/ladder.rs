@@ -181,6 +181,10 @@ fn compare(text: &str, assembly: &Assembly, source: &Source, rng: &mut Rng, coun
     }
 }
 
+#[expect(
+    clippy::too_many_lines,
+    reason = "one run of a program, scan by scan, and what is drawn beside it"
+)]
 fn compare_some(
     text: &str,
     assembly: &Assembly,

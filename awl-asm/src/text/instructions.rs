@@ -5,8 +5,7 @@ use plc_isa::{Instruction, Op, Relation};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::text::ast::{self, Constant, Operand, Span, Statement, UnitKind, Value};
-use crate::text::foreign::together::{self, Together};
-use crate::text::foreign::{self, Instead, Meant};
+use crate::text::foreign::{self, Instead, Meant, Together};
 use crate::text::lexer::{Ahead, Cut};
 use crate::text::locals::PARAMETERS_MAX;
 use crate::text::mnemonics::{
@@ -102,7 +101,7 @@ impl<'s> Parser<'s> {
 
     /// A first word that is none.
     pub(crate) fn unknown(&mut self, word: Span) {
-        if let Some(way) = self.text.get(word.start as usize..).and_then(together::find) {
+        if let Some(way) = self.text.get(word.start as usize..).and_then(foreign::together) {
             return self.together(word, way);
         }
         let text = word.text(self.text);

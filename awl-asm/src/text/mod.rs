@@ -12,6 +12,7 @@ mod directives;
 pub(crate) mod foreign;
 pub mod format;
 pub(crate) mod german;
+mod hints;
 mod instructions;
 mod lexer;
 mod literal;

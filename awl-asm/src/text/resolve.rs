@@ -1,18 +1,19 @@
 //! What the operands of a program mean: constants and addresses at once, symbols when all of them
 //! are known.
 
-use plc_isa::{AnalogInput, Area, Op};
+use plc_isa::{AnalogInput, Area, Op, Type};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::text::address::{Address, AddressError};
 use crate::text::ast::{
     Instruction, Name, Named, Program, Span, Statement, Unit, UnitId, UnitKind, Value, Variable,
 };
+use crate::text::foreign::operands as foreign_operands;
 use crate::text::foreign::operands::Preset;
-use crate::text::foreign::{self, operands as foreign_operands};
+use crate::text::hints;
 use crate::text::literal;
 use crate::text::locals::is_same_name;
-use crate::text::mnemonics::{Meaning, meaning, takes_text, written_operands};
+use crate::text::mnemonics::{takes_text, written_operands};
 use crate::text::qualified;
 use crate::text::suggest::{Suggester, nearby_address};
 use crate::text::symbols::{Found, SymbolTable, written};
@@ -53,20 +54,9 @@ pub(crate) fn routine_kind(op: Op, operand: usize) -> Option<UnitKind> {
 }
 
 /// The type of what an operand of an instruction leads to, if it leads to anything.
-fn wanted(entry: &plc_isa::Instruction, operand: usize) -> Option<plc_isa::Type> {
+fn wanted(entry: &plc_isa::Instruction, operand: usize) -> Option<Type> {
     let kinds = entry.forms.first()?.kinds.iter().filter(|kind| kind.is_written());
     kinds.clone().nth(operand)?.value_type()
-}
-
-/// An address of this type, and the type as a variable has it.
-fn example(wanted: Option<plc_isa::Type>) -> (&'static str, &'static str) {
-    match wanted {
-        None | Some(plc_isa::Type::Bit) => ("M0.0", "BOOL"),
-        Some(plc_isa::Type::Byte | plc_isa::Type::Text) => ("VB0", "BYTE"),
-        Some(plc_isa::Type::Word) => ("VW0", "INT"),
-        Some(plc_isa::Type::Double) => ("VD0", "DINT"),
-        Some(plc_isa::Type::Real) => ("VD0", "REAL"),
-    }
 }
 
 /// What the place of an operand says about it.
@@ -78,7 +68,7 @@ struct OperandPosition<'p> {
     routine: Option<UnitKind>,
     takes_text: bool,
     /// What it leads to, as far as the instruction tells.
-    wanted: Option<plc_isa::Type>,
+    wanted: Option<Type>,
 }
 
 impl OperandPosition<'_> {
@@ -229,11 +219,11 @@ impl Resolver<'_> {
             match self.value(operand.span, &place, &mut notes) {
                 Ok(value) => operand.value = value,
                 Err(diagnostic) if matches!(instruction.entry.op, Op::Jmp | Op::Lbl) => {
-                    diagnostics.push(label(*diagnostic, operand.span.text(self.text)));
+                    diagnostics.push(hints::label(*diagnostic, operand.span.text(self.text)));
                 }
                 Err(diagnostic) => {
                     // What is after the sign of a comment was not meant as operands.
-                    if is_comment_sign(operand.span.text(self.text)) {
+                    if hints::is_comment_sign(operand.span.text(self.text)) {
                         let comment = operand.span.end..=instruction.span.end;
                         diagnostics.retain(|other| !comment.contains(&other.span.start));
                     }
@@ -406,9 +396,9 @@ impl Resolver<'_> {
             .suggester
             .nearest(name, known.iter().map(String::as_str).filter(|name| !name.is_empty()));
         diagnostic.suggestion = near.map(str::to_owned);
-        match no_routine(kind, name) {
+        match hints::no_routine(kind, name) {
             Some(other) => diagnostic.help = vec![other],
-            None if known.is_empty() => diagnostic.help = none_of(kind, name),
+            None if known.is_empty() => diagnostic.help = hints::none_of(kind, name),
             None => diagnostic.help.extend(foreign_operands::way(name).map(str::to_owned)),
         }
         if diagnostic.suggestion.is_none() && diagnostic.help.is_empty() {
@@ -433,7 +423,7 @@ impl Resolver<'_> {
                 }
                 None => {
                     let name = text.trim_start_matches('#');
-                    let kind = example(place.wanted).1;
+                    let kind = hints::example(place.wanted).1;
                     format!(
                         "a variable of the whole program is written without #, `{name}`, and \
                          declared by `//# var {name} {kind}`"
@@ -450,7 +440,7 @@ impl Resolver<'_> {
         text: &str,
         place: &OperandPosition<'_>,
     ) -> Result<Value, Box<Diagnostic>> {
-        if let Some(diagnostic) = part_of_analog(span, text) {
+        if let Some(diagnostic) = hints::part_of_analog(span, text) {
             return Err(Box::new(diagnostic));
         }
         match Address::parse(text) {
@@ -470,7 +460,7 @@ impl Resolver<'_> {
             Err(AddressError::NotAnAddress) if !text.contains(|c: char| c.is_alphanumeric()) => {
                 let message = format!("{text}: neither an address nor a constant nor a symbol");
                 let mut diagnostic = Diagnostic::new(Code::Syntax, span, message);
-                diagnostic.help.extend(sign_hint(text).map(str::to_owned));
+                diagnostic.help.extend(hints::sign_hint(text).map(str::to_owned));
                 Err(Box::new(diagnostic))
             }
             Err(AddressError::NotAnAddress) => Err(self.unknown_symbol(span, text, false, place)),
@@ -494,15 +484,15 @@ impl Resolver<'_> {
             Some(near) => Some(written(near)),
             None => foreign_operands::same(name)
                 .or_else(|| foreign_operands::number(name))
-                .or_else(|| bare_fraction(name))
+                .or_else(|| hints::bare_fraction(name))
                 .or_else(|| nearby_address(name)),
         };
         diagnostic.help.extend(foreign_operands::immediate(name));
         if !is_quoted {
             let way = foreign_operands::way(name).filter(|_| diagnostic.suggestion.is_none());
-            let way = way.or_else(|| word_hint(name)).map(str::to_owned);
+            let way = way.or_else(|| hints::word_hint(name)).map(str::to_owned);
             let way = way.or_else(|| foreign_operands::inverted(name));
-            diagnostic.help.extend(way.or_else(|| in_mnemonic(name)));
+            diagnostic.help.extend(way.or_else(|| hints::in_mnemonic(name)));
         }
         if let (None, Some(Err(AddressError::OutOfRange(message, near)))) =
             (&diagnostic.suggestion, name.strip_prefix('%').map(Address::parse))
@@ -511,180 +501,12 @@ impl Resolver<'_> {
             diagnostic.suggestion = near;
         }
         if diagnostic.suggestion.is_none() && diagnostic.help.is_empty() {
-            diagnostic.help.push(declaration(name.trim_matches('"'), place));
+            diagnostic.help.push(hints::declaration(
+                name.trim_matches('"'),
+                place.wanted,
+                place.takes_text,
+            ));
         }
         Box::new(diagnostic)
     }
-}
-
-/// How a name is declared that the program has not.
-fn declaration(name: &str, place: &OperandPosition<'_>) -> String {
-    if let Some(unit) = UnitId::parse(name) {
-        return format!(
-            "{unit} is a routine, and only the first operand of its instruction names one"
-        );
-    }
-    if place.takes_text {
-        return format!("a text is in double quotes: `\"{name}\"`");
-    }
-    if name.contains(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | ' ' | '-'))) {
-        return "an address is written like I0.0, Q0.0, M0.0, VB0, VW0 or VD0, a number like 10, \
-                16#FF or 1.5; a name has letters, digits and `_`"
-            .to_owned();
-    }
-    let (address, kind) = example(place.wanted);
-    if address == "VB0" && name.chars().count() == 1 {
-        return format!(
-            "a character is in single quotes, `'{name}'`; a symbol is declared by `//# symbol {name} {address}`"
-        );
-    }
-    let written = written(name);
-    format!(
-        "a symbol is declared by `//# symbol {written} {address}`, with its own address, or in a \
-         table for --symbols; `//# var {name} {kind}` gives it a free one"
-    )
-}
-
-/// `==I` as in `LD VW0 ==I 5`.
-fn in_mnemonic(name: &str) -> Option<String> {
-    let (relation, width) = foreign::comparison(name)?;
-    let letter = width.letter();
-    Some(format!("the comparison is part of the mnemonic: `LD{letter}{relation} V{letter}0, 5`"))
-}
-
-/// What helps where a program has no routine of a kind.
-fn none_of(kind: UnitKind, name: &str) -> Vec<String> {
-    let (header, end, what, letters) = match kind {
-        UnitKind::Interrupt => {
-            ("INTERRUPT_BLOCK", "END_INTERRUPT_BLOCK", "interrupt routine", "INT")
-        }
-        _ => ("SUBROUTINE_BLOCK", "END_SUBROUTINE_BLOCK", "subroutine", "SBR"),
-    };
-    // `FC1`, `SBR_1` and `1` are numbers.
-    let digits = name.trim_start_matches(|c: char| c.is_alphabetic() || c == '_');
-    let is_number = ["", "FC", "FB", "SFC", "SFB", "UP", "SBR_", "INT_", "SBR", "INT"]
-        .iter()
-        .any(|letters| letters.len() + digits.len() == name.len() && name.starts_with(letters));
-    let number = digits.parse::<u8>().ok().filter(|_| is_number);
-    let routine = match number {
-        Some(number) => format!("Name:{letters}{number}"),
-        None => format!("{name}:{letters}0"),
-    };
-    let mut help = vec![format!(
-        "the program has no {what}. With one, all of it is in blocks: `ORGANIZATION_BLOCK \
-         MAIN:OB1`, `BEGIN`, the main program, `END_ORGANIZATION_BLOCK`, then `{header} \
-         {routine}`, `BEGIN`, its lines, `{end}`, in this file or one that is given with it"
-    )];
-    let call = if kind == UnitKind::Interrupt { "ATCH" } else { "CALL" };
-    let is_written = number.is_some_and(|number| name == format!("{letters}{number}"));
-    if let Some(number) = number.filter(|_| !is_written) {
-        help.push(format!("it is called by its number, `{call} {letters}{number}`, or its name"));
-    }
-    help
-}
-
-/// What is no routine, but was meant as something else.
-fn no_routine(kind: UnitKind, name: &str) -> Option<String> {
-    let is_number = name.bytes().all(|byte| byte.is_ascii_digit());
-    if kind == UnitKind::Interrupt && is_number {
-        return Some(format!("the routine is first, then the event: `ATCH INT0, {name}`"));
-    }
-    let Meaning::Instruction(entry, _) = meaning(name)? else { return None };
-    let instruction = entry.mnemonic();
-    Some(match plc_isa::TimerKind::started_by(entry.op) {
-        Some(_) => format!(
-            "{instruction} is an instruction: `LD I0.0` is its input, then `{instruction} T37, 20`, \
-             and `LD T37` its output"
-        ),
-        None => format!("{instruction} is an instruction of its own, without CALL"),
-    })
-}
-
-/// What is wrong with the number of a label.
-fn label(mut diagnostic: Diagnostic, text: &str) -> Diagnostic {
-    diagnostic.message = format!("{text}: a label is a number 0 to 255");
-    diagnostic.suggestion = label_number(text);
-    diagnostic.help = vec!["labels are numbers: `JMP 1` goes to `LBL 1`".to_owned()];
-    diagnostic
-}
-
-/// A bit, byte or double word of an analog input or output, which are words.
-fn part_of_analog(span: Span, text: &str) -> Option<Diagnostic> {
-    let (letters, number) = text.split_at(text.find(|c: char| c.is_ascii_digit())?);
-    let letters = letters.to_ascii_uppercase();
-    let has_bit = number.contains('.');
-    let (what, prefix) = match (letters.as_str(), has_bit) {
-        ("AI" | "AIW" | "AE" | "AEW", true) | ("AIB" | "AID" | "AEB" | "AED", _) => {
-            ("input", "AIW")
-        }
-        ("AQ" | "AQW" | "AA" | "AAW", true) | ("AQB" | "AQD" | "AAB" | "AAD", _) => {
-            ("output", "AQW")
-        }
-        _ => return None,
-    };
-    let word = Address::parse(&format!("{prefix}{}", number.split('.').next()?)).ok()?;
-    let diagnostic = |message: String| Diagnostic::new(Code::AddressRange, span, message);
-    if !has_bit {
-        return Some(
-            diagnostic(format!("{text}: an analog {what} is a word"))
-                .suggest(word.to_string())
-                .help(match what {
-                    "input" => {
-                        format!("`MOVW {word}, VW0` copies it, `LDW>= {word}, 16000` compares it")
-                    }
-                    _ => format!("`MOVW VW0, {word}` writes it"),
-                }),
-        );
-    }
-    let diagnostic = diagnostic(format!("{text}: an analog {what} is a word and has no bits"));
-    Some(match what {
-        "input" => diagnostic.help(format!("compare it, for example `LDW>= {word}, 16000`")),
-        _ => diagnostic.help(format!("write all of it, for example `MOVW 16000, {word}`")),
-    })
-}
-
-const ONE_A_LINE: &str = "one instruction is on a line";
-
-/// Whether a comment was probably meant to begin here.
-fn is_comment_sign(text: &str) -> bool {
-    text.starts_with(['#', '-', '–', '—', '\'', '!', '|']) && !text.contains(char::is_alphanumeric)
-}
-
-/// What was probably meant by a sign where an operand should be.
-fn sign_hint(text: &str) -> Option<&'static str> {
-    match text {
-        ":=" => Some("operands are separated by commas, without signs between them"),
-        "=" | "==" => Some(ONE_A_LINE),
-        "<" | ">" | "<=" | ">=" | "<>" => Some("words are compared by LDW> MW0, 5 and its like"),
-        "+" => Some("a sign belongs to a number, such as +5; operands are added by `+I VW0, VW2`"),
-        _ if is_comment_sign(text) => Some("a comment begins with //"),
-        _ => None,
-    }
-}
-
-/// What was probably meant by a word where an operand should be.
-fn word_hint(name: &str) -> Option<&'static str> {
-    if name.eq_ignore_ascii_case("NOT") {
-        return Some("LDN, AN and ON take the inverted bit");
-    }
-    let is_word = foreign::comparison(name).is_none()
-        // Small letters alone are names of variables.
-        && (name.len() > 1 || name.chars().all(char::is_uppercase))
-        && (foreign::is_known(name) || meaning(name).is_some());
-    is_word.then_some(ONE_A_LINE)
-}
-
-/// A real without the digit before its point: `-.5` as `-0.5`.
-fn bare_fraction(text: &str) -> Option<String> {
-    let (sign, fraction) = text.split_at(text.find('.')?);
-    let meant = format!("{sign}0{fraction}");
-    let is_real = matches!(literal::parse(&meant), Ok(Value::Real(_)));
-    (matches!(sign, "" | "+" | "-") && is_real).then_some(meant)
-}
-
-/// Labels have numbers, not names: LBL1 is 1.
-fn label_number(name: &str) -> Option<String> {
-    let (letters, digits) = name.split_at_checked(3)?;
-    let is_number = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
-    (letters.eq_ignore_ascii_case("LBL") && is_number).then(|| digits.to_owned())
 }

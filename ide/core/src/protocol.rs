@@ -208,7 +208,8 @@ pub enum Event {
     PowerOff,
     /// The port to a target outside is to be opened, 8 bits and one stop bit; one that was opened
     /// before, again. Opening it may reset a board, so people are asked before the first time.
-    /// Answer: [`TargetWish::Plugged`] or [`TargetWish::Unplugged`]. `parity`: `none`, `even`, `odd`.
+    /// Answer: [`TargetWish::Plugged`] or [`TargetWish::Unplugged`]. `parity`: `none`, `even`,
+    /// `odd`.
     OpenPort { baud: u32, parity: String },
     /// The port is to be closed.
     ClosePort,

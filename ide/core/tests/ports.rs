@@ -289,7 +289,10 @@ fn a_plc_on_the_network_is_asked_and_not_written() {
     assert_eq!(sent.expect("it is asked at once")[2..4], [0, 0]);
     for wish in [TargetWish::Download, TargetWish::Reset] {
         let events = ask(Wish::Target(wish));
-        let is_refused = |event: &Event| matches!(event, Event::Refused { message, .. } if message.contains("on the network"));
+        let is_refused = |event: &Event| match event {
+            Event::Refused { message, .. } => message.contains("on the network"),
+            _ => false,
+        };
         assert!(events.iter().any(is_refused), "{events:?}");
     }
 }

@@ -1,6 +1,7 @@
 //! What all libraries do together, told in a text: a program assembled, run with its plant, asked
-//! over its line, shown, traced, edited, written to a board. The same function natively and as WebAssembly; no file,
-//! clock or socket on the way. That both say the same, `cargo xtask wasm` checks.
+//! over its line, shown, traced, edited, written to a board. The same function natively and as
+//! WebAssembly; no file, clock or socket on the way. That both say the same, `cargo xtask wasm`
+//! checks.
 
 mod ask;
 mod digest;

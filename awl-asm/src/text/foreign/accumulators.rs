@@ -201,7 +201,10 @@ fn moved(first: &str, steps: &[Step], targets: &[String]) -> Option<Vec<String>>
     let mut width = first_width(first, steps, targets)?;
     // Where the target is read after its first value has come, or the value changes its width on
     // the way, it is made elsewhere.
-    let is_read = |step: &Step| matches!(step, Step::Combine { operand, .. } if operand.eq_ignore_ascii_case(target));
+    let is_read = |step: &Step| match step {
+        Step::Combine { operand, .. } => operand.eq_ignore_ascii_case(target),
+        Step::Change { .. } | Step::Convert { .. } => false,
+    };
     let converts = steps.iter().any(|step| matches!(step, Step::Convert { .. }));
     let is_apart = converts || steps.iter().any(is_read);
     let place = if is_apart { "AC0" } else { target.as_str() };

@@ -1,5 +1,5 @@
-//! Times as presets of timers: a number of counts that is exact, of the timer at hand or of one that
-//! can count so finely.
+//! Times as presets of timers: a number of counts that is exact, of the timer at hand or of one
+//! that can count so finely.
 
 use plc_isa::{Op, TimerKind, timer_resolution};
 

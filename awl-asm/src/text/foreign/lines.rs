@@ -26,8 +26,8 @@ const COMMAS: &str = "operands are separated by commas, and the target is the la
 const NEEDS_CONTACT: &str = "it executes while the contact before it is 1; `LD SM0.0` always is";
 /// What blocks of other systems call their parameters.
 const PARAMETERS: [&str; 10] = ["IN", "PT", "Q", "ET", "CU", "CD", "PV", "CV", "EN", "ENO"];
-const NO_NAMES: &str = "operands have an order and no names: `LD I0.0`, `TON T37, 20`, and `LD T37` \
-     is what comes out";
+const NO_NAMES: &str = "operands have an order and no names: `LD I0.0`, `TON T37, 20`, and \
+     `LD T37` is what comes out";
 const LOOP: &str = "AWL loops with `FOR VW0, 1, 10` and `NEXT`, after a contact such as `LD SM0.0`";
 
 /// Whether an instruction of the S7-200 is written as in structured text: with brackets or `:=`

@@ -3,6 +3,7 @@
 //! where it is read.
 
 mod accumulators;
+mod apart;
 mod boxes;
 mod conditional;
 mod controllers;
@@ -14,13 +15,15 @@ mod preset_first;
 mod row;
 mod step7;
 mod structured;
-pub(crate) mod together;
+mod together;
 pub(crate) mod width;
 mod words;
 
 pub(crate) use accumulators::comparison;
+pub(crate) use apart::apart;
 pub(crate) use lines::is_structured;
 pub(crate) use row::{Instead, Meant};
+pub(crate) use together::Together;
 pub(crate) use words::{is_german, is_known};
 
 /// What a line was meant to be that begins with no instruction of the S7-200. `rest` is what is
@@ -41,43 +44,11 @@ pub(crate) fn sized(mnemonic: &str, rest: &str) -> Option<&'static str> {
     width::of(rest)?.sibling(mnemonic)
 }
 
-/// The lines for an instruction that has its result apart from its operands in other languages, as
-/// in `+I VW0, VW2, VW4`; `None` where it has as many operands as here.
-pub(crate) fn apart(mnemonic: &str, operands: &[String]) -> Option<Vec<String>> {
-    let last = mnemonic.chars().last()?;
-    let letter = match last {
-        'B' | 'W' | 'D' | 'R' => last,
-        'I' => 'W',
-        _ => return None,
-    };
-    let copy = |from: &String, to: &String| {
-        (!from.eq_ignore_ascii_case(to)).then(|| format!("MOV{letter} {from}, {to}"))
-    };
-    let is_one_of = |starts: &[&str]| starts.iter().any(|start| mnemonic.starts_with(start));
-    match operands {
-        [one, count, to] if is_one_of(&["SL", "SR", "RL", "RR"]) => {
-            Some(copy(one, to).into_iter().chain([format!("{mnemonic} {to}, {count}")]).collect())
-        }
-        [one, other, to] if is_one_of(&["+", "-", "*", "/", "AND", "OR", "XOR"]) => {
-            let is_target = |text: &String| text.eq_ignore_ascii_case(to);
-            let swaps = !is_one_of(&["-", "/"]);
-            match (is_target(one), is_target(other)) {
-                (true, _) => Some(vec![format!("{mnemonic} {other}, {to}")]),
-                (false, true) if swaps => Some(vec![format!("{mnemonic} {one}, {to}")]),
-                (false, true) => None,
-                (false, false) => Some(
-                    copy(one, to)
-                        .into_iter()
-                        .chain([format!("{mnemonic} {other}, {to}")])
-                        .collect(),
-                ),
-            }
-        }
-        [one, to] if is_one_of(&["INC", "DEC", "INV"]) => {
-            Some(copy(one, to).into_iter().chain([format!("{mnemonic} {to}")]).collect())
-        }
-        _ => None,
-    }
+/// What the lines are together that begin where the text begins, if they are anything.
+pub(crate) fn together(text: &str) -> Option<Together> {
+    accumulators::find(text)
+        .or_else(|| preset_first::find(text))
+        .or_else(|| conditional::find(text))
 }
 
 #[cfg(test)]
@@ -99,22 +70,5 @@ mod tests {
         assert_eq!(sized("MOVB", " VW0, VW2"), Some("MOVW"));
         assert_eq!(sized("SRB", " VD0, 1"), Some("SRD"));
         assert_eq!(sized("TON", " VD0, 1"), None);
-    }
-
-    #[test]
-    fn results_apart_from_the_operands() {
-        let lines = |mnemonic, operands: &[&str]| {
-            let operands: Vec<String> = operands.iter().map(|one| (*one).to_owned()).collect();
-            apart(mnemonic, &operands).map_or_else(String::new, |code| code.join("; "))
-        };
-        assert_eq!(lines("+I", &["VW0", "VW2", "VW4"]), "MOVW VW0, VW4; +I VW2, VW4");
-        assert_eq!(lines("+I", &["1", "VW0", "VW0"]), "+I 1, VW0");
-        assert_eq!(lines("-I", &["VW0", "1", "VW0"]), "-I 1, VW0");
-        assert_eq!(lines("-I", &["1", "VW0", "VW0"]), "");
-        assert_eq!(lines("*R", &["VD0", "2.0", "VD4"]), "MOVR VD0, VD4; *R 2.0, VD4");
-        assert_eq!(lines("SLW", &["VW0", "2", "VW4"]), "MOVW VW0, VW4; SLW VW4, 2");
-        assert_eq!(lines("INCW", &["VW0", "VW0"]), "INCW VW0");
-        assert_eq!(lines("INCW", &["VW0", "VW2"]), "MOVW VW0, VW2; INCW VW2");
-        assert_eq!(lines("TON", &["T37", "20", "VW0"]), "");
     }
 }

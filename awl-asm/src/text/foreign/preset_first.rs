@@ -28,8 +28,8 @@ pub(super) fn find(text: &str) -> Option<Together> {
     });
     let is_extended_pulse = start.eq_ignore_ascii_case("SE");
     let pulse = is_extended_pulse.then(|| {
-        "that is `SE` of German STEP 7; the extended pulse of international STEP 7 is made of `EU`, \
-         `S`, `TON` and `R`"
+        "that is `SE` of German STEP 7; the extended pulse of international STEP 7 is made of \
+         `EU`, `S`, `TON` and `R`"
             .to_owned()
     });
     Some(Together {

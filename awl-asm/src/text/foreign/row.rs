@@ -1,6 +1,7 @@
 //! A word of another controller, and what an S7-200 has for it. Which words there are is in the
 //! tables.
 
+use super::apart::apart;
 use super::width;
 
 /// What was probably meant.
@@ -74,7 +75,7 @@ impl Row {
         let operands: Vec<String> =
             rest.split(',').map(|operand| operand.trim().to_owned()).collect();
         let instruction = meant.stand_in.as_deref();
-        let Some(code) = instruction.and_then(|mnemonic| super::apart(mnemonic, &operands)) else {
+        let Some(code) = instruction.and_then(|mnemonic| apart(mnemonic, &operands)) else {
             return meant;
         };
         let lines: Vec<String> = code.iter().map(|line| format!("`{line}`")).collect();

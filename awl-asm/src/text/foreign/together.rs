@@ -1,7 +1,5 @@
 //! Lines of other languages that only mean something together: one answer for all of them. What
-//! they are here is said where their language is; this finds where they begin and end.
-
-use super::{accumulators, conditional, preset_first};
+//! they are here is said where their language is.
 
 /// Lines that are something together.
 #[derive(Debug, PartialEq, Eq)]
@@ -16,13 +14,6 @@ pub(crate) struct Together {
     pub(crate) len: usize,
     /// The mnemonic that takes their place for the logic stack.
     pub(crate) stand_in: Option<&'static str>,
-}
-
-/// Those that begin where the text begins.
-pub(crate) fn find(text: &str) -> Option<Together> {
-    accumulators::find(text)
-        .or_else(|| preset_first::find(text))
-        .or_else(|| conditional::find(text))
 }
 
 /// Instructions of a text: first word and operand of each line that has one, up to a setting.
