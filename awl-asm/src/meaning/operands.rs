@@ -57,6 +57,11 @@ pub(crate) fn way(source: &Instruction, wanted: usize, takes_real: bool) -> Opti
                 2000 / base
             ))
         }
+        ("FOR", 4) => Some(
+            "FOR counts by ones: it may count the rounds, and the value is calculated inside, as \
+             in `MOVW VW0, VW10`, `*I 2, VW10`"
+                .to_owned(),
+        ),
         ("CTU" | "CTD" | "CTUD", 1) => {
             let counter = first.map_or("C1".to_owned(), |address| address.to_string());
             Some(format!("the preset is named, too: `{name} {counter}, 10`"))
@@ -140,6 +145,24 @@ fn way_of_constant(source: &Instruction, position: usize, value: i64) -> Option<
             value / 8,
             value % 8
         )),
+        ("LD" | "LDN" | "A" | "AN" | "O" | "ON", 0) if fits(0, 1) => {
+            let is_on = (value == 1) != name.ends_with('N');
+            let bit = if is_on { "`LD SM0.0` is always 1" } else { "`LDN SM0.0` is always 0" };
+            Some(format!("a contact reads a bit; {bit}"))
+        }
+        ("TON" | "TOF" | "TONR", 0) if fits(0, 255) => {
+            if let Some(Value::Address(timer @ Address::Timer(_))) =
+                source.operands.get(1).map(|operand| &operand.value)
+            {
+                return Some(format!(
+                    "the timer is first, then its preset: `{name} {timer}, {value}`"
+                ));
+            }
+            Some(format!("a timer has its letter: `{name} T{value}, 20`"))
+        }
+        ("CTU" | "CTD" | "CTUD", 0) if fits(0, 255) => {
+            Some(format!("a counter has its letter: `{name} C{value}, 10`"))
+        }
         ("TON" | "TOF" | "TONR", 1) => Some(
             "a preset is at most 32767 counts, of 100 ms 3276.7 s: 60 s are `TON T37, 600`"
                 .to_owned(),
@@ -152,8 +175,10 @@ fn way_of_constant(source: &Instruction, position: usize, value: i64) -> Option<
 }
 
 /// A real number where whole ones are.
-fn way_of_real(name: &str, value: f32) -> Option<String> {
+fn way_of_real(source: &Instruction, value: f32) -> Option<String> {
+    let name = source.mnemonic();
     let real = match name {
+        "TON" | "TOF" | "TONR" => return preset_of_seconds(source, value),
         "LD" | "LDN" | "A" | "AN" | "O" | "ON" | "=" | "S" | "R" => {
             return Some(format!("an address begins with its area: `{name} I0.0`, `{name} Q0.0`"));
         }
@@ -162,6 +187,22 @@ fn way_of_real(name: &str, value: f32) -> Option<String> {
         _ => return None,
     };
     Some(format!("real numbers are in double words: `{real} {value:?}, VD0`"))
+}
+
+/// Seconds with a fraction, where the counts of a timer are.
+fn preset_of_seconds(source: &Instruction, seconds: f32) -> Option<String> {
+    let Value::Address(timer @ Address::Timer(number)) = source.operands.first()?.value else {
+        return None;
+    };
+    let base = plc_isa::timer_resolution(number).ms();
+    let counts = seconds * 1000.0 / f32::from(base);
+    let is_exact = counts.fract() == 0.0 && (1.0..=f32::from(i16::MAX)).contains(&counts);
+    is_exact.then(|| {
+        let name = source.mnemonic();
+        format!(
+            "a preset is a number of counts of {base} ms: `{name} {timer}, {counts}` is {seconds} s"
+        )
+    })
 }
 
 /// A constant that is too large for the width of the address beside it.
@@ -193,6 +234,10 @@ fn way_of_width(source: &Instruction) -> Option<String> {
         .collect();
     let name = source.mnemonic();
     let (_, width) = *widths.first()?;
+    let has_real = source.operands.iter().any(|one| matches!(one.value, Value::Real(_)));
+    if has_real && name.ends_with('R') {
+        return Some("a real number is in a double word, such as VD0".to_owned());
+    }
     if widths.iter().all(|(_, other)| *other == width) {
         if let Some(wider) = wider(source, width) {
             return Some(wider);
@@ -202,6 +247,9 @@ fn way_of_width(source: &Instruction) -> Option<String> {
         return Some(format!("{} are taken by `{sibling}{relation}`", width.plural()));
     }
     let [(from, from_width), (to, to_width)] = widths[..] else { return None };
+    if let (true, Some(part)) = (name.starts_with("MOV"), same_byte(from, to)) {
+        return Some(part);
+    }
     let conversion = match (from_width, to_width) {
         (Width::Byte, Width::Word) => "BTI",
         (Width::Word, Width::Byte) => "ITB",
@@ -214,13 +262,52 @@ fn way_of_width(source: &Instruction) -> Option<String> {
         .then(|| format!("`{conversion} {from}, {to}` makes a {to_words} of a {from_words}"))
 }
 
+/// A copy between inputs or outputs of which one is a byte and the other a word: all are meant to
+/// be of one width, and no number is converted.
+fn same_byte(from: Address, to: Address) -> Option<String> {
+    let parts = |address| match address {
+        Address::Byte { area, byte } | Address::Word { area, byte } => Some((area, byte)),
+        _ => None,
+    };
+    let ((from_area, from_byte), (to_area, to_byte)) = (parts(from)?, parts(to)?);
+    let is_point = |area| matches!(area, Area::I | Area::Q);
+    (is_point(from_area) && is_point(to_area)).then(|| {
+        let from = Address::Byte { area: from_area, byte: from_byte };
+        let to = Address::Byte { area: to_area, byte: to_byte };
+        format!("one byte is copied by `MOVB {from}, {to}`")
+    })
+}
+
+/// The bits of a byte or word, where an instruction takes single ones.
+fn first_bit(name: &str, address: Address) -> Option<String> {
+    let (area, byte, bits) = match address {
+        Address::Byte { area, byte } => (area, byte, 8),
+        Address::Word { area, byte } => (area, byte, 16),
+        Address::Double { area, byte } => (area, byte, 32),
+        _ => return None,
+    };
+    let bit = Address::Bit { area, byte, bit: 0 };
+    let letter = Width::of_address(address).map_or("W", Width::letter);
+    Some(match name {
+        "=" | "=I" => format!(
+            "a coil writes one bit, such as `{name} {bit}`; all of {address} is written by \
+             `MOV{letter} 5, {address}`"
+        ),
+        "S" | "SI" => format!("the {bits} bits of {address} are `{name} {bit}, {bits}`"),
+        _ => format!(
+            "the {bits} bits of {address} are `{name} {bit}, {bits}`; as a number it becomes 0 by \
+             `MOV{letter} 0, {address}`"
+        ),
+    })
+}
+
 /// What the kind of an operand tells that does not fit.
 pub(crate) fn way_of_kind(source: &Instruction, position: usize) -> Option<String> {
     let name = source.mnemonic();
     let address = match source.operands.get(position)?.value {
         Value::Address(address) => address,
         Value::Constant(constant) => return way_of_constant(source, position, constant.value),
-        Value::Real(bits) => return way_of_real(name, f32::from_bits(bits)),
+        Value::Real(bits) => return way_of_real(source, f32::from_bits(bits)),
         _ => return None,
     };
     match (name, address) {
@@ -240,6 +327,10 @@ pub(crate) fn way_of_kind(source: &Instruction, position: usize) -> Option<Strin
             ))
         }
         ("SI", Address::Timer(_)) => Some(NO_PULSE.to_owned()),
+        ("=" | "=I" | "S" | "R" | "SI" | "RI", _) if position == 0 => first_bit(name, address),
+        ("+I" | "-I" | "*I" | "/I", Address::Byte { .. }) => Some(format!(
+            "an S7-200 calculates with words: `BTI {address}, VW10` makes a word of the byte"
+        )),
         ("TON" | "TOF" | "TONR", _) if position == 0 => {
             let timer = if name == "TONR" { "T5" } else { "T37" };
             Some(match address {

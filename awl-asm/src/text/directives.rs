@@ -405,7 +405,7 @@ fn retained(item: Piece<'_>, first: Address, last: Address) -> Outcome<RetainedR
         u8::try_from(number).is_ok_and(|number| timer_family(number) != TimerFamily::Tonr)
     };
     if let Some(number) = (from..=to).find(|&number| area == Area::T && loses(number)) {
-        let help = "these are T0 to T31 and T64 to T95";
+        let help = "these are T0 to T31 and T64 to T95: `//# retain T5`, started by `TONR T5, 20`";
         return Err(Box::new(
             item.error(format!("T{number} is no timer of TONR, and only those are retained"))
                 .help(help),

@@ -94,6 +94,19 @@ pub(super) fn no_routine(kind: UnitKind, name: &str) -> Option<String> {
     if kind == UnitKind::Interrupt && is_number {
         return Some(format!("the routine is first, then the event: `ATCH INT0, {name}`"));
     }
+    if let Some(unit) = UnitId::parse(name).filter(|unit| unit.kind != kind) {
+        return match unit.kind {
+            UnitKind::Interrupt => Some(format!(
+                "an interrupt routine is not called but attached to an event: `ATCH {unit}, 10`, \
+                 and `ENI` permits it"
+            )),
+            UnitKind::Subroutine => Some(format!(
+                "{unit} is a subroutine, which is called: `CALL {unit}`; an interrupt routine is \
+                 `INT0`, in `INTERRUPT_BLOCK Name:INT0`"
+            )),
+            UnitKind::Main => None,
+        };
+    }
     let Meaning::Instruction(entry, _) = meaning(name)? else { return None };
     let instruction = entry.mnemonic();
     Some(match plc_isa::TimerKind::started_by(entry.op) {

@@ -116,9 +116,9 @@ fn timer(name: Piece<'_>, rest: Piece<'_>) -> Outcome<(Wanted, bool)> {
     let found = RESOLUTIONS.iter().find(|(text, _)| rest.text.eq_ignore_ascii_case(text));
     let Some(&(_, resolution)) = found else {
         let piece = if rest.text.is_empty() { name } else { rest };
-        return Err(error(piece, "the resolution of a timer is 1ms, 10ms or 100ms")
-            .help(example("timer"))
-            .into());
+        let resolution = error(piece, "the resolution of a timer is 1ms, 10ms or 100ms");
+        let preset = "its time is the preset where it is started, in counts: `TON Delay, 50`";
+        return Err(resolution.help(example("timer")).help(preset).into());
     };
     if is_retained && !is_tonr {
         let why = "only timers of TONR are retained";

@@ -263,6 +263,13 @@ fn start_help(name: &str) -> String {
                 _ => "`LD` of what counts up, `LD` of what counts down, `LD` of what resets",
             }
         ),
+        "EU" | "ED" => format!("the contact whose edge it tells is before it: `LD I0.0`, `{name}`"),
+        "NOT" => {
+            "what it inverts is before it: `LD I0.0`, `NOT`; of one bit that is `LDN I0.0`".into()
+        }
+        "ALD" | "OLD" => {
+            format!("`{name}` joins two branches that begin with `LD`, and is after both")
+        }
         _ => "begin with a contact; `LD SM0.0` is always on".into(),
     }
 }

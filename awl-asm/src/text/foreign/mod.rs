@@ -15,6 +15,7 @@ mod preset_first;
 mod row;
 mod step7;
 mod structured;
+mod system_bits;
 mod together;
 pub(crate) mod width;
 mod words;

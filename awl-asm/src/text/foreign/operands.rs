@@ -3,7 +3,7 @@
 
 use plc_isa::{Area, Op, TimerKind, timer_resolution};
 
-use super::counts;
+use super::{counts, system_bits};
 use crate::text::address::Address;
 
 /// The operand of an S7-200 that is the same: `DB1.DBW2` is VW2, `PEW4` is AIW4, `T37.Q` is T37.
@@ -15,7 +15,8 @@ pub(crate) fn same(text: &str) -> Option<String> {
         .or_else(|| first_module(&upper))
         .or_else(|| numbered_point(&upper))
         .or_else(|| rack_point(&upper))
-        .or_else(|| special_relay(&upper).map(str::to_owned))
+        .or_else(|| system_bits::same(&upper).map(str::to_owned))
+        .or_else(|| current_value(&upper))
         .or_else(|| register(&upper))?;
     Address::parse(&meant).ok().map(|address| address.to_string())
 }
@@ -84,15 +85,11 @@ fn rack_point(upper: &str) -> Option<String> {
     is_first.then(|| format!("{area}{}.{}", bit / 8, bit % 8))
 }
 
-/// Special relays of Mitsubishi's controllers.
-fn special_relay(upper: &str) -> Option<&'static str> {
-    Some(match upper {
-        "M8000" => "SM0.0",
-        "M8002" => "SM0.1",
-        "M8013" => "SM0.5",
-        "M8014" => "SM0.4",
-        _ => return None,
-    })
+/// The current value of a timer or counter as a word of its own: `TW5`, `CW0`, `ZW0`.
+fn current_value(upper: &str) -> Option<String> {
+    let (letter, number) = upper.split_at_checked(1)?;
+    let number = number.strip_prefix('W').filter(|_| matches!(letter, "T" | "C" | "Z"))?;
+    Some(format!("{letter}{}", number.parse::<u8>().ok()?))
 }
 
 /// Data registers of other makers are words: D0, D1, ...
@@ -138,6 +135,9 @@ pub(crate) fn way(text: &str) -> Option<&'static str> {
         let rest = upper.strip_prefix(letters);
         rest.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
     };
+    if let Some(way) = system_bits::way(&upper) {
+        return Some(way);
+    }
     Some(match () {
         _ if upper.starts_with("P#") => {
             "on an S7-200 a pointer is `&VB100`, with the address of a byte, word or double word"
@@ -278,13 +278,21 @@ pub(crate) fn preset(op: Op, timer: Address, text: &str) -> Option<Preset> {
             };
             (why, format!("a timer that counts {finer} ms can: `{mnemonic} T{other}, {counts}`"))
         }
-        None => (
-            format!("{why}, at most 32767 times, which are {most} s"),
-            "count the rounds of a timer with `CTU`, or take one that counts 100 ms, such as T37"
-                .to_owned(),
-        ),
+        None => (format!("{why}, at most 32767 times, which are {most} s"), rounds(ms)),
     };
     Some(Preset { counts: None, why, help })
+}
+
+/// How a time is had that is too long or too fine for every timer: minutes are counted.
+fn rounds(ms: f64) -> String {
+    let minutes = ms / 60_000.0;
+    if minutes.fract() != 0.0 || !(1.0..=f64::from(i16::MAX)).contains(&minutes) {
+        return "count the rounds of a timer with `CTU`; no timer is finer than 1 ms".to_owned();
+    }
+    format!(
+        "{minutes} minutes are counted: `LD I0.0`, `AN T37`, `TON T37, 600` tells each minute, \
+         `LD T37`, `LDN I0.0`, `CTU C1, {minutes}` counts them, and `LD C1` is 1 after that"
+    )
 }
 
 #[cfg(test)]
@@ -306,6 +314,9 @@ mod tests {
         assert_eq!(same("O:0/3"), "Q0.3");
         assert_eq!(same("I:0.0/9"), "I1.1");
         assert_eq!(same("M8000"), "SM0.0");
+        assert_eq!(same("CW0"), "C0");
+        assert_eq!(same("ZW7"), "C7");
+        assert_eq!(same("TW37"), "T37");
         assert_eq!(same("D3"), "VW6");
         assert_eq!(same("T37.Q"), "T37");
         assert_eq!(same("C1.CV"), "C1");
@@ -345,7 +356,7 @@ mod tests {
         let otherwise = |timer, text| preset(timer, text).unwrap_or_default().1;
         assert!(otherwise(37, "250ms").ends_with("`TON T33, 25`"));
         assert!(otherwise(32, "40s").ends_with("`TON T37, 400`"));
-        assert!(otherwise(32, "2h").contains("`CTU`"));
+        assert!(otherwise(32, "2h").contains("`CTU C1, 120`"));
         assert_eq!(preset(37, "20"), None);
         assert_eq!(preset(37, "C#20"), None);
     }
