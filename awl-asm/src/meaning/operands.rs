@@ -1,6 +1,8 @@
 //! What is behind operands that are missing, too many or of another kind: mostly the habit of a
 //! controller with accumulators or with boxes. That they are wrong is known already.
 
+use std::fmt::Display;
+
 use plc_isa::Area;
 
 use crate::text::address::Address;
@@ -151,14 +153,10 @@ fn way_of_constant(source: &Instruction, position: usize, value: i64) -> Option<
             Some(format!("a contact reads a bit; {bit}"))
         }
         ("TON" | "TOF" | "TONR", 0) if fits(0, 255) => {
-            if let Some(Value::Address(timer @ Address::Timer(_))) =
-                source.operands.get(1).map(|operand| &operand.value)
-            {
-                return Some(format!(
-                    "the timer is first, then its preset: `{name} {timer}, {value}`"
-                ));
-            }
-            Some(format!("a timer has its letter: `{name} T{value}, 20`"))
+            Some(match source.operands.get(1).map(|operand| &operand.value) {
+                Some(Value::Address(timer @ Address::Timer(_))) => timer_first(name, timer, value),
+                _ => format!("a timer has its letter: `{name} T{value}, 20`"),
+            })
         }
         ("CTU" | "CTD" | "CTUD", 0) if fits(0, 255) => {
             Some(format!("a counter has its letter: `{name} C{value}, 10`"))
@@ -172,6 +170,11 @@ fn way_of_constant(source: &Instruction, position: usize, value: i64) -> Option<
         )),
         _ => None,
     }
+}
+
+/// How a timer is started whose preset was in its place.
+fn timer_first(name: &str, timer: impl Display, preset: impl Display) -> String {
+    format!("the timer is first, then its preset: `{name} {timer}, {preset}`")
 }
 
 /// A real number where whole ones are.
@@ -194,15 +197,12 @@ fn preset_of_seconds(source: &Instruction, seconds: f32) -> Option<String> {
     let Value::Address(timer @ Address::Timer(number)) = source.operands.first()?.value else {
         return None;
     };
-    let base = plc_isa::timer_resolution(number).ms();
-    let counts = seconds * 1000.0 / f32::from(base);
-    let is_exact = counts.fract() == 0.0 && (1.0..=f32::from(i16::MAX)).contains(&counts);
-    is_exact.then(|| {
-        let name = source.mnemonic();
-        format!(
-            "a preset is a number of counts of {base} ms: `{name} {timer}, {counts}` is {seconds} s"
-        )
-    })
+    let op = source.entry.op;
+    let counts = foreign::operands::preset(op, timer, &format!("{seconds}s"))?.counts?;
+    let (name, base) = (source.mnemonic(), plc_isa::timer_resolution(number).ms());
+    Some(format!(
+        "a preset is a number of counts of {base} ms: `{name} {timer}, {counts}` is {seconds} s"
+    ))
 }
 
 /// A constant that is too large for the width of the address beside it.
@@ -338,7 +338,7 @@ pub(crate) fn way_of_kind(source: &Instruction, position: usize) -> Option<Strin
                     "a timer is started, and its bit is a contact: `{name} {timer}, 20`, then \
                      `LD {timer}`, `= {address}`"
                 ),
-                _ => format!("the timer is first, then its preset: `{name} {timer}, {address}`"),
+                _ => timer_first(name, timer, address),
             })
         }
         ("MOVD", Address::Byte { .. } | Address::Word { .. }) if position == 0 => {

@@ -6,7 +6,7 @@ use plc_isa::{Area, Kind, Op, Role, TimerKind};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::meaning::check::parting::may_part;
-use crate::meaning::selected::{Argument, Selected, operand_span, source_of, span_of};
+use crate::meaning::selected::{Argument, Selected, operand_span, span_of};
 use crate::text::address::Address;
 use crate::text::ast::{Program, Span};
 
@@ -278,10 +278,15 @@ impl Check<'_> {
         let diagnostic = Diagnostic::new(Code::InputWritten, self.span(written), message);
         let diagnostic = match output {
             Some(output) => {
-                let name = source_of(self.program, &self.code[written.instruction])
-                    .map_or("=", |source| source.mnemonic());
-                let count = if matches!(name, "S" | "R" | "SI" | "RI") { ", 1" } else { "" };
-                diagnostic.help(format!("an output is Q: `{name} {output}{count}`"))
+                let meant = match self.op(written) {
+                    op @ (Op::Set | Op::Reset) => {
+                        format!("{} {output}, 1", op.instruction().mnemonic())
+                    }
+                    Op::Assign => format!("= {output}"),
+                    // What else writes a bit has further operands.
+                    _ => output.to_string(),
+                };
+                diagnostic.help(format!("an output is Q: `{meant}`"))
             }
             None => diagnostic,
         };

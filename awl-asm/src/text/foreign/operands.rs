@@ -135,9 +135,6 @@ pub(crate) fn way(text: &str) -> Option<&'static str> {
         let rest = upper.strip_prefix(letters);
         rest.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
     };
-    if let Some(way) = system_bits::way(&upper) {
-        return Some(way);
-    }
     Some(match () {
         _ if upper.starts_with("P#") => {
             "on an S7-200 a pointer is `&VB100`, with the address of a byte, word or double word"
@@ -180,7 +177,7 @@ pub(crate) fn way(text: &str) -> Option<&'static str> {
             "an array is declared by `//# var Table ARRAY[0..9] OF INT`, and its elements are \
              `Table[0]`; an index that changes needs a pointer: `MOVD &VB100, AC1`, then `*AC1`"
         }
-        _ => return None,
+        _ => return system_bits::way(&upper),
     })
 }
 
@@ -278,15 +275,16 @@ pub(crate) fn preset(op: Op, timer: Address, text: &str) -> Option<Preset> {
             };
             (why, format!("a timer that counts {finer} ms can: `{mnemonic} T{other}, {counts}`"))
         }
-        None => (format!("{why}, at most 32767 times, which are {most} s"), rounds(ms)),
+        None => (format!("{why}, at most 32767 times, which are {most} s"), rounds(op, ms)),
     };
     Some(Preset { counts: None, why, help })
 }
 
 /// How a time is had that is too long or too fine for every timer: minutes are counted.
-fn rounds(ms: f64) -> String {
+fn rounds(op: Op, ms: f64) -> String {
     let minutes = ms / 60_000.0;
-    if minutes.fract() != 0.0 || !(1.0..=f64::from(i16::MAX)).contains(&minutes) {
+    // The rungs below are an on-delay.
+    if op != Op::Ton || minutes.fract() != 0.0 || !(1.0..=f64::from(i16::MAX)).contains(&minutes) {
         return "count the rounds of a timer with `CTU`; no timer is finer than 1 ms".to_owned();
     }
     format!(
