@@ -45,21 +45,25 @@ pub fn check() -> Result<()> {
 pub fn build_small(package: &str) -> Result<PathBuf> {
     let folder = root().join("target/wasm");
     let mut build = builder(&folder)?;
-    build.args(["--release", "--package", package]);
-    build.args(["--config", "profile.release.debug=false"]);
-    build.args(["--config", "profile.release.opt-level=\"s\""]);
-    build.args(["--config", "profile.release.panic=\"abort\""]);
+    build.args(["--package", package]);
     run(&mut build)?;
-    let name = package.replace('-', "_");
-    Ok(folder.join(TARGET).join("release").join(name).with_extension("wasm"))
+    Ok(module(&folder, package))
 }
 
-/// A cargo that builds libraries, without what their commands need.
+fn module(folder: &Path, package: &str) -> PathBuf {
+    folder.join(TARGET).join("release").join(package.replace('-', "_")).with_extension("wasm")
+}
+
+/// A cargo that builds libraries, without what their commands need: as a page has them, so that
+/// std and the libraries are built once for all modules.
 fn builder(folder: &Path) -> Result<Command> {
     packages::ensure_installed(packages::NODE)?;
     let mut build = compiler()?;
     build.current_dir(root()).args(["build", "--quiet", "--locked", "--lib", "--target", TARGET]);
-    build.arg("--no-default-features").arg("--target-dir").arg(folder);
+    build.arg("--no-default-features").arg("--target-dir").arg(folder).arg("--release");
+    build.args(["--config", "profile.release.debug=false"]);
+    build.args(["--config", "profile.release.opt-level=\"s\""]);
+    build.args(["--config", "profile.release.panic=\"abort\""]);
     Ok(build)
 }
 
@@ -67,13 +71,11 @@ fn builder(folder: &Path) -> Result<Command> {
 fn build() -> Result<PathBuf> {
     let folder = root().join("target/wasm");
     let mut build = builder(&folder)?;
-    // What nobody debugs needs no names of types and lines.
-    build.args(["--config", "profile.dev.debug=false"]);
     for library in LIBRARIES {
         build.args(["--package", library]);
     }
     run(&mut build)?;
-    Ok(folder.join(TARGET).join("debug").join(MODULE).with_extension("wasm"))
+    Ok(module(&folder, MODULE))
 }
 
 /// A cargo that can build for the target: rustup's where it has the target, otherwise Debian's,
