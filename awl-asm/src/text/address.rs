@@ -260,7 +260,7 @@ fn in_area(text: &str, area: Area, size: Size, number: &str) -> Result<Address, 
                 bit @ 0..=7 => Ok(Address::Bit { area, byte: byte as u16, bit: bit as u8 }),
                 bit => Err(out_of_range(
                     format!("{text}: a byte has bits 0 to 7"),
-                    (byte < last && (8..=9).contains(&bit))
+                    (byte < last && (8..=15).contains(&bit))
                         .then(|| format!("{name}{}.{}", byte + 1, bit - 8)),
                 )),
             }
@@ -270,7 +270,7 @@ fn in_area(text: &str, area: Area, size: Size, number: &str) -> Result<Address, 
                 "{text}: a bit address has a byte and a bit number, such as {name}{}.0",
                 byte.min(last)
             ),
-            None,
+            without_point(number, last).map(|bit| format!("{name}{bit}")),
         )),
         (_, Some(_)) => Err(out_of_range(
             format!("{text}: only a bit address has a bit number"),
@@ -293,6 +293,13 @@ fn in_area(text: &str, area: Area, size: Size, number: &str) -> Result<Address, 
             })
         }
     }
+}
+
+/// `0.1` of `01`: byte and bit without the point between them.
+fn without_point(digits: &str, last: u32) -> Option<String> {
+    let (byte, bit) = digits.split_at_checked(digits.len().checked_sub(1)?)?;
+    let is_bit = !byte.is_empty() && number_of(byte) <= last && number_of(bit) <= 7;
+    is_bit.then(|| format!("{}.{bit}", number_of(byte)))
 }
 
 /// A range of bytes, or of timers or counters, as settings name it: `VB0-VB31`, `C3`.

@@ -22,6 +22,8 @@ pub(crate) struct Blocks {
     /// The first instruction or network of the file outside of blocks.
     outside: Option<Span>,
     is_outside_reported: bool,
+    /// A block of another language is open, and was reported.
+    is_foreign: bool,
 }
 
 #[derive(Debug)]
@@ -55,6 +57,14 @@ impl Blocks {
     /// Those of a program of one file or several.
     pub(crate) fn of(has_files: bool) -> Blocks {
         Blocks { has_files, ..Blocks::default() }
+    }
+
+    /// Takes the header or the end of a block of another language. Whether it is to be reported:
+    /// an end is not if its header was.
+    pub(crate) fn foreign(&mut self, word: &str) -> bool {
+        let is_end = word.to_ascii_uppercase().starts_with("END_");
+        let was_open = std::mem::replace(&mut self.is_foreign, !is_end);
+        !(is_end && was_open)
     }
 
     /// What content at this place is.
@@ -164,6 +174,7 @@ impl Blocks {
     /// What is wrong with a word that belongs between a header and BEGIN.
     fn in_header(&self, word: &str) -> Option<String> {
         match &self.open {
+            None if self.is_foreign => None,
             None => Some(format!("{word}: no block is open")),
             Some(open) if open.has_begun => Some(format!("{word}: the block has already begun")),
             Some(_) => None,

@@ -486,7 +486,14 @@ fn modbus_word(
 ) -> Outcome<()> {
     let Some(index) = MODBUS_WORDS.iter().position(|known| word.text.eq_ignore_ascii_case(known))
     else {
-        return Err(unknown(word, "cannot be set for modbus", &MODBUS_WORDS, targets.suggester));
+        let mut error = unknown(word, "cannot be set for modbus", &MODBUS_WORDS, targets.suggester);
+        let is_number = !word.text.is_empty() && word.text.bytes().all(|b| b.is_ascii_digit());
+        if is_number && value.text.is_empty() {
+            let name = if word.text.len() > 3 { "baud" } else { "address" };
+            error.help =
+                vec![format!("which number it is, is named: `//# modbus {name} {}`", word.text)];
+        }
+        return Err(error);
     };
     once(&mut places[index], word.span(), word)?;
     if value.text.is_empty() {

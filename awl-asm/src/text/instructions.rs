@@ -4,8 +4,9 @@
 use plc_isa::{Instruction, Op, Relation};
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::text::address::Address;
 use crate::text::ast::{self, Constant, Operand, Span, Statement, UnitKind, Value};
-use crate::text::foreign::{self, Instead, Meant, Together};
+use crate::text::foreign::{self, Flow, Instead, Meant, Together};
 use crate::text::lexer::{Ahead, Cut};
 use crate::text::locals::PARAMETERS_MAX;
 use crate::text::mnemonics::{
@@ -54,11 +55,91 @@ impl<'s> Parser<'s> {
             (false, true) => return self.wrong_relation(word),
             (false, false) => None,
         };
-        let operands = self.operands(entry, operand_count);
+        let pending = self.pending.len();
+        let mut operands = self.operands(entry, operand_count);
+        if operands.len() + 1 == operand_count && self.lexer.ahead() == Ahead::Semicolon {
+            operands.extend(self.operand_after_semicolon(entry, operands.len()));
+        }
+        if is_foreign_load(entry.op, &operands) && self.load_of_list(word)
+            || operands.len() == 3 && self.comparison_apart(entry, word, &operands)
+        {
+            self.pending.truncate(pending);
+            return;
+        }
         let end = operands.last().map_or(mnemonic_span.end, |operand| operand.span.end);
+        if entry.has_relation() && !is_at_relation {
+            // One error is enough.
+            operands.resize(operand_count, Operand { span: word, value: Value::Invalid });
+        }
         let span = Span { start: word.start, end };
         let instruction = ast::Instruction { entry, relation, mnemonic_span, operands, span };
         self.program.statements.push(Statement::Instruction(instruction));
+    }
+
+    /// `TON T37; 50`: the last operand is after a semicolon instead of a comma.
+    fn operand_after_semicolon(&mut self, entry: &Instruction, index: usize) -> Option<Operand> {
+        let at = self.lexer.position();
+        let rest = self.text.get(at + 1..)?.lines().next()?;
+        let rest = rest.split_once("//").map_or(rest, |(code, _)| code).trim();
+        let is_value = !rest.contains([' ', '\t', ';', ',']) && read_plain(rest).is_some();
+        if !is_value || meaning(rest).is_some() {
+            return None;
+        }
+        let message = "a semicolon ends the instruction: operands are separated by commas";
+        let diagnostic = Diagnostic::new(Code::Syntax, Span::new(at, at + 1), message);
+        self.diagnostics.push(diagnostic.suggest(","));
+        self.lexer.step();
+        (self.lexer.ahead() == Ahead::Text).then(|| {
+            let cut = self.lexer.operand();
+            self.operand(cut, entry, index)
+        })
+    }
+
+    /// `LD VW0` as the beginning of lines of an instruction list that load a value. Whether it was,
+    /// and is reported.
+    fn load_of_list(&mut self, word: Span) -> bool {
+        let flow = self.flow();
+        let text = self.text.get(word.start as usize..).unwrap_or("");
+        let found = foreign::together(text, flow);
+        found.map(|way| self.together(word, way)).is_some()
+    }
+
+    /// `LD VW10 > 5`: a comparison whose sign is between its operands. Whether it was, and is
+    /// reported.
+    fn comparison_apart(
+        &mut self,
+        entry: &'static Instruction,
+        word: Span,
+        operands: &[Operand],
+    ) -> bool {
+        let [left, sign, right] = operands else { return false };
+        let contact = entry.mnemonic();
+        let is_plain = matches!(contact, "LD" | "A" | "O");
+        let is_sign = sign.span.text(self.text).chars().all(|c| "<>=!".contains(c));
+        let span = Span { start: left.span.start, end: right.span.end };
+        let Some(meant) = Some(span.text(self.text))
+            .filter(|_| is_plain && is_sign)
+            .and_then(|comparison| foreign::contact_of(contact, comparison))
+        else {
+            return false;
+        };
+        let line = Span { start: word.start, end: right.span.end };
+        let message = format!("{}: a comparison is part of the mnemonic", line.text(self.text));
+        let name = meant.split([' ', '=', '<', '>']).next().and_then(compare_like);
+        self.diagnostics.push(Diagnostic::new(Code::Syntax, line, message).suggest(meant));
+        if let Some(compare) = name {
+            self.stand_in(compare, written_operands(compare), line);
+        }
+        true
+    }
+
+    /// What is before the place where the text is read.
+    fn flow(&self) -> Flow {
+        match self.program.statements.last() {
+            Some(Statement::Instruction(last)) if last.entry.rung.is_contact() => Flow::Contact,
+            Some(Statement::Instruction(_)) => Flow::Done,
+            _ => Flow::None,
+        }
     }
 
     /// An instruction of the S7-200 that no Uno can execute.
@@ -101,10 +182,15 @@ impl<'s> Parser<'s> {
 
     /// A first word that is none.
     pub(crate) fn unknown(&mut self, word: Span) {
-        if let Some(way) = self.text.get(word.start as usize..).and_then(foreign::together) {
+        let flow = self.flow();
+        let text = self.text.get(word.start as usize..).unwrap_or("");
+        if let Some(way) = foreign::together(text, flow) {
             return self.together(word, way);
         }
         let text = word.text(self.text);
+        if foreign::is_block(text) && !self.blocks.foreign(text) {
+            return self.lexer.skip_instruction();
+        }
         let relation = self.lexer.is_at_relation() && text.starts_with(is_word_start);
         let relation = relation.then(|| self.lexer.relation());
         let (line, rest) = self.rest_of(word);
@@ -180,10 +266,12 @@ impl<'s> Parser<'s> {
         };
         let code = if rest.trim() == "(" { Code::UnknownMnemonic } else { Code::Syntax };
         let mut diagnostic = Diagnostic::new(code, line, message);
-        if let Some(meant) = foreign::meant(text, rest) {
-            understood(&mut diagnostic, meant, line);
-        }
+        let meant = foreign::meant(text, rest);
+        let stand_in = meant.and_then(|meant| understood(&mut diagnostic, meant, line));
         self.diagnostics.push(diagnostic);
+        if let Some((entry, count)) = stand_in.as_deref().and_then(instruction_of) {
+            self.stand_in(entry, count, line);
+        }
     }
 
     /// The whole instruction that begins with a word, and what is after the word. It is skipped.
@@ -405,6 +493,16 @@ impl<'s> Parser<'s> {
         });
         Operand { span, value }
     }
+}
+
+/// Whether a load of a bit has a value for its operand.
+fn is_foreign_load(op: Op, operands: &[Operand]) -> bool {
+    let [operand] = operands else { return false };
+    op == Op::Ld
+        && matches!(
+            operand.value,
+            Value::Address(Address::Byte { .. } | Address::Word { .. } | Address::Double { .. })
+        )
 }
 
 /// Whether a guessed instruction fits its operands. Only asked where a wrong guess would do harm

@@ -77,7 +77,7 @@ pub(crate) struct Parser<'s> {
     pub(crate) pending: Vec<Pending>,
     symbols: SymbolTable,
     pub(crate) suggester: Suggester,
-    blocks: Blocks,
+    pub(crate) blocks: Blocks,
     data: DataBlock,
     directives: Directives,
     /// The places of what the program declares.
@@ -318,7 +318,13 @@ impl Parser<'_> {
             let span = self.trimmed(start, self.lexer.position());
             let message =
                 format!("{}: nothing is after {}", span.text(self.text), word.text(self.text));
-            self.error(Code::Syntax, span, message);
+            let mut diagnostic = Diagnostic::new(Code::Syntax, span, message);
+            if word.text(self.text).to_ascii_uppercase().starts_with("VAR") {
+                let help = "each variable is on a line of its own, such as `Speed : INT;`, and so \
+                            is `END_VAR`";
+                diagnostic.help.push(help.to_owned());
+            }
+            self.diagnostics.push(diagnostic);
         }
     }
 

@@ -414,7 +414,12 @@ impl Resolver<'_> {
         let mut diagnostic =
             Diagnostic::new(Code::UnknownSymbol, span, format!("{text}: no such local variable"));
         let names = place.variables().map(|variable| variable.name.as_str());
-        let near = self.suggester.nearest(text.trim_start_matches('#'), names);
+        let bare = text.trim_start_matches('#');
+        if literal::looks_like_literal(bare) && literal::parse(bare).is_ok() {
+            diagnostic.message = format!("{text}: a number is written without #");
+            return Box::new(diagnostic.suggest(bare));
+        }
+        let near = self.suggester.nearest(bare, names);
         diagnostic.suggestion = near.map(|near| format!("#{near}"));
         if near.is_none() {
             diagnostic.help.push(match place.own {
@@ -422,11 +427,10 @@ impl Resolver<'_> {
                     "declare it between VAR and END_VAR at the beginning of its block".into()
                 }
                 None => {
-                    let name = text.trim_start_matches('#');
                     let kind = hints::example(place.wanted).1;
                     format!(
-                        "a variable of the whole program is written without #, `{name}`, and \
-                         declared by `//# var {name} {kind}`"
+                        "a variable of the whole program is written without #, `{bare}`, and \
+                         declared by `//# var {bare} {kind}`"
                     )
                 }
             });

@@ -210,7 +210,9 @@ fn single(piece: Piece<'_>, suggester: &Suggester) -> Outcome<VariableType> {
     }
     let names: Vec<&str> = plain.map(|&(name, _)| name).chain(["TIME", "STRING"]).collect();
     let mut diagnostic = error(piece, "there is no such type");
-    diagnostic.suggestion = suggester.nearest(piece.text, names.iter().copied()).map(str::to_owned);
+    diagnostic.suggestion = elsewhere(piece.text)
+        .or_else(|| suggester.nearest(piece.text, names.iter().copied()))
+        .map(str::to_owned);
     diagnostic.help.push(match piece.text.split_once('=') {
         Some((kind, value)) => {
             format!("a first value is after `:=`, as in `{} := {}`", kind.trim(), value.trim())
@@ -230,6 +232,20 @@ fn single(piece: Piece<'_>, suggester: &Suggester) -> Outcome<VariableType> {
         ),
     });
     Err(diagnostic)
+}
+
+/// What a type of another language is called here.
+fn elsewhere(name: &str) -> Option<&'static str> {
+    const NAMES: [(&[&str], &str); 6] = [
+        (&["FLOAT", "DOUBLE", "SINGLE", "LREAL"], "REAL"),
+        (&["BOOLEAN", "BIT"], "BOOL"),
+        (&["SHORT", "INTEGER", "INT16", "INT16_T"], "INT"),
+        (&["LONG", "INT32", "INT32_T"], "DINT"),
+        (&["UINT", "UINT16", "UINT16_T"], "WORD"),
+        (&["USINT", "UINT8", "UINT8_T"], "BYTE"),
+    ];
+    let is = |other: &&str| other.eq_ignore_ascii_case(name);
+    NAMES.iter().find(|(names, _)| names.iter().any(|other| is(other))).map(|(_, here)| *here)
 }
 
 /// `STRING`, `STRING[20]` or `STRING(20)`.

@@ -3,7 +3,7 @@
 //! conversions, one comparison and transfers is no such way.
 
 use super::operands;
-use super::together::{Lines, Together};
+use super::together::{Flow, Lines, Together};
 use super::width::Width;
 use crate::text::address::Address;
 use crate::text::ast::Value;
@@ -30,15 +30,17 @@ impl Step {
 }
 
 /// The way that begins with the first load where the text begins.
-pub(super) fn find(text: &str) -> Option<Together> {
+pub(super) fn find(text: &str, flow: Flow) -> Option<Together> {
     let mut lines = Lines::of(text);
     let (word, first) = lines.next()?;
-    let first = written(first).filter(|_| is(word, "L"))?;
+    // `LD` of a value is the load of an instruction list.
+    let is_list = is(word, "LD") && Width::of_operand(first).is_some_and(|of| of != Width::Bit);
+    let first = written(first).filter(|_| is_list || is(word, "L"))?;
     let mut steps = Vec::new();
     let mut targets: Vec<String> = Vec::new();
     let mut end = lines.end;
     while let Some((word, operand)) = lines.next() {
-        if is(word, "T") {
+        if is(word, "T") || is_list && is(word, "ST") {
             targets.push(written(operand)?);
         } else if !targets.is_empty() {
             break;
@@ -49,6 +51,15 @@ pub(super) fn find(text: &str) -> Option<Together> {
                 return Some(together(vec![compared], lines.end, Some("LDW")));
             }
             steps.push(combined(what, operand)?);
+        } else if let (true, Some(relation)) = (is_list, relation_of_list(word)) {
+            let width = Width::of_operand(&first)?;
+            let compared = format!("LD{}{relation} {first}, {}", width.letter(), written(operand)?);
+            let is_plain = steps.is_empty();
+            return is_plain.then(|| together(vec![compared], lines.end, Some("LDW")));
+        } else if let (true, Some(names)) = (is_list, step_of_list(word)) {
+            let width = Width::of_operand(&first)?;
+            let name = Some(width.of_all(names)).filter(|name| !name.is_empty())?;
+            steps.push(Step::Combine { name, width, operand: written(operand)? });
         } else if let Some(step) = alone(word, operand) {
             steps.push(step);
         } else {
@@ -56,7 +67,39 @@ pub(super) fn find(text: &str) -> Option<Together> {
         }
         end = lines.end;
     }
-    Some(together(moved(&first, &steps, &targets)?, end, None))
+    let mut code = moved(&first, &steps, &targets)?;
+    // The contact is there already.
+    if flow == Flow::Contact {
+        code.remove(0);
+    }
+    Some(together(code, end, None))
+}
+
+/// What combines the value with an operand in an instruction list of the standard.
+fn step_of_list(word: &str) -> Option<[&'static str; 5]> {
+    Some(match word.to_ascii_uppercase().as_str() {
+        "ADD" => ["", "", "+I", "+D", "+R"],
+        "SUB" => ["", "", "-I", "-D", "-R"],
+        "MUL" => ["", "", "*I", "*D", "*R"],
+        "DIV" => ["", "", "/I", "/D", "/R"],
+        "AND" => ["", "ANDB", "ANDW", "ANDD", ""],
+        "OR" => ["", "ORB", "ORW", "ORD", ""],
+        "XOR" => ["", "XORB", "XORW", "XORD", ""],
+        _ => return None,
+    })
+}
+
+/// What compares the value there.
+fn relation_of_list(word: &str) -> Option<&'static str> {
+    Some(match word.to_ascii_uppercase().as_str() {
+        "GT" | ">" => ">",
+        "GE" | ">=" => ">=",
+        "EQ" | "==" => "=",
+        "NE" | "<>" => "<>",
+        "LE" | "<=" => "<=",
+        "LT" | "<" => "<",
+        _ => return None,
+    })
 }
 
 fn together(code: Vec<String>, len: usize, stand_in: Option<&'static str>) -> Together {
@@ -263,7 +306,7 @@ mod tests {
     use super::*;
 
     fn code(text: &str) -> String {
-        find(text).map_or_else(String::new, |found| found.code.join("; "))
+        find(text, Flow::None).map_or_else(String::new, |found| found.code.join("; "))
     }
 
     #[test]
@@ -306,6 +349,17 @@ mod tests {
     }
 
     #[test]
+    fn lists_of_the_standard() {
+        assert_eq!(code("LD VW0\nADD 5\nST VW2"), "LD SM0.0; MOVW VW0, VW2; +I 5, VW2");
+        assert_eq!(code("LD VD0\nST VD2"), "LD SM0.0; MOVD VD0, VD2");
+        assert_eq!(code("LD VW0\nGT 5\nST Q0.0"), "LDW> VW0, 5");
+        assert_eq!(code("LD VW0\n> 5"), "LDW> VW0, 5");
+        assert_eq!(code("LD I0.0\nST Q0.0"), "");
+        let found = find("L 5\nT VW0", Flow::Contact).map(|found| found.code);
+        assert_eq!(found, Some(vec!["MOVW 5, VW0".to_owned()]));
+    }
+
+    #[test]
     fn what_is_more_than_that() {
         for text in [
             "L VW0",
@@ -327,8 +381,11 @@ mod tests {
     #[test]
     fn the_lines_of_it() {
         let text = "L VW0\nL VW2 // more\n>I // greater\n= Q0.0";
-        assert_eq!(find(text).map(|way| &text[..way.len]), Some("L VW0\nL VW2 // more\n>I"));
+        assert_eq!(
+            find(text, Flow::None).map(|way| &text[..way.len]),
+            Some("L VW0\nL VW2 // more\n>I")
+        );
         let text = "L 5\nT VW0\n\nLD I0.0";
-        assert_eq!(find(text).map(|way| &text[..way.len]), Some("L 5\nT VW0"));
+        assert_eq!(find(text, Flow::None).map(|way| &text[..way.len]), Some("L 5\nT VW0"));
     }
 }

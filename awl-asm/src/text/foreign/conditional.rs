@@ -1,5 +1,5 @@
 //! IF of structured text and of C with all that is in it, as the contacts and coils that it would
-//! be. Without ELSE and without an IF within: those are said as a whole.
+//! be. With an IF within, or ELSIF, it is said as a whole.
 
 use super::expression;
 use super::together::Together;
@@ -70,42 +70,102 @@ fn until_end(body: &str, is_c: bool) -> Option<(&str, usize)> {
     None
 }
 
-/// Contacts of the condition, then what is done while it is true.
+/// Contacts of the condition, then what is done while it is true; the same for what is done
+/// otherwise.
 fn rungs(condition: &str, statements: &str) -> Option<Vec<String>> {
     let condition = condition.trim();
     let bare = condition.strip_prefix('(').and_then(|inside| inside.strip_suffix(')'));
-    let mut code = expression::contacts(&expression::tokens(bare.unwrap_or(condition)))?;
-    let without_comments = statements
-        .lines()
-        .map(|line| line.split_once("//").map_or(line, |(code, _)| code))
-        .collect::<Vec<_>>()
-        .join("\n");
-    let mut statements =
-        without_comments.split([';', '\n']).map(str::trim).filter(|one| !one.is_empty()).peekable();
-    statements.peek()?;
-    for statement in statements {
-        code.extend(assignment(statement)?);
+    let condition = expression::tokens(bare.unwrap_or(condition));
+    let contacts = expression::contacts(&condition)?;
+    let (then, otherwise) = branches(statements);
+    let then = assignments(&then)?;
+    let otherwise = match otherwise {
+        Some(statements) => assignments(&statements)?,
+        None => Vec::new(),
+    };
+    if let Some(coils) = coils(&then, &otherwise) {
+        return Some([contacts, coils].concat());
     }
-    Some(code)
+    // The condition is read again: what was done must not have changed it.
+    let is_changed = then
+        .iter()
+        .any(|one| condition.iter().any(|token| token.text().eq_ignore_ascii_case(&one.target)));
+    let code = |of: Vec<Assignment>| of.into_iter().flat_map(|one| one.code).collect::<Vec<_>>();
+    match (otherwise.is_empty(), is_changed) {
+        (true, _) => Some([contacts, code(then)].concat()),
+        (false, true) => None,
+        (false, false) => {
+            let inverted = vec!["NOT".to_owned()];
+            Some([contacts.clone(), code(then), contacts, inverted, code(otherwise)].concat())
+        }
+    }
+}
+
+/// The statements of the two branches, without comments.
+fn branches(statements: &str) -> (String, Option<String>) {
+    let mut then = Vec::new();
+    let mut otherwise: Option<Vec<&str>> = None;
+    for line in statements.lines() {
+        let code = line.split_once("//").map_or(line, |(code, _)| code);
+        let rest = after_word(code.trim_start(), &["ELSE", "SONST"]);
+        match (rest, &mut otherwise) {
+            (Some(rest), None) => otherwise = Some(vec![rest]),
+            (_, Some(otherwise)) => otherwise.push(code),
+            (None, None) => then.push(code),
+        }
+    }
+    (then.join("\n"), otherwise.map(|lines| lines.join("\n")))
+}
+
+/// What a statement writes.
+struct Assignment {
+    target: String,
+    /// The value, if it writes a bit.
+    bit: Option<bool>,
+    code: Vec<String>,
+}
+
+/// All statements of a branch, at least one.
+fn assignments(statements: &str) -> Option<Vec<Assignment>> {
+    let statements = statements.split([';', '\n']).map(str::trim).filter(|one| !one.is_empty());
+    let all: Vec<Assignment> = statements.map(assignment).collect::<Option<_>>()?;
+    (!all.is_empty()).then_some(all)
+}
+
+/// Coils, where one branch sets exactly the bits that the other resets.
+fn coils(then: &[Assignment], otherwise: &[Assignment]) -> Option<Vec<String>> {
+    let is_reset = |set: &Assignment| {
+        let mut of_same = otherwise.iter().filter(|reset| reset.target == set.target);
+        of_same.next().is_some_and(|reset| reset.bit == Some(false))
+    };
+    let is_all = then.len() == otherwise.len()
+        && then.iter().all(|set| set.bit == Some(true) && is_reset(set));
+    is_all.then(|| then.iter().map(|set| format!("= {}", set.target)).collect())
 }
 
 /// `Q0.0 := TRUE` sets, FALSE resets; a value is copied.
-fn assignment(statement: &str) -> Option<Vec<String>> {
+fn assignment(statement: &str) -> Option<Assignment> {
     let (target, value) = statement.split_once(":=").or_else(|| statement.split_once('='))?;
     let target = expression::tokens(target);
     let [target] = target.as_slice() else { return None };
     let (target, value) = (target.text(), expression::tokens(value));
-    match Width::of_operand(target)? {
-        Width::Bit => {
-            let [value] = value.as_slice() else { return None };
-            Some(match value.text().to_ascii_uppercase().as_str() {
-                "TRUE" | "1" | "HIGH" => vec![format!("S {target}, 1")],
-                "FALSE" | "0" | "LOW" => vec![format!("R {target}, 1")],
-                _ => return None,
-            })
-        }
-        width => expression::value(target, width, &value),
-    }
+    let width = Width::of_operand(target);
+    let bit = match value.as_slice() {
+        // What becomes true or false is a bit, whatever its name is.
+        [value] => match (width, value.text().to_ascii_uppercase().as_str()) {
+            (Some(Width::Bit) | None, "TRUE" | "HIGH") | (Some(Width::Bit), "1") => Some(true),
+            (Some(Width::Bit) | None, "FALSE" | "LOW") | (Some(Width::Bit), "0") => Some(false),
+            _ => None,
+        },
+        _ => None,
+    };
+    let code = match (bit, width) {
+        (None, None | Some(Width::Bit)) => return None,
+        (None, Some(width)) => expression::value(target, width, &value)?,
+        (Some(true), _) => vec![format!("S {target}, 1")],
+        (Some(false), _) => vec![format!("R {target}, 1")],
+    };
+    Some(Assignment { target: target.to_owned(), bit, code })
 }
 
 #[cfg(test)]
@@ -130,9 +190,23 @@ mod tests {
     }
 
     #[test]
-    fn more_than_that_is_one_answer_too() {
+    fn what_is_done_otherwise() {
         let text = "IF I0.0 THEN\n  Q0.0 := TRUE;\nELSE\n  Q0.0 := FALSE;\nEND_IF";
+        assert_eq!(found(text).0, "LD I0.0; = Q0.0");
+        let text = "IF Start = TRUE THEN\n  Motor := TRUE;\nEND_IF";
+        assert_eq!(found(text).0, "LD Start; S Motor, 1");
+        let text = "IF VW0 > 5 THEN\n  VW2 := 1;\nELSE VW2 := 2;\nEND_IF";
+        assert_eq!(found(text).0, "LDW> VW0, 5; MOVW 1, VW2; LDW> VW0, 5; NOT; MOVW 2, VW2");
+        let text = "IF VW0 > 5 THEN\n  VW0 := 1;\nELSE VW2 := 2;\nEND_IF";
+        assert_eq!(found(text).0, "");
+    }
+
+    #[test]
+    fn more_than_that_is_one_answer_too() {
+        let text = "IF I0.0 THEN\n  IF I0.1 THEN\n  END_IF";
         assert_eq!(found(text), (String::new(), text));
+        assert_eq!(found("IF I0.0 THEN\n  CALL(5);\nEND_IF").0, "");
+        assert_eq!(found("IF I0.0 THEN\n R I0.0\nELSE\n VW0 := 1;\nEND_IF").0, "");
         assert_eq!(find("IF I0.0 THEN\n"), None);
         assert_eq!(find("IFX I0.0 THEN END_IF"), None);
         assert_eq!(find("IF I0.0"), None);

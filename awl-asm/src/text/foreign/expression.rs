@@ -139,14 +139,35 @@ fn compared(contact: &str, part: &[Token]) -> Option<String> {
         }
         _ => return None,
     };
-    let is_bit = Width::of_operand(left) == Some(Width::Bit);
-    match (is_bit, relation, right.to_ascii_uppercase().as_str()) {
-        (true, "=", "1" | "TRUE" | "HIGH") => return Some(format!("{contact} {left}")),
-        (true, "=", "0" | "FALSE" | "LOW") => return Some(format!("{contact}N {left}")),
+    let own = Width::of_operand(left);
+    // What is true or false is a bit, whatever its name is.
+    match (own, relation, right.to_ascii_uppercase().as_str()) {
+        (Some(Width::Bit), "=", "1") | (Some(Width::Bit) | None, "=", "TRUE" | "HIGH") => {
+            return Some(format!("{contact} {left}"));
+        }
+        (Some(Width::Bit), "=", "0") | (Some(Width::Bit) | None, "=", "FALSE" | "LOW") => {
+            return Some(format!("{contact}N {left}"));
+        }
         _ => {}
     }
     let width = width::of(&format!("{left}, {right}")).filter(|width| *width != Width::Bit)?;
     Some(format!("{contact}{}{relation} {left}, {right}", width.letter()))
+}
+
+/// The contact that a comparison is after a contact of a bit: `LD`, `VW10 > 5`.
+pub(crate) fn contact_of(contact: &str, comparison: &str) -> Option<String> {
+    let tokens = tokens(comparison);
+    let of_names = || {
+        let [Token::Operand(left), Token::Sign(sign @ ('<' | '>' | '=')), Token::Operand(right)] =
+            tokens.as_slice()
+        else {
+            return None;
+        };
+        // The width of names is settled later: most values are words.
+        let is_plain = width::of(&format!("{left}, {right}")).is_none();
+        is_plain.then(|| format!("{contact}W{sign} {left}, {right}"))
+    };
+    compared(contact, &tokens).or_else(of_names)
 }
 
 /// A rung that writes a bit.

@@ -34,7 +34,9 @@ const LOOP: &str = "AWL loops with `FOR VW0, 1, 10` and `NEXT`, after a contact 
 /// after its name.
 pub(crate) fn is_structured(rest: &str) -> bool {
     let rest = rest.trim_start();
-    rest.starts_with('(') && !rest.starts_with("(*") || rest.contains(":=") && !rest.contains('"')
+    rest.starts_with('(') && !rest.starts_with("(*")
+        || rest.contains(":=") && !rest.contains('"')
+        || rest.contains('=') && rest.to_ascii_uppercase().contains(" TO ")
 }
 
 /// What a line was meant to be; `None` where its first word says it.
@@ -75,9 +77,12 @@ pub(super) fn meant(word: &str, rest: &str) -> Option<Meant> {
         });
     }
     if word.eq_ignore_ascii_case("FOR") && is_structured(rest) {
-        return Some(told(LOOP));
+        return Some(counted_loop(rest));
     }
-    loaded_time(word, rest)
+    started(word, rest)
+        .or_else(|| sign_apart(word, rest))
+        .or_else(|| compound(line))
+        .or_else(|| loaded_time(word, rest))
         .or_else(|| joined(word, rest))
         .or_else(|| declared(line))
         .or_else(|| assignment(line))
@@ -85,6 +90,81 @@ pub(super) fn meant(word: &str, rest: &str) -> Option<Meant> {
         .or_else(|| signed(word, rest))
         .or_else(|| operand_first(line))
         .or_else(|| (find(word).is_none() && is_structured(rest)).then(|| told(COMMAS)))
+}
+
+/// `FOR VW0 := 1 TO 10 DO`
+fn counted_loop(rest: &str) -> Meant {
+    let upper = rest.to_ascii_uppercase();
+    let parts = || {
+        let (index, range) = upper.split_once('=')?;
+        let (first, last) = range.split_once(" TO ")?;
+        let last = last.trim().trim_end_matches([';', ':']).trim().trim_end_matches(" DO");
+        let parts = [index.trim_end_matches(':'), first, last].map(str::trim);
+        let is_one = |part: &&str| !part.is_empty() && !part.contains([' ', '(', ',']);
+        parts.iter().all(is_one).then(|| format!("FOR {}", parts.join(", ")))
+    };
+    let instead = parts().map(Instead::Line);
+    Meant { instead, help: vec![LOOP.to_owned()], stand_in: Some("FOR".to_owned()) }
+}
+
+/// `OUT T0 K50`: timers and counters that are written like a coil.
+fn started(word: &str, rest: &str) -> Option<Meant> {
+    let mut operands = rest.split([',', ' ', '\t']).filter(|part| !part.is_empty());
+    let (target, preset, None) = (operands.next()?, operands.next()?, operands.next()) else {
+        return None;
+    };
+    let preset: u16 = preset.trim_start_matches(['K', 'k', '#']).parse().ok()?;
+    let is_coil = ["OUT", "ST", "="].iter().any(|name| name.eq_ignore_ascii_case(word));
+    match Address::parse(target).ok().filter(|_| is_coil)? {
+        Address::Timer(_) => Some(told(format!(
+            "a timer is started by `TON T37, {preset}`, {preset} times 100 ms, after the contact \
+             that is its input; `LD T37` is its bit"
+        ))),
+        counter @ Address::Counter(_) => Some(told(format!(
+            "a counter is `LD I0.0` for what it counts, `LD I0.1` for its reset, `CTU {counter}, \
+             {preset}`"
+        ))),
+        _ => None,
+    }
+}
+
+/// `+ I VW0, VW2` and `I+ VW0, VW2` for `+I VW0, VW2`.
+fn sign_apart(word: &str, rest: &str) -> Option<Meant> {
+    let is_sign = |text: &str| matches!(text, "+" | "-" | "*" | "/");
+    let is_letter = |text: &str| ["I", "D", "R"].iter().any(|one| one.eq_ignore_ascii_case(text));
+    let (next, operands) = rest.trim_start().split_at_checked(1)?;
+    let (sign, letter) = match (is_sign(word) && is_letter(next), is_letter(word) && is_sign(next))
+    {
+        (true, _) => (word, next),
+        (_, true) => (next, word),
+        _ => return None,
+    };
+    let is_apart = operands.starts_with([' ', '\t']) && operands.contains(',');
+    is_apart.then(|| Meant {
+        instead: Some(Instead::Line(format!(
+            "{sign}{} {}",
+            letter.to_ascii_uppercase(),
+            operands.trim()
+        ))),
+        help: Vec::new(),
+        stand_in: None,
+    })
+}
+
+/// `VW0++` and `VW0 += 5`, as the assignments that they are short for.
+fn compound(line: &str) -> Option<Meant> {
+    let line = line.trim_end_matches(';').trim_end();
+    for sign in ["+", "-"] {
+        if let Some(target) = line.strip_suffix(&sign.repeat(2)) {
+            let target = target.trim();
+            return assignment(&format!("{target} := {target} {sign} 1"));
+        }
+    }
+    let (left, value) = line.split_once('=')?;
+    let sign = left.chars().last().filter(|sign| "+-*/".contains(*sign))?;
+    let target = left[..left.len() - 1].trim();
+    Width::of_operand(target)?;
+    assignment(&format!("{target} := {target} {sign} {value}"))
 }
 
 /// `L S5T#2S` before the start of a timer.

@@ -4,6 +4,7 @@
 
 mod accumulators;
 mod apart;
+mod bits;
 mod boxes;
 mod conditional;
 mod controllers;
@@ -22,9 +23,10 @@ mod words;
 
 pub(crate) use accumulators::comparison;
 pub(crate) use apart::apart;
+pub(crate) use expression::contact_of;
 pub(crate) use lines::is_structured;
 pub(crate) use row::{Instead, Meant};
-pub(crate) use together::Together;
+pub(crate) use together::{Flow, Together};
 pub(crate) use words::{is_german, is_known};
 
 /// What a line was meant to be that begins with no instruction of the S7-200. `rest` is what is
@@ -45,11 +47,20 @@ pub(crate) fn sized(mnemonic: &str, rest: &str) -> Option<&'static str> {
     width::of(rest)?.sibling(mnemonic)
 }
 
-/// What the lines are together that begin where the text begins, if they are anything.
-pub(crate) fn together(text: &str) -> Option<Together> {
-    accumulators::find(text)
+/// What the lines are together that begin where the text begins, if they are anything. `flow` is
+/// what is before them.
+pub(crate) fn together(text: &str, flow: Flow) -> Option<Together> {
+    accumulators::find(text, flow)
         .or_else(|| preset_first::find(text))
+        .or_else(|| bits::find(text, flow))
         .or_else(|| conditional::find(text))
+}
+
+/// Whether a word begins or ends a block of another language.
+pub(crate) fn is_block(word: &str) -> bool {
+    let word = word.to_ascii_uppercase();
+    let kind = word.strip_prefix("END_").unwrap_or(&word);
+    matches!(kind, "FUNCTION" | "FUNCTION_BLOCK" | "PROGRAM")
 }
 
 #[cfg(test)]

@@ -1,6 +1,8 @@
 //! Lines of other languages that only mean something together: one answer for all of them. What
 //! they are here is said where their language is.
 
+use crate::text::address::Address;
+
 /// Lines that are something together.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Together {
@@ -14,6 +16,17 @@ pub(crate) struct Together {
     pub(crate) len: usize,
     /// The mnemonic that takes their place for the logic stack.
     pub(crate) stand_in: Option<&'static str>,
+}
+
+/// What is before lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Flow {
+    /// The beginning of a network.
+    None,
+    /// A contact: what follows is executed with its power flow.
+    Contact,
+    /// The end of a rung.
+    Done,
 }
 
 /// Instructions of a text: first word and operand of each line that has one, up to a setting.
@@ -53,4 +66,10 @@ impl<'t> Iterator for Lines<'t> {
             }
         }
     }
+}
+
+/// An address, if a text is one, with or without blanks in it: `T 5`.
+pub(super) fn address(text: &str) -> Option<Address> {
+    let bare: String = text.split_whitespace().collect();
+    Address::parse(&bare).ok()
 }
