@@ -68,14 +68,7 @@ pub(crate) fn way(source: &Instruction, wanted: usize, takes_real: bool) -> Opti
             let counter = first.map_or("C1".to_owned(), |address| address.to_string());
             Some(format!("the preset is named, too: `{name} {counter}, 10`"))
         }
-        (_, 1) if wanted == 2 && is_shifting(name) => Some(match first {
-            Some(address) => format!("the count is named, too: `{name} {address}, 1`"),
-            None => {
-                let count = text(&source.operands.first()?.value)?;
-                let size = name.chars().last()?;
-                format!("what is shifted is named, too: `{name} V{size}0, {count}`")
-            }
-        }),
+        (_, 1) if wanted == 2 && is_shifting(name) => shifted(source),
         // Two constants side by side are none that an instruction has.
         (_, given) if given == wanted + 1 => {
             let real = || takes_real.then(|| fraction(source)).flatten();
@@ -131,6 +124,18 @@ fn apart(source: &Instruction, wanted: usize) -> Option<String> {
 }
 
 /// Whether an instruction calculates with its first operand and the result.
+/// What a shift is without its count, or without what is shifted.
+fn shifted(source: &Instruction) -> Option<String> {
+    let name = source.mnemonic();
+    match &source.operands.first()?.value {
+        Value::Address(address) => Some(format!("the count is named, too: `{name} {address}, 1`")),
+        value => {
+            let (count, size) = (text(value)?, name.chars().last()?);
+            Some(format!("what is shifted is named, too: `{name} V{size}0, {count}`"))
+        }
+    }
+}
+
 /// Shifts and rotations of one value: `SLW` and its like.
 fn is_shifting(name: &str) -> bool {
     let starts = ["SL", "SR", "RL", "RR"].iter().any(|start| name.starts_with(start));

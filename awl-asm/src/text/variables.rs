@@ -245,7 +245,7 @@ fn elsewhere(name: &str) -> Option<&'static str> {
         (&["USINT", "UINT8", "UINT8_T"], "BYTE"),
     ];
     let is = |other: &&str| other.eq_ignore_ascii_case(name);
-    NAMES.iter().find(|(names, _)| names.iter().any(|other| is(other))).map(|(_, here)| *here)
+    NAMES.iter().find(|(names, _)| names.iter().any(is)).map(|(_, here)| *here)
 }
 
 /// `STRING`, `STRING[20]` or `STRING(20)`.
