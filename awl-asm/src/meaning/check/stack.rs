@@ -24,6 +24,7 @@ pub fn stack(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
         loads: Vec::new(),
         taken: 0,
         copies: 0,
+        kept: Vec::new(),
     };
     let mut depths = Vec::with_capacity(code.len());
     let mut statement = 0;
@@ -64,6 +65,8 @@ struct Follow<'a> {
     taken: usize,
     /// How many of them LPS made.
     copies: usize,
+    /// The copies of LPS that LPP has not taken back, and whether LRD has read them.
+    kept: Vec<(Span, bool)>,
 }
 
 impl Follow<'_> {
@@ -91,8 +94,15 @@ impl Follow<'_> {
         self.after_output = !is_contact(selected.op);
         match selected.op {
             // A copy is as good as used, and so is what is read where it is.
-            Op::Lps => self.copies += 1,
-            Op::Lds | Op::Lrd => self.taken = self.taken.max(usize::from(needs) + 1),
+            Op::Lps => {
+                self.copies += 1;
+                self.kept.push((span_of(self.program, selected), false));
+            }
+            Op::Lds | Op::Lrd => {
+                self.kept.iter_mut().for_each(|(_, is_read)| *is_read = true);
+                self.taken = self.taken.max(usize::from(needs) + 1);
+            }
+            Op::Lpp => _ = self.kept.pop(),
             _ if self.after_output => self.taken = self.taken.max(usize::from(needs)),
             _ => {}
         }
@@ -119,6 +129,21 @@ impl Follow<'_> {
         }
         self.loads.clear();
         (self.taken, self.copies) = (0, 0);
+        self.unused_copies();
+    }
+
+    /// A copy of the power flow that no branch takes up: the others of its branches are missing.
+    fn unused_copies(&mut self) {
+        let unused = self.kept.drain(..).filter(|(_, is_read)| !is_read);
+        for (span, _) in unused.filter(|_| !self.warned) {
+            self.diagnostics.push(
+                Diagnostic::new(Code::UnusedValue, span, "the copy that LPS keeps is not used")
+                    .help(
+                        "the last branch begins with `LPP`, those between the first and the last \
+                         with `LRD`; with one branch alone LPS is not needed",
+                    ),
+            );
+        }
     }
 
     fn check_needs(&mut self, selected: &Selected, instruction: &Instruction, needs: u8) {
