@@ -44,7 +44,8 @@ enum Task {
         #[arg(long)]
         host_only: bool,
     },
-    /// Checks the rules of the repository that no compiler checks.
+    /// Checks the rules of the repository that no compiler checks, lock files, sources and licences
+    /// of dependencies among them.
     Rules,
     /// Measures interpreter and assembler and compares them with their budgets.
     Bench,
@@ -108,7 +109,7 @@ fn main() -> ExitCode {
     let result = match Arguments::parse().task {
         Task::Demo => demo::run(),
         Task::Test { host_only } => test::run(host_only),
-        Task::Rules => rules::check(),
+        Task::Rules => rules::check().and_then(|()| licences::check()),
         Task::Bench => bench::run(),
         Task::Firmware { keep } => firmware::run(keep),
         Task::VmOnAvr => firmware::build_vm().map(|elf| println!("{}", elf.display())),
