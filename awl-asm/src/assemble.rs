@@ -7,8 +7,8 @@ use plc_isa::{HOST, Profile, UNO};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::image::encode::{Checked, Encoding, Line, encode};
 use crate::meaning::check::{
-    Control, Depths, Usage, control, counting, labels, mixed_coils, overlap, placement, sequence,
-    stack, usage,
+    Control, Depths, Usage, control, counting, labels, mixed_coils, overlap, permission, placement,
+    sequence, stack, usage,
 };
 use crate::meaning::free_places;
 use crate::meaning::hardware;
@@ -208,6 +208,7 @@ fn understood(mut program: Program, name: &str, mut diagnostics: Vec<Diagnostic>
     mixed_coils(&program, &code, &usage, &mut diagnostics);
     overlap(&program, &code, &usage, &mut diagnostics);
     counting(&program, &code, &mut diagnostics);
+    permission(&program, &code, &mut diagnostics);
     diagnostics.extend(empty(&program));
     let meaning = Meaning { program: &program, code: &code, units: &units, control: &control };
     let is_sound = !has_errors(&diagnostics);

@@ -66,6 +66,7 @@ diagnostics::codes! {
     Overlap = "W0014";
     EveryScan = "W0015";
     EmptyProgram = "W0016";
+    NeverPermitted = "W0017";
     NeverCalled = "W0020";
     MixedMnemonics = "W0030";
     NoEffect = "W0032";

@@ -143,7 +143,10 @@ impl Check<'_> {
             TimerKind::started_by(self.op(access)).is_some() && access.operand == 0
         };
         self.one_kind(&name, "a timer", accesses, starts, Code::TimerTwoKinds, diagnostics);
-        let help = format!("start it with TON, TOF or TONR, for example `TON {name}, 10`");
+        let help = match TimerKind::OnDelay.fits(number) {
+            true => format!("start it with TON or TOF, for example `TON {name}, 10`"),
+            false => format!("start it with TONR, for example `TONR {name}, 10`"),
+        };
         self.never_started(
             &name,
             "started",
