@@ -176,7 +176,9 @@ fn no_event(event: u8, span: Span) -> Option<Diagnostic> {
         33 => ("HSC5", counter),
         _ => {
             let message = format!("{event}: an S7-200 has the events 0 to 33");
-            return Some(Diagnostic::new(Code::Event, span, message));
+            let help = "such as 0 for the rising edge of I0.0, 1 for its falling one, 10 for the \
+                        time in SMB34, 21 for T32, 8 for a character that is received";
+            return Some(Diagnostic::new(Code::Event, span, message).help(help));
         }
     };
     let message = format!("event {event} is of {what}, which the Uno lacks");

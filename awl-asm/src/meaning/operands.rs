@@ -28,10 +28,12 @@ pub(crate) fn way(source: &Instruction, wanted: usize, takes_real: bool) -> Opti
             let bit = first.map_or("Q0.0".to_owned(), |address| address.to_string());
             Some(format!("the number of bits is named, too: `{name} {bit}, 1`"))
         }
-        ("A" | "AN", 0) => Some("two branches are joined by `ALD`".to_owned()),
-        ("O" | "ON", 0) => {
-            Some("two branches that begin with LD are joined by `OLD`".to_owned())
+        ("A" | "AN", 0) => {
+            Some(format!("the bit is named: `{name} I0.1`; two branches are joined by `ALD`"))
         }
+        ("O" | "ON", 0) => Some(format!(
+            "the bit is named: `{name} I0.1`; two branches that begin with LD are joined by `OLD`"
+        )),
         ("EU" | "ED", 1..) => {
             Some(format!("`{name}` is after the contact whose edge it tells: `LD I0.0`, `{name}`"))
         }
@@ -69,6 +71,9 @@ pub(crate) fn way(source: &Instruction, wanted: usize, takes_real: bool) -> Opti
             Some(format!("the preset is named, too: `{name} {counter}, 10`"))
         }
         (_, 1) if wanted == 2 && is_shifting(name) => shifted(source),
+        ("TON" | "TOF" | "TONR", 3) => fraction(source).map(|_| {
+            format!("a preset is a whole number of counts: `{name} T37, 25` is 2.5 s")
+        }),
         // Two constants side by side are none that an instruction has.
         (_, given) if given == wanted + 1 => {
             let real = || takes_real.then(|| fraction(source)).flatten();
@@ -187,6 +192,10 @@ fn way_of_constant(source: &Instruction, position: usize, value: i64) -> Option<
         (_, 1) if name.starts_with(['+', '-', '*', '/']) => Some(format!(
             "the second operand is the result, the constant comes first: `{name} {value}, VW0`"
         )),
+        ("MOVB" | "MOVW" | "MOVD" | "MOVR", 1) => {
+            let target = source.operands.first().and_then(|operand| text(&operand.value))?;
+            Some(format!("the second operand is where it goes: `{name} {value}, {target}`"))
+        }
         _ => None,
     }
 }
@@ -327,6 +336,9 @@ pub(crate) fn way_of_kind(source: &Instruction, position: usize) -> Option<Strin
         Value::Address(address) => address,
         Value::Constant(constant) => return way_of_constant(source, position, constant.value),
         Value::Real(bits) => return way_of_real(source, f32::from_bits(bits)),
+        Value::AddressOf(to) if position == 0 && name.starts_with("MOV") => {
+            return Some(format!("a pointer is a double word: `MOVD &{to}, VD10`"));
+        }
         _ => return None,
     };
     match (name, address) {
@@ -346,20 +358,24 @@ pub(crate) fn way_of_kind(source: &Instruction, position: usize) -> Option<Strin
             ))
         }
         ("SI", Address::Timer(_)) => Some(NO_PULSE.to_owned()),
+        ("PLS", Address::Bit { .. }) => Some(format!(
+            "`PLS` starts the pulse output 0 or 1; a bit that is 1 for one scan is `EU` after the \
+             contact: `LD I0.0`, `EU`, `= {address}`"
+        )),
+        ("DTR", Address::Word { .. }) if position == 0 => Some(format!(
+            "a word becomes a double word first: `ITD {address}, VD10`, `DTR VD10, VD10`"
+        )),
+        ("MOVR", Address::Word { .. } | Address::Byte { .. }) => {
+            Some("a real number is in a double word, such as VD0".to_owned())
+        }
+        ("CTU" | "CTD" | "CTUD", Address::Timer(number)) if position == 0 => {
+            Some(format!("a counter has the letter C: `{name} C{number}, 10`"))
+        }
         ("=" | "=I" | "S" | "R" | "SI" | "RI", _) if position == 0 => first_bit(name, address),
         ("+I" | "-I" | "*I" | "/I", Address::Byte { .. }) => Some(format!(
             "an S7-200 calculates with words: `BTI {address}, VW10` makes a word of the byte"
         )),
-        ("TON" | "TOF" | "TONR", _) if position == 0 => {
-            let timer = if name == "TONR" { "T5" } else { "T37" };
-            Some(match address {
-                Address::Bit { .. } => format!(
-                    "a timer is started, and its bit is a contact: `{name} {timer}, 20`, then \
-                     `LD {timer}`, `= {address}`"
-                ),
-                _ => timer_first(name, timer, address),
-            })
-        }
+        ("TON" | "TOF" | "TONR", _) if position == 0 => Some(way_of_timer(source, address)),
         ("MOVD", Address::Byte { .. } | Address::Word { .. }) if position == 0 => {
             let to = source.operands.get(1).and_then(|operand| text(&operand.value));
             let to = to.unwrap_or_else(|| "AC1".to_owned());
@@ -367,24 +383,44 @@ pub(crate) fn way_of_kind(source: &Instruction, position: usize) -> Option<Strin
                 "a pointer to it is `MOVD &{address}, {to}`; its value becomes a double word by `ITD`"
             ))
         }
-        ("LD" | "A" | "O" | "LDN" | "AN" | "ON", _) => {
-            let letter = match address {
-                Address::Byte { .. } => "B",
-                Address::Word { .. } => "W",
-                Address::Double { .. } => "D",
-                _ => return None,
-            };
-            let contact = name.trim_end_matches('N');
-            let way = format!("a value is compared, as in `{contact}{letter}> {address}, 5`");
-            Some(match name {
-                "A" | "O" => {
-                    let logic = if name == "A" { "AND" } else { "OR" };
-                    let other = address.to_string();
-                    format!("{way}, or its bits are combined by `{logic}{letter} {other}, {other}`")
-                }
-                _ => way,
-            })
-        }
+        ("LD" | "A" | "O" | "LDN" | "AN" | "ON", _) => value_as_contact(name, address),
         _ => way_of_width(source),
     }
+}
+
+/// What is no timer, where the timer is named.
+fn way_of_timer(source: &Instruction, address: Address) -> String {
+    let name = source.mnemonic();
+    let timer = if name == "TONR" { "T5" } else { "T37" };
+    let preset = source.operands.get(1).map(|operand| &operand.value);
+    match (address, preset) {
+        (Address::Bit { .. }, _) => format!(
+            "a timer is started, and its bit is a contact: `{name} {timer}, 20`, then \
+             `LD {timer}`, `= {address}`"
+        ),
+        (Address::Counter(_), Some(Value::Constant(preset))) => format!(
+            "a timer has the letter T: `{name} {timer}, {}`; a counter is `CTU {address}, {0}`",
+            preset.value
+        ),
+        _ => timer_first(name, timer, address),
+    }
+}
+
+/// A value where a contact has its bit.
+fn value_as_contact(name: &str, address: Address) -> Option<String> {
+    let letter = match address {
+        Address::Byte { .. } => "B",
+        Address::Word { .. } => "W",
+        Address::Double { .. } => "D",
+        _ => return None,
+    };
+    let contact = name.trim_end_matches('N');
+    let way = format!("a value is compared, as in `{contact}{letter}> {address}, 5`");
+    Some(match name {
+        "A" | "O" => {
+            let logic = if name == "A" { "AND" } else { "OR" };
+            format!("{way}, or its bits are combined by `{logic}{letter} {address}, {address}`")
+        }
+        _ => way,
+    })
 }

@@ -295,10 +295,11 @@ fn in_area(text: &str, area: Area, size: Size, number: &str) -> Result<Address, 
     }
 }
 
-/// `0.1` of `01`: byte and bit without the point between them.
+/// `0.1` of `01`: byte and bit without the point between them, where they are no byte alone.
 fn without_point(digits: &str, last: u32) -> Option<String> {
     let (byte, bit) = digits.split_at_checked(digits.len().checked_sub(1)?)?;
-    let is_bit = !byte.is_empty() && number_of(byte) <= last && number_of(bit) <= 7;
+    let is_pair = byte.starts_with('0') || number_of(digits) > last;
+    let is_bit = is_pair && !byte.is_empty() && number_of(byte) <= last && number_of(bit) <= 7;
     is_bit.then(|| format!("{}.{bit}", number_of(byte)))
 }
 

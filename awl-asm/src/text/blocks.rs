@@ -162,6 +162,8 @@ impl Blocks {
         diagnostics.extend(error.map(|message| {
             let diagnostic = Diagnostic::new(Code::Block, place, message);
             match is_variables && self.open.is_none() {
+                _ if matches!(keyword, Keyword::Title) && self.open.is_some() => diagnostic
+                    .help("the title of a network is after its number: `NETWORK 1 // title`"),
                 true => diagnostic.help(
                     "variables of the whole program are declared by `//# var Speed INT`, those of \
                      a routine between its header and `BEGIN`",

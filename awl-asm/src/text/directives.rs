@@ -398,7 +398,11 @@ fn retained(item: Piece<'_>, first: Address, last: Address) -> Outcome<RetainedR
     else {
         let help = "what can be retained: bytes, words and double words of V and M, timers of \
             TONR, counters";
-        return Err(Box::new(item.error("cannot be retained").help(help)));
+        let mut error = item.error("cannot be retained").help(help);
+        if let Address::Bit { area: area @ (Area::M | Area::V), byte, .. } = first {
+            error.suggestion = Some(Address::Byte { area, byte }.to_string());
+        }
+        return Err(Box::new(error));
     };
     check_order(item, area == last_area && from_len == len, u32::from(from), u32::from(to))?;
     let loses = |number: u16| {

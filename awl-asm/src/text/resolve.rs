@@ -392,6 +392,11 @@ impl Resolver<'_> {
         let mut diagnostic = Diagnostic::new(Code::UnknownRoutine, span, message);
         let known: Vec<String> =
             units().flat_map(|unit| [unit.name.clone(), unit.id.to_string()]).collect();
+        if let Some((bare, inside)) = name.strip_suffix(')').and_then(|name| name.split_once('(')) {
+            let operands = if inside.is_empty() { "" } else { ", " };
+            diagnostic.help = vec!["parameters follow after a comma, without brackets".to_owned()];
+            return Err(Box::new(diagnostic.suggest(format!("{bare}{operands}{inside}"))));
+        }
         let near = self
             .suggester
             .nearest(name, known.iter().map(String::as_str).filter(|name| !name.is_empty()));
@@ -471,6 +476,20 @@ impl Resolver<'_> {
         }
     }
 
+    /// Which elements an array has of which another was named.
+    fn elements(&self, name: &str) -> Option<String> {
+        let (array, index) = name.strip_suffix(']')?.split_once('[')?;
+        // Another index than a number needs a pointer.
+        index.trim().parse::<i64>().ok()?;
+        let is_element = |known: &&str| {
+            known.split_once('[').is_some_and(|(other, _)| is_same_name(other, array))
+        };
+        let mut elements = self.symbols.names().filter(is_element);
+        let first = elements.next()?;
+        let last = elements.last().unwrap_or(first);
+        Some(format!("the array has the elements `{first}` to `{last}`"))
+    }
+
     fn unknown_symbol(
         &self,
         span: Span,
@@ -491,6 +510,10 @@ impl Resolver<'_> {
                 .or_else(|| hints::bare_fraction(name))
                 .or_else(|| nearby_address(name)),
         };
+        if let Some(range) = self.elements(name) {
+            diagnostic.help.push(range);
+            return Box::new(diagnostic);
+        }
         diagnostic.help.extend(foreign_operands::immediate(name));
         if !is_quoted {
             let way = foreign_operands::way(name).filter(|_| diagnostic.suggestion.is_none());

@@ -147,7 +147,9 @@ pub fn check_name(name: &str, place: Span) -> Result<(), Box<Diagnostic>> {
     // Z1 and A1.0 are likely names of valves; programs with German addresses do not use them as
     // such.
     if Address::parse(name).is_ok_and(|address| !address.is_german(name)) {
-        return error(format!("{name}: a symbol cannot be named like an address"));
+        let message = format!("{name}: a symbol cannot be named like an address");
+        let help = format!("the name is first, then what it stands for: `Start {name}`");
+        return Err(Box::new(Diagnostic::new(Code::SymbolDefinition, place, message).help(help)));
     }
     if literal::truth_value(name).is_some()
         || literal::looks_like_literal(name) && literal::parse(name).is_ok()
@@ -186,6 +188,10 @@ pub(crate) fn read_value(text: &str, place: Span) -> Result<Value, Box<Diagnosti
                         format!("{text}: a symbol stands for an address or a constant"),
                     );
                     diagnostic.suggestion = nearby_address(text);
+                    if text.starts_with(['=', ':']) {
+                        let help = "nothing is between name and address: `Start I0.0`";
+                        diagnostic.help.push(help.to_owned());
+                    }
                     Err(diagnostic)
                 }
             }

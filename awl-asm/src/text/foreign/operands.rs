@@ -204,6 +204,9 @@ pub(crate) fn number(text: &str) -> Option<String> {
         (16, digits)
     } else if let Some(digits) = upper.strip_prefix('$') {
         (16, digits)
+    } else if let Some(digits) = upper.strip_prefix("H0") {
+        // `HA` may be a name.
+        (16, digits)
     } else {
         (10, upper.strip_prefix("C#").or(upper.strip_prefix('K'))?)
     };

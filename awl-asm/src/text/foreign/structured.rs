@@ -46,6 +46,20 @@ pub(super) const ROWS: &[Row] = &[
         Nothing,
         BLOCKS,
     ),
+    named(
+        &[],
+        &[
+            "UNTERPROGRAMM",
+            "HAUPTPROGRAMM",
+            "INTERRUPTPROGRAMM",
+            "ORGANISATIONSBAUSTEIN",
+            "FUNKTION",
+            "FUNKTIONSBAUSTEIN",
+            "PROGRAMM",
+        ],
+        Nothing,
+        BLOCKS,
+    ),
     row(&["TYPE", "END_TYPE", "STRUCT", "END_STRUCT", "CONST", "ARRAY"], Nothing, TYPES),
     row(
         &["VAR_GLOBAL", "VAR_EXTERNAL", "VAR_STATIC"],
