@@ -4,8 +4,6 @@ use super::row::Here::{Mnemonic, Nothing};
 use super::row::{Row, row};
 
 const SCALE: &str = "on an S7-200 that is arithmetic: `ITD`, `DTR`, then `/R`, `*R` and `+R`";
-const LESS_OR_MORE: &str = "on an S7-200 that is a comparison before the copy: `LDW> VW0, VW2`, \
-     then `MOVW VW0, VW4`";
 const RISING: &str = "on an S7-200 that is `EU` after the contact, without an operand";
 const FALLING: &str = "on an S7-200 that is `ED` after the contact, without an operand";
 const ADDS_TO: &str = "AWL names two operands, the second is the result: `+I VW0, VW2`";
@@ -105,7 +103,18 @@ pub(super) const ROWS: &[Row] = &[
     row(&["GE"], Nothing, "on an S7-200 that is a contact: `LDW>= VW0, 5`"),
     row(&["LT"], Nothing, "on an S7-200 that is a contact: `LDW< VW0, 5`"),
     row(&["LE"], Nothing, "on an S7-200 that is a contact: `LDW<= VW0, 5`"),
-    row(&["MAX", "MIN"], Nothing, LESS_OR_MORE),
+    row(
+        &["MAX"],
+        Nothing,
+        "on an S7-200 the larger of VW0 and VW2 comes to VW2 by a comparison before a copy: `LDW> \
+         VW0, VW2`, `MOVW VW0, VW2`",
+    ),
+    row(
+        &["MIN"],
+        Nothing,
+        "on an S7-200 the smaller of VW0 and VW2 comes to VW2 by a comparison before a copy: \
+         `LDW< VW0, VW2`, `MOVW VW0, VW2`",
+    ),
     row(
         &["LIMIT"],
         Nothing,

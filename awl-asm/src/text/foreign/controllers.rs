@@ -41,10 +41,16 @@ pub(super) const ROWS: &[Row] = &[
     row(&["ORN", "ORNOT", "ORI"], Mnemonic("ON"), ""),
     named(&[], &["ODERN", "ODERNICHT"], Mnemonic("ON"), ""),
     row(
-        &["XOR", "XORN"],
+        &["XOR"],
         Sized(["", "XORB", "XORW", "XORD", ""], ""),
         "of bytes it is `XORB`, of words `XORW`, of double words `XORD`; of bits `LD I0.0`, \
          `AN I0.1`, `LDN I0.0`, `A I0.1`, `OLD`",
+    ),
+    row(
+        &["XORN"],
+        Nothing,
+        "of two bits that is `LD I0.0`, `A I0.1`, `LDN I0.0`, `AN I0.1`, `OLD`: both or none; of \
+         values `XORW VW0, VW2`, `INVW VW2`",
     ),
     row(&["LOAD"], Mnemonic("LD"), ""),
     named(

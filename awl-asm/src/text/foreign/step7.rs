@@ -32,6 +32,8 @@ const OR_BRACKET: &str = "an S7-200 has no brackets: begin what is inside with `
      contact is before it end it with `OLD`";
 const NO_EXCLUSIVE_OR: &str = "on an S7-200 that is `LD I0.0`, `AN I0.1`, `LDN I0.0`, `A I0.1`, \
      `OLD`: one bit or the other, not both";
+const BOTH_OR_NONE: &str = "on an S7-200 that is `LD I0.0`, `A I0.1`, `LDN I0.0`, `AN I0.1`, \
+     `OLD`: both bits or none";
 const PULSE: &str = "an S7-200 has no pulse timers: set a bit with `EU` and `S M0.0, 1`, let \
      `TON T37, 20` run while it is 1, and reset it with `R M0.0, 1` when T37 is";
 const ON_DELAY: &str =
@@ -100,14 +102,15 @@ pub(super) const ROWS: &[Row] = &[
         Nothing,
         "an S7-200 has no brackets: begin what is inside with `LD`, end it with `NOT` and `OLD`",
     ),
-    row(&["X(", "XN("], Nothing, NO_EXCLUSIVE_OR),
+    row(&["X("], Nothing, NO_EXCLUSIVE_OR),
+    row(&["XN(", "XN"], Nothing, BOTH_OR_NONE),
     row(
         &[")"],
         Nothing,
         "an S7-200 has no brackets: what is inside begins with `LD`, and where a contact is before \
          it, `ALD` (AND) or `OLD` (OR) ends it",
     ),
-    row(&["X", "XN", "XO"], Nothing, NO_EXCLUSIVE_OR),
+    row(&["X", "XO"], Nothing, NO_EXCLUSIVE_OR),
     row(&["FP"], Instruction("EU"), "an S7-200 remembers the edge by itself: `EU` has no operand"),
     row(&["FN"], Instruction("ED"), "an S7-200 remembers the edge by itself: `ED` has no operand"),
     row(&["SET"], Mnemonic("S"), "the number of bits is named, too: `S Q0.0, 1`"),
