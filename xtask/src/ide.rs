@@ -145,7 +145,7 @@ pub fn start(open: bool) -> Result<()> {
 /// Builds the IDE into its folder.
 pub fn build() -> Result<PathBuf> {
     let folder = root().join(BUILT);
-    let module = wasm::build_small("ide-core")?;
+    let module = wasm::build("ide-core", &["ide-core"])?;
     fs::create_dir_all(folder.join("examples"))?;
     run(cargo()
         .args(["run", "--quiet", "--package", "bind", "--"])

@@ -28,7 +28,7 @@ const MODULE: &str = "wasm_smoke";
 
 /// Builds the libraries, and compares the report of node with that of this computer.
 pub fn check() -> Result<()> {
-    let module = build()?;
+    let module = build(MODULE, &LIBRARIES)?;
     let folder = root().join("target/wasm/node");
     run(cargo().args(["run", "--quiet", "--package", "bind", "--"]).arg(&module).arg(&folder))?;
     let there = report_of_node(&folder.join(MODULE).with_extension("js"))?;
@@ -41,41 +41,24 @@ pub fn check() -> Result<()> {
     Ok(())
 }
 
-/// A module that a page loads: optimised, and small.
-pub fn build_small(package: &str) -> Result<PathBuf> {
-    let folder = root().join("target/wasm");
-    let mut build = builder(&folder)?;
-    build.args(["--package", package]);
-    run(&mut build)?;
-    Ok(module(&folder, package))
-}
-
-fn module(folder: &Path, package: &str) -> PathBuf {
-    folder.join(TARGET).join("release").join(package.replace('-', "_")).with_extension("wasm")
-}
-
-/// A cargo that builds libraries, without what their commands need: as a page has them, so that
-/// std and the libraries are built once for all modules.
-fn builder(folder: &Path) -> Result<Command> {
+/// Builds the packages `of`, without what their commands need, and tells where the module of one of
+/// them is: optimised and small, as a page loads it. All modules are built alike, so std and the
+/// libraries are built once.
+pub fn build(module: &str, of: &[&str]) -> Result<PathBuf> {
     packages::ensure_installed(packages::NODE)?;
+    let folder = root().join("target/wasm");
     let mut build = compiler()?;
     build.current_dir(root()).args(["build", "--quiet", "--locked", "--lib", "--target", TARGET]);
-    build.arg("--no-default-features").arg("--target-dir").arg(folder).arg("--release");
+    build.arg("--no-default-features").arg("--target-dir").arg(&folder).arg("--release");
     build.args(["--config", "profile.release.debug=false"]);
     build.args(["--config", "profile.release.opt-level=\"s\""]);
     build.args(["--config", "profile.release.panic=\"abort\""]);
-    Ok(build)
-}
-
-/// The module in which all libraries are.
-fn build() -> Result<PathBuf> {
-    let folder = root().join("target/wasm");
-    let mut build = builder(&folder)?;
-    for library in LIBRARIES {
-        build.args(["--package", library]);
+    for package in of {
+        build.args(["--package", package]);
     }
     run(&mut build)?;
-    Ok(module(&folder, MODULE))
+    let name = module.replace('-', "_");
+    Ok(folder.join(TARGET).join("release").join(name).with_extension("wasm"))
 }
 
 /// A cargo that can build for the target: rustup's where it has the target, otherwise Debian's,

@@ -128,7 +128,6 @@ fn apart(source: &Instruction, wanted: usize) -> Option<String> {
     Some(format!("the last operand is the result, too: {}", lines.join(", ")))
 }
 
-/// Whether an instruction calculates with its first operand and the result.
 /// What a shift is without its count, or without what is shifted.
 fn shifted(source: &Instruction) -> Option<String> {
     let name = source.mnemonic();
@@ -147,6 +146,7 @@ fn is_shifting(name: &str) -> bool {
     starts && name.len() == 3 && name.ends_with(['B', 'W', 'D'])
 }
 
+/// Whether an instruction calculates with its first operand and the result.
 fn is_calculating(name: &str) -> bool {
     name.starts_with(['+', '-', '*', '/'])
         || ["AND", "OR", "XOR", "MUL", "DIV", "SL", "SR", "RL", "RR", "BTI", "ITB", "ITD", "DTI"]

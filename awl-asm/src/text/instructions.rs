@@ -117,12 +117,10 @@ impl<'s> Parser<'s> {
         let is_plain = matches!(contact, "LD" | "A" | "O");
         let is_sign = sign.span.text(self.text).chars().all(|c| "<>=!".contains(c));
         let span = Span { start: left.span.start, end: right.span.end };
-        let Some(meant) = Some(span.text(self.text))
-            .filter(|_| is_plain && is_sign)
-            .and_then(|comparison| foreign::contact_of(contact, comparison))
-        else {
+        if !(is_plain && is_sign) {
             return false;
-        };
+        }
+        let Some(meant) = foreign::contact_of(contact, span.text(self.text)) else { return false };
         let line = Span { start: word.start, end: right.span.end };
         let message = format!("{}: a comparison is part of the mnemonic", line.text(self.text));
         let name = meant.split([' ', '=', '<', '>']).next().and_then(compare_like);
@@ -253,7 +251,7 @@ impl<'s> Parser<'s> {
 
     /// Whether nothing is between here and the beginning of the network.
     fn begins_rung(&self) -> bool {
-        !matches!(self.program.statements.last(), Some(Statement::Instruction(_)))
+        self.flow() == Flow::None
     }
 
     /// An instruction of the table that is written like structured text.

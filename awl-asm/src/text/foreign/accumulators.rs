@@ -53,9 +53,8 @@ pub(super) fn find(text: &str, flow: Flow) -> Option<Together> {
             steps.push(combined(what, operand)?);
         } else if let (true, Some(relation)) = (is_list, relation_of_list(word)) {
             let width = Width::of_operand(&first)?;
-            let compared = format!("LD{}{relation} {first}, {}", width.letter(), written(operand)?);
-            let is_plain = steps.is_empty();
-            return is_plain.then(|| together(vec![compared], lines.end, Some("LDW")));
+            let compared = contact(&first, &steps, relation, width, &written(operand)?)?;
+            return Some(together(vec![compared], lines.end, Some("LDW")));
         } else if let (true, Some(names)) = (is_list, step_of_list(word)) {
             let width = Width::of_operand(&first)?;
             let name = Some(width.of_all(names)).filter(|name| !name.is_empty())?;
@@ -111,9 +110,20 @@ fn is(word: &str, name: &str) -> bool {
     word.eq_ignore_ascii_case(name)
 }
 
-/// The contact of a comparison of what was loaded first, if nothing was done with it.
+/// The comparison of STEP 7 of what was loaded first, as a contact.
 fn compared(first: &str, steps: &[Step], what: &str, operand: &str) -> Option<String> {
     let (relation, width) = comparison(what)?;
+    contact(first, steps, relation, width, operand)
+}
+
+/// The contact of a comparison of what was loaded first, if nothing was done with it.
+fn contact(
+    first: &str,
+    steps: &[Step],
+    relation: &str,
+    width: Width,
+    operand: &str,
+) -> Option<String> {
     let fits = |text: &str| fits(text, width);
     let is_plain = steps.is_empty() && fits(first) && fits(operand);
     is_plain.then(|| format!("LD{}{relation} {first}, {operand}", width.letter()))

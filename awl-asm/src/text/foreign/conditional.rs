@@ -151,12 +151,7 @@ fn assignment(statement: &str) -> Option<Assignment> {
     let (target, value) = (target.text(), expression::tokens(value));
     let width = Width::of_operand(target);
     let bit = match value.as_slice() {
-        // What becomes true or false is a bit, whatever its name is.
-        [value] => match (width, value.text().to_ascii_uppercase().as_str()) {
-            (Some(Width::Bit) | None, "TRUE" | "HIGH") | (Some(Width::Bit), "1") => Some(true),
-            (Some(Width::Bit) | None, "FALSE" | "LOW") | (Some(Width::Bit), "0") => Some(false),
-            _ => None,
-        },
+        [value] => expression::bit_value(width, value.text()),
         _ => None,
     };
     let code = match (bit, width) {

@@ -52,6 +52,16 @@ fn truth(text: &str) -> Option<bool> {
     }
 }
 
+/// The value that an operand of this width has or gets, if it is a bit. What is true or false is a
+/// bit, whatever its name is.
+pub(super) fn bit_value(width: Option<Width>, text: &str) -> Option<bool> {
+    match (width, text.to_ascii_uppercase().as_str()) {
+        (Some(Width::Bit) | None, "TRUE" | "HIGH") | (Some(Width::Bit), "1") => Some(true),
+        (Some(Width::Bit) | None, "FALSE" | "LOW") | (Some(Width::Bit), "0") => Some(false),
+        _ => None,
+    }
+}
+
 pub(super) fn tokens(text: &str) -> Vec<Token> {
     let mut tokens = Vec::new();
     let mut rest = text.trim_start();
@@ -100,7 +110,7 @@ fn one_contact(contact: &str, part: &[Token]) -> Option<String> {
     let (inverted, name) = match part {
         [Token::Operand(name)] => (false, name),
         [Token::Not, Token::Operand(name)] => (true, name),
-        _ => return compared(contact, part),
+        _ => return compared(contact, part, None),
     };
     let (inverted, name) = match truth(name) {
         Some(value) => (inverted == value, "SM0.0"),
@@ -118,8 +128,8 @@ fn one_contact(contact: &str, part: &[Token]) -> Option<String> {
     is_bit.then(|| format!("{contact}{} {name}", if inverted { "N" } else { "" }))
 }
 
-/// The contact of a comparison, `VW0 >= 5`.
-fn compared(contact: &str, part: &[Token]) -> Option<String> {
+/// The contact of a comparison, `VW0 >= 5`. `unknown` is how wide names are.
+fn compared(contact: &str, part: &[Token], unknown: Option<Width>) -> Option<String> {
     let (Token::Operand(left), rest) = part.split_first()? else { return None };
     let signs: String = rest
         .iter()
@@ -139,35 +149,18 @@ fn compared(contact: &str, part: &[Token]) -> Option<String> {
         }
         _ => return None,
     };
-    let own = Width::of_operand(left);
-    // What is true or false is a bit, whatever its name is.
-    match (own, relation, right.to_ascii_uppercase().as_str()) {
-        (Some(Width::Bit), "=", "1") | (Some(Width::Bit) | None, "=", "TRUE" | "HIGH") => {
-            return Some(format!("{contact} {left}"));
-        }
-        (Some(Width::Bit), "=", "0") | (Some(Width::Bit) | None, "=", "FALSE" | "LOW") => {
-            return Some(format!("{contact}N {left}"));
-        }
-        _ => {}
+    if let (true, Some(value)) = (relation == "=", bit_value(Width::of_operand(left), &right)) {
+        return Some(format!("{contact}{} {left}", if value { "" } else { "N" }));
     }
-    let width = width::of(&format!("{left}, {right}")).filter(|width| *width != Width::Bit)?;
+    let width = width::of(&format!("{left}, {right}")).or(unknown);
+    let width = width.filter(|width| *width != Width::Bit)?;
     Some(format!("{contact}{}{relation} {left}, {right}", width.letter()))
 }
 
 /// The contact that a comparison is after a contact of a bit: `LD`, `VW10 > 5`.
 pub(crate) fn contact_of(contact: &str, comparison: &str) -> Option<String> {
-    let tokens = tokens(comparison);
-    let of_names = || {
-        let [Token::Operand(left), Token::Sign(sign @ ('<' | '>' | '=')), Token::Operand(right)] =
-            tokens.as_slice()
-        else {
-            return None;
-        };
-        // The width of names is settled later: most values are words.
-        let is_plain = width::of(&format!("{left}, {right}")).is_none();
-        is_plain.then(|| format!("{contact}W{sign} {left}, {right}"))
-    };
-    compared(contact, &tokens).or_else(of_names)
+    // The width of names is settled later: most values are words.
+    compared(contact, &tokens(comparison), Some(Width::Word))
 }
 
 /// A rung that writes a bit.

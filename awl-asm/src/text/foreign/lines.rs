@@ -36,7 +36,8 @@ pub(crate) fn is_structured(rest: &str) -> bool {
     let rest = rest.trim_start();
     rest.starts_with('(') && !rest.starts_with("(*")
         || rest.contains(":=") && !rest.contains('"')
-        || rest.contains('=') && rest.to_ascii_uppercase().contains(" TO ")
+        || rest.contains('=')
+            && rest.as_bytes().windows(4).any(|word| word.eq_ignore_ascii_case(b" TO "))
 }
 
 /// What a line was meant to be; `None` where its first word says it.
