@@ -58,7 +58,12 @@ impl Suggester {
         // The right letters in another order.
         let wanted = letters(word);
         let mut candidates = candidates.collect::<Vec<_>>().into_iter();
-        let is_same = |candidate: &&str| wanted.len() > 1 && letters(candidate) == wanted;
+        // Most have more letters or fewer, and need not be sorted.
+        let is_same = |candidate: &&str| {
+            wanted.len() > 1
+                && candidate.chars().count() == wanted.len()
+                && letters(candidate) == wanted
+        };
         if let Some(same) = candidates.clone().find(is_same) {
             return Some(same);
         }

@@ -155,8 +155,8 @@ fn sign_apart(word: &str, rest: &str) -> Option<Meant> {
 /// `VW0++` and `VW0 += 5`, as the assignments that they are short for.
 fn compound(line: &str) -> Option<Meant> {
     let line = line.trim_end_matches(';').trim_end();
-    for sign in ["+", "-"] {
-        if let Some(target) = line.strip_suffix(&sign.repeat(2)) {
+    for (signs, sign) in [("++", '+'), ("--", '-')] {
+        if let Some(target) = line.strip_suffix(signs) {
             let target = target.trim();
             return assignment(&format!("{target} := {target} {sign} 1"));
         }
