@@ -7,8 +7,8 @@ use plc_isa::{HOST, Profile, UNO};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::image::encode::{Checked, Encoding, Line, encode};
 use crate::meaning::check::{
-    Control, Depths, Usage, control, counting, labels, mixed_coils, overlap, permission, placement,
-    sequence, stack, usage,
+    Control, Depths, Usage, control, counting, intervals, labels, local_reads, mixed_coils,
+    no_result, overlap, permission, placement, presets, sequence, stack, steps, usage,
 };
 use crate::meaning::free_places;
 use crate::meaning::hardware;
@@ -209,6 +209,11 @@ fn understood(mut program: Program, name: &str, mut diagnostics: Vec<Diagnostic>
     overlap(&program, &code, &usage, &mut diagnostics);
     counting(&program, &code, &mut diagnostics);
     permission(&program, &code, &mut diagnostics);
+    intervals(&program, &code, &mut diagnostics);
+    steps(&program, &code, &mut diagnostics);
+    presets(&program, &code, &mut diagnostics);
+    no_result(&program, &code, &mut diagnostics);
+    local_reads(&program, &code, &units, &mut diagnostics);
     diagnostics.extend(empty(&program));
     let meaning = Meaning { program: &program, code: &code, units: &units, control: &control };
     let is_sound = !has_errors(&diagnostics);
@@ -314,9 +319,22 @@ fn drop_follow_ups(diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.retain(|diagnostic| is_guess(&diagnostic) || !guesses.contains(&diagnostic.span));
     // Whether a value or a routine is used, or whether there is anything at all, cannot be told
     // while instructions are missing.
-    let is_uncertain =
-        |code: Code| matches!(code, Code::UnusedValue | Code::NeverCalled | Code::EmptyProgram);
+    let is_uncertain = |code: Code| {
+        matches!(
+            code,
+            Code::UnusedValue
+                | Code::NeverCalled
+                | Code::EmptyProgram
+                | Code::NeverActive
+                | Code::NoInterval
+                | Code::NeverWritten
+        )
+    };
     if has_errors(diagnostics) {
         diagnostics.retain(|diagnostic| !is_uncertain(diagnostic.code));
+    }
+    // What is outside of the blocks counts to the one before it.
+    if diagnostics.iter().any(|diagnostic| diagnostic.code == Code::Block) {
+        diagnostics.retain(|diagnostic| diagnostic.code != Code::Recursion);
     }
 }

@@ -67,7 +67,14 @@ diagnostics::codes! {
     EveryScan = "W0015";
     EmptyProgram = "W0016";
     NeverPermitted = "W0017";
+    NeverActive = "W0018";
+    NoResult = "W0019";
     NeverCalled = "W0020";
+    NoPreset = "W0021";
+    AlwaysReset = "W0022";
+    UnseenTimer = "W0023";
+    NoInterval = "W0024";
+    NeverWritten = "W0025";
     MixedMnemonics = "W0030";
     NoEffect = "W0032";
     NotForBoard = "W0033";

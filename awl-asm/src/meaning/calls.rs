@@ -46,7 +46,7 @@ pub(crate) fn expand(
         if operand.value == Value::Invalid {
             continue;
         }
-        let copy = Copy { unit: *unit, parameter, operand, index, statement };
+        let copy = Copy { program, unit: *unit, parameter, operand, index, statement };
         if let Some(diagnostic) = copy.wrong() {
             diagnostics.push(diagnostic);
             continue;
@@ -79,10 +79,31 @@ fn wrong_count(unit: UnitId, parameters: &[&Variable], source: &Instruction) -> 
     };
     let diagnostic = Diagnostic::new(Code::ParameterCount, span, message);
     if parameters.is_empty() {
-        return diagnostic;
+        return diagnostic.help(format!(
+            "`CALL {unit}` alone; what it shall get is declared in it, before its `BEGIN`: \
+             `VAR_INPUT`, `Level : INT;`, `END_VAR`"
+        ));
     }
+    let examples: Vec<String> =
+        parameters.iter().enumerate().map(|(index, one)| example(one, index)).collect();
     let list: Vec<String> = parameters.iter().map(|parameter| described(parameter)).collect();
-    diagnostic.help(format!("in this order: {}", list.join(", ")))
+    diagnostic.help(format!(
+        "in this order: {}; such as `CALL {unit}, {}`",
+        list.join(", "),
+        examples.join(", ")
+    ))
+}
+
+/// What can be handed over for a parameter.
+fn example(parameter: &Variable, index: usize) -> String {
+    let byte = 10 * index;
+    match parameter.kind {
+        Type::Bool => format!("M{index}.0"),
+        Type::Byte | Type::Char => format!("VB{byte}"),
+        Type::Word | Type::Int => format!("VW{byte}"),
+        Type::Dword | Type::Dint | Type::Real => format!("VD{byte}"),
+        Type::Text => format!("&VB{byte}"),
+    }
 }
 
 /// `IN Speed:INT`
@@ -92,6 +113,7 @@ fn described(parameter: &Variable) -> String {
 
 /// A parameter with what a call hands over for it.
 struct Copy<'a> {
+    program: &'a Program,
     unit: UnitId,
     parameter: &'a Variable,
     operand: &'a Operand,
@@ -122,7 +144,7 @@ impl Copy<'_> {
             }));
         }
         if !self.fits() {
-            let (wanted, found) = (type_words(parameter), value_words(&operand.value));
+            let (wanted, found) = (type_words(parameter), value_words(self.program, operand));
             return Some(error(format!(
                 "{} is handed over as {wanted}, found {found}",
                 parameter.name
@@ -130,7 +152,8 @@ impl Copy<'_> {
         }
         match operand.value {
             Value::Address(address) if parameter.section != Section::In => {
-                read_only(address, operand.span).map(|diagnostic| diagnostic.help(help))
+                read_only(self.program, address, operand.span)
+                    .map(|diagnostic| diagnostic.help(help))
             }
             _ => None,
         }

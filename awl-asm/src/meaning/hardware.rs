@@ -1,9 +1,10 @@
 //! What an S7-200 has and an Uno has not: says so at assembly, with the reason and the nearest way
 //! that works.
 
-use plc_isa::{Area, Kind, Op, Profile};
+use plc_isa::{Area, Kind, Op};
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::meaning::quoted::told;
 use crate::meaning::selected::{Argument, Selected, span_of};
 use crate::text::address::Address;
 use crate::text::ast::{Instruction, Program, Span};
@@ -24,7 +25,7 @@ fn no_counter(number: u8, span: Span) -> Diagnostic {
 }
 
 /// An immediate instruction with a point that has no pin.
-fn no_pin(profile: &Profile, source: &Instruction, selected: &Selected) -> Option<Diagnostic> {
+fn no_pin(program: &Program, source: &Instruction, selected: &Selected) -> Option<Diagnostic> {
     let (area, way) = match selected.kinds.first()? {
         Kind::InputPoint => (Area::I, "inputs"),
         Kind::OutputPoint => (Area::Q, "outputs"),
@@ -34,8 +35,10 @@ fn no_pin(profile: &Profile, source: &Instruction, selected: &Selected) -> Optio
     let Argument::Bit(address @ Address::Bit { byte, bit, .. }) = selected.arguments[0] else {
         return None;
     };
+    let profile = program.profile;
     let (count, board, name) = (profile.points(area), profile.title, area.name());
     (byte > 0 || bit >= count).then(|| {
+        let address = told(program, operand.span, address);
         let message =
             format!("{address} has no pin on {board}: an immediate instruction needs one");
         let help = format!("{board}'s {way} are {name}0.0 to {name}0.{}", count - 1);
@@ -45,7 +48,7 @@ fn no_pin(profile: &Profile, source: &Instruction, selected: &Selected) -> Optio
 
 /// What the board cannot do of an instruction whose operands are right by themselves.
 pub(crate) fn refusal(
-    profile: &Profile,
+    program: &Program,
     source: &Instruction,
     selected: &Selected,
 ) -> Option<Diagnostic> {
@@ -74,7 +77,7 @@ pub(crate) fn refusal(
             let message = format!("port {port}: the Uno has one serial line, port 0");
             Some(Diagnostic::new(Code::Hardware, span(1), message).suggest("0"))
         }
-        _ => no_pin(profile, source, selected),
+        _ => no_pin(program, source, selected),
     }
 }
 

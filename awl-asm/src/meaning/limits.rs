@@ -52,17 +52,18 @@ pub(crate) fn check(
     source: &Instruction,
     selected: &Selected,
 ) -> Option<Diagnostic> {
-    let operands = Operands { source, selected };
+    let operands = Operands { program, source, selected };
     operands
         .relation()
         .or_else(|| operands.constant())
         .or_else(|| operands.position())
         .or_else(|| operands.points())
         .or_else(|| operands.past_the_end())
-        .or_else(|| operands.too_short(program))
+        .or_else(|| operands.too_short())
 }
 
 struct Operands<'a> {
+    program: &'a Program,
     source: &'a Instruction,
     selected: &'a Selected,
 }
@@ -220,7 +221,7 @@ impl Operands<'_> {
         if matches!(address, Address::Byte { area: found, .. } if found == area) {
             return None;
         }
-        let found = value_words(&self.source.operands.get(index)?.value);
+        let found = value_words(self.program, self.source.operands.get(index)?);
         let message = format!("{} takes {what} here, found {found}", self.name());
         let diagnostic = Diagnostic::new(Code::OperandKind, self.span(index), message)
             .label("wrong kind of operand");
@@ -267,24 +268,16 @@ impl Operands<'_> {
 
     /// An address after which there is not room enough for what the instruction reads or writes
     /// there.
-    fn too_short(&self, program: &Program) -> Option<Diagnostic> {
+    fn too_short(&self) -> Option<Diagnostic> {
         self.selected.op.instruction().module()?;
         let mut pairs = self.selected.written_kinds().zip(self.selected.arguments()).enumerate();
         pairs.find_map(|(index, (kind, (argument, _)))| match argument {
-            Argument::Memory(address) if kind.is_reference() => {
-                self.room_for(program, index, kind, address)
-            }
+            Argument::Memory(address) if kind.is_reference() => self.room_for(index, kind, address),
             _ => None,
         })
     }
 
-    fn room_for(
-        &self,
-        program: &Program,
-        index: usize,
-        kind: Kind,
-        address: Address,
-    ) -> Option<Diagnostic> {
+    fn room_for(&self, index: usize, kind: Kind, address: Address) -> Option<Diagnostic> {
         let width = kind.value_len();
         let many = self.selected.role(index).map_or(Many::One, |role| role.many);
         let count = match many {
@@ -293,7 +286,7 @@ impl Operands<'_> {
             Many::Characters(place) => 1 + known(self.selected, place).unwrap_or(0) as u16,
             // What FMT in memory asks for is left to the running program.
             Many::Formatted(place, _) if known(self.selected, place).is_none() => 1,
-            _ => elements(program, self.selected, index),
+            _ => elements(self.program, self.selected, index),
         };
         let room = room_at(address, width);
         // A single value that does not fit is torn, which is said elsewhere.

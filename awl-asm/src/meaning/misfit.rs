@@ -3,33 +3,38 @@
 use plc_isa::{Form, Instruction, Kind, Profile};
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::meaning::example::example;
 use crate::meaning::fit::{Class, class_of, fit, written_kinds};
 use crate::meaning::limits::constant_words;
-use crate::meaning::operands;
+use crate::meaning::order;
+use crate::meaning::quoted::{Quoted, number, told};
+use crate::meaning::{operand_count, operands};
 use crate::text::address::Address;
 use crate::text::ast::{self, Span, Value};
 
 /// Why no form of the candidates fits.
 pub(crate) fn misfit(
-    source: &ast::Instruction,
+    quoted: Quoted<'_>,
     candidates: &[&'static Instruction],
     profile: &Profile,
 ) -> Diagnostic {
+    let source = quoted.source;
     let forms = || {
         candidates
             .iter()
             .flat_map(|instruction| instruction.forms.iter().map(move |form| (instruction, form)))
     };
     let counts: Vec<usize> = forms().map(|(_, form)| written_kinds(form.kinds).count()).collect();
-    let (name, given) = (source.mnemonic(), source.operands.len());
+    let given = source.operands.len();
     if !counts.contains(&given) {
         let wanted = counts.first().copied().unwrap_or(0);
-        let mut diagnostic = wrong_count(source, wanted).help(usage(source, candidates));
+        let mut diagnostic = wrong_count(source, wanted);
         let takes_real = forms().any(|(instruction, form)| {
             let mut kinds = written_kinds(form.kinds).enumerate();
             kinds.any(|(index, kind)| fit(instruction, kind, index, &Value::Real(0)).is_some())
         });
-        diagnostic.help.extend(operands::way(source, wanted, takes_real));
+        let way = operand_count::way(quoted, wanted, takes_real);
+        diagnostic.help.extend(usage(quoted, candidates, way));
         return diagnostic;
     }
     // The first operand that no form accepts; if each is accepted by some form, the last one is at
@@ -50,9 +55,9 @@ pub(crate) fn misfit(
     let prefix = &source.operands[..position];
     let classes = classes_at(candidates, prefix, position);
     let narrower = candidates.first().and_then(|instruction| constant_words(instruction, position));
-    let mut diagnostic = wrong_operand(name, operand, &classes, narrower, profile);
-    diagnostic.help.push(usage(source, candidates));
-    diagnostic.help.extend(operands::way_of_kind(source, position));
+    let mut diagnostic = wrong_operand(quoted, operand, &classes, narrower, profile);
+    let way = operands::way_of_kind(quoted, position).or_else(|| order::way(quoted, candidates));
+    diagnostic.help.extend(usage(quoted, candidates, way));
     diagnostic
 }
 
@@ -103,12 +108,13 @@ fn wrong_count(source: &ast::Instruction, wanted: usize) -> Diagnostic {
 /// `narrower` says what may be there if the instruction takes fewer constants than their class
 /// has.
 fn wrong_operand(
-    name: &str,
+    quoted: Quoted<'_>,
     operand: &ast::Operand,
     classes: &[Class],
     narrower: Option<String>,
     profile: &Profile,
 ) -> Diagnostic {
+    let (program, name) = (quoted.program, quoted.source.mnemonic());
     let is_constant_class = |class: &Class| class.constants().is_some();
     let words = |class: &Class| {
         narrower
@@ -126,6 +132,7 @@ fn wrong_operand(
     match operand.value {
         // As an output it would have been taken.
         Value::Address(address @ Address::AnalogOutput(_)) if classes.iter().any(is_word_class) => {
+            let address = told(program, operand.span, address);
             let message = format!("{name} reads this operand, but {address} can only be written");
             let diagnostic =
                 Diagnostic::new(Code::OperandKind, operand.span, message).label("write only");
@@ -135,18 +142,20 @@ fn wrong_operand(
             ))
         }
         Value::Constant(constant) if classes.iter().any(is_constant_class) => {
-            let message = format!("{}: {name} takes {wanted} here", constant.value);
+            let written = number(constant);
+            let message = format!("{written}: {name} takes {wanted} here");
             Diagnostic::new(Code::ConstantRange, operand.span, message).label("out of range")
         }
         _ => {
             let message =
-                format!("{name} takes {wanted} here, found {}", value_words(&operand.value));
+                format!("{name} takes {wanted} here, found {}", value_words(program, operand));
             let diagnostic = Diagnostic::new(Code::OperandKind, operand.span, message)
                 .label("wrong kind of operand");
             match operand.value {
                 Value::Address(address @ Address::Analog(_)) if classes == [Class::Bit] => {
                     diagnostic.help(format!(
-                        "an analog input is compared, for example `LDW>= {address}, 16000`"
+                        "an analog input is compared, for example `LDW>= {}, 16000`",
+                        quoted.address(address)
                     ))
                 }
                 Value::Indirect(address) if name == "FOR" => {
@@ -162,21 +171,20 @@ fn wrong_operand(
 }
 
 /// What an operand is, with the kind of its address.
-pub(crate) fn value_words(value: &Value) -> String {
-    match value {
-        Value::Address(address @ Address::Bit { .. }) => format!("the bit {address}"),
-        Value::Address(address @ Address::Byte { .. }) => format!("the byte {address}"),
-        Value::Address(
-            address @ (Address::Word { .. } | Address::Analog(_) | Address::AnalogOutput(_)),
-        ) => {
-            format!("the word {address}")
-        }
-        Value::Address(address @ Address::Double { .. }) => format!("the double word {address}"),
-        Value::Address(address @ Address::Timer(_)) => format!("the timer {address}"),
-        Value::Address(address @ Address::Counter(_)) => format!("the counter {address}"),
-        Value::Address(address @ Address::Accumulator(_)) => format!("the accumulator {address}"),
-        Value::Address(address @ Address::HighSpeedCounter(_)) => {
-            format!("the high-speed counter {address}")
+pub(crate) fn value_words(program: &ast::Program, operand: &ast::Operand) -> String {
+    match &operand.value {
+        &Value::Address(address) => {
+            let kind = match address {
+                Address::Bit { .. } => "bit",
+                Address::Byte { .. } => "byte",
+                Address::Word { .. } | Address::Analog(_) | Address::AnalogOutput(_) => "word",
+                Address::Double { .. } => "double word",
+                Address::Timer(_) => "timer",
+                Address::Counter(_) => "counter",
+                Address::Accumulator(_) => "accumulator",
+                Address::HighSpeedCounter(_) => "high-speed counter",
+            };
+            format!("the {kind} {}", told(program, operand.span, address))
         }
         Value::Constant(constant) => format!("the constant {}", constant.value),
         Value::Real(bits) => format!("the real number {:?}", f32::from_bits(*bits)),
@@ -188,10 +196,15 @@ pub(crate) fn value_words(value: &Value) -> String {
     }
 }
 
-/// How the instruction is written, from the table.
-fn usage(source: &ast::Instruction, candidates: &[&'static Instruction]) -> String {
-    let Some(instruction) = candidates.first() else { return String::new() };
-    let Some(form) = instruction.forms.first() else { return String::new() };
+/// How the instruction is written, from the table, and what there is to say of this one: an example
+/// where that is nothing.
+fn usage(
+    quoted: Quoted<'_>,
+    candidates: &[&'static Instruction],
+    way: Option<String>,
+) -> Vec<String> {
+    let Some(instruction) = candidates.first() else { return Vec::new() };
+    let Some(form) = instruction.forms.first() else { return Vec::new() };
     let names: Vec<String> = instruction
         .operand_names
         .iter()
@@ -199,9 +212,14 @@ fn usage(source: &ast::Instruction, candidates: &[&'static Instruction]) -> Stri
         .filter(|(_, kind)| kind.is_written())
         .map(|(name, _)| operand_name(name))
         .collect();
-    let relation = source.relation.map_or("", |relation| relation.symbol());
+    let relation = quoted.source.relation.map_or("", |relation| relation.symbol());
     let text = format!("{}{relation} {}", instruction.mnemonic(), names.join(", "));
-    format!("written as `{}`", text.trim_end())
+    let usage = format!("written as `{}`", text.trim_end());
+    match (way, example(quoted, candidates)) {
+        (Some(way), _) => vec![usage, way],
+        (None, Some(example)) => vec![format!("{usage}, such as `{example}`")],
+        (None, None) => vec![usage],
+    }
 }
 
 /// The name of an operand in the manual's spelling.

@@ -9,9 +9,10 @@ use crate::meaning::fit::{class_of, fit, fit_beginning, written_kinds};
 use crate::meaning::misfit::misfit;
 pub use crate::meaning::misfit::operand_name;
 use crate::meaning::pick::{hidden, pick};
+use crate::meaning::quoted::Quoted;
 use crate::meaning::selected::{Argument, Selected};
 use crate::meaning::{pointers, values};
-use crate::text::ast::{self, Span, Statement, Value};
+use crate::text::ast::{self, Statement, Value};
 use crate::text::mnemonics::same_mnemonic;
 
 /// Selects every instruction of a program. One whose operands do not fit is reported and stays
@@ -54,7 +55,7 @@ pub fn select(program: &ast::Program, diagnostics: &mut Vec<Diagnostic>) -> Vec<
 /// counted from 0. Parameters of calls are not known here.
 pub fn takes(entry: &Instruction, index: usize, value: &Value) -> bool {
     let is_free = match value {
-        Value::Address(address) => values::read_only(*address, Span::default()).is_none(),
+        Value::Address(address) => !values::is_read_only(*address),
         _ => true,
     };
     same_mnemonic(entry).iter().any(|instruction| {
@@ -109,7 +110,11 @@ fn select_one(
     }
     let candidates = same_mnemonic(source.entry);
     if source.operands.iter().all(|operand| operand.value != Value::Invalid) {
-        diagnostics.push(misfit(source, candidates, program.profile));
+        diagnostics.push(misfit(
+            Quoted { program, source, statement },
+            candidates,
+            program.profile,
+        ));
     }
     let Some(likely) = candidates.first() else { return };
     let Some(kinds) = likely.forms.first().map(|form| form.kinds) else { return };

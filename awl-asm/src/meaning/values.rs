@@ -4,6 +4,7 @@
 use plc_isa::{Area, TimerKind, TimerResolution, timer_family, timer_resolution};
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::meaning::quoted::{is_placed_at, told};
 use crate::meaning::selected::{Argument, Selected};
 use crate::meaning::{hardware, limits};
 use crate::text::address::Address;
@@ -18,7 +19,7 @@ pub(crate) fn check(
 ) {
     for ((argument, written), operand) in selected.arguments().zip(&source.operands) {
         if let (Argument::Bit(address) | Argument::Memory(address), true) = (argument, written) {
-            diagnostics.extend(read_only(address, operand.span));
+            diagnostics.extend(read_only(program, address, operand.span));
         }
     }
     if let (Some(kind), Argument::Timer(number)) =
@@ -26,20 +27,20 @@ pub(crate) fn check(
         && !kind.fits(number)
         && let Some(operand) = source.operands.first()
     {
-        diagnostics.push(wrong_family(source.mnemonic(), number, kind, operand.span));
+        diagnostics.push(wrong_family(program, source.mnemonic(), number, kind, operand.span));
     }
     diagnostics.extend(limits::check(program, source, selected));
     for (argument, operand) in selected.arguments.iter().zip(&source.operands) {
         if let Argument::Bit(address) | Argument::Memory(address) = *argument {
-            diagnostics.extend(torn(address, operand.span));
+            diagnostics.extend(torn(program, address, operand.span));
             diagnostics.extend(hardware::counter(address, operand.span));
         }
     }
-    diagnostics.extend(hardware::refusal(program.profile, source, selected));
+    diagnostics.extend(hardware::refusal(program, source, selected));
 }
 
 /// Special memory lies in two pieces on the board.
-fn torn(address: Address, span: Span) -> Option<Diagnostic> {
+fn torn(program: &ast::Program, address: Address, span: Span) -> Option<Diagnostic> {
     let (byte, len) = match address {
         Address::Word { area: Area::Sm, byte } => (byte, 2),
         Address::Double { area: Area::Sm, byte } => (byte, 4),
@@ -47,6 +48,7 @@ fn torn(address: Address, span: Span) -> Option<Diagnostic> {
     };
     let border = Area::Sm.page_len();
     (byte < border && byte + len > border).then(|| {
+        let address = told(program, span, address);
         let message = format!(
             "{address}: SMB{} and SMB{border} do not lie side by side on the Uno",
             border - 1
@@ -58,26 +60,21 @@ fn torn(address: Address, span: Span) -> Option<Diagnostic> {
     })
 }
 
-pub(crate) fn read_only(address: Address, span: Span) -> Option<Diagnostic> {
+pub(crate) fn read_only(
+    program: &ast::Program,
+    address: Address,
+    span: Span,
+) -> Option<Diagnostic> {
+    if !is_read_only(address) {
+        return None;
+    }
+    let name = told(program, span, address);
     let message = match address {
-        Address::Bit { area, byte, .. }
-        | Address::Byte { area, byte }
-        | Address::Word { area, byte }
-        | Address::Double { area, byte } => {
-            if byte >= area.first_writable() {
-                return None;
-            }
-            debug_assert_eq!(area, Area::Sm, "every other area can be written from its first byte");
-            format!("{address} is written by the system: a program can only read SMB0 to SMB29")
-        }
-        Address::Analog(_) => format!("{address} is an analog input: a program cannot write it"),
+        Address::Analog(_) => format!("{name} is an analog input: a program cannot write it"),
         Address::HighSpeedCounter(_) => {
-            format!("{address} counts by itself: a program cannot write it")
+            format!("{name} counts by itself: a program cannot write it")
         }
-        Address::Timer(_)
-        | Address::Counter(_)
-        | Address::Accumulator(_)
-        | Address::AnalogOutput(_) => return None,
+        _ => format!("{name} is written by the system: a program can only read SMB0 to SMB29"),
     };
     let way = match address {
         Address::Analog(_) => {
@@ -89,7 +86,28 @@ pub(crate) fn read_only(address: Address, span: Span) -> Option<Diagnostic> {
     Some(Diagnostic::new(Code::ReadOnly, span, message).label("read only").help(way))
 }
 
-fn wrong_family(mnemonic: &str, number: u8, kind: TimerKind, span: Span) -> Diagnostic {
+/// Whether no program can write an address.
+pub(crate) fn is_read_only(address: Address) -> bool {
+    match address {
+        Address::Bit { area, byte, .. }
+        | Address::Byte { area, byte }
+        | Address::Word { area, byte }
+        | Address::Double { area, byte } => byte < area.first_writable(),
+        Address::Analog(_) | Address::HighSpeedCounter(_) => true,
+        Address::Timer(_)
+        | Address::Counter(_)
+        | Address::Accumulator(_)
+        | Address::AnalogOutput(_) => false,
+    }
+}
+
+fn wrong_family(
+    program: &ast::Program,
+    mnemonic: &str,
+    number: u8,
+    kind: TimerKind,
+    span: Span,
+) -> Diagnostic {
     let resolution = timer_resolution(number);
     let fitting: Vec<u8> = (0..=255)
         .filter(|&other| kind.fits(other) && timer_resolution(other) == resolution)
@@ -98,12 +116,17 @@ fn wrong_family(mnemonic: &str, number: u8, kind: TimerKind, span: Span) -> Diag
         plc_isa::TimerFamily::Tonr => "a TONR number",
         plc_isa::TimerFamily::TonTof => "a TON or TOF number",
     };
-    let mut diagnostic = Diagnostic::new(
-        Code::TimerFamily,
-        span,
-        format!("T{number} is {family}: {mnemonic} needs another one"),
-    )
-    .help(format!(
+    let name = told(program, span, Address::Timer(number));
+    let message = format!("{name} is {family}: {mnemonic} needs another one");
+    let mut diagnostic = Diagnostic::new(Code::TimerFamily, span, message);
+    if is_placed_at(program, span) {
+        let kind = if kind == TimerKind::RetentiveOnDelay { " TONR" } else { "" };
+        return diagnostic.help(format!(
+            "its declaration says for what it is: `//# timer {name} {}ms{kind}`",
+            resolution.ms()
+        ));
+    }
+    diagnostic = diagnostic.help(format!(
         "with {}, {mnemonic} can use {}",
         resolution_words(resolution),
         ranges(&fitting)

@@ -66,6 +66,22 @@ pub enum AddressError {
 }
 
 impl Address {
+    /// The area of a bit, byte, word or double word; `None` of what has a number alone.
+    pub(crate) fn area(self) -> Option<Area> {
+        match self {
+            Address::Bit { area, .. }
+            | Address::Byte { area, .. }
+            | Address::Word { area, .. }
+            | Address::Double { area, .. } => Some(area),
+            Address::Timer(_)
+            | Address::Counter(_)
+            | Address::Accumulator(_)
+            | Address::HighSpeedCounter(_)
+            | Address::Analog(_)
+            | Address::AnalogOutput(_) => None,
+        }
+    }
+
     /// Whether `text`, as which it is written, has a German area letter, such as E0.0 or Z1.
     pub(crate) fn is_german(self, text: &str) -> bool {
         let letter = self.to_string().chars().next();
@@ -260,7 +276,8 @@ fn in_area(text: &str, area: Area, size: Size, number: &str) -> Result<Address, 
                 bit @ 0..=7 => Ok(Address::Bit { area, byte: byte as u16, bit: bit as u8 }),
                 bit => Err(out_of_range(
                     format!("{text}: a byte has bits 0 to 7"),
-                    (byte < last && (8..=15).contains(&bit))
+                    // Special bits have a meaning each: none is near another.
+                    (byte < last && (8..=15).contains(&bit) && area != Area::Sm)
                         .then(|| format!("{name}{}.{}", byte + 1, bit - 8)),
                 )),
             }

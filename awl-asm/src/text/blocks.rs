@@ -62,7 +62,7 @@ impl Blocks {
     /// Takes the header or the end of a block of another language. Whether it is to be reported:
     /// an end is not if its header was.
     pub(crate) fn foreign(&mut self, word: &str) -> bool {
-        let is_end = word.to_ascii_uppercase().starts_with("END_");
+        let is_end = word.to_ascii_uppercase().starts_with("END");
         let was_open = std::mem::replace(&mut self.is_foreign, !is_end);
         !(is_end && was_open)
     }
@@ -105,7 +105,10 @@ impl Blocks {
         if self.has_blocks {
             if !self.is_outside_reported {
                 let message = "an instruction is outside of the blocks";
-                diagnostics.push(Diagnostic::new(Code::Block, place, message));
+                diagnostics.push(Diagnostic::new(Code::Block, place, message).help(
+                    "it belongs before the `END_...` of its block; the main program is between \
+                     `ORGANIZATION_BLOCK MAIN:OB1`, `BEGIN` and `END_ORGANIZATION_BLOCK`",
+                ));
                 self.is_outside_reported = true;
             }
             return LineKind::Code;
@@ -158,19 +161,41 @@ impl Blocks {
                 None => Some("END_VAR: no VAR section is open".to_owned()),
             },
         };
-        let is_variables = matches!(keyword, Keyword::Var(_) | Keyword::EndVar);
         diagnostics.extend(error.map(|message| {
             let diagnostic = Diagnostic::new(Code::Block, place, message);
-            match is_variables && self.open.is_none() {
-                _ if matches!(keyword, Keyword::Title) && self.open.is_some() => diagnostic
-                    .help("the title of a network is after its number: `NETWORK 1 // title`"),
-                true => diagnostic.help(
-                    "variables of the whole program are declared by `//# var Speed INT`, those of \
-                     a routine between its header and `BEGIN`",
-                ),
-                false => diagnostic,
+            match self.help(keyword) {
+                Some(help) => diagnostic.help(help),
+                None => diagnostic,
             }
         }));
+    }
+
+    /// What to do about a word that is not in its place.
+    fn help(&self, keyword: Keyword) -> Option<&'static str> {
+        Some(match keyword {
+            Keyword::Title => {
+                "the title of a network is after its number: `NETWORK 1 // title`; that of a block \
+                 is between its header and `BEGIN`"
+            }
+            Keyword::Var(_) | Keyword::EndVar if self.open.is_none() => {
+                "variables of the whole program are declared by `//# var Speed INT`, those of a \
+                 routine between its header and `BEGIN`"
+            }
+            Keyword::Var(_) | Keyword::EndVar => {
+                "the variables of a block are between its header and `BEGIN`: `VAR`, `Speed : \
+                 INT;`, `END_VAR`"
+            }
+            Keyword::Begin if self.open.is_none() => {
+                "leave it out: a program without blocks has no `BEGIN`; with blocks its header is \
+                 before it, `ORGANIZATION_BLOCK MAIN:OB1`"
+            }
+            Keyword::Begin => "leave it out: a block has one `BEGIN`, after its variables",
+            Keyword::End(_) => {
+                "leave it out, or write the header before the lines: `ORGANIZATION_BLOCK \
+                 MAIN:OB1`, `BEGIN`"
+            }
+            Keyword::Network | Keyword::Header(_) => return None,
+        })
     }
 
     /// What is wrong with a word that belongs between a header and BEGIN.
@@ -190,7 +215,8 @@ impl Blocks {
             let message = format!("{}: {} is missing before it", block.header(), open.block.end());
             diagnostics.push(
                 Diagnostic::new(Code::Block, place, message)
-                    .related(open.header, "this block is still open"),
+                    .related(open.header, "this block is still open")
+                    .help(format!("put `{}` on a line of its own before it", open.block.end())),
             );
         } else if let (Some(outside), true) = (self.outside, is_first && block != Block::Data) {
             let message = format!("{}: instructions are before the first block", block.header());
@@ -214,7 +240,10 @@ impl Blocks {
                     place,
                     "ORGANIZATION_BLOCK: a program has only one",
                 );
-                diagnostics.push(diagnostic.related(first, "the first one"));
+                diagnostics.push(diagnostic.related(first, "the first one").help(
+                    "put all lines into one of them; a part that is called is `SUBROUTINE_BLOCK \
+                     Name:SBR0`",
+                ));
             }
             (Block::Organization, None) => self.main = Some(place),
             (Block::Subroutine | Block::Interrupt, _) => {
@@ -247,7 +276,10 @@ impl Blocks {
 
     fn close_variables(&mut self, diagnostics: &mut Vec<Diagnostic>) {
         if let Some((_, place)) = self.variables.take() {
-            diagnostics.push(Diagnostic::new(Code::Block, place, "VAR: END_VAR is missing"));
+            diagnostics.push(
+                Diagnostic::new(Code::Block, place, "VAR: END_VAR is missing")
+                    .help("`END_VAR` is on a line of its own after the last variable"),
+            );
         }
     }
 
@@ -272,7 +304,10 @@ impl Blocks {
         if let (Some(routine), None) = (self.routine, self.main) {
             let message = "the program has no main program";
             let diagnostic = Diagnostic::new(Code::Block, routine, message);
-            diagnostics.push(diagnostic.help("it is in ORGANIZATION_BLOCK MAIN:OB1"));
+            diagnostics.push(diagnostic.help(
+                "it is between `ORGANIZATION_BLOCK MAIN:OB1`, `BEGIN` and \
+                 `END_ORGANIZATION_BLOCK`, and calls the others: `LD SM0.0`, `CALL SBR0`",
+            ));
         }
     }
 }

@@ -211,7 +211,16 @@ impl DataBlock {
                 format!("{words}: VB{byte} has a value already"),
             );
             if let Some(other) = self.lines.get(owner as usize - 1) {
-                diagnostic = diagnostic.related(other.span, "from this line");
+                let last = other.first_byte + other.bytes.len() as u16 - 1;
+                let free = format!("VB{}", last + 1);
+                diagnostic = diagnostic.related(other.span, "from this line").help(match last {
+                    last if last == other.first_byte => format!("the next byte is {free}"),
+                    last => format!(
+                        "that line gives VB{} to VB{last}: a word has two bytes, a double word \
+                         four; the next byte is {free}",
+                        other.first_byte
+                    ),
+                });
             }
             return Err(Box::new(diagnostic));
         }
@@ -297,7 +306,16 @@ fn push_value(bytes: &mut Vec<u8>, size: Size, span: Span, text: &str) -> Outcom
         }
         Ok(Value::Constant(constant)) => {
             let Some(len) = len_of(size, constant.value, word) else {
-                return error(Code::ConstantRange, out_of_range(size, word));
+                let wrong = Diagnostic::new(Code::ConstantRange, span, out_of_range(size, word));
+                let wider = [(Size::Word, "VW0"), (Size::Double, "VD0")].into_iter();
+                let mut wider = wider.filter(|(of, _)| len_of(*of, constant.value, word).is_some());
+                return Err(Box::new(match wider.next() {
+                    Some((of, address)) => wrong.help(format!(
+                        "{} holds it: a line of its own, such as `{address} {word}`",
+                        of.words()
+                    )),
+                    None => wrong,
+                }));
             };
             let stored = (constant.value as u32).to_be_bytes();
             bytes.extend_from_slice(stored.get(4 - len..).unwrap_or(&[]));

@@ -11,6 +11,9 @@ use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::text::address::{Address, AddressError};
 use crate::text::ast::{Promise, PromiseKind, RetainedRange, Span, Symbol, Value};
 use crate::text::directive_table::WORDS;
+use crate::text::misdeclared::{
+    keep, name_of_words, other_setting, quoted_address, range_in_words, with_commas,
+};
 use crate::text::piece::{Outcome, Piece, Targets, unknown};
 use crate::text::suggest::{Suggester, nearby_address};
 use crate::text::symbols::{check_name, read_value};
@@ -106,7 +109,7 @@ impl Directives {
                 once(&mut self.name, line, word)?;
                 program.name = Some(name);
             }
-            () => return Err(unknown(word, "no such setting", &WORDS, targets.suggester)),
+            () => return Err(other_setting(word, values, targets)),
         }
         Ok(())
     }
@@ -192,27 +195,59 @@ fn once(first: &mut Option<Span>, line: Span, word: Piece<'_>) -> Outcome<()> {
 }
 
 fn symbol(word: Piece<'_>, rest: Piece<'_>, targets: &mut Targets<'_>) -> Outcome<()> {
+    let whole = rest;
     let (name, rest) = rest.first_word();
     let (value, comment) = rest.first_word();
     if value.text.is_empty() {
         let piece = if name.text.is_empty() { word } else { name };
-        return Err(Box::new(Diagnostic::new(
-            Code::SymbolDefinition,
-            piece.span(),
-            format!("{}: //# symbol is followed by a name and an address", piece.text),
-        )));
+        let message = format!("{}: //# symbol is followed by a name and an address", piece.text);
+        let diagnostic = Diagnostic::new(Code::SymbolDefinition, piece.span(), message);
+        if !name.text.is_empty() && check_name(name.text, name.span()).is_ok() {
+            keep(name.text, name.span(), targets);
+        }
+        return Err(Box::new(diagnostic.help("such as `//# symbol Start I0.0`")));
+    }
+    if let Some((long, address)) = name_of_words(whole) {
+        keep(long.text, whole.span(), targets);
+        let message = format!("{}: a name with blanks is in double quotes", long.text);
+        let diagnostic = Diagnostic::new(Code::SymbolDefinition, long.span(), message);
+        let meant = format!("\"{}\"", long.text);
+        return Err(Box::new(
+            diagnostic
+                .help(format!("`//# symbol {meant} {address}`, and where it is used `LD {meant}`"))
+                .suggest(meant),
+        ));
     }
     let bare = name
         .text
         .strip_prefix('"')
         .and_then(|inside| inside.strip_suffix('"'))
         .unwrap_or(name.text);
+    let (name, bare) = match bare.strip_suffix([':', ',', '=']) {
+        Some(without) if !without.is_empty() => {
+            let sign = name.split(without.len()).1;
+            let message = format!("{}: nothing is between the name and its address", sign.text);
+            let diagnostic = Diagnostic::new(Code::SymbolDefinition, sign.span(), message);
+            let help = format!("`//# symbol {without} {}`", value.text);
+            targets.diagnostics.push(diagnostic.help(help));
+            (name.split(without.len()).0, without)
+        }
+        _ => (name, bare),
+    };
     check_name(bare, name.span())?;
     let comment = comment.text.strip_prefix("//").unwrap_or(comment.text).trim().to_owned();
     // A symbol whose value is wrong is kept, so that its uses are not called unknown.
     let (value, error) = match read_value(value.text, value.span()) {
         Ok(value) => (value, None),
-        Err(error) => (Value::Invalid, Some(error)),
+        Err(mut error) => {
+            if error.suggestion.is_none() {
+                error.suggestion = pin(value.text).or_else(|| quoted_address(value.text));
+            }
+            if error.suggestion.is_none() && error.help.is_empty() {
+                error.help.push(format!("such as `//# symbol {} I0.0`", name.text));
+            }
+            (Value::Invalid, Some(error))
+        }
     };
     let duplicate =
         targets.symbols.define(Symbol { name: bare.to_owned(), value, comment }, Some(name.span()));
@@ -258,7 +293,16 @@ fn address(piece: Piece<'_>) -> Outcome<Address> {
         }
         AddressError::NotAnAddress => {
             let mut diagnostic = piece.error("is no address");
-            diagnostic.suggestion = pin(piece.text).or_else(|| nearby_address(piece.text));
+            diagnostic.suggestion = pin(piece.text)
+                .or_else(|| range_in_words(piece.text))
+                .or_else(|| with_commas(piece.text))
+                .or_else(|| nearby_address(piece.text));
+            if diagnostic.suggestion.is_none() {
+                let help = "addresses are separated by commas, a range has a minus sign: \
+                            `I0.0-I0.5`, `VB0-VB31, C1`; a variable is retained by its own line, \
+                            `//# var Speed INT RETAIN`";
+                diagnostic.help.push(help.to_owned());
+            }
             diagnostic
         }
         AddressError::OutOfRange(message, suggestion) => {
@@ -436,10 +480,10 @@ fn time(word: Piece<'_>, value: Piece<'_>, min: u32) -> Outcome<u16> {
             diagnostic.suggestion = Some(format!("{}ms", digits.text));
             return Err(diagnostic);
         }
-        _ => return Err(value.error("is no time; write a whole number with ms or s")),
+        _ => return Err(no_time(word, value)),
     };
     if digits.text.is_empty() {
-        return Err(value.error("is no time; write a whole number with ms or s"));
+        return Err(no_time(word, value));
     }
     let ms = digits.text.parse::<u32>().unwrap_or(u32::MAX).saturating_mul(factor);
     let max = Settings::TIME_MAX_MS;
@@ -452,11 +496,20 @@ fn time(word: Piece<'_>, value: Piece<'_>, min: u32) -> Outcome<u16> {
     }
 }
 
+fn no_time(word: Piece<'_>, value: Piece<'_>) -> Box<Diagnostic> {
+    let error = value.error("is no time; write a whole number with ms or s");
+    let help = format!("such as `//# {} 100ms`", word.text.to_ascii_lowercase());
+    Box::new(error.help(help))
+}
+
 /// The number of samples, as a power of two.
 fn filter(value: Piece<'_>) -> Outcome<u8> {
     let samples = value.text.parse::<u32>().ok();
     let power = (0..=Settings::FILTER_MAX).find(|&power| samples == Some(1 << power));
-    power.ok_or_else(|| value.error("a filter has 1, 2, 4, 8, 16, 32 or 64 samples"))
+    power.ok_or_else(|| {
+        let error = value.error("a filter has 1, 2, 4, 8, 16, 32 or 64 samples");
+        Box::new(error.help("such as `//# filter 8`"))
+    })
 }
 
 /// Reads how the controller is reached on its serial line; every bad word is reported.
@@ -491,6 +544,13 @@ fn modbus_word(
     let Some(index) = MODBUS_WORDS.iter().position(|known| word.text.eq_ignore_ascii_case(known))
     else {
         let mut error = unknown(word, "cannot be set for modbus", &MODBUS_WORDS, targets.suggester);
+        if let Some((name, value)) = word.text.split_once(['=', ':'])
+            && MODBUS_WORDS.iter().any(|known| name.eq_ignore_ascii_case(known))
+        {
+            let value = value.trim_start_matches('=');
+            error.help = vec!["a value follows its word after a blank".to_owned()];
+            error.suggestion = Some(format!("{} {value}", name.to_ascii_lowercase()));
+        }
         let is_number = !word.text.is_empty() && word.text.bytes().all(|b| b.is_ascii_digit());
         if is_number && value.text.is_empty() {
             let name = if word.text.len() > 3 { "baud" } else { "address" };
@@ -501,7 +561,9 @@ fn modbus_word(
     };
     once(&mut places[index], word.span(), word)?;
     if value.text.is_empty() {
-        return Err(word.error("its value is missing"));
+        let example = ["5", "38400", "none"][index];
+        let help = format!("such as `//# modbus {} {example}`", word.text);
+        return Err(Box::new(word.error("its value is missing").help(help)));
     }
     let settings = &mut targets.program.settings;
     let mut line = LineSettings::of_byte(settings.line);
@@ -517,7 +579,10 @@ fn modbus_word(
 fn modbus_address(value: Piece<'_>) -> Outcome<u8> {
     let max = Settings::MODBUS_ADDRESS_MAX;
     let address = value.text.parse().ok().filter(|address| (1..=max).contains(address));
-    address.ok_or_else(|| value.error(format!("a Modbus address is 1 to {max}")))
+    address.ok_or_else(|| {
+        let error = value.error(format!("a Modbus address is 1 to {max}"));
+        Box::new(error.help("such as `//# modbus address 5`"))
+    })
 }
 
 /// The index of a rate.
@@ -545,6 +610,14 @@ fn parity(value: Piece<'_>, suggester: &Suggester) -> Outcome<Parity> {
     })
 }
 
+/// A character in a message.
+fn shown(character: char) -> String {
+    match character.is_control() {
+        true => character.escape_default().to_string(),
+        false => character.to_string(),
+    }
+}
+
 fn board(word: Piece<'_>, value: Piece<'_>, suggester: &Suggester) -> Outcome<&'static Profile> {
     if value.text.is_empty() {
         return Err(word.error("the name of a board is missing, such as `uno`"));
@@ -566,8 +639,9 @@ fn name(word: Piece<'_>, value: Piece<'_>) -> Outcome<String> {
         return Err(word.error("a name is missing"));
     }
     if let Some(odd) = bare.chars().find(|&c| !(' '..='~').contains(&c) || c == '"') {
-        return Err(value
-            .error(format!("{} cannot be in a name, only printable ASCII", odd.escape_default())));
+        return Err(
+            value.error(format!("{} cannot be in a name, only printable ASCII", shown(odd)))
+        );
     }
     if bare.len() > usize::from(NAME_LEN_MAX) {
         return Err(value.error(format!("a name has at most {NAME_LEN_MAX} characters")));

@@ -1,15 +1,25 @@
 //! What helps where an operand means nothing: what was probably meant, how a name or routine is
 //! declared. That it means nothing is found where operands are settled.
 
-use plc_isa::Type;
+use plc_isa::{Op, TimerKind, Type};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::text::address::Address;
 use crate::text::ast::{Span, UnitId, UnitKind, Value};
-use crate::text::foreign;
+use crate::text::foreign::{self, system_functions};
 use crate::text::literal;
 use crate::text::mnemonics::{Meaning, meaning};
 use crate::text::symbols::written;
+
+/// A sign that looks like one of AWL and is another character.
+pub(super) fn look_alike(span: Span, text: &str) -> Option<Diagnostic> {
+    let (sign, meant, whole) = foreign::look_alike(text)?;
+    let message = format!("{text}: {sign} is another character than {meant}");
+    let diagnostic = Diagnostic::new(Code::Syntax, span, message);
+    Some(diagnostic.suggest(whole).help(
+        "signs that word processors and web pages put in the place of \" ' , - are typed again",
+    ))
+}
 
 /// An address of this type, and the type as a variable has it.
 pub(super) fn example(wanted: Option<Type>) -> (&'static str, &'static str) {
@@ -32,6 +42,13 @@ pub(super) fn declaration(name: &str, wanted: Option<Type>, takes_text: bool) ->
     if takes_text {
         return format!("a text is in double quotes: `\"{name}\"`");
     }
+    if name.starts_with('(') {
+        return "a comment begins with //".to_owned();
+    }
+    let digits = name.strip_prefix(['B', 'b']).unwrap_or("");
+    if digits.len() > 2 && digits.chars().all(|c| matches!(c, '0' | '1')) {
+        return format!("a binary number is `2#{digits}`");
+    }
     if name.contains(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | ' ' | '-'))) {
         return "an address is written like I0.0, Q0.0, M0.0, VB0, VW0 or VD0, a number like 10, \
                 16#FF or 1.5; a name has letters, digits and `_`"
@@ -46,7 +63,7 @@ pub(super) fn declaration(name: &str, wanted: Option<Type>, takes_text: bool) ->
     let written = written(name);
     format!(
         "a symbol is declared by `//# symbol {written} {address}`, with its own address, or in a \
-         table for --symbols; `//# var {name} {kind}` gives it a free one"
+         table for --symbols; `//# var {written} {kind}` gives it a free one"
     )
 }
 
@@ -65,6 +82,9 @@ pub(super) fn none_of(kind: UnitKind, name: &str) -> Vec<String> {
         }
         _ => ("SUBROUTINE_BLOCK", "END_SUBROUTINE_BLOCK", "subroutine", "SBR"),
     };
+    if let Some(way) = system_functions::way(name) {
+        return vec![way];
+    }
     // `FC1`, `SBR_1` and `1` are numbers.
     let digits = name.trim_start_matches(|c: char| c.is_alphabetic() || c == '_');
     let is_number = ["", "FC", "FB", "SFC", "SFB", "UP", "SBR_", "INT_", "SBR", "INT"]
@@ -93,6 +113,9 @@ pub(super) fn no_routine(kind: UnitKind, name: &str) -> Option<String> {
     let is_number = name.bytes().all(|byte| byte.is_ascii_digit());
     if kind == UnitKind::Interrupt && is_number {
         return Some(format!("the routine is first, then the event: `ATCH INT0, {name}`"));
+    }
+    if let Some(way) = system_functions::way(name) {
+        return Some(way);
     }
     if let Some(unit) = UnitId::parse(name).filter(|unit| unit.kind != kind) {
         return match unit.kind {
@@ -163,16 +186,31 @@ pub(super) fn part_of_analog(span: Span, text: &str) -> Option<Diagnostic> {
 
 const ONE_A_LINE: &str = "one instruction is on a line";
 
+/// Whether an operand is the data block of a call: `DB1`, `IEC_Timer_0_DB`.
+pub(super) fn is_block(text: &str) -> bool {
+    let upper = text.trim_matches('"').to_ascii_uppercase();
+    let digits = upper.strip_prefix("DB").unwrap_or("");
+    let is_number = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    is_number || upper.ends_with("_DB")
+}
+
 /// Whether a comment was probably meant to begin here.
 pub(super) fn is_comment_sign(text: &str) -> bool {
-    text.starts_with(['#', '-', '–', '—', '\'', '!', '|']) && !text.contains(char::is_alphanumeric)
+    text.starts_with(['#', '-', '–', '—', '\'', '!', '|', '/', '\\'])
+        && !text.contains(char::is_alphanumeric)
 }
 
 /// What was probably meant by a sign where an operand should be.
-pub(super) fn sign_hint(text: &str) -> Option<&'static str> {
+pub(super) fn sign_hint(text: &str, takes_several: bool) -> Option<&'static str> {
     match text {
         ":=" => Some("operands are separated by commas, without signs between them"),
+        "=" | "==" if takes_several => {
+            Some("operands are separated by commas, such as `TON T37, 20`")
+        }
         "=" | "==" => Some(ONE_A_LINE),
+        "&" | "*" | "|" | "||" | "&&" => {
+            Some("contacts are combined by `A` and `O`, each on a line of its own")
+        }
         "<" | ">" | "<=" | ">=" | "<>" => Some("words are compared by LDW> MW0, 5 and its like"),
         "+" => Some("a sign belongs to a number, such as +5; operands are added by `+I VW0, VW2`"),
         _ if is_comment_sign(text) => Some("a comment begins with //"),
@@ -181,7 +219,21 @@ pub(super) fn sign_hint(text: &str) -> Option<&'static str> {
 }
 
 /// What was probably meant by a word where an operand should be.
-pub(super) fn word_hint(name: &str) -> Option<&'static str> {
+pub(super) fn word_hint(name: &str, wanted: Option<Type>) -> Option<&'static str> {
+    let is_binary = name.len() > 3 && name.bytes().skip(1).all(|byte| matches!(byte, b'0' | b'1'));
+    let is_number = !matches!(wanted, None | Some(Type::Bit)) && !is_binary;
+    if is_number && name.chars().all(|c| c.is_ascii_hexdigit()) {
+        return Some(
+            "a hexadecimal number is written `16#A`, a character in single quotes, `'A'`; other \
+             words are names, which are declared by `//# symbol` or `//# var`",
+        );
+    }
+    if name.eq_ignore_ascii_case("LD") {
+        return Some(
+            "two branches that begin with LD are joined by `ALD` (and) or `OLD` (or), without an \
+             operand",
+        );
+    }
     if name.eq_ignore_ascii_case("NOT") {
         return Some("LDN, AN and ON take the inverted bit");
     }
@@ -205,4 +257,70 @@ pub(super) fn label_number(name: &str) -> Option<String> {
     let (letters, digits) = name.split_at_checked(3)?;
     let is_number = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
     (letters.eq_ignore_ascii_case("LBL") && is_number).then(|| digits.to_owned())
+}
+
+/// A word after the last operand of an instruction.
+pub(super) const TOO_MANY: &str = "the instruction has all its operands before that: a comment \
+     begins with //, and another instruction is on a line of its own";
+
+/// A number in quotes, without them.
+pub(super) fn quoted_number(name: &str) -> Option<String> {
+    let is_number = literal::looks_like_literal(name) && !name.starts_with('\'');
+    is_number.then(|| name.to_owned())
+}
+
+/// What helps with a number that none is: the form of it, as far as its place or its letters tell.
+pub(super) fn number(text: &str, op: Op, diagnostic: &Diagnostic) -> Option<String> {
+    if diagnostic.suggestion.is_some() {
+        return None;
+    }
+    let timer = TimerKind::started_by(op).map(|_| Address::Timer(37));
+    if let Some(counts) = timer.and_then(|timer| {
+        foreign::operands::preset(op, timer, text).and_then(|preset| preset.counts)
+    }) {
+        return Some(format!("the timer is first, then its counts: `TON T37, {counts}`"));
+    }
+    if diagnostic.message.contains("T37") {
+        return None;
+    }
+    if let Some(address) = text.split_once('.').filter(|(byte, bit)| {
+        let is_digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+        is_digits(byte) && is_digits(bit)
+    }) {
+        return Some(format!(
+            "an address begins with its area, such as `I{}.{}`",
+            address.0, address.1
+        ));
+    }
+    if TimerKind::started_by(op).is_some() {
+        return Some(
+            "a preset is a number of counts, such as 50: of T37, which counts 100 ms, these are 5 s"
+                .to_owned(),
+        );
+    }
+    Some(
+        "numbers are written like 10, -5, 16#FF, 2#1010 or 1.5; a name begins with a letter".into(),
+    )
+}
+
+/// What helps where an address has no bit or byte like that.
+pub(super) fn out_of_range(text: &str) -> Option<String> {
+    let upper = text.to_ascii_uppercase();
+    if upper.starts_with("SM") && upper.contains('.') {
+        return Some(
+            "special bits are SM0.0 (always 1), SM0.1 (the first scan), SM0.4 (a clock of 60 s), \
+             SM0.5 (a clock of 1 s), SM1.0 to SM1.2 (of a calculation: zero, overflow, negative)"
+                .to_owned(),
+        );
+    }
+    foreign::operands::way(text).map(str::to_owned)
+}
+
+/// `LDI X0` of other makers is a contact that is inverted.
+pub(super) fn immediate_contact(op: Op, name: &str) -> Option<&'static str> {
+    let is_foreign = name.starts_with(['X', 'Y', 'x', 'y']);
+    (is_foreign && matches!(op, Op::Ldi | Op::Ai | Op::Oi)).then_some(
+        "`LDI`, `AI` and `OI` read the input itself and do not invert: the inverted contacts are \
+         `LDN`, `AN` and `ON`",
+    )
 }

@@ -4,13 +4,12 @@
 use plc_isa::{Instruction, Op, Relation};
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::text::address::Address;
 use crate::text::ast::{self, Constant, Operand, Span, Statement, UnitKind, Value};
 use crate::text::foreign::{self, Flow, Instead, Meant, Together};
 use crate::text::lexer::{Ahead, Cut};
 use crate::text::locals::PARAMETERS_MAX;
 use crate::text::mnemonics::{
-    Meaning, comparison, comparisons, first_words, meaning, written_operands,
+    Keyword, Meaning, comparison, comparisons, first_words, meaning, written_operands,
 };
 use crate::text::parser::Parser;
 use crate::text::refused;
@@ -49,6 +48,9 @@ impl<'s> Parser<'s> {
                 Some(self.relation(entry, sign))
             }
             (true, false) => {
+                if self.relation_apart(word) {
+                    return;
+                }
                 self.relation_missing(entry, word);
                 Some(Relation::Equal)
             }
@@ -60,11 +62,14 @@ impl<'s> Parser<'s> {
         if operands.len() + 1 == operand_count && self.lexer.ahead() == Ahead::Semicolon {
             operands.extend(self.operand_after_semicolon(entry, operands.len()));
         }
-        if is_foreign_load(entry.op, &operands) && self.load_of_list(word)
-            || operands.len() == 3 && self.comparison_apart(entry, word, &operands)
-        {
+        if self.is_habit(entry, word, &operands) {
             self.pending.truncate(pending);
             return;
+        }
+        if entry.op == Op::End && !operands.is_empty() {
+            // `END OF PROGRAM`: what the words are need not be told.
+            self.pending.truncate(pending);
+            operands.iter_mut().for_each(|operand| operand.value = NOT_READ);
         }
         let end = operands.last().map_or(mnemonic_span.end, |operand| operand.span.end);
         if entry.has_relation() && !is_at_relation {
@@ -76,64 +81,10 @@ impl<'s> Parser<'s> {
         self.program.statements.push(Statement::Instruction(instruction));
     }
 
-    /// `TON T37; 50`: the last operand is after a semicolon instead of a comma.
-    fn operand_after_semicolon(&mut self, entry: &Instruction, index: usize) -> Option<Operand> {
-        let at = self.lexer.position();
-        let rest = self.text.get(at + 1..)?.lines().next()?;
-        let rest = rest.split_once("//").map_or(rest, |(code, _)| code).trim();
-        let is_value = !rest.contains([' ', '\t', ';', ',']) && read_plain(rest).is_some();
-        if !is_value || meaning(rest).is_some() {
-            return None;
-        }
-        let message = "a semicolon ends the instruction: operands are separated by commas";
-        let diagnostic = Diagnostic::new(Code::Syntax, Span::new(at, at + 1), message);
-        self.diagnostics.push(diagnostic.suggest(","));
-        self.lexer.step();
-        (self.lexer.ahead() == Ahead::Text).then(|| {
-            let cut = self.lexer.operand();
-            self.operand(cut, entry, index)
-        })
-    }
-
-    /// `LD VW0` as the beginning of lines of an instruction list that load a value. Whether it was,
-    /// and is reported.
-    fn load_of_list(&mut self, word: Span) -> bool {
-        let flow = self.flow();
-        let text = self.text.get(word.start as usize..).unwrap_or("");
-        let found = foreign::together(text, flow);
-        found.map(|way| self.together(word, way)).is_some()
-    }
-
-    /// `LD VW10 > 5`: a comparison whose sign is between its operands. Whether it was, and is
-    /// reported.
-    fn comparison_apart(
-        &mut self,
-        entry: &'static Instruction,
-        word: Span,
-        operands: &[Operand],
-    ) -> bool {
-        let [left, sign, right] = operands else { return false };
-        let contact = entry.mnemonic();
-        let is_plain = matches!(contact, "LD" | "A" | "O");
-        let is_sign = sign.span.text(self.text).chars().all(|c| "<>=!".contains(c));
-        let span = Span { start: left.span.start, end: right.span.end };
-        if !(is_plain && is_sign) {
-            return false;
-        }
-        let Some(meant) = foreign::contact_of(contact, span.text(self.text)) else { return false };
-        let line = Span { start: word.start, end: right.span.end };
-        let message = format!("{}: a comparison is part of the mnemonic", line.text(self.text));
-        let name = meant.split([' ', '=', '<', '>']).next().and_then(compare_like);
-        self.diagnostics.push(Diagnostic::new(Code::Syntax, line, message).suggest(meant));
-        if let Some(compare) = name {
-            self.stand_in(compare, written_operands(compare), line);
-        }
-        true
-    }
-
-    /// What is before the place where the text is read.
-    fn flow(&self) -> Flow {
+    /// What is before the place where the text is read. What was not understood is nothing.
+    pub(crate) fn flow(&self) -> Flow {
         match self.program.statements.last() {
+            Some(Statement::Instruction(last)) if is_stand_in(last) => Flow::None,
             Some(Statement::Instruction(last)) if last.entry.rung.is_contact() => Flow::Contact,
             Some(Statement::Instruction(_)) => Flow::Done,
             _ => Flow::None,
@@ -180,6 +131,9 @@ impl<'s> Parser<'s> {
 
     /// A first word that is none.
     pub(crate) fn unknown(&mut self, word: Span) {
+        if self.parameters_apart(word) {
+            return;
+        }
         let flow = self.flow();
         let text = self.text.get(word.start as usize..).unwrap_or("");
         if let Some(way) = foreign::together(text, flow) {
@@ -192,7 +146,14 @@ impl<'s> Parser<'s> {
         let relation = self.lexer.is_at_relation() && text.starts_with(is_word_start);
         let relation = relation.then(|| self.lexer.relation());
         let (line, rest) = self.rest_of(word);
-        let mut diagnostic = self.unknown_word(word);
+        let mut diagnostic = match foreign::look_alike(text) {
+            Some((sign, meant, _)) => Diagnostic::new(
+                Code::UnknownMnemonic,
+                word,
+                format!("{text}: {sign} is another character than {meant}"),
+            ),
+            None => self.unknown_word(word),
+        };
         let stand_in = match foreign::meant(text, rest) {
             Some(meant) => understood(&mut diagnostic, self.as_first(meant), line),
             None => self.misspelt(&mut diagnostic, relation, rest),
@@ -223,7 +184,7 @@ impl<'s> Parser<'s> {
     }
 
     /// Lines of another language that only mean something together: one mistake.
-    fn together(&mut self, word: Span, found: Together) {
+    pub(crate) fn together(&mut self, word: Span, found: Together) {
         let end = word.start as usize + found.len;
         self.lexer.go_on(end);
         let span = Span { start: word.start, end: end as u32 };
@@ -243,7 +204,7 @@ impl<'s> Parser<'s> {
 
     /// Puts a load in place of something unknown that begins a rung: what follows is not reported
     /// for its missing load.
-    fn first_stand_in(&mut self, span: Span) {
+    pub(crate) fn first_stand_in(&mut self, span: Span) {
         if let (true, Some((load, count))) = (self.begins_rung(), instruction_of("LD")) {
             self.stand_in(load, count, span);
         }
@@ -251,13 +212,19 @@ impl<'s> Parser<'s> {
 
     /// Whether nothing is between here and the beginning of the network.
     fn begins_rung(&self) -> bool {
-        self.flow() == Flow::None
+        !matches!(self.program.statements.last(), Some(Statement::Instruction(_)))
     }
 
     /// An instruction of the table that is written like structured text.
     pub(crate) fn structured(&mut self, word: Span) {
+        let flow = self.flow();
+        let text = self.text.get(word.start as usize..).unwrap_or("");
+        let way = foreign::brackets(text, flow);
         let text = word.text(self.text);
         let (line, rest) = self.rest_of(word);
+        if let Some(way) = way {
+            return self.together(line, way);
+        }
         let message = match rest.trim() {
             "(" => format!("{text}(: no such instruction"),
             _ => format!("{}: an instruction is its mnemonic and operands", line.text(self.text)),
@@ -267,13 +234,14 @@ impl<'s> Parser<'s> {
         let meant = foreign::meant(text, rest);
         let stand_in = meant.and_then(|meant| understood(&mut diagnostic, meant, line));
         self.diagnostics.push(diagnostic);
-        if let Some((entry, count)) = stand_in.as_deref().and_then(instruction_of) {
-            self.stand_in(entry, count, line);
+        match stand_in.as_deref().and_then(instruction_of) {
+            Some((entry, count)) => self.stand_in(entry, count, line),
+            None => self.first_stand_in(line),
         }
     }
 
     /// The whole instruction that begins with a word, and what is after the word. It is skipped.
-    fn rest_of(&mut self, word: Span) -> (Span, &'s str) {
+    pub(crate) fn rest_of(&mut self, word: Span) -> (Span, &'s str) {
         self.lexer.skip_instruction();
         let line = self.trimmed(word.start as usize, self.lexer.position());
         let line = Span { end: line.end.max(word.end), ..line };
@@ -285,6 +253,10 @@ impl<'s> Parser<'s> {
         if matches!(text, "*)" | "*/") {
             return Diagnostic::new(Code::Syntax, word, format!("{text}: no comment is open here"))
                 .help("leave it out, or begin the comment with (* or /*");
+        }
+        if text == ":=" {
+            let message = format!("{text}: a coil is `=`, and a value is copied by `MOVW`");
+            return Diagnostic::new(Code::Syntax, word, message).suggest("=");
         }
         if !text.starts_with(is_word_start) && !foreign::is_known(text) {
             return Diagnostic::new(
@@ -323,7 +295,7 @@ impl<'s> Parser<'s> {
             return Some(near.to_owned());
         }
         if diagnostic.code == Code::Syntax {
-            if diagnostic.help.is_empty() {
+            if diagnostic.help.is_empty() && diagnostic.suggestion.is_none() {
                 diagnostic.help.push(WHERE_ALL_ARE.to_owned());
             }
             return None;
@@ -355,7 +327,16 @@ impl<'s> Parser<'s> {
         let upper = text.to_ascii_uppercase();
         let rest = self.lexer.line_ahead();
         let sized = foreign::sized(&format!("{upper}W"), rest).and_then(compare_like);
-        let compare = sized.or_else(|| compare_like(&format!("{upper}W")));
+        // `LDI>`: the letter of another list.
+        let lettered = upper.strip_suffix('I').map(|contact| format!("{contact}W"));
+        let compare = sized
+            .or_else(|| compare_like(&format!("{upper}W")))
+            .or_else(|| compare_like(lettered.as_deref()?));
+        if let Some(help) = coil_with_sign(&upper, sign.text(self.text)) {
+            self.diagnostics.push(diagnostic.help(help));
+            self.lexer.skip_instruction();
+            return;
+        }
         // `A !I0.1`
         let negated = sign.text(self.text) == "!";
         let negated =
@@ -367,8 +348,9 @@ impl<'s> Parser<'s> {
         }
         self.diagnostics.push(diagnostic);
         self.lexer.skip_instruction();
-        if let Some(compare) = compare {
-            self.stand_in(compare, written_operands(compare), span);
+        match compare {
+            Some(compare) => self.stand_in(compare, written_operands(compare), span),
+            None => self.first_stand_in(span),
         }
     }
 
@@ -402,6 +384,20 @@ impl<'s> Parser<'s> {
         let diagnostic =
             Diagnostic::new(Code::Syntax, word, format!("{text}: the comparison is missing"));
         let comparisons = format!("there are {all}");
+        // `AB I0.1`
+        let first = self.lexer.line_ahead().trim_start().split([' ', '\t', ',']).next();
+        if let (Some(bit), Some(contact)) = (first, text.get(..text.len() - 1))
+            && foreign::is_bit(bit)
+        {
+            let contact = contact.to_ascii_uppercase();
+            self.diagnostics
+                .push(diagnostic.suggest(contact).help("the contact of one bit has no letter"));
+            return;
+        }
+        let comparisons = match self.lexer.line_ahead().trim() {
+            "" => comparisons,
+            operands => format!("{comparisons}, such as `{text}= {operands}`"),
+        };
         self.diagnostics.push(match self.word_logic(text) {
             // Where accumulators are, it has no operands.
             Some(logic) => diagnostic
@@ -424,7 +420,12 @@ impl<'s> Parser<'s> {
 
     /// Puts an instruction in place of one that was reported, so that the logic stack and the pairs
     /// of the following lines are not reported because of it.
-    fn stand_in(&mut self, entry: &'static Instruction, operand_count: usize, span: Span) {
+    pub(crate) fn stand_in(
+        &mut self,
+        entry: &'static Instruction,
+        operand_count: usize,
+        span: Span,
+    ) {
         let relation = entry.has_relation().then_some(Relation::Equal);
         let operands = vec![Operand { span, value: Value::Invalid }; operand_count];
         let instruction = ast::Instruction { entry, relation, mnemonic_span: span, operands, span };
@@ -454,7 +455,9 @@ impl<'s> Parser<'s> {
                     let at = self.lexer.position();
                     let span = Span::new(at, at + 1);
                     if operands.is_empty() || comma.is_some() {
-                        self.error(Code::Syntax, span, ",: an operand is missing before the comma");
+                        let message = ",: an operand is missing before the comma";
+                        self.diagnostics
+                            .push(Diagnostic::new(Code::Syntax, span, message).help(ONE_COMMA));
                         operands.push(Operand { span, value: Value::Invalid });
                     }
                     comma = Some(span);
@@ -464,13 +467,14 @@ impl<'s> Parser<'s> {
             }
         }
         if let Some(span) = comma.filter(|_| !operands.is_empty()) {
-            self.error(Code::Syntax, span, ",: an operand is missing after the comma");
+            let message = ",: an operand is missing after the comma";
+            self.diagnostics.push(Diagnostic::new(Code::Syntax, span, message).help(ONE_COMMA));
             operands.push(Operand { span, value: Value::Invalid });
         }
         operands
     }
 
-    fn operand(&mut self, cut: Cut, entry: &Instruction, index: usize) -> Operand {
+    pub(crate) fn operand(&mut self, cut: Cut, entry: &Instruction, index: usize) -> Operand {
         let span = match cut {
             Cut::Whole(span) => span,
             Cut::Unclosed(span) => {
@@ -493,14 +497,23 @@ impl<'s> Parser<'s> {
     }
 }
 
-/// Whether a load of a bit has a value for its operand.
-fn is_foreign_load(op: Op, operands: &[Operand]) -> bool {
-    let [operand] = operands else { return false };
-    op == Op::Ld
-        && matches!(
-            operand.value,
-            Value::Address(Address::Byte { .. } | Address::Word { .. } | Address::Double { .. })
-        )
+/// Whether it stands for lines that were not understood at the beginning of a rung.
+fn is_stand_in(instruction: &ast::Instruction) -> bool {
+    let is_empty = |operand: &Operand| {
+        operand.value == Value::Invalid && operand.span == instruction.mnemonic_span
+    };
+    instruction.entry.op == Op::Ld && instruction.operands.iter().all(is_empty)
+}
+
+/// `= !Q0.0`, `=> Q0.0`, `S= Q0.0`: what a coil is with a sign that it has not.
+fn coil_with_sign(mnemonic: &str, sign: &str) -> Option<&'static str> {
+    Some(match (mnemonic, sign) {
+        ("=", "!") => "a coil does not invert: `NOT`, then `= Q0.0`",
+        ("=", _) => "a coil is `= Q0.0`; a comparison is a contact, such as `LDW>= VW0, 5`",
+        ("S", _) => "a bit is set by `S Q0.0, 1`, with the number of bits",
+        ("R", _) => "a bit is reset by `R Q0.0, 1`, with the number of bits",
+        _ => return None,
+    })
 }
 
 /// Whether a guessed instruction fits its operands. Only asked where a wrong guess would do harm
@@ -515,6 +528,9 @@ fn is_likely(op: Op, operands: &str) -> bool {
         _ => true,
     }
 }
+
+const ONE_COMMA: &str = "one comma is between two operands, none before the first and after the \
+     last";
 
 /// Where nothing is near enough.
 const WHERE_ALL_ARE: &str = "an instruction begins with its mnemonic, such as `LD`, `=` or `MOVW`; \
@@ -548,7 +564,7 @@ fn is_word_start(character: char) -> bool {
 }
 
 /// The entry of a comparison.
-fn compare_like(mnemonic: &str) -> Option<&'static Instruction> {
+pub(crate) fn compare_like(mnemonic: &str) -> Option<&'static Instruction> {
     match meaning(mnemonic) {
         Some(Meaning::Instruction(entry, _)) if entry.has_relation() => Some(entry),
         _ => None,
@@ -557,13 +573,22 @@ fn compare_like(mnemonic: &str) -> Option<&'static Instruction> {
 
 /// `LDI0.0` as `LD I0.0`: mnemonic and operand without the blank between them.
 fn without_blank(text: &str) -> Option<String> {
-    (1..text.len().min(6)).rev().find_map(|len| {
+    (1..text.len().min(8)).rev().find_map(|len| {
         let (mnemonic, operand) = text.split_at_checked(len)?;
         match (meaning(mnemonic)?, read_plain(operand)?) {
             // `LDI0.1` is no LDI of a real.
             (_, Value::Real(_)) => None,
-            (Meaning::Instruction(entry, count), _) if count > 0 && !entry.has_relation() => {
-                Some(format!("{} {operand}", mnemonic.to_ascii_uppercase()))
+            (Meaning::Instruction(entry, count), value) if count > 0 && !entry.has_relation() => {
+                // `TON37` and `CTU1` lack their letter.
+                let letter = match (entry.op, value) {
+                    (Op::Ton | Op::Tof | Op::Tonr, Value::Constant(_)) => "T",
+                    (Op::Ctu | Op::Ctd | Op::Ctud, Value::Constant(_)) => "C",
+                    _ => "",
+                };
+                Some(format!("{} {letter}{operand}", mnemonic.to_ascii_uppercase()))
+            }
+            (Meaning::Keyword(Keyword::Network), Value::Constant(_)) => {
+                Some(format!("NETWORK {operand}"))
             }
             _ => None,
         }

@@ -21,10 +21,7 @@ pub(crate) fn declare(
 ) -> Result<(), Box<Diagnostic>> {
     let error = |message: String| Box::new(Diagnostic::new(Code::Declaration, span, message));
     let Some((name, kind)) = text.split_once(':') else {
-        let message = format!("{text}: a declaration has a name and a type");
-        return Err(Diagnostic::new(Code::Declaration, span, message)
-            .help("such as `Speed:INT;`")
-            .into());
+        return Err(without_colon(unit, section, text, span));
     };
     let (name, kind_text) = (name.trim().trim_matches('"'), kind.trim());
     let kind = read_type(kind_text);
@@ -72,6 +69,31 @@ pub(crate) fn declare(
         return Err(error(format!("{name}: a subroutine has at most {PARAMETERS_MAX} parameters")));
     }
     Ok(())
+}
+
+/// `Speed INT`: name and type without the colon between them. The name is kept.
+fn without_colon(unit: &mut Unit, section: Section, text: &str, span: Span) -> Box<Diagnostic> {
+    let message = format!("{text}: a declaration has a name, a colon and a type");
+    let diagnostic = Diagnostic::new(Code::Declaration, span, message);
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let (name, kind) = match words.as_slice() {
+        [one, other] => match (read_type(one), read_type(other)) {
+            (_, Ok(kind)) => (*one, kind),
+            (Ok(kind), _) => (*other, kind),
+            _ => return diagnostic.help("such as `Speed : INT;`").into(),
+        },
+        [name] => (*name, Type::Int),
+        _ => return diagnostic.help("such as `Speed : INT;`").into(),
+    };
+    let is_known = unit.variables.iter().any(|variable| is_same_name(&variable.name, name));
+    if wrong_name(name).is_some() || is_known {
+        return diagnostic.help("such as `Speed : INT;`").into();
+    }
+    let address = Address::Byte { area: Area::L, byte: 0 };
+    let (comment, name) = (String::new(), name.to_owned());
+    let meant = format!("{name} : {}", kind.name());
+    unit.variables.push(Variable { name, section, kind, address, comment, span });
+    diagnostic.suggest(meant).into()
 }
 
 /// The type that was probably meant.

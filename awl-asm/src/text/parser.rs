@@ -98,7 +98,9 @@ impl Parser<'_> {
         self.lines();
         if let Some(span) = self.lexer.unclosed_comment {
             let message = format!("{}: the comment is not closed", span.text(self.text));
-            self.error(Code::Syntax, span, message);
+            let close = if span.text(self.text) == "(*" { "*)" } else { "*/" };
+            let help = format!("`{close}` ends it; a comment of one line begins with //");
+            self.diagnostics.push(Diagnostic::new(Code::Syntax, span, message).help(help));
         }
         self.blocks.end_of_file(&mut self.diagnostics);
     }
@@ -218,6 +220,9 @@ impl Parser<'_> {
         let name = name.trim().trim_matches('"').to_owned();
         self.network_number = 0;
         self.unit_end = None;
+        if kind == UnitKind::Main {
+            self.diagnostics.extend(other_organization_block(number, span));
+        }
         let id = match UnitId::parse(number.trim()).filter(|id| id.kind == kind) {
             _ if kind == UnitKind::Main => Some(UnitId { kind, number: 1 }),
             Some(id) => self.is_new(id, &name, span).then_some(id),
@@ -372,6 +377,17 @@ impl Parser<'_> {
         }
         self.lexer.skip_instruction();
         let span = self.trimmed(start, self.lexer.position());
+        // `1: Motor`
+        let text = span.text(self.text);
+        let digits = text.bytes().take_while(u8::is_ascii_digit).count();
+        let title = text[digits..].trim_start_matches([':', '.', '-', ' ']);
+        if digits > 0 && !title.is_empty() {
+            let number = &text[..digits];
+            let message = format!("{text}: the title of a network is after //");
+            let diagnostic = Diagnostic::new(Code::Syntax, span, message);
+            self.diagnostics.push(diagnostic.suggest(format!("{number} // {title}")));
+            return number.parse().unwrap_or(u32::MAX);
+        }
         self.title_without_sign(span);
         next
     }
@@ -415,6 +431,32 @@ impl Parser<'_> {
         self.diagnostics.sort_by_key(|diagnostic| diagnostic.span);
         (self.program, self.diagnostics)
     }
+}
+
+/// An organization block of STEP 7 that is not the main program.
+fn other_organization_block(header: &str, span: Span) -> Option<Diagnostic> {
+    let bare: String = header.chars().filter(|c| !c.is_whitespace()).collect();
+    let id = UnitId::parse(&bare).filter(|id| id.kind == UnitKind::Main && id.number != 1)?;
+    let message = format!("{id}: an S7-200 has one organization block, OB1");
+    let diagnostic = Diagnostic::new(Code::UnitHeader, span, message);
+    Some(diagnostic.help(match id.number {
+        100..=102 => {
+            "what is for the first scan is in OB1 after the contact `LD SM0.1`, or in a \
+             subroutine: `LD SM0.1`, `CALL SBR0`"
+        }
+        30..=38 => {
+            "what is executed by time is an interrupt routine: `INTERRUPT_BLOCK Name:INT0`, and \
+             in OB1 `LD SM0.1`, `MOVB 100, SMB34`, `ATCH INT0, 10`, `ENI` for every 100 ms"
+        }
+        40..=47 => {
+            "what an input starts is an interrupt routine: `INTERRUPT_BLOCK Name:INT0`, and in OB1 \
+             `LD SM0.1`, `ATCH INT0, 0`, `ENI` for the rising edge of I0.0"
+        }
+        _ => {
+            "the main program is `ORGANIZATION_BLOCK MAIN:OB1`; other parts are \
+             `SUBROUTINE_BLOCK Name:SBR0` and `INTERRUPT_BLOCK Name:INT0`"
+        }
+    }))
 }
 
 /// The words of a comment.

@@ -1,12 +1,13 @@
 //! What the operands of a program mean: constants and addresses at once, symbols when all of them
 //! are known.
 
-use plc_isa::{AnalogInput, Area, Op, Type};
+use plc_isa::{AnalogInput, Area, Op, TimerKind, Type};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::text::address::{Address, AddressError};
 use crate::text::ast::{
-    Instruction, Name, Named, Program, Span, Statement, Unit, UnitId, UnitKind, Value, Variable,
+    Instruction, Name, Named, Operand, Program, Span, Statement, Symbol, Unit, UnitId, UnitKind,
+    Value, Variable,
 };
 use crate::text::foreign::operands as foreign_operands;
 use crate::text::foreign::operands::Preset;
@@ -69,6 +70,10 @@ struct OperandPosition<'p> {
     takes_text: bool,
     /// What it leads to, as far as the instruction tells.
     wanted: Option<Type>,
+    op: Op,
+    /// Whether the instruction has more operands than one, and whether this is one too many.
+    takes_several: bool,
+    is_extra: bool,
 }
 
 impl OperandPosition<'_> {
@@ -110,9 +115,10 @@ fn pointer(span: Span, inner: Value) -> Result<Value, Box<Diagnostic>> {
             return Ok(Value::Indirect(address));
         }
         Value::Address(address @ Address::Accumulator(1..)) => return Ok(Value::Indirect(address)),
-        Value::Address(Address::Accumulator(_)) => error("AC0 cannot hold a pointer")
-            .suggest("*AC1")
-            .help("pointers are held by AC1, AC2 and AC3"),
+        Value::Address(Address::Accumulator(_)) => error("AC0 cannot hold a pointer").help(
+            "AC1, AC2 and AC3 can: put the pointer there, too, `MOVD &VB100, AC1`, and then read \
+             `*AC1`",
+        ),
         Value::Address(
             Address::Byte { area: area @ (Area::V | Area::L), byte }
             | Address::Word { area: area @ (Area::V | Area::L), byte },
@@ -206,12 +212,15 @@ impl Resolver<'_> {
                 routine: routine_kind(instruction.entry.op, pending.operand),
                 takes_text: takes_text(instruction.entry, pending.operand),
                 wanted: wanted(instruction.entry, pending.operand),
+                op: instruction.entry.op,
+                takes_several: written_operands(instruction.entry) > 1,
+                is_extra: pending.operand >= written_operands(instruction.entry),
             };
-            let timer = instruction.operands.first().map(|operand| operand.value.clone());
+            let timer = instruction.operands.first().map(|operand| operand.clone());
             let Some(operand) = instruction.operands.get_mut(pending.operand) else { continue };
-            if let (1, Some(Value::Address(timer))) = (pending.operand, timer)
+            if let (1, Some(timer)) = (pending.operand, timer)
                 && let Some(diagnostic) =
-                    self.time_as_preset(instruction.entry.op, timer, operand.span)
+                    self.time_as_preset(instruction.entry.op, &timer, operand.span, &mut notes)
             {
                 diagnostics.push(diagnostic);
                 continue;
@@ -221,11 +230,20 @@ impl Resolver<'_> {
                 Err(diagnostic) if matches!(instruction.entry.op, Op::Jmp | Op::Lbl) => {
                     diagnostics.push(hints::label(*diagnostic, operand.span.text(self.text)));
                 }
-                Err(diagnostic) => {
-                    // What is after the sign of a comment was not meant as operands.
-                    if hints::is_comment_sign(operand.span.text(self.text)) {
-                        let comment = operand.span.end..=instruction.span.end;
-                        diagnostics.retain(|other| !comment.contains(&other.span.start));
+                Err(mut diagnostic) => {
+                    // What is after the sign of a comment was not meant as operands, and what is
+                    // handed over to no routine is nothing.
+                    let is_comment = hints::is_comment_sign(operand.span.text(self.text));
+                    if is_comment || place.routine.is_some() {
+                        let after = operand.span.end..=instruction.span.end;
+                        let is_after = |other: &Diagnostic| after.contains(&other.span.start);
+                        while diagnostics.last().is_some_and(is_after) {
+                            diagnostics.pop();
+                        }
+                        let mut rest = instruction.operands.iter().skip(pending.operand + 1);
+                        let is_block = rest.any(|one| hints::is_block(one.span.text(self.text)));
+                        let way = foreign_operands::way("DB1").filter(|_| is_block);
+                        diagnostic.help.extend(way.map(str::to_owned));
                     }
                     diagnostics.push(*diagnostic);
                 }
@@ -235,10 +253,31 @@ impl Resolver<'_> {
     }
 
     /// A time where a timer has its preset.
-    fn time_as_preset(&self, op: Op, timer: Address, span: Span) -> Option<Diagnostic> {
-        let text = span.text(self.text);
-        let Preset { counts, why, help } = foreign_operands::preset(op, timer, text)?;
-        let diagnostic = Diagnostic::new(Code::ConstantRange, span, format!("{text}: {why}"));
+    fn time_as_preset(
+        &self,
+        op: Op,
+        timer: &Operand,
+        span: Span,
+        notes: &mut Notes,
+    ) -> Option<Diagnostic> {
+        TimerKind::started_by(op)?;
+        let (text, name) = (span.text(self.text), timer.span.text(self.text));
+        let address = match timer.value {
+            Value::Address(address) => address,
+            // A name is settled after its preset.
+            _ => match self.symbols.find(name.trim_matches('"'), &mut notes.buffer)? {
+                Found::Symbol(_, Symbol { value: Value::Address(address), .. }) => *address,
+                _ => return None,
+            },
+        };
+        let Preset { counts, why, help } = foreign_operands::preset(op, address, text)?;
+        let own = address.to_string();
+        let named = |words: String| match name.eq_ignore_ascii_case(&own) {
+            true => words,
+            false => words.replacen(&format!("{own} counts"), &format!("{name} counts"), 1),
+        };
+        let message = named(format!("{text}: {why}"));
+        let diagnostic = Diagnostic::new(Code::ConstantRange, span, message);
         Some(match counts {
             Some(counts) => diagnostic.suggest(counts.to_string()),
             None => diagnostic.help(help),
@@ -257,13 +296,28 @@ impl Resolver<'_> {
             let left = instruction.operands.get(first)?.span;
             let right = instruction.operands.get(first + 1)?.span;
             let span = Span { start: left.start, end: right.end };
-            Some((first, span, self.joined(left, right, span)?))
+            let member = || self.member(left, right, wanted(instruction.entry, first));
+            Some((first, span, self.joined(left, right, span).or_else(member)?))
         })?;
         instruction.operands.remove(first + 1);
         let operand = instruction.operands.get_mut(first)?;
         operand.span = span;
         operand.value = Value::Invalid;
         Some((first, diagnostic))
+    }
+
+    /// `"Data".Start`: a member of a data block.
+    fn member(&self, block: Span, member: Span, wanted: Option<Type>) -> Option<Diagnostic> {
+        let is_block = block.end == member.start && block.text(self.text).ends_with('"');
+        let name = member.text(self.text).strip_prefix('.').filter(|_| is_block)?;
+        let name = name.rsplit('.').next()?;
+        let span = Span { start: block.start, end: member.end };
+        let message = format!("{}: an S7-200 has no data blocks", span.text(self.text));
+        let (address, kind) = hints::example(wanted);
+        Some(Diagnostic::new(Code::UnknownSymbol, span, message).help(format!(
+            "a variable is declared by itself, `//# var {name} {kind}`, or as a name for an \
+             address, `//# symbol {name} {address}`, and used as `{name}`"
+        )))
     }
 
     fn joined(&self, left: Span, right: Span, span: Span) -> Option<Diagnostic> {
@@ -292,6 +346,9 @@ impl Resolver<'_> {
         let text = span.text(self.text);
         let quoted = text.strip_prefix('"').and_then(|inside| inside.strip_suffix('"'));
         let error = |code, message: String| Err(Box::new(Diagnostic::new(code, span, message)));
+        if let (None, Some(diagnostic)) = (quoted, hints::look_alike(span, text)) {
+            return Err(Box::new(diagnostic));
+        }
         if let Some(kind) = place.routine {
             return self.routine(span, quoted.unwrap_or(text), kind, place, notes);
         }
@@ -322,6 +379,13 @@ impl Resolver<'_> {
             }
             None => {}
         }
+        // An element of an array whose declaration is wrong.
+        if let Some((array, _)) = text.split_once('[')
+            && let Some(Found::Symbol(_, symbol)) = self.symbols.find(array, &mut notes.buffer)
+            && symbol.value == Value::Invalid
+        {
+            return Ok(Value::Invalid);
+        }
         if let Some(name) = quoted {
             if place.takes_text {
                 return literal::parse(text).or_else(|message| error(Code::ConstantRange, message));
@@ -344,6 +408,7 @@ impl Resolver<'_> {
                 Err(message) => {
                     let mut diagnostic = Diagnostic::new(Code::ConstantRange, span, message);
                     diagnostic.suggestion = foreign_operands::number(text);
+                    diagnostic.help.extend(hints::number(text, place.op, &diagnostic));
                     Err(Box::new(diagnostic))
                 }
             },
@@ -402,7 +467,8 @@ impl Resolver<'_> {
             .nearest(name, known.iter().map(String::as_str).filter(|name| !name.is_empty()));
         diagnostic.suggestion = near.map(str::to_owned);
         match hints::no_routine(kind, name) {
-            Some(other) => diagnostic.help = vec![other],
+            Some(other) if near.is_none() => diagnostic.help = vec![other],
+            Some(_) => {}
             None if known.is_empty() => diagnostic.help = hints::none_of(kind, name),
             None => diagnostic.help.extend(foreign_operands::way(name).map(str::to_owned)),
         }
@@ -425,6 +491,10 @@ impl Resolver<'_> {
             return Box::new(diagnostic.suggest(bare));
         }
         let near = self.suggester.nearest(bare, names);
+        let is_hexadecimal = bare.chars().all(|c| c.is_ascii_digit() || matches!(c, 'A'..='F'));
+        if near.is_none() && is_hexadecimal {
+            diagnostic.help.push(format!("a hexadecimal number is written `16#{bare}`"));
+        }
         diagnostic.suggestion = near.map(|near| format!("#{near}"));
         if near.is_none() {
             diagnostic.help.push(match place.own {
@@ -459,6 +529,9 @@ impl Resolver<'_> {
                 diagnostic.suggestion = suggestion
                     .or_else(|| foreign_operands::same(text))
                     .or_else(|| nearby_address(text));
+                if diagnostic.suggestion.is_none() {
+                    diagnostic.help.extend(hints::out_of_range(text));
+                }
                 let in_v =
                     text.strip_prefix(['M', 'm']).map(|rest| Address::parse(&format!("V{rest}")));
                 if let (None, Some(Ok(larger))) = (&diagnostic.suggestion, in_v) {
@@ -469,7 +542,9 @@ impl Resolver<'_> {
             Err(AddressError::NotAnAddress) if !text.contains(|c: char| c.is_alphanumeric()) => {
                 let message = format!("{text}: neither an address nor a constant nor a symbol");
                 let mut diagnostic = Diagnostic::new(Code::Syntax, span, message);
-                diagnostic.help.extend(hints::sign_hint(text).map(str::to_owned));
+                diagnostic
+                    .help
+                    .extend(hints::sign_hint(text, place.takes_several).map(str::to_owned));
                 Err(Box::new(diagnostic))
             }
             Err(AddressError::NotAnAddress) => Err(self.unknown_symbol(span, text, false, place)),
@@ -507,6 +582,8 @@ impl Resolver<'_> {
             Some(near) => Some(written(near)),
             None => foreign_operands::same(name)
                 .or_else(|| foreign_operands::number(name))
+                .or_else(|| foreign_operands::with_offset(name))
+                .or_else(|| foreign_operands::pointer(name, place.wanted == Some(Type::Double)))
                 .or_else(|| hints::bare_fraction(name))
                 .or_else(|| nearby_address(name)),
         };
@@ -517,8 +594,10 @@ impl Resolver<'_> {
         diagnostic.help.extend(foreign_operands::immediate(name));
         if !is_quoted {
             let way = foreign_operands::way(name).filter(|_| diagnostic.suggestion.is_none());
-            let way = way.or_else(|| hints::word_hint(name)).map(str::to_owned);
+            let way = way.or_else(|| hints::word_hint(name, place.wanted)).map(str::to_owned);
             let way = way.or_else(|| foreign_operands::inverted(name));
+            let way = way.or_else(|| foreign_operands::range(name));
+            diagnostic.help.extend(hints::immediate_contact(place.op, name).map(str::to_owned));
             diagnostic.help.extend(way.or_else(|| hints::in_mnemonic(name)));
         }
         if let (None, Some(Err(AddressError::OutOfRange(message, near)))) =
@@ -527,7 +606,14 @@ impl Resolver<'_> {
             diagnostic.help = vec![message];
             diagnostic.suggestion = near;
         }
-        if diagnostic.suggestion.is_none() && diagnostic.help.is_empty() {
+        if let (true, Some(value)) = (is_quoted, hints::quoted_number(name)) {
+            diagnostic.help.push("a number has no quotes".to_owned());
+            diagnostic.suggestion = Some(value);
+        }
+        let has_none = diagnostic.suggestion.is_none() && diagnostic.help.is_empty();
+        if has_none && place.is_extra && place.routine.is_none() && place.op != Op::Call {
+            diagnostic.help.push(hints::TOO_MANY.to_owned());
+        } else if has_none {
             diagnostic.help.push(hints::declaration(
                 name.trim_matches('"'),
                 place.wanted,

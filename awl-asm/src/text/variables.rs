@@ -8,6 +8,7 @@ use crate::text::address::Address;
 use crate::text::ast::{Symbol, Type, Value};
 use crate::text::declared::{Declared, Memory, TEXT_LEN_MAX, TEXT_LEN_USUAL, VariableType, Wanted};
 use crate::text::literal;
+use crate::text::misdeclared::{keep, several_declarations, several_names, type_first};
 use crate::text::piece::{Outcome, Piece, Targets};
 use crate::text::suggest::Suggester;
 use crate::text::symbols::check_name;
@@ -17,6 +18,14 @@ pub(crate) fn declare(word: Piece<'_>, rest: Piece<'_>, targets: &mut Targets<'_
     let values = rest.without_comment();
     let comment = rest.text.get(values.text.len()..).unwrap_or("").trim();
     let comment = comment.strip_prefix("//").unwrap_or(comment).trim().to_owned();
+    let several = several_names(word, values, targets)
+        .or_else(|| several_declarations(word, values, targets));
+    if let Some(diagnostic) = several {
+        return Err(diagnostic);
+    }
+    if let Some(diagnostic) = type_first(word, values, targets) {
+        return Err(diagnostic);
+    }
     let (name, declaration) = name_of(word, values)?;
     let wanted = match word.text.to_ascii_lowercase().as_str() {
         "timer" => timer(name, declaration),
@@ -24,19 +33,25 @@ pub(crate) fn declare(word: Piece<'_>, rest: Piece<'_>, targets: &mut Targets<'_
         _ => variable(name, declaration, targets.suggester),
     };
     let bare = bare(name);
-    check_name(bare, name.span())?;
+    check_name(bare, name.span()).map_err(|mut diagnostic| {
+        if Address::parse(bare).is_ok() {
+            let help = format!("what is declared gets its place by itself: {}", example(word.text));
+            diagnostic.help = vec![help];
+        }
+        diagnostic
+    })?;
     let same = |other: &&Declared| other.name.to_lowercase() == bare.to_lowercase();
     if let Some(first) = targets.program.variables.iter().find(same) {
         let diagnostic =
             Diagnostic::new(Code::Variable, name.span(), format!("{bare}: is declared already"));
-        return Err(diagnostic.related(first.span, "first declared here").into());
+        let help = "leave one of the two out, or give it another name";
+        return Err(diagnostic.related(first.span, "first declared here").help(help).into());
     }
     // A symbol without a meaning is kept, so that its uses are not called unknown.
     let (wanted, is_retained) = match wanted {
         Ok(wanted) => wanted,
         Err(diagnostic) => {
-            let symbol = Symbol { name: bare.to_owned(), value: Value::Invalid, comment };
-            targets.diagnostics.extend(targets.symbols.define(symbol, Some(name.span())));
+            keep(bare, name.span(), targets);
             return Err(diagnostic);
         }
     };
@@ -116,7 +131,12 @@ fn timer(name: Piece<'_>, rest: Piece<'_>) -> Outcome<(Wanted, bool)> {
     let found = RESOLUTIONS.iter().find(|(text, _)| rest.text.eq_ignore_ascii_case(text));
     let Some(&(_, resolution)) = found else {
         let piece = if rest.text.is_empty() { name } else { rest };
-        let resolution = error(piece, "the resolution of a timer is 1ms, 10ms or 100ms");
+        let mut resolution = error(piece, "the resolution of a timer is 1ms, 10ms or 100ms");
+        let joined: String = rest.text.split_whitespace().collect();
+        resolution.suggestion = RESOLUTIONS
+            .iter()
+            .find(|(text, _)| joined.eq_ignore_ascii_case(text))
+            .map(|(text, _)| (*text).to_owned());
         let preset = "its time is the preset where it is started, in counts: `TON Delay, 50`";
         return Err(resolution.help(example("timer")).help(preset).into());
     };
@@ -132,7 +152,9 @@ fn counter(rest: Piece<'_>) -> Outcome<(Wanted, bool)> {
     let (rest, is_retained) = without_last(rest, "RETAIN");
     match rest.text {
         "" => Ok((Wanted::Counter, is_retained)),
-        _ => Err(error(rest, "nothing but RETAIN is after the name of a counter")),
+        _ => Err(error(rest, "nothing but RETAIN is after the name of a counter")
+            .help("its preset is where it counts: `//# counter Parts`, then `CTU Parts, 10`")
+            .into()),
     }
 }
 
@@ -141,6 +163,11 @@ fn counter(rest: Piece<'_>) -> Outcome<(Wanted, bool)> {
 fn variable(name: Piece<'_>, rest: Piece<'_>, suggester: &Suggester) -> Outcome<(Wanted, bool)> {
     let rest = rest.text.strip_suffix(';').map_or(rest, |text| rest.split(text.len()).0.trim());
     let (rest, is_retained) = without_last(rest, "RETAIN");
+    if let Some(address) = at_address(rest) {
+        let bare = bare(name);
+        let help = format!("a name for an address is a symbol: `//# symbol {bare} {address}`");
+        return Err(error(rest, "a variable gets a free place").help(help).into());
+    }
     let (kind, value) = match rest.text.find(":=") {
         Some(at) => (rest.split(at).0.trim(), Some(rest.split(at).1.split(2).1.trim())),
         None => (rest, None),
@@ -154,6 +181,13 @@ fn variable(name: Piece<'_>, rest: Piece<'_>, suggester: &Suggester) -> Outcome<
         Some(value) => initial(kind, array, value)?,
     };
     Ok((Wanted::Memory(Memory { kind, array, initial }), is_retained))
+}
+
+/// The address of `AT %QX0.0 : BOOL`, where the standard has the place of a variable.
+fn at_address(rest: Piece<'_>) -> Option<Address> {
+    let mut words = rest.text.split([' ', '\t', ':']).filter(|word| !word.is_empty());
+    let is_at = words.next()?.eq_ignore_ascii_case("AT");
+    Address::parse(words.next()?.trim_start_matches('%')).ok().filter(|_| is_at)
 }
 
 /// What is at the place of a type: that of the value or of each element, and the array's lowest
@@ -196,6 +230,11 @@ fn array_of(
     }
 }
 
+/// Whether a word is a type.
+pub(crate) fn is_type(piece: Piece<'_>, suggester: &Suggester) -> bool {
+    single(piece, suggester).is_ok()
+}
+
 fn single(piece: Piece<'_>, suggester: &Suggester) -> Outcome<VariableType> {
     let is = |word: &str| piece.text.eq_ignore_ascii_case(word);
     let plain = Type::NAMES.iter().filter(|(_, kind)| *kind != Type::Text);
@@ -217,6 +256,14 @@ fn single(piece: Piece<'_>, suggester: &Suggester) -> Outcome<VariableType> {
         Some((kind, value)) => {
             format!("a first value is after `:=`, as in `{} := {}`", kind.trim(), value.trim())
         }
+        None if first_value(piece, suggester).is_some() => {
+            diagnostic.suggestion = first_value(piece, suggester);
+            "a first value is after `:=`".to_owned()
+        }
+        None if piece.text.contains('[') => {
+            let kind = piece.text.split('[').next().unwrap_or_default().trim();
+            format!("an array is declared with its first and last index: `ARRAY[0..9] OF {kind}`")
+        }
         None if ["TIMER", "TON", "TOF", "TONR"].iter().any(|word| is(word)) => {
             diagnostic.suggestion = None;
             "a timer is declared by `//# timer Delay 100ms`".to_owned()
@@ -232,6 +279,14 @@ fn single(piece: Piece<'_>, suggester: &Suggester) -> Outcome<VariableType> {
         ),
     });
     Err(diagnostic)
+}
+
+/// `INT 5` with the sign between type and first value.
+fn first_value(piece: Piece<'_>, suggester: &Suggester) -> Option<String> {
+    let (kind, value) = piece.first_word();
+    let is_value = literal::looks_like_literal(value.text) && literal::parse(value.text).is_ok();
+    (is_value && single(kind, suggester).is_ok())
+        .then(|| format!("{} := {}", kind.text, value.text))
 }
 
 /// What a type of another language is called here.
@@ -324,7 +379,13 @@ fn bytes(kind: VariableType, piece: Piece<'_>) -> Outcome<Vec<u8>> {
     let refused = || error(piece, format!("is no value of {kind}"));
     let number = |low: i64, high: i64| match value {
         Value::Constant(constant) if (low..=high).contains(&constant.value) => Ok(constant.value),
-        _ => Err(error(piece, format!("a value of {kind} is {low} to {high}"))),
+        _ => {
+            let wrong = error(piece, format!("a value of {kind} is {low} to {high}"));
+            Err(match larger(&value) {
+                Some(other) => Box::new(wrong.help(format!("{other} holds it"))),
+                None => wrong,
+            })
+        }
     };
     // A pattern may use the sign bit as a digit.
     let low_of = |low: i64, high: i64| match value {
@@ -355,6 +416,23 @@ fn bytes(kind: VariableType, piece: Piece<'_>) -> Outcome<Vec<u8>> {
         VariableType::Text(len) => return text(len, &value, piece),
     };
     number.to_be_bytes().get(8 - len..).map(<[u8]>::to_vec).ok_or_else(refused)
+}
+
+/// The type that holds a value which another does not hold.
+fn larger(value: &Value) -> Option<&'static str> {
+    Some(match value {
+        Value::Real(_) => "REAL",
+        Value::Constant(constant) => match constant.value {
+            0..=0xFF => "BYTE",
+            -0x8000..=0x7FFF => "INT",
+            0x8000..=0xFFFF => "WORD",
+            -0x8000_0000..=0x7FFF_FFFF => "DINT",
+            0x8000_0000..=0xFFFF_FFFF => "DWORD",
+            _ => return None,
+        },
+        Value::Text(_) => "STRING",
+        _ => return None,
+    })
 }
 
 fn text(len: u8, value: &Value, piece: Piece<'_>) -> Outcome<Vec<u8>> {

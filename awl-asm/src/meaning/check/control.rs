@@ -7,8 +7,10 @@ use std::ops::Range;
 use plc_isa::{LOOPS_MAX, Op, Profile};
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::meaning::quoted::told;
 use crate::meaning::selected::{Argument, Selected, operand_span, span_of};
 use crate::meaning::units::Units;
+use crate::text::address::Address;
 use crate::text::ast::{Program, Span};
 
 /// The control structure of a program; indices are those of the selected instructions.
@@ -278,11 +280,13 @@ fn timers_not_every_scan(
         };
         let is_started = plc_isa::TimerKind::started_by(selected.op).is_some();
         if is_started && plc_isa::timer_resolution(number) == plc_isa::TimerResolution::Ms100 {
+            let span = operand_span(program, selected, 0);
+            let name = told(program, span, Address::Timer(number));
             diagnostics.push(
                 Diagnostic::new(
                     Code::TimerNotEveryScan,
-                    operand_span(program, selected, 0),
-                    format!("T{number} counts in 100 ms and is not executed exactly once a scan"),
+                    span,
+                    format!("{name} counts in 100 ms and is not executed exactly once a scan"),
                 )
                 .related(span_of(program, &code[*by]), *words)
                 .help("it loses time when it is skipped and gains time when it is repeated"),

@@ -5,7 +5,8 @@ use plc_isa::{Area, Op};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::meaning::check::rung::contacts;
-use crate::meaning::selected::{Argument, Selected, is_load, span_of};
+use crate::meaning::quoted::short;
+use crate::meaning::selected::{Argument, Selected, is_load, operand_span, span_of};
 use crate::text::address::Address;
 use crate::text::ast::{Program, Statement, UnitKind};
 
@@ -14,11 +15,12 @@ use crate::text::ast::{Program, Statement, UnitKind};
 pub fn counting(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnostic>) {
     let main = main_program(program, code);
     for (index, selected) in main.iter().enumerate().filter(|(_, selected)| counts(selected)) {
-        let Some(name) = only_inputs(&main[..index]) else { continue };
+        let Some((contact, input)) = only_inputs(&main[..index]) else { continue };
         if is_elsewhere(main, index) {
             continue;
         }
         let mnemonic = selected.op.instruction().mnemonic();
+        let name = short(program, operand_span(program, contact, 0), input);
         let message = format!("{mnemonic} is executed in every scan while {name} lets power flow");
         diagnostics.push(
             Diagnostic::new(Code::EveryScan, span_of(program, selected), message).help(format!(
@@ -68,8 +70,9 @@ fn main_program<'c>(program: &Program, code: &'c [Selected]) -> &'c [Selected] {
     &code[at(start)..at(end)]
 }
 
-/// The first contact of the rung that the code ends in, if all of its contacts are inputs.
-fn only_inputs(code: &[Selected]) -> Option<Address> {
+/// The first contact of the rung that the code ends in and its input, if all of its contacts are
+/// inputs.
+fn only_inputs(code: &[Selected]) -> Option<(&Selected, Address)> {
     let contacts = contacts(code);
     let input = |selected: &Selected| match selected.arguments[0] {
         Argument::Bit(address @ Address::Bit { area: Area::I, .. })
@@ -79,7 +82,8 @@ fn only_inputs(code: &[Selected]) -> Option<Address> {
         }
         _ => None,
     };
-    let all: Option<Vec<Address>> = contacts.iter().map(input).collect();
+    let all: Option<Vec<(&Selected, Address)>> =
+        contacts.iter().map(|selected| Some((selected, input(selected)?))).collect();
     let is_one_rung = contacts.iter().filter(|selected| is_load(selected.op)).count() == 1;
     all?.first().copied().filter(|_| is_one_rung)
 }

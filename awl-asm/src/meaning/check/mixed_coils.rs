@@ -6,6 +6,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::meaning::check::parting::may_part;
 use crate::meaning::check::rung::is_of_first_scan;
 use crate::meaning::check::usage::{Access, Usage};
+use crate::meaning::quoted::told;
 use crate::meaning::selected::{Selected, operand_span, span_of};
 use crate::text::address::Address;
 use crate::text::ast::Program;
@@ -47,6 +48,7 @@ pub fn mixed_coils(
         if let Some(access) = lost {
             let name = code[access.instruction].op.instruction().mnemonic();
             let span = operand_span(program, &code[access.instruction], access.operand);
+            let address = told(program, span, address);
             let message =
                 format!("{address} does not stay as {name} leaves it: `=` writes it in every scan");
             diagnostics.push(

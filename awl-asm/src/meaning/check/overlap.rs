@@ -8,6 +8,7 @@ use plc_isa::Area;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::meaning::check::usage::{Access, Usage};
+use crate::meaning::quoted::told;
 use crate::meaning::selected::{Selected, operand_span};
 use crate::text::address::Address;
 use crate::text::ast::Program;
@@ -39,6 +40,7 @@ pub fn overlap(
         }
     }
     let span = |of: &Named| operand_span(program, &code[of.access.instruction], of.access.operand);
+    let name = |of: &Named| told(program, span(of), of.address);
     for named in areas.values_mut() {
         named.sort_by_key(|one| one.bytes.start);
         let pairs = named.iter().enumerate().flat_map(|(index, one)| {
@@ -56,11 +58,11 @@ pub fn overlap(
                 true => (one, next),
                 false => (next, one),
             };
-            let (a, b) = (first.address, second.address);
+            let (a, b) = (name(first), name(second));
             let message =
                 format!("{b} and {a} share bytes: what is written to one changes the other");
             let use_of = if first.access.writes { "written" } else { "read" };
-            let len = if matches!(b, Address::Word { .. }) { "two" } else { "four" };
+            let len = if matches!(second.address, Address::Word { .. }) { "two" } else { "four" };
             diagnostics.push(
                 Diagnostic::new(Code::Overlap, span(second), message)
                     .related(span(first), format!("{a} is {use_of} here"))

@@ -65,8 +65,8 @@ struct Follow<'a> {
     taken: usize,
     /// How many of them LPS made.
     copies: usize,
-    /// The copies of LPS that LPP has not taken back, and whether LRD has read them.
-    kept: Vec<(Span, bool)>,
+    /// The copies of LPS that LPP has not taken back, and where LRD has read them last.
+    kept: Vec<(Span, Option<Span>)>,
 }
 
 impl Follow<'_> {
@@ -96,10 +96,15 @@ impl Follow<'_> {
             // A copy is as good as used, and so is what is read where it is.
             Op::Lps => {
                 self.copies += 1;
-                self.kept.push((span_of(self.program, selected), false));
+                self.kept.push((span_of(self.program, selected), None));
             }
             Op::Lds | Op::Lrd => {
-                self.kept.iter_mut().for_each(|(_, is_read)| *is_read = true);
+                let span = span_of(self.program, selected);
+                self.kept.iter_mut().for_each(|(_, read)| *read = Some(span));
+                // What LDS reads stays where it is.
+                if selected.op == Op::Lds {
+                    self.kept.clear();
+                }
                 self.taken = self.taken.max(usize::from(needs) + 1);
             }
             Op::Lpp => _ = self.kept.pop(),
@@ -132,17 +137,25 @@ impl Follow<'_> {
         self.unused_copies();
     }
 
-    /// A copy of the power flow that no branch takes up: the others of its branches are missing.
+    /// A copy of the power flow that no branch takes up, or none as the last one.
     fn unused_copies(&mut self) {
-        let unused = self.kept.drain(..).filter(|(_, is_read)| !is_read);
-        for (span, _) in unused.filter(|_| !self.warned) {
-            self.diagnostics.push(
-                Diagnostic::new(Code::UnusedValue, span, "the copy that LPS keeps is not used")
-                    .help(
-                        "the last branch begins with `LPP`, those between the first and the last \
-                         with `LRD`; with one branch alone LPS is not needed",
-                    ),
-            );
+        let warned = self.warned;
+        for (span, read) in self.kept.drain(..).filter(|_| !warned) {
+            let branches = "the last branch begins with `LPP`, those between the first and the \
+                            last with `LRD`";
+            self.diagnostics.push(match read {
+                None => {
+                    let message = "the copy that LPS keeps is not used";
+                    Diagnostic::new(Code::UnusedValue, span, message)
+                        .help(format!("{branches}; with one branch alone LPS is not needed"))
+                }
+                Some(read) => {
+                    let message = "the copy that LPS keeps is read here and never taken away";
+                    Diagnostic::new(Code::UnusedValue, read, message)
+                        .related(span, "kept here")
+                        .help(branches)
+                }
+            });
         }
     }
 
@@ -291,6 +304,16 @@ fn start_help(name: &str) -> String {
         "EU" | "ED" => format!("the contact whose edge it tells is before it: `LD I0.0`, `{name}`"),
         "NOT" => {
             "what it inverts is before it: `LD I0.0`, `NOT`; of one bit that is `LDN I0.0`".into()
+        }
+        "LPP" | "LRD" => "the branches of `LPS` are in the network where it is: leave the NETWORK \
+                          line before it out, or begin with `LD`"
+            .into(),
+        "TON" | "TOF" | "TONR" => {
+            format!("the contact that starts it is before it: `LD I0.0`, then `{name}`")
+        }
+        "=" | "=I" | "S" | "R" | "SI" | "RI" => {
+            "begin with the contact that it depends on, such as `LD I0.0`; `LD SM0.0` is always on"
+                .into()
         }
         "ALD" | "OLD" => {
             format!("`{name}` joins two branches that begin with `LD`, and is after both")

@@ -6,6 +6,7 @@ use plc_isa::{Area, Kind, Op, Role, TimerKind};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::meaning::check::parting::may_part;
+use crate::meaning::quoted::{short, told};
 use crate::meaning::selected::{Argument, Selected, operand_span, span_of};
 use crate::text::address::Address;
 use crate::text::ast::{Program, Span};
@@ -43,7 +44,11 @@ pub fn usage(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
             }
         }
     }
-    let check = Check { program, code, unknown: uncertain(code) };
+    let mut check = Check { program, code, unknown: uncertain(code), unread: [None; 2] };
+    check.unread = [
+        unread(&check, &usage, |address| matches!(address, Address::Timer(_))),
+        unread(&check, &usage, |address| matches!(address, Address::Counter(_))),
+    ];
     for (&address, accesses) in &usage.accesses {
         check.address(address, accesses, diagnostics);
     }
@@ -78,13 +83,7 @@ fn access_of(argument: Argument, reads: bool, written: bool) -> Option<(Address,
 }
 
 fn is_local(address: Address) -> bool {
-    matches!(
-        address,
-        Address::Bit { area: Area::L, .. }
-            | Address::Byte { area: Area::L, .. }
-            | Address::Word { area: Area::L, .. }
-            | Address::Double { area: Area::L, .. }
-    )
+    address.area() == Some(Area::L)
 }
 
 struct Check<'a> {
@@ -92,6 +91,28 @@ struct Check<'a> {
     code: &'a [Selected],
     /// The warnings that an instruction without its operands makes uncertain.
     unknown: Vec<Code>,
+    /// The one timer and the one counter that is started and never read, with what starts it.
+    unread: [Option<(Address, usize)>; 2],
+}
+
+/// The one timer or counter that is started and never read, and the first access to it; `None` if
+/// there are several.
+fn unread(
+    check: &Check<'_>,
+    usage: &Usage,
+    is_kind: impl Fn(Address) -> bool,
+) -> Option<(Address, usize)> {
+    let starts = |access: &Access| {
+        access.operand == 0
+            && (TimerKind::started_by(check.op(access)).is_some()
+                || matches!(check.op(access), Op::Ctu | Op::Ctd | Op::Ctud))
+    };
+    let mut unread = usage.accesses.iter().filter_map(|(&address, accesses)| {
+        let start = accesses.iter().find(|access| starts(access))?;
+        let is_read = accesses.iter().any(|access| access.reads);
+        (is_kind(address) && !is_read).then_some((address, start.instruction))
+    });
+    unread.next().filter(|_| unread.next().is_none())
 }
 
 fn uncertain(code: &[Selected]) -> Vec<Code> {
@@ -104,9 +125,27 @@ fn uncertain(code: &[Selected]) -> Vec<Code> {
     warnings.collect()
 }
 
+/// A timer or counter that may have been forgotten.
+#[derive(Clone, Copy)]
+struct Never {
+    /// What never happens to it.
+    verb: &'static str,
+    code: Code,
+    address: Address,
+}
+
 impl Check<'_> {
     fn span(&self, access: &Access) -> Span {
         operand_span(self.program, &self.code[access.instruction], access.operand)
+    }
+
+    /// The address of an access as the text names it there, and in short.
+    fn told(&self, access: &Access, address: Address) -> String {
+        told(self.program, self.span(access), address)
+    }
+
+    fn short(&self, access: &Access, address: Address) -> String {
+        short(self.program, self.span(access), address)
     }
 
     fn op(&self, access: &Access) -> Op {
@@ -138,49 +177,35 @@ impl Check<'_> {
     }
 
     fn timer(&self, number: u8, accesses: &[Access], diagnostics: &mut Vec<Diagnostic>) {
-        let name = format!("T{number}");
+        let address = Address::Timer(number);
         let starts = |access: &&Access| {
             TimerKind::started_by(self.op(access)).is_some() && access.operand == 0
         };
-        self.one_kind(&name, "a timer", accesses, starts, Code::TimerTwoKinds, diagnostics);
-        let help = match TimerKind::OnDelay.fits(number) {
+        self.one_kind(address, accesses, starts, Code::TimerTwoKinds, diagnostics);
+        let help = |name: &str| match TimerKind::OnDelay.fits(number) {
             true => format!("start it with TON or TOF, for example `TON {name}, 10`"),
             false => format!("start it with TONR, for example `TONR {name}, 10`"),
         };
-        self.never_started(
-            &name,
-            "started",
-            help,
-            accesses,
-            starts,
-            Code::TimerNeverStarted,
-            diagnostics,
-        );
+        let never = Never { verb: "started", code: Code::TimerNeverStarted, address };
+        self.never_started(never, help, accesses, starts, diagnostics);
     }
 
     fn counter(&self, number: u8, accesses: &[Access], diagnostics: &mut Vec<Diagnostic>) {
-        let name = format!("C{number}");
+        let address = Address::Counter(number);
         let counts = |access: &&Access| {
             matches!(self.op(access), Op::Ctu | Op::Ctd | Op::Ctud) && access.operand == 0
         };
-        self.one_kind(&name, "a counter", accesses, counts, Code::CounterTwoKinds, diagnostics);
-        let help = format!("count it with CTU, CTD or CTUD, for example `CTU {name}, 10`");
-        self.never_started(
-            &name,
-            "counted",
-            help,
-            accesses,
-            counts,
-            Code::CounterNeverCounts,
-            diagnostics,
-        );
+        self.one_kind(address, accesses, counts, Code::CounterTwoKinds, diagnostics);
+        let help =
+            |name: &str| format!("count it with CTU, CTD or CTUD, for example `CTU {name}, 10`");
+        let never = Never { verb: "counted", code: Code::CounterNeverCounts, address };
+        self.never_started(never, help, accesses, counts, diagnostics);
     }
 
     /// Two kinds are an error; the same kind twice is a warning.
     fn one_kind(
         &self,
-        name: &str,
-        what: &str,
+        address: Address,
         accesses: &[Access],
         starts: impl Fn(&&Access) -> bool,
         two_kinds: Code,
@@ -191,6 +216,8 @@ impl Check<'_> {
         let first_name = self.op(first).instruction().mnemonic();
         for other in starting {
             let other_name = self.op(other).instruction().mnemonic();
+            let what = if two_kinds == Code::TimerTwoKinds { "a timer" } else { "a counter" };
+            let (name, short) = (self.told(other, address), self.short(other, address));
             let (code, message) = if other_name == first_name {
                 (Code::StartedTwice, format!("{name} is executed by {first_name} in two places"))
             } else {
@@ -206,39 +233,55 @@ impl Check<'_> {
                 .related(self.span(first), format!("{first_name} here"));
             diagnostics.push(match two_kinds {
                 Code::CounterTwoKinds if code == two_kinds => diagnostic.help(format!(
-                    "`CTUD {name}, 10` counts up and down: before it are `LD` of what counts up, \
+                    "`CTUD {short}, 10` counts up and down: before it are `LD` of what counts up, \
                      `LD` of what counts down, `LD` of what resets"
                 )),
                 Code::TimerTwoKinds if code == two_kinds => diagnostic.help(
                     "each is a timer of its own: another number for one of them, such as T38",
                 ),
-                _ => diagnostic,
+                _ => diagnostic.help(format!(
+                    "another number for one of them, or both conditions in one rung before one \
+                     {first_name}"
+                )),
             });
         }
     }
 
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "one rule for timers and counters, which differ in words only"
-    )]
     fn never_started(
         &self,
-        name: &str,
-        verb: &str,
-        help: String,
+        Never { verb, code, address }: Never,
+        help: impl Fn(&str) -> String,
         accesses: &[Access],
         starts: impl Fn(&&Access) -> bool,
-        code: Code,
         diagnostics: &mut Vec<Diagnostic>,
     ) {
-        let first_read = accesses.iter().find(|access| access.reads);
         // An instruction whose operands were wrong may have been the one.
-        let is_started =
-            accesses.iter().any(|access| starts(&access)) || self.unknown.contains(&code);
-        if let (Some(read), false) = (first_read, is_started) {
-            let message = format!("{name} is read here, but never {verb}");
-            diagnostics.push(Diagnostic::new(code, self.span(read), message).help(help));
+        if accesses.iter().any(|access| starts(&access)) || self.unknown.contains(&code) {
+            return;
         }
+        let is_coil = |access: &&Access| self.op(access) == Op::Assign;
+        let (first, what) = match accesses.iter().find(is_coil) {
+            Some(coil) => (coil, "written as a bit"),
+            None => match accesses.iter().find(|access| access.reads) {
+                Some(read) => (read, "read"),
+                None => return,
+            },
+        };
+        let message = format!("{} is {what} here, but never {verb}", self.told(first, address));
+        let help = help(&self.short(first, address));
+        let mut diagnostic = Diagnostic::new(code, self.span(first), message);
+        let other = self.unread[usize::from(code != Code::TimerNeverStarted)];
+        // Where a word is, is its value, such as another preset.
+        let arguments = self.code[first.instruction].arguments;
+        let is_bit = arguments.contains(&Argument::Bit(address));
+        if let Some((other, start)) = other.filter(|_| is_bit) {
+            let span = operand_span(self.program, &self.code[start], 0);
+            let other = short(self.program, span, other);
+            diagnostic = diagnostic
+                .related(span, format!("{other} is {verb} here and never read"))
+                .help(format!("if {other} is meant, it is `{other}` here, too"));
+        }
+        diagnostics.push(diagnostic.help(help));
     }
 
     fn assigned_twice(
@@ -254,8 +297,10 @@ impl Check<'_> {
                 first = other;
                 continue;
             }
-            let message =
-                format!("{address} is written by `=` a second time: only the last one counts");
+            let message = format!(
+                "{} is written by `=` a second time: only the last one counts",
+                self.told(other, address)
+            );
             diagnostics.push(
                 Diagnostic::new(Code::OutputTwice, self.span(other), message)
                     .related(span_of(self.program, &self.code[first.instruction]), "first here")
@@ -272,7 +317,8 @@ impl Check<'_> {
     ) {
         let Some(written) = accesses.iter().find(|access| access.writes) else { return };
         let message = format!(
-            "{address} is an input: what is written here lasts until inputs are read again"
+            "{} is an input: what is written here lasts until inputs are read again",
+            self.told(written, address)
         );
         let output = match address {
             Address::Bit { byte, bit, .. } => Some(Address::Bit { area: Area::Q, byte, bit }),
@@ -323,6 +369,7 @@ impl Check<'_> {
         let first = first.filter(|_| area == Area::Q || !is_written);
         if let (Some(first), true) = (first, byte > 0 || bit >= count) {
             let name = area.name();
+            let address = self.told(first, address);
             let message = format!("{address} has no pin on {board}: {effect}");
             diagnostics.push(
                 Diagnostic::new(Code::NoSuchPin, self.span(first), message)

@@ -66,12 +66,24 @@ pub(super) fn find(text: &str, flow: Flow) -> Option<Together> {
         }
         end = lines.end;
     }
+    if first.starts_with('&') {
+        return (steps.is_empty() && !targets.is_empty()).then(|| pointer(&first, end, flow));
+    }
     let mut code = moved(&first, &steps, &targets)?;
     // The contact is there already.
     if flow == Flow::Contact {
         code.remove(0);
     }
     Some(together(code, end, None))
+}
+
+/// A pointer that is loaded.
+fn pointer(first: &str, end: usize, flow: Flow) -> Together {
+    let load = (flow != Flow::Contact).then(|| "LD SM0.0".to_owned());
+    let code = load.into_iter().chain([format!("MOVD {first}, AC1")]).collect();
+    let help = "`*AC1` is what it points to; pointers are in AC1, AC2, AC3 or double words of V \
+                memory";
+    Together { help: vec![help.to_owned()], ..together(code, end, None) }
 }
 
 /// What combines the value with an operand in an instruction list of the standard.
@@ -303,7 +315,7 @@ fn copy(width: Width, from: &str, to: &str) -> Option<String> {
 
 /// An operand as it is written here; `None` for what an S7-200 has otherwise.
 fn written(text: &str) -> Option<String> {
-    if let Some(same) = operands::same(text) {
+    if let Some(same) = operands::same(text).or_else(|| operands::pointer(text, true)) {
         return Some(same);
     }
     let is_known = Address::parse(text).is_ok()
@@ -337,6 +349,7 @@ mod tests {
         assert_eq!(code("L MW0\nSLW 3\nT MW2"), "LD SM0.0; MOVW MW0, MW2; SLW MW2, 3");
         assert_eq!(code("L MB0\nINC 1\nT MB0"), "LD SM0.0; INCB MB0");
         assert_eq!(code("L PIW256\nT MW10"), "LD SM0.0; MOVW AIW0, MW10");
+        assert_eq!(code("L P#M10.0\nT MD20"), "LD SM0.0; MOVD &MB10, AC1");
     }
 
     #[test]

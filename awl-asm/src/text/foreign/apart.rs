@@ -13,6 +13,10 @@ pub(crate) fn apart(mnemonic: &str, operands: &[String]) -> Option<Vec<String>> 
     let copy = |from: &String, to: &String| {
         (!from.eq_ignore_ascii_case(to)).then(|| format!("MOV{letter} {from}, {to}"))
     };
+    // A number is no place for a result.
+    if operands.last()?.starts_with(|c: char| c.is_ascii_digit() || c == '-') {
+        return None;
+    }
     let is_one_of = |starts: &[&str]| starts.iter().any(|start| mnemonic.starts_with(start));
     match operands {
         [one, count, to] if is_one_of(&["SL", "SR", "RL", "RR"]) => {
@@ -58,6 +62,7 @@ mod tests {
         assert_eq!(lines("SLW", &["VW0", "2", "VW4"]), "MOVW VW0, VW4; SLW VW4, 2");
         assert_eq!(lines("INCW", &["VW0", "VW0"]), "INCW VW0");
         assert_eq!(lines("INCW", &["VW0", "VW2"]), "MOVW VW0, VW2; INCW VW2");
+        assert_eq!(lines("INCW", &["VW0", "5"]), "");
         assert_eq!(lines("TON", &["T37", "20", "VW0"]), "");
     }
 }

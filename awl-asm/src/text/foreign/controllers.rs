@@ -35,11 +35,11 @@ pub(super) const ROWS: &[Row] = &[
     row(&["AND"], Sized(["A", "ANDB", "ANDW", "ANDD", ""], "A"), BITS_OR_WORDS),
     named(&[], &["UND"], Sized(["A", "ANDB", "ANDW", "ANDD", ""], "A"), BITS_OR_WORDS),
     row(&["ANDN", "ANDNOT"], Mnemonic("AN"), ""),
-    named(&[], &["UNDN", "UNDNICHT"], Mnemonic("AN"), ""),
+    named(&[], &["UNDN", "UNDNICHT", "UNICHT"], Mnemonic("AN"), ""),
     row(&["OR"], Sized(["O", "ORB", "ORW", "ORD", ""], "O"), BITS_OR_WORDS_OR),
     named(&[], &["ODER"], Sized(["O", "ORB", "ORW", "ORD", ""], "O"), BITS_OR_WORDS_OR),
     row(&["ORN", "ORNOT", "ORI"], Mnemonic("ON"), ""),
-    named(&[], &["ODERN", "ODERNICHT"], Mnemonic("ON"), ""),
+    named(&[], &["ODERN", "ODERNICHT", "ONICHT"], Mnemonic("ON"), ""),
     row(
         &["XOR"],
         Sized(["", "XORB", "XORW", "XORD", ""], ""),
@@ -96,6 +96,72 @@ pub(super) const ROWS: &[Row] = &[
         &["DIFD", "OSF", "PLF"],
         Like("ED"),
         "on an S7-200 `ED` after the contact is 1 for one scan: `LD I0.0`, `ED`, `= M0.0`",
+    ),
+    row(
+        &["EDGE", "R_EDGE", "RISING", "RISE", "POS", "P_TRIG", "UP_EDGE", "DIFF_UP"],
+        Like("EU"),
+        "on an S7-200 `EU` after the contact is 1 for one scan: `LD I0.0`, `EU`, `= M0.0`",
+    ),
+    row(
+        &["F_EDGE", "FALLING", "FALL", "N_TRIG", "DOWN_EDGE", "DIFF_DOWN"],
+        Like("ED"),
+        "on an S7-200 `ED` after the contact is 1 for one scan: `LD I0.0`, `ED`, `= M0.0`",
+    ),
+    named(
+        &[],
+        &["FLANKE", "FLANKEP"],
+        Like("EU"),
+        "on an S7-200 `EU` after the contact is 1 for one scan: `LD I0.0`, `EU`, `= M0.0`",
+    ),
+    row(
+        &["ALT", "ALTP", "TOGGLE", "FLIPFLOP", "T_FF", "TFF", "INVERT"],
+        Like("="),
+        "on an S7-200 a press changes an output by `LD I0.0`, `EU`, `= M0.0`, then `LD M0.0`, \
+         `AN Q0.0`, `LDN M0.0`, `A Q0.0`, `OLD`, `= Q0.0`",
+    ),
+    row(
+        &["BLINK", "FLASH", "FLASHER"],
+        Like("="),
+        "on an S7-200 SM0.5 blinks in seconds: `LD I0.0`, `A SM0.5`, `= Q0.0`; other times are \
+         timers: `LDN T37`, `TON T37, 10`",
+    ),
+    named(
+        &["PULSE"],
+        &["IMPULS"],
+        Nothing,
+        "a pulse of one scan is `EU` after the contact; a longer one is `EU`, `S M0.0, 1`, then \
+         `LD M0.0`, `TON T37, 20` and `LD T37`, `R M0.0, 1`",
+    ),
+    row(&["REM", "COMMENT", "NOTE"], Nothing, "a comment begins with //"),
+    named(&[], &["KOMMENTAR", "BEMERKUNG"], Nothing, "a comment begins with //"),
+    row(
+        &["PRINT", "PRINTF", "WRITE", "SERIAL"],
+        Nothing,
+        "a program of an S7-200 shows nothing by itself: `uno200 show` shows its values, and \
+         characters are sent by `XMT VB100, 0`",
+    ),
+    row(
+        &["FEND", "SRET", "IRET", "ENDP", "EOF"],
+        Nothing,
+        "leave the line out: a program and a block end with their last line",
+    ),
+    row(&["DMOV", "DMOVP", "MOVL"], Mnemonic("MOVD"), "double words are copied by `MOVD VD0, VD4`"),
+    row(
+        &["MOVP", "@MOV", "INCP", "DECP", "ADDP", "SUBP"],
+        Nothing,
+        "what is done once for a press has `EU` after the contact: `LD I0.0`, `EU`, `MOVW VW0, \
+         VW2`",
+    ),
+    row(
+        &["XFER"],
+        Nothing,
+        "on an S7-200 blocks are copied by `BMB`, `BMW` and `BMD`: `BMW VW0, VW100, 10`",
+    ),
+    row(
+        &["SFT", "SFTL", "SFTR", "SHIFT", "BSL", "BSR", "WSFT"],
+        Nothing,
+        "on an S7-200 a register of bits is `SHRB I0.0, V0.0, 8`, with `EU` before it; a value is \
+         shifted by `SLW VW0, 1` and `SRW VW0, 1`",
     ),
     row(&["LDP"], Nothing, "on an S7-200 that is `LD I0.0` and `EU`"),
     row(&["LDF"], Nothing, "on an S7-200 that is `LD I0.0` and `ED`"),
@@ -155,7 +221,13 @@ pub(super) const ROWS: &[Row] = &[
     row(&["GEQ"], Nothing, "on an S7-200 that is a contact: `LDW>= VW0, 5`"),
     row(&["LEQ"], Nothing, "on an S7-200 that is a contact: `LDW<= VW0, 5`"),
     row(&["TIM", "TIMER", "TMR", "TIMH"], Mnemonic("TON"), TIMER),
-    named(&[], &["ZEIT"], Mnemonic("TON"), TIMER),
+    named(&[], &["ZEIT", "TE", "TEV"], Mnemonic("TON"), TIMER),
+    named(
+        &[],
+        &["TA", "TAV"],
+        Mnemonic("TOF"),
+        "an off-delay has its number and its preset: `TOF T37, 20`",
+    ),
     row(
         &["RTO"],
         Mnemonic("TONR"),

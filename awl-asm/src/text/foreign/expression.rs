@@ -38,9 +38,17 @@ impl Token {
     }
 }
 
+/// An operand without the signs and the data block that other languages have before it: `%Q0.0`,
+/// `#Start`, `"Data".Start`.
+pub(super) fn bare(word: &str) -> &str {
+    let bare = word.trim_start_matches(['%', '#']);
+    let member = bare.strip_prefix('"').and_then(|rest| rest.split_once("\"."));
+    member.map_or(bare, |(_, member)| member)
+}
+
 /// An operand as it is written here.
 fn written(word: &str) -> String {
-    let bare = word.trim_start_matches('%');
+    let bare = bare(word);
     if Address::parse(bare).is_ok() { bare.to_uppercase() } else { bare.to_owned() }
 }
 
@@ -69,7 +77,10 @@ pub(super) fn tokens(text: &str) -> Vec<Token> {
         let in_word =
             |c: char| c.is_alphanumeric() || matches!(c, '_' | '.' | '"' | '#' | '%' | '[' | ']');
         let len = match rest.strip_prefix('"').and_then(|inside| inside.find('"')) {
-            Some(quoted) => quoted + 2,
+            Some(quoted) => {
+                let member = rest[quoted + 2..].find(|c| !in_word(c));
+                quoted + 2 + member.unwrap_or(rest.len() - quoted - 2)
+            }
             None => rest.find(|c| !in_word(c)).unwrap_or(rest.len()),
         };
         let (token, len) = match first {
@@ -155,6 +166,28 @@ fn compared(contact: &str, part: &[Token], unknown: Option<Width>) -> Option<Str
     let width = width::of(&format!("{left}, {right}")).or(unknown);
     let width = width.filter(|width| *width != Width::Bit)?;
     Some(format!("{contact}{}{relation} {left}, {right}", width.letter()))
+}
+
+/// The contacts of an expression after the mnemonic of a contact; `None` where it is none.
+pub(crate) fn contacts_of(mnemonic: &str, expression: &str) -> Option<Vec<String>> {
+    let tokens = tokens(expression);
+    let is_logic = tokens.len() > 1 && tokens.iter().any(Token::is_logic);
+    let mut code = contacts(&tokens).filter(|_| is_logic)?;
+    let first = code.first_mut()?;
+    let operand = first.strip_prefix("LD")?.to_owned();
+    // Of an inverted contact the first one is inverted.
+    match (mnemonic.ends_with('N'), operand.strip_prefix('N')) {
+        (true, None) => *first = format!("{mnemonic}{operand}"),
+        (true, Some(_)) => return None,
+        (false, _) => *first = format!("{mnemonic}{operand}"),
+    }
+    // What is joined with the contacts before it goes on as it began.
+    let goes_on = match mnemonic.trim_end_matches('N') {
+        "A" => !tokens.contains(&Token::Or),
+        "O" => !tokens.contains(&Token::And),
+        _ => true,
+    };
+    goes_on.then_some(code)
 }
 
 /// The contact that a comparison is after a contact of a bit: `LD`, `VW10 > 5`.
@@ -249,6 +282,7 @@ mod tests {
         assert_eq!(coil_of("I0.0 & I0.1 || I0.2"), "LD I0.0; A I0.1; O I0.2; = Q0.0");
         assert_eq!(coil_of("NOT FALSE"), "LD SM0.0; = Q0.0");
         assert_eq!(coil_of("TRUE"), "LD SM0.0; = Q0.0");
+        assert_eq!(coil_of("#Start AND \"Data\".Stop"), "LD Start; A Stop; = Q0.0");
         assert_eq!(coil_of("(I0.0 OR I0.1) AND I0.2"), "");
         assert_eq!(coil_of("VW0 AND I0.2"), "");
         assert_eq!(coil_of("I0.0 AND"), "");
@@ -257,6 +291,17 @@ mod tests {
         assert_eq!(coil_of("I0.0 == 1 AND I0.1 = FALSE"), "LD I0.0; AN I0.1; = Q0.0");
         assert_eq!(coil_of("I0.0 = I0.1"), "");
         assert_eq!(coil_of("VW0 > VW2 + 1"), "");
+    }
+
+    #[test]
+    fn contacts_in_one_line() {
+        let code = |mnemonic, text| contacts_of(mnemonic, text).unwrap_or_default().join("; ");
+        assert_eq!(code("LD", " Start AND NOT Stop"), "LD Start; AN Stop");
+        assert_eq!(code("LDN", " I0.0 & I0.1"), "LDN I0.0; A I0.1");
+        assert_eq!(code("A", " I0.0 AND I0.1"), "A I0.0; A I0.1");
+        assert_eq!(code("A", " I0.0 OR I0.1"), "");
+        assert_eq!(code("LD", " I0.0 I0.1"), "");
+        assert_eq!(code("LD", " TRUE"), "");
     }
 
     #[test]

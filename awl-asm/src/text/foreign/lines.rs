@@ -11,11 +11,13 @@ use super::width::{self, Width};
 use super::words::find;
 use crate::text::address::Address;
 use crate::text::ast::{Type, UnitId, UnitKind};
+use crate::text::directive_table;
 use crate::text::mnemonics::{self, Meaning};
 
 const DRAWING: &str = "a drawn ladder cannot be read: a contact is `LD I0.0` or `A I0.0`, a \
      contact that is normally closed `AN I0.0`, a branch `O I0.1`, a coil `= Q0.0`";
 const COMMENT: &str = "a comment begins with //";
+const SETTING: &str = "a setting begins with `//#`, without a blank: `//# symbol Start I0.0`";
 const COMPARE: &str = "a comparison is a contact with both operands, such as `LDW>= VW0, 5`; \
      `AW>=` and `OW>=` go on from there";
 const EXPRESSION_OF_BITS: &str = "AWL has no expressions: each contact is an instruction on a line \
@@ -26,6 +28,9 @@ const COMMAS: &str = "operands are separated by commas, and the target is the la
 const NEEDS_CONTACT: &str = "it executes while the contact before it is 1; `LD SM0.0` always is";
 /// What blocks of other systems call their parameters.
 const PARAMETERS: [&str; 10] = ["IN", "PT", "Q", "ET", "CU", "CD", "PV", "CV", "EN", "ENO"];
+const INSTANCE: &str = "an S7-200 has no instances of blocks: the inputs of a timer or counter are the \
+     contacts before it, `LD I0.0`, `TON T37, 20`, and `LD T37` is its output; a subroutine is \
+     called by `CALL SBR0`";
 const NO_NAMES: &str = "operands have an order and no names: `LD I0.0`, `TON T37, 20`, and \
      `LD T37` is what comes out";
 const LOOP: &str = "AWL loops with `FOR VW0, 1, 10` and `NEXT`, after a contact such as `LD SM0.0`";
@@ -47,7 +52,13 @@ pub(super) fn meant(word: &str, rest: &str) -> Option<Meant> {
     {
         let name_len = call.find(['(', ' ']).unwrap_or(call.len());
         let (name, inside) = call.split_at(name_len);
-        return inside.trim_start().starts_with('(').then(|| called(name, inside.trim()));
+        return Some(match inside.trim_start().starts_with('(') {
+            true => called(name, inside.trim()),
+            false => told(INSTANCE),
+        });
+    }
+    if let Some(help) = member_of_instance(word, rest.trim()) {
+        return Some(told(help));
     }
     if rest.trim().is_empty() {
         let load = [("SET", "LD"), ("CLR", "LDN")].into_iter();
@@ -60,6 +71,9 @@ pub(super) fn meant(word: &str, rest: &str) -> Option<Meant> {
     }
     let line = format!("{word}{rest}");
     let line = line.trim();
+    if let Some(coil) = coil(line) {
+        return Some(coil);
+    }
     if let Some(help) = drawing(line) {
         return Some(told(help));
     }
@@ -91,6 +105,15 @@ pub(super) fn meant(word: &str, rest: &str) -> Option<Meant> {
         .or_else(|| signed(word, rest))
         .or_else(|| operand_first(line))
         .or_else(|| (find(word).is_none() && is_structured(rest)).then(|| told(COMMAS)))
+}
+
+/// `ST Delay.IN`: the parameter of a block is written or read like a variable.
+fn member_of_instance(word: &str, operand: &str) -> Option<&'static str> {
+    let is_list = ["ST", "STN", "S", "R"].iter().any(|name| name.eq_ignore_ascii_case(word));
+    let (name, member) = operand.rsplit_once('.')?;
+    let is_name = name.starts_with(char::is_alphabetic) && !name.contains([' ', ',']);
+    let is = |names: &[&str]| names.iter().any(|known| known.eq_ignore_ascii_case(member));
+    (is_list && is_name && is(&PARAMETERS)).then_some(INSTANCE)
 }
 
 /// `FOR VW0 := 1 TO 10 DO`
@@ -203,6 +226,27 @@ fn told(help: impl Into<String>) -> Meant {
     Meant { help: vec![help.into()], ..Meant::default() }
 }
 
+/// Whether a text begins with the word of a setting.
+fn is_setting(text: &str) -> bool {
+    let word = text.split([' ', '\t']).next().unwrap_or_default();
+    directive_table::WORDS.iter().any(|known| known.eq_ignore_ascii_case(word))
+}
+
+/// `== Q0.0`, `-> Q0.0` and `(Q0.0)`: a coil with another sign.
+fn coil(line: &str) -> Option<Meant> {
+    let inside = line.strip_prefix('(').and_then(|inside| inside.strip_suffix(')'));
+    let signs = ["==", "=>", "->", "=:", ":="];
+    let bit = inside.or_else(|| signs.iter().find_map(|sign| line.strip_prefix(sign)))?.trim();
+    // `==I` is a comparison of STEP 7.
+    let is_name = || line.contains(' ') && operand(bit).is_some() && inside.is_none();
+    let is_bit = Width::of_operand(bit) == Some(Width::Bit) || is_name();
+    is_bit.then(|| Meant {
+        instead: Some(Instead::Line(format!("= {bit}"))),
+        help: Vec::new(),
+        stand_in: Some("=".to_owned()),
+    })
+}
+
 /// Lines of a drawn ladder, and of comments with the sign of another language.
 fn drawing(line: &str) -> Option<&'static str> {
     let is_drawn = line.starts_with(['|', '-', '[', '(', '├', '│', '─', '┤']);
@@ -211,7 +255,11 @@ fn drawing(line: &str) -> Option<&'static str> {
     if is_drawn && wires.iter().any(has) && line.contains(['|', '[', '(', '─']) {
         return Some(DRAWING);
     }
-    let signs = ["--", "**", "==", "##", "# ", "'", "%%", "!"];
+    let setting = line.strip_prefix("/#").or(line.strip_prefix('#')).map(str::trim_start);
+    if setting.is_some_and(is_setting) {
+        return Some(SETTING);
+    }
+    let signs = ["--", "**", "==", "##", "# ", "'", "%%", "!", "/ ", "\\"];
     let is_comment = signs.iter().any(|sign| line.starts_with(sign))
         && find(line.split([' ', '\t']).next().unwrap_or_default()).is_none();
     is_comment.then_some(COMMENT)
@@ -219,7 +267,7 @@ fn drawing(line: &str) -> Option<&'static str> {
 
 /// An operand as it is written here: without the sign of an address, addresses in upper case.
 fn operand(text: &str) -> Option<String> {
-    let bare = text.trim_start_matches('%');
+    let bare = expression::bare(text);
     let is_name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.' | '"' | '#' | '[' | ']');
     let starts = bare.starts_with(|c: char| c.is_alphabetic() || matches!(c, '"' | '#' | '_'));
     let is_quoted = bare.len() > 2 && bare.starts_with('"') && bare.ends_with('"');
@@ -496,6 +544,16 @@ fn argument(inside: &str, names: &[&str]) -> Option<String> {
     })
 }
 
+/// The inputs of a bistable block.
+fn set_and_reset(inside: &str) -> Option<String> {
+    let set = argument(inside, &["S", "S1", "SET", "SET1"])?;
+    let reset = argument(inside, &["R", "R1", "RESET", "RESET1"])?;
+    Some(format!(
+        "a bit is set and reset by two rungs, of which the later one wins: `LD {set}`, `S Q0.0, 1`, \
+         then `LD {reset}`, `R Q0.0, 1`"
+    ))
+}
+
 fn timer(mnemonic: &str, named: Option<Address>, inside: &str) -> Meant {
     let op = match mnemonic {
         "TOF" => Op::Tof,
@@ -547,6 +605,9 @@ fn counter(mnemonic: &str, name: &str, inside: &str) -> Meant {
 fn plain_call(word: &str, inside: &str) -> Meant {
     const NO_BRACKETS: &str = "operands follow after a blank, without brackets";
     let is_plain = !inside.is_empty() && !inside.contains([':', '(', ')']);
+    if let Some(code) = expression::contacts_of(&word.to_uppercase(), inside) {
+        return told(listed(&code));
+    }
     if let Some(Meaning::Instruction(entry, _)) = mnemonics::meaning(word) {
         let instead = is_plain.then(|| format!("{} {inside}", word.to_uppercase()));
         return Meant {
@@ -558,12 +619,17 @@ fn plain_call(word: &str, inside: &str) -> Meant {
     match find(word) {
         Some(row) => {
             let mut meant = row.meant(inside);
-            if !matches!(row.here, Here::Nothing) {
+            if !matches!(row.here, Here::Nothing | Here::Block) {
                 meant.help.push(NO_BRACKETS.to_owned());
             }
             meant
         }
         // An instance of a block, by the names of its parameters.
+        None if argument(inside, &["CLK"]).is_some() => told(format!(
+            "an edge is `EU` after the contact: `LD {}`, `EU`; `ED` is the falling one",
+            argument(inside, &["CLK"]).unwrap_or_default()
+        )),
+        None if set_and_reset(inside).is_some() => told(set_and_reset(inside).unwrap_or_default()),
         None if argument(inside, &["PT"]).is_some() => timer("TON", None, inside),
         None if argument(inside, &["PV"]).is_some() => {
             let counter_of = if argument(inside, &["CU"]).is_some() { "CTU" } else { "CTD" };

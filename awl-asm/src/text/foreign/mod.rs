@@ -6,25 +6,32 @@ mod accumulators;
 mod apart;
 mod bits;
 mod boxes;
+mod brackets;
 mod conditional;
 mod controllers;
 mod counts;
+mod data_files;
 mod expression;
 mod lines;
+mod look_alike;
 pub(crate) mod operands;
+mod parameters;
 mod preset_first;
 mod row;
 mod step7;
 mod structured;
 mod system_bits;
+pub(crate) mod system_functions;
 mod together;
 pub(crate) mod width;
 mod words;
 
 pub(crate) use accumulators::comparison;
 pub(crate) use apart::apart;
-pub(crate) use expression::contact_of;
+pub(crate) use expression::{contact_of, contacts_of};
 pub(crate) use lines::is_structured;
+pub(crate) use look_alike::look_alike;
+pub(crate) use parameters::parameters;
 pub(crate) use row::{Instead, Meant};
 pub(crate) use together::{Flow, Together};
 pub(crate) use words::{is_german, is_known};
@@ -54,13 +61,23 @@ pub(crate) fn together(text: &str, flow: Flow) -> Option<Together> {
         .or_else(|| preset_first::find(text))
         .or_else(|| bits::find(text, flow))
         .or_else(|| conditional::find(text))
+        .or_else(|| brackets(text, flow))
+}
+
+/// Contacts with brackets, where the text begins with one.
+pub(crate) fn brackets(text: &str, flow: Flow) -> Option<Together> {
+    brackets::find(text, flow)
+}
+
+/// Whether an operand is the address of a bit, here or in another system.
+pub(crate) fn is_bit(text: &str) -> bool {
+    let here = operands::same(text);
+    width::Width::of_operand(here.as_deref().unwrap_or(text)) == Some(width::Width::Bit)
 }
 
 /// Whether a word begins or ends a block of another language.
 pub(crate) fn is_block(word: &str) -> bool {
-    let word = word.to_ascii_uppercase();
-    let kind = word.strip_prefix("END_").unwrap_or(&word);
-    matches!(kind, "FUNCTION" | "FUNCTION_BLOCK" | "PROGRAM")
+    words::find(word).is_some_and(row::Row::is_of_block)
 }
 
 #[cfg(test)]

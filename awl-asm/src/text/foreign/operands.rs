@@ -3,7 +3,7 @@
 
 use plc_isa::{Area, Op, TimerKind, timer_resolution};
 
-use super::{counts, system_bits};
+use super::{counts, data_files, system_bits};
 use crate::text::address::Address;
 
 /// The operand of an S7-200 that is the same: `DB1.DBW2` is VW2, `PEW4` is AIW4, `T37.Q` is T37.
@@ -14,7 +14,7 @@ pub(crate) fn same(text: &str) -> Option<String> {
         .or_else(|| member(&upper))
         .or_else(|| first_module(&upper))
         .or_else(|| numbered_point(&upper))
-        .or_else(|| rack_point(&upper))
+        .or_else(|| data_files::same(&upper))
         .or_else(|| system_bits::same(&upper).map(str::to_owned))
         .or_else(|| current_value(&upper))
         .or_else(|| register(&upper))?;
@@ -36,6 +36,9 @@ fn peripheral(upper: &str) -> Option<String> {
     {
         return Some(format!("AIW{}", number - 256));
     }
+    if let Some(analog) = s7_1200(upper) {
+        return Some(analog);
+    }
     let kinds = [
         ("PEW", "AIW"),
         ("PIW", "AIW"),
@@ -52,6 +55,18 @@ fn peripheral(upper: &str) -> Option<String> {
     letters.or_else(|| upper.strip_suffix(":P").map(str::to_owned))
 }
 
+/// The analog points of an S7-1200: inputs from IW64 on, outputs from QW64 or QW80 on.
+fn s7_1200(upper: &str) -> Option<String> {
+    let (letters, number) = upper.split_at_checked(2)?;
+    let number = number.strip_suffix(":P").unwrap_or(number).parse::<u16>().ok()?;
+    match letters {
+        "IW" | "EW" => number.checked_sub(64).map(|number| format!("AIW{number}")),
+        "QW" | "AW" if number >= 80 => Some(format!("AQW{}", number - 80)),
+        "QW" | "AW" => number.checked_sub(64).map(|number| format!("AQW{number}")),
+        _ => None,
+    }
+}
+
 /// Whether an operand is a point of the periphery by its German name, `PEW0`.
 pub(super) fn is_german(text: &str) -> bool {
     let upper = text.trim_start_matches('%').to_ascii_uppercase();
@@ -62,7 +77,7 @@ pub(super) fn is_german(text: &str) -> bool {
 
 /// What a timer or counter is made of: `T37.Q`, `C1.CV`.
 fn member(upper: &str) -> Option<String> {
-    let (name, member) = upper.rsplit_once('.')?;
+    let (name, member) = upper.rsplit_once(['.', '/'])?;
     let is_timed = matches!(Address::parse(name), Ok(Address::Timer(_) | Address::Counter(_)));
     let is_known = matches!(member, "Q" | "ET" | "CV" | "QU" | "QD" | "DN" | "ACC" | "BIT");
     (is_timed && is_known).then(|| name.to_owned())
@@ -72,17 +87,12 @@ fn member(upper: &str) -> Option<String> {
 fn numbered_point(upper: &str) -> Option<String> {
     let (letter, number) = upper.split_at_checked(1)?;
     let area = [("X", "I"), ("Y", "Q")].iter().find(|(theirs, _)| *theirs == letter)?.1;
+    if let (3, true) = (number.len(), number.starts_with('0')) {
+        // Of three digits they are octal.
+        let point = u8::from_str_radix(number, 8).ok()?;
+        return Some(format!("{area}{}.{}", point / 8, point % 8));
+    }
     number.parse::<u8>().ok().filter(|bit| *bit < 8).map(|bit| format!("{area}0.{bit}"))
-}
-
-/// `I:0/3` and `O:0.0/3` of other makers: word 0 of the first module.
-fn rack_point(upper: &str) -> Option<String> {
-    let (module, bit) = upper.split_once('/')?;
-    let (letter, word) = module.split_once(':')?;
-    let area = [("I", "I"), ("O", "Q")].iter().find(|(theirs, _)| *theirs == letter)?.1;
-    let bit = bit.parse::<u8>().ok().filter(|bit| *bit < 16)?;
-    let is_first = word.split('.').all(|number| number.parse::<u8>().is_ok());
-    is_first.then(|| format!("{area}{}.{}", bit / 8, bit % 8))
 }
 
 /// The current value of a timer or counter as a word of its own: `TW5`, `CW0`, `ZW0`.
@@ -173,12 +183,77 @@ pub(crate) fn way(text: &str) -> Option<&'static str> {
             "on an S7-200 timers and counters have numbers: `LD T37` reads the bit of T37, \
              `MOVW T37, VW0` its value"
         }
+        _ if begins("TIM") || begins("TMR") => {
+            "a timer is written like `T37`: `LD T37` reads its bit, `TON T37, 20` starts it"
+        }
+        _ if begins("CNT") => {
+            "a counter is written like `C1`: `LD C1` reads its bit, `CTU C1, 10` counts"
+        }
+        _ if upper.starts_with("AT") && upper.contains('%') => {
+            "a name for an address is a symbol: `//# symbol Start I0.0`"
+        }
+        _ if begins("IW") || begins("EW") || begins("ID") => {
+            "inputs are `IB0`, `IW0`; analog inputs are `AIW0`, `AIW2`, ... `AIW10`"
+        }
+        _ if begins("QW") || begins("AW") => {
+            "outputs are `QB0`, `QW0`; analog outputs are `AQW0` and `AQW2`"
+        }
+        _ if begins("K4M") || begins("K1M") || begins("K2M") || begins("K4X") || begins("K4Y") => {
+            "bits side by side are a byte or a word: `MB0`, `MW0`, `IB0`, `QB0`"
+        }
+        _ if begins("X") || begins("Y") => {
+            "inputs are I0.0 to I15.7, outputs Q0.0 to Q15.7: eight bits in a byte"
+        }
         _ if upper.contains('[') => {
             "an array is declared by `//# var Table ARRAY[0..9] OF INT`, and its elements are \
              `Table[0]`; an index that changes needs a pointer: `MOVD &VB100, AC1`, then `*AC1`"
         }
-        _ => return system_bits::way(&upper),
+        _ => return data_files::way(&upper).or_else(|| system_bits::way(&upper)),
     })
+}
+
+/// Several bits as one operand: `Q0.0-Q0.3`, `M0.0..M0.7`.
+pub(crate) fn range(text: &str) -> Option<String> {
+    let (first, last) = text.split_once("..").or_else(|| text.split_once('-'))?;
+    let number = |text: &str| match Address::parse(text.trim_start_matches('%')) {
+        Ok(Address::Bit { area, byte, bit }) => Some((area, u32::from(byte) * 8 + u32::from(bit))),
+        _ => None,
+    };
+    let ((area, from), (last_area, to)) = (number(first)?, number(last)?);
+    let count = to.checked_sub(from).filter(|_| area == last_area)? + 1;
+    Some(format!(
+        "several bits are the first one and their number, for S and R: `S {first}, {count}`, \
+         `R {first}, {count}`; other instructions name each"
+    ))
+}
+
+/// An address that is calculated from another: `&VB100+2`, `VW0+2`.
+pub(crate) fn with_offset(text: &str) -> Option<String> {
+    let (sign, rest) = match text.strip_prefix('&') {
+        Some(rest) => ("&", rest),
+        None => ("", text),
+    };
+    let (base, offset) = rest.split_once('+')?;
+    let offset = offset.trim().parse::<u16>().ok()?;
+    let moved = |byte: u16| byte.checked_add(offset);
+    let address = match Address::parse(base.trim()).ok()? {
+        Address::Byte { area, byte } => Address::Byte { area, byte: moved(byte)? },
+        Address::Word { area, byte } => Address::Word { area, byte: moved(byte)? },
+        Address::Double { area, byte } => Address::Double { area, byte: moved(byte)? },
+        _ => return None,
+    };
+    let whole = address.to_string();
+    Address::parse(&whole).is_ok().then(|| format!("{sign}{whole}"))
+}
+
+/// A pointer of STEP 7, `P#M10.0` or `P#DB1.DBX0.0`, as the address of a byte; with its sign where
+/// a pointer is wanted.
+pub(crate) fn pointer(text: &str, is_pointer: bool) -> Option<String> {
+    let place = text.get(..2).filter(|sign| sign.eq_ignore_ascii_case("P#")).map(|_| &text[2..])?;
+    let bit = same(place).unwrap_or_else(|| place.to_owned());
+    let Ok(Address::Bit { area, byte, bit: 0 }) = Address::parse(&bit) else { return None };
+    let byte = Address::Byte { area, byte };
+    Some(if is_pointer { format!("&{byte}") } else { byte.to_string() })
 }
 
 /// What inverts a bit in other languages: `!I0.0`, `/I0.0`, `~I0.0`.
@@ -200,8 +275,14 @@ pub(crate) fn number(text: &str) -> Option<String> {
         (16, digits)
     } else if let Some(digits) = upper.strip_prefix("0B") {
         (2, digits)
+    } else if let Some(digits) = upper.strip_prefix("8#") {
+        return i64::from_str_radix(digits, 8).ok().map(|number| number.to_string());
     } else if let (true, Some(digits)) = (is_with_h(text), upper.strip_suffix('H')) {
         (16, digits)
+    } else if let (true, Some(digits)) = (upper.len() > 2, upper.strip_suffix('B')) {
+        (2, digits)
+    } else if let Some(digits) = upper.strip_prefix('&') {
+        (16, digits.strip_prefix('H')?)
     } else if let Some(digits) = upper.strip_prefix('$') {
         (16, digits)
     } else if let Some(digits) = upper.strip_prefix("H0") {
@@ -217,9 +298,16 @@ pub(crate) fn number(text: &str) -> Option<String> {
     })
 }
 
-const UNITS: [(&str, f64); 9] = [
+const UNITS: [(&str, f64); 16] = [
     ("ms", 1.0),
+    ("seconds", 1000.0),
+    ("second", 1000.0),
+    ("sekunden", 1000.0),
+    ("sek", 1000.0),
     ("sec", 1000.0),
+    ("std", 3_600_000.0),
+    ("minuten", 60_000.0),
+    ("stunden", 3_600_000.0),
     ("s", 1000.0),
     ("minutes", 60_000.0),
     ("min", 60_000.0),
@@ -312,8 +400,6 @@ mod tests {
         assert_eq!(same("PEW256"), "AIW0");
         assert_eq!(same("PIW258"), "AIW2");
         assert_eq!(same("PIW300"), "");
-        assert_eq!(same("O:0/3"), "Q0.3");
-        assert_eq!(same("I:0.0/9"), "I1.1");
         assert_eq!(same("M8000"), "SM0.0");
         assert_eq!(same("CW0"), "C0");
         assert_eq!(same("ZW7"), "C7");
@@ -324,7 +410,23 @@ mod tests {
         assert_eq!(same("E124.3"), "I0.3");
         assert_eq!(same("X3"), "I0.3");
         assert_eq!(same("Y8"), "");
+        assert_eq!(same("X010"), "I1.0");
+        assert_eq!(same("IW66"), "AIW2");
+        assert_eq!(same("QW80"), "AQW0");
+        assert_eq!(same("IW20"), "");
         assert_eq!(same("Motor"), "");
+    }
+
+    #[test]
+    fn addresses_that_are_calculated() {
+        assert_eq!(with_offset("&VB100+2").as_deref(), Some("&VB102"));
+        assert_eq!(with_offset("VW0 + 2").as_deref(), Some("VW2"));
+        assert_eq!(with_offset("VB100+x"), None);
+        assert_eq!(pointer("P#M10.0", true).as_deref(), Some("&MB10"));
+        assert_eq!(pointer("P#DB1.DBX4.0", false).as_deref(), Some("VB4"));
+        assert_eq!(pointer("P#M10.1", true), None);
+        assert!(range("A0.0-A0.3").is_some_and(|range| range.contains("`S A0.0, 4`")));
+        assert_eq!(range("VB0-VB3"), None);
     }
 
     #[test]
@@ -338,6 +440,9 @@ mod tests {
         assert_eq!(number("C#10"), "10");
         assert_eq!(number("$FF"), "16#FF");
         assert_eq!(number("K20"), "20");
+        assert_eq!(number("8#17"), "15");
+        assert_eq!(number("1010B"), "2#1010");
+        assert_eq!(number("&H1F"), "16#1F");
         assert_eq!(number("BACH"), "");
         assert_eq!(number("0b12"), "");
         assert_eq!(number("2h30"), "");

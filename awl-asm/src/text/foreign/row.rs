@@ -41,6 +41,8 @@ pub(super) struct Row {
 pub(super) enum Here {
     /// Nothing that takes its place.
     Nothing,
+    /// Nothing: it begins or ends a block.
+    Block,
     /// The mnemonic that means the same with the same operands.
     Mnemonic(&'static str),
     /// The instruction that means the same, whatever the operands are.
@@ -69,6 +71,11 @@ pub(super) const fn named(
 }
 
 impl Row {
+    /// Whether the word begins or ends a block.
+    pub(super) fn is_of_block(&self) -> bool {
+        matches!(self.here, Here::Block)
+    }
+
     /// What is meant by the word with these operands.
     pub(super) fn meant(&self, rest: &str) -> Meant {
         let meant = self.word(rest);
@@ -88,7 +95,7 @@ impl Row {
         let word = |mnemonic: &str| (!mnemonic.is_empty()).then(|| mnemonic.to_owned());
         let width = width::of(rest);
         let (instead, stand_in) = match self.here {
-            Here::Nothing => (None, None),
+            Here::Nothing | Here::Block => (None, None),
             Here::Like(mnemonic) => (None, word(mnemonic)),
             Here::Routine => {
                 let number = rest.trim().parse::<u8>().ok();

@@ -1,6 +1,6 @@
 //! Keywords of structured text and of the blocks of other systems.
 
-use super::row::Here::Nothing;
+use super::row::Here::{Block, Like, Nothing};
 use super::row::{Row, named, row};
 
 const IF: &str = "AWL has no IF: a contact is before what it is for, as in `LD I0.0`, `= Q0.0`; or \
@@ -24,7 +24,8 @@ pub(super) const ROWS: &[Row] = &[
     named(&[], &["WENN", "DANN", "SONST", "ENDE_WENN"], Nothing, IF),
     row(&["CASE", "END_CASE", "SWITCH"], Nothing, CASE),
     row(&["WHILE", "END_WHILE", "REPEAT", "UNTIL", "END_REPEAT"], Nothing, REPEAT),
-    row(&["DO", "END_FOR"], Nothing, LOOP),
+    row(&["DO"], Nothing, LOOP),
+    row(&["END_FOR", "ENDFOR"], Like("NEXT"), LOOP),
     row(
         &["EXIT"],
         Nothing,
@@ -40,12 +41,13 @@ pub(super) const ROWS: &[Row] = &[
             "END_FUNCTION",
             "END_FUNCTION_BLOCK",
             "END_PROGRAM",
-            "OB1",
-            "MAIN",
+            "SUBROUTINE",
+            "END_SUBROUTINE",
         ],
-        Nothing,
+        Block,
         BLOCKS,
     ),
+    row(&["OB1", "MAIN"], Nothing, BLOCKS),
     named(
         &[],
         &[
@@ -56,8 +58,20 @@ pub(super) const ROWS: &[Row] = &[
             "FUNKTION",
             "FUNKTIONSBAUSTEIN",
             "PROGRAMM",
+            "END_FUNKTION",
+            "ENDE_FUNKTION",
+            "END_FUNKTIONSBAUSTEIN",
+            "ENDE_FUNKTIONSBAUSTEIN",
+            "END_UNTERPROGRAMM",
+            "ENDE_UNTERPROGRAMM",
+            "END_HAUPTPROGRAMM",
+            "ENDE_HAUPTPROGRAMM",
+            "END_INTERRUPTPROGRAMM",
+            "ENDE_INTERRUPTPROGRAMM",
+            "END_ORGANISATIONSBAUSTEIN",
+            "ENDE_ORGANISATIONSBAUSTEIN",
         ],
-        Nothing,
+        Block,
         BLOCKS,
     ),
     row(&["TYPE", "END_TYPE", "STRUCT", "END_STRUCT", "CONST", "ARRAY"], Nothing, TYPES),

@@ -38,7 +38,7 @@ mod tests {
         };
         for row in rows() {
             match row.here {
-                Here::Nothing | Here::Routine => {}
+                Here::Nothing | Here::Block | Here::Routine => {}
                 Here::Mnemonic(word) | Here::Like(word) | Here::Instruction(word) => {
                     assert!(exists(word), "{row:?}");
                 }
