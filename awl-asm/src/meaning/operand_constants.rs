@@ -17,6 +17,13 @@ pub(super) fn way_of_constant(
     position: usize,
     constant: Constant,
 ) -> Option<String> {
+    of_value(quoted, position, constant)
+        .or_else(|| of_bits(quoted, position, constant.value))
+        .or_else(|| of_preset(quoted, position, constant.value))
+}
+
+/// What instructions on bytes, words and double words have.
+fn of_value(quoted: Quoted<'_>, position: usize, constant: Constant) -> Option<String> {
     let (name, value) = (quoted.source.mnemonic(), constant.value);
     let written = quoted.operand(position)?;
     let fits = |least: i64, most: i64| (least..=most).contains(&value);
@@ -39,6 +46,30 @@ pub(super) fn way_of_constant(
         ("MOVB" | "MOVW", 0) if fits(-0x8000_0000, 0xFFFF_FFFF) => {
             Some(format!("a double word takes it: `MOVD {written}, VD0`"))
         }
+        ("MOVD", 0) => Some(
+            "a double word holds -2147483648 to 4294967295; a real number is greater: `MOVR \
+             5.0E9, VD0`"
+                .to_owned(),
+        ),
+        ("INCB" | "INCW" | "INCD" | "DECB" | "DECW" | "DECD", 0) => counted(name, &written),
+        (_, 1) if name.starts_with(['+', '-', '*', '/']) => Some(format!(
+            "the second operand is the result, the constant comes first: `{name} {written}, {}`",
+            memory(0).unwrap_or_else(|| "VW0".to_owned())
+        )),
+        ("MOVB" | "MOVW" | "MOVD" | "MOVR", 1) => {
+            let target = quoted.operand(0)?;
+            Some(format!("the second operand is where it goes: `{name} {written}, {target}`"))
+        }
+        ("FILL", 1) => filled(quoted),
+        _ => None,
+    }
+}
+
+/// What contacts, coils and segments have.
+fn of_bits(quoted: Quoted<'_>, position: usize, value: i64) -> Option<String> {
+    let name = quoted.source.mnemonic();
+    let fits = |least: i64, most: i64| (least..=most).contains(&value);
+    match (name, position) {
         ("LSCR" | "SCRT", 0) if fits(0, 255) => Some(format!(
             "a segment has the bit of its step: `{name} S{}.{}`",
             value / 8,
@@ -49,6 +80,31 @@ pub(super) fn way_of_constant(
             let bit = if is_on { "`LD SM0.0` is always 1" } else { "`LDN SM0.0` is always 0" };
             Some(format!("a contact reads a bit; {bit}"))
         }
+        ("S" | "R" | "SI" | "RI", 1) if value <= 0 => {
+            let bit = quoted.operand(0)?;
+            let other =
+                if name.starts_with('S') { name.replace('S', "R") } else { name.replace('R', "S") };
+            let (does, undoes) = if name.starts_with('S') { ("1", "0") } else { ("0", "1") };
+            Some(format!(
+                "it is the number of bits: `{name} {bit}, 1` makes one {does}, `{other} {bit}, 1` \
+                 makes it {undoes}"
+            ))
+        }
+        ("S" | "R" | "SI" | "RI", 1) => Some(format!(
+            "at most 255 bits are {} at a time: `{name} {}, 255`; words are written by `FILL 0, \
+             VW0, 10`",
+            if name.starts_with('S') { "set" } else { "reset" },
+            quoted.operand(0)?
+        )),
+        _ => None,
+    }
+}
+
+/// What timers and counters have.
+fn of_preset(quoted: Quoted<'_>, position: usize, value: i64) -> Option<String> {
+    let name = quoted.source.mnemonic();
+    let fits = |least: i64, most: i64| (least..=most).contains(&value);
+    match (name, position) {
         ("TON" | "TOF" | "TONR", 0) if fits(0, 255) => {
             Some(match quoted.source.operands.get(1).map(|operand| &operand.value) {
                 Some(Value::Address(timer @ Address::Timer(_))) => {
@@ -66,46 +122,15 @@ pub(super) fn way_of_constant(
                 _ => format!("a counter has its letter: `{name} C{value}, 10`"),
             })
         }
-        ("S" | "R" | "SI" | "RI", 1) if value <= 0 => {
-            let bit = quoted.operand(0)?;
-            let other =
-                if name.starts_with('S') { name.replace('S', "R") } else { name.replace('R', "S") };
-            let (does, undoes) = if name.starts_with('S') { ("1", "0") } else { ("0", "1") };
-            Some(format!(
-                "it is the number of bits: `{name} {bit}, 1` makes one {does}, `{other} {bit}, 1` \
-                 makes it {undoes}"
-            ))
-        }
         ("CTU" | "CTD" | "CTUD", 1) => Some(
             "a counter counts to 32767 at most; more are counted in a double word: `EU`, \
              `INCD VD0`"
-                .to_owned(),
-        ),
-        ("S" | "R" | "SI" | "RI", 1) => Some(format!(
-            "at most 255 bits are {} at a time: `{name} {}, 255`; words are written by `FILL 0, \
-             VW0, 10`",
-            if name.starts_with('S') { "set" } else { "reset" },
-            quoted.operand(0)?
-        )),
-        ("MOVD", 0) => Some(
-            "a double word holds -2147483648 to 4294967295; a real number is greater: `MOVR \
-             5.0E9, VD0`"
                 .to_owned(),
         ),
         ("TON" | "TOF" | "TONR", 1) => Some(
             "a preset is at most 32767 counts, of 100 ms 3276.7 s: 60 s are `TON T37, 600`"
                 .to_owned(),
         ),
-        ("INCB" | "INCW" | "INCD" | "DECB" | "DECW" | "DECD", 0) => counted(name, &written),
-        (_, 1) if name.starts_with(['+', '-', '*', '/']) => Some(format!(
-            "the second operand is the result, the constant comes first: `{name} {written}, {}`",
-            memory(0).unwrap_or_else(|| "VW0".to_owned())
-        )),
-        ("MOVB" | "MOVW" | "MOVD" | "MOVR", 1) => {
-            let target = quoted.operand(0)?;
-            Some(format!("the second operand is where it goes: `{name} {written}, {target}`"))
-        }
-        ("FILL", 1) => filled(quoted),
         _ => None,
     }
 }

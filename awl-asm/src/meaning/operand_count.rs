@@ -13,42 +13,37 @@ const BRANCH_MAX: usize = 8;
 /// How an instruction is written that has not as many operands as it takes. `takes_real`: one of
 /// them may be a real number.
 pub(crate) fn way(quoted: Quoted<'_>, wanted: usize, takes_real: bool) -> Option<String> {
-    let (name, given) = (quoted.source.mnemonic(), quoted.source.operands.len());
-    let first = quoted.source.operands.first().and_then(|operand| match operand.value {
+    of_bits(quoted)
+        .or_else(|| of_branches(quoted))
+        .or_else(|| of_presets(quoted))
+        .or_else(|| of_values(quoted, wanted, takes_real))
+}
+
+/// The first operand if it is an address.
+fn first(quoted: Quoted<'_>) -> Option<Address> {
+    match quoted.source.operands.first()?.value {
         Value::Address(address) => Some(address),
         _ => None,
-    });
-    // The first operand if it is an address, or what is usual in its place.
-    let first_or = |usual: &str| {
-        let written = first.and_then(|_| quoted.operand(0));
-        written.unwrap_or_else(|| usual.to_owned())
-    };
-    if let (true, Some(Address::Timer(_))) = (name == "SI", first) {
+    }
+}
+
+/// The first operand if it is an address, or what is usual in its place.
+fn first_or(quoted: Quoted<'_>, usual: &str) -> String {
+    let written = first(quoted).and_then(|_| quoted.operand(0));
+    written.unwrap_or_else(|| usual.to_owned())
+}
+
+/// What contacts and coils have.
+fn of_bits(quoted: Quoted<'_>) -> Option<String> {
+    let (name, given) = (quoted.source.mnemonic(), quoted.source.operands.len());
+    if let ("SI", Some(Address::Timer(_))) = (name, first(quoted)) {
         return Some(NO_PULSE.to_owned());
     }
     match (name, given) {
         ("S" | "R" | "SI" | "RI", 1) => Some(format!(
             "the number of bits is named, too: `{name} {}, 1`",
-            first_or("Q0.0")
+            first_or(quoted, "Q0.0")
         )),
-        ("A" | "AN", 0) => {
-            Some(format!("the bit is named: `{name} I0.1`; two branches are joined by `ALD`"))
-        }
-        ("O" | "ON", 0) => Some(next_branch(quoted)),
-        ("OLD" | "ALD", 1..) => {
-            let contact = if name == "OLD" { "O" } else { "A" };
-            Some(format!(
-                "it joins two branches and has no operand; a single contact is `{contact} {}`",
-                quoted.operand(0)?
-            ))
-        }
-        ("INCB" | "INCW" | "INCD" | "DECB" | "DECW" | "DECD", 2) => more_than_one(quoted),
-        ("MUL" | "DIV", 3) => {
-            let sign = if name == "MUL" { "*I" } else { "/I" };
-            let code = foreign::apart(sign, &quoted.operands()?)?;
-            let lines: Vec<String> = code.iter().map(|line| format!("`{line}`")).collect();
-            Some(format!("of words that is {}; `{name}` makes a double word", lines.join(", ")))
-        }
         ("S" | "R" | "SI" | "RI", 3..) => {
             let bits = (0..).zip(&quoted.source.operands).filter(|(_, operand)| {
                 matches!(operand.value, Value::Address(Address::Bit { .. }))
@@ -58,25 +53,8 @@ pub(crate) fn way(quoted: Quoted<'_>, wanted: usize, takes_real: bool) -> Option
                 .collect();
             (lines.len() > 1).then(|| format!("each bit is on a line: {}", lines.join(", ")))
         }
-        ("ORB", 0) => Some(
-            "two branches that begin with LD are joined by `OLD`; `ORB` is the or of bytes"
-                .to_owned(),
-        ),
-        ("ANDB", 0) => Some(
-            "two branches that begin with LD are joined by `ALD`; `ANDB` is the and of bytes"
-                .to_owned(),
-        ),
-        ("HDEF", 1) => Some(format!(
-            "the mode is named, too: `HDEF {}, 0` counts the pulses of one input up or down, as \
-             its control byte says",
-            quoted.operand(0)?
-        )),
-        ("SHRB", 2) => Some(
-            "what is shifted in is named, then the first bit of the register, then its length: \
-             `SHRB I0.1, V0.0, 8`"
-                .to_owned(),
-        ),
-        ("LN", 1) => first.map(|_| format!("a contact that is inverted is `LDN {}`", first_or(""))),
+        ("LN", 1) => first(quoted)
+            .map(|_| format!("a contact that is inverted is `LDN {}`", first_or(quoted, ""))),
         ("EU" | "ED", 1..) => {
             Some(format!("`{name}` is after the contact whose edge it tells: `LD I0.0`, `{name}`"))
         }
@@ -92,27 +70,87 @@ pub(crate) fn way(quoted: Quoted<'_>, wanted: usize, takes_real: bool) -> Option
         }
         ("=" | "=I", 2..) => Some(outputs(quoted)),
         ("NOT", 1..) => Some("of one bit `LDN`, `AN` or `ON` take the inverted value".to_owned()),
+        _ => None,
+    }
+}
+
+/// What joins branches, and branches that are joined otherwise.
+fn of_branches(quoted: Quoted<'_>) -> Option<String> {
+    let (name, given) = (quoted.source.mnemonic(), quoted.source.operands.len());
+    match (name, given) {
+        ("A" | "AN", 0) => {
+            Some(format!("the bit is named: `{name} I0.1`; two branches are joined by `ALD`"))
+        }
+        ("O" | "ON", 0) => Some(next_branch(quoted)),
+        ("OLD" | "ALD", 1..) => {
+            let contact = if name == "OLD" { "O" } else { "A" };
+            Some(format!(
+                "it joins two branches and has no operand; a single contact is `{contact} {}`",
+                quoted.operand(0)?
+            ))
+        }
+        ("ORB", 0) => Some(
+            "two branches that begin with LD are joined by `OLD`; `ORB` is the or of bytes"
+                .to_owned(),
+        ),
+        ("ANDB", 0) => Some(
+            "two branches that begin with LD are joined by `ALD`; `ANDB` is the and of bytes"
+                .to_owned(),
+        ),
+        _ => None,
+    }
+}
+
+/// What timers, counters and their like have.
+fn of_presets(quoted: Quoted<'_>) -> Option<String> {
+    let (name, given) = (quoted.source.mnemonic(), quoted.source.operands.len());
+    match (name, given) {
         ("TON" | "TOF" | "TONR", 1) => {
-            let base = match first {
+            let base = match first(quoted) {
                 Some(Address::Timer(number)) => plc_isa::timer_resolution(number).ms(),
                 _ => 100,
             };
-            let timer = first_or("T37");
+            let timer = first_or(quoted, "T37");
             Some(format!(
                 "the preset is named, too: `{name} {timer}, {}` is 2 s, {timer} counts {base} ms",
                 2000 / base
             ))
         }
+        ("TON" | "TOF" | "TONR", 3..) => timer_of_more(quoted),
+        ("CTU" | "CTD" | "CTUD", 1) => {
+            Some(format!("the preset is named, too: `{name} {}, 10`", first_or(quoted, "C1")))
+        }
+        ("HDEF", 1) => Some(format!(
+            "the mode is named, too: `HDEF {}, 0` counts the pulses of one input up or down, as \
+             its control byte says",
+            quoted.operand(0)?
+        )),
+        ("SHRB", 2) => Some(
+            "what is shifted in is named, then the first bit of the register, then its length: \
+             `SHRB I0.1, V0.0, 8`"
+                .to_owned(),
+        ),
         ("FOR", 4) => Some(
             "FOR counts by ones: it may count the rounds, and the value is calculated inside, as \
              in `MOVW VW0, VW10`, `*I 2, VW10`"
                 .to_owned(),
         ),
-        ("CTU" | "CTD" | "CTUD", 1) => {
-            Some(format!("the preset is named, too: `{name} {}, 10`", first_or("C1")))
+        _ => None,
+    }
+}
+
+/// What instructions on bytes, words and double words have.
+fn of_values(quoted: Quoted<'_>, wanted: usize, takes_real: bool) -> Option<String> {
+    let (name, given) = (quoted.source.mnemonic(), quoted.source.operands.len());
+    match (name, given) {
+        ("INCB" | "INCW" | "INCD" | "DECB" | "DECW" | "DECD", 2) => more_than_one(quoted),
+        ("MUL" | "DIV", 3) => {
+            let sign = if name == "MUL" { "*I" } else { "/I" };
+            let code = foreign::apart(sign, &quoted.operands()?)?;
+            let lines: Vec<String> = code.iter().map(|line| format!("`{line}`")).collect();
+            Some(format!("of words that is {}; `{name}` makes a double word", lines.join(", ")))
         }
         (_, 1) if wanted == 2 && is_shifting(name) => shifted(quoted),
-        ("TON" | "TOF" | "TONR", 3..) => timer_of_more(quoted),
         ("MOVR" | "+R" | "-R" | "*R" | "/R", 3) if has_split_number(quoted) => Some(
             "a real number has no comma in it, and a point before its fraction, such as 1000.5"
                 .to_owned(),

@@ -29,6 +29,14 @@ pub(crate) fn way_of_kind(quoted: Quoted<'_>, position: usize) -> Option<String>
         _ => return None,
     };
     let written = quoted.operand(position)?;
+    of_bits(quoted, position, address, &written)
+        .or_else(|| of_presets(quoted, position, address, &written))
+        .or_else(|| of_values(quoted, position, address, &written))
+}
+
+/// What takes bits, and bits where something else is.
+fn of_bits(quoted: Quoted<'_>, position: usize, address: Address, written: &str) -> Option<String> {
+    let name = quoted.source.mnemonic();
     match (name, address) {
         ("MOVB" | "MOVW" | "MOVD" | "MOVR", Address::Bit { .. }) => Some(copied_bit(quoted)),
         ("ATCH" | "DTCH" | "CEVNT", Address::Bit { area: Area::I, byte: 0, bit: bit @ 0..4 }) => {
@@ -37,6 +45,62 @@ pub(crate) fn way_of_kind(quoted: Quoted<'_>, position: usize) -> Option<String>
                 "event {rises} is the rising edge of {written}, event {falls} the falling one"
             ))
         }
+        ("SI", Address::Timer(_)) => Some(NO_PULSE.to_owned()),
+        ("PLS", Address::Bit { .. }) => Some(format!(
+            "`PLS` starts the pulse output 0 or 1; a bit that is 1 for one scan is `EU` after the \
+             contact: `LD I0.0`, `EU`, `= {written}`"
+        )),
+        ("S" | "R", Address::Bit { .. }) if position == 1 => range(quoted, address),
+        ("S" | "R" | "SI" | "RI", _) if position == 1 => {
+            let first = quoted.operand(0)?;
+            Some(format!("one operand is on a line: `{name} {first}, 1`, `{name} {written}, 1`"))
+        }
+        ("=" | "=I" | "S" | "R" | "SI" | "RI", _) if position == 0 => {
+            first_bit(name, address, written)
+        }
+        ("LD" | "A" | "O" | "LDN" | "AN" | "ON", _) => value_as_contact(name, address, written),
+        _ => None,
+    }
+}
+
+/// What timers and counters take.
+fn of_presets(
+    quoted: Quoted<'_>,
+    position: usize,
+    address: Address,
+    written: &str,
+) -> Option<String> {
+    let name = quoted.source.mnemonic();
+    match (name, address) {
+        ("TON" | "TOF" | "TONR" | "CTU" | "CTD" | "CTUD", Address::Byte { .. })
+            if position == 1 =>
+        {
+            let first = quoted.operand(0)?;
+            Some(format!("a preset is a word: `BTI {written}, VW10`, `{name} {first}, VW10`"))
+        }
+        ("TON" | "TOF" | "TONR" | "CTU" | "CTD" | "CTUD", Address::Double { .. })
+            if position == 1 =>
+        {
+            let first = quoted.operand(0)?;
+            Some(format!("a preset is a word: `DTI {written}, VW10`, `{name} {first}, VW10`"))
+        }
+        ("CTU" | "CTD" | "CTUD", Address::Timer(number)) if position == 0 => {
+            Some(format!("a counter has the letter C: `{name} C{number}, 10`"))
+        }
+        ("TON" | "TOF" | "TONR", _) if position == 0 => Some(way_of_timer(quoted, address)),
+        _ => None,
+    }
+}
+
+/// What instructions on bytes, words and double words take.
+fn of_values(
+    quoted: Quoted<'_>,
+    position: usize,
+    address: Address,
+    written: &str,
+) -> Option<String> {
+    let name = quoted.source.mnemonic();
+    match (name, address) {
         ("MUL" | "DIV", Address::Word { .. }) if position == 1 => {
             let (sign, what) = if name == "MUL" { ('*', "product") } else { ('/', "quotient") };
             let other = quoted.operand(0).unwrap_or_else(|| "VW0".to_owned());
@@ -45,11 +109,6 @@ pub(crate) fn way_of_kind(quoted: Quoted<'_>, position: usize) -> Option<String>
                  {written}`"
             ))
         }
-        ("SI", Address::Timer(_)) => Some(NO_PULSE.to_owned()),
-        ("PLS", Address::Bit { .. }) => Some(format!(
-            "`PLS` starts the pulse output 0 or 1; a bit that is 1 for one scan is `EU` after the \
-             contact: `LD I0.0`, `EU`, `= {written}`"
-        )),
         ("DTR", Address::Word { .. }) if position == 0 => Some(format!(
             "a word becomes a double word first: `ITD {written}, VD10`, `DTR VD10, VD10`"
         )),
@@ -64,35 +123,11 @@ pub(crate) fn way_of_kind(quoted: Quoted<'_>, position: usize) -> Option<String>
             "{written} is a whole number already; `{name}` makes one of a real number in a double \
              word"
         )),
-        ("TON" | "TOF" | "TONR" | "CTU" | "CTD" | "CTUD", Address::Byte { .. })
-            if position == 1 =>
-        {
-            let first = quoted.operand(0)?;
-            Some(format!("a preset is a word: `BTI {written}, VW10`, `{name} {first}, VW10`"))
-        }
-        ("TON" | "TOF" | "TONR" | "CTU" | "CTD" | "CTUD", Address::Double { .. })
-            if position == 1 =>
-        {
-            let first = quoted.operand(0)?;
-            Some(format!("a preset is a word: `DTI {written}, VW10`, `{name} {first}, VW10`"))
-        }
         ("MOVR", Address::Word { .. } | Address::Byte { .. }) => way_of_width(quoted)
             .or(Some("a real number is in a double word, such as VD0".to_owned())),
-        ("CTU" | "CTD" | "CTUD", Address::Timer(number)) if position == 0 => {
-            Some(format!("a counter has the letter C: `{name} C{number}, 10`"))
-        }
-        ("S" | "R", Address::Bit { .. }) if position == 1 => range(quoted, address),
-        ("S" | "R" | "SI" | "RI", _) if position == 1 => {
-            let first = quoted.operand(0)?;
-            Some(format!("one operand is on a line: `{name} {first}, 1`, `{name} {written}, 1`"))
-        }
-        ("=" | "=I" | "S" | "R" | "SI" | "RI", _) if position == 0 => {
-            first_bit(name, address, &written)
-        }
         ("+I" | "-I" | "*I" | "/I", Address::Byte { .. }) => Some(format!(
             "an S7-200 calculates with words: `BTI {written}, VW10` makes a word of the byte"
         )),
-        ("TON" | "TOF" | "TONR", _) if position == 0 => Some(way_of_timer(quoted, address)),
         ("MOVD", Address::Byte { .. } | Address::Word { .. }) if position == 0 => {
             let to = quoted.operand(1).unwrap_or_else(|| "AC1".to_owned());
             let value = match address {
@@ -103,7 +138,6 @@ pub(crate) fn way_of_kind(quoted: Quoted<'_>, position: usize) -> Option<String>
                 "a pointer to it is `MOVD &{written}, {to}`; its value becomes a double word {value}"
             ))
         }
-        ("LD" | "A" | "O" | "LDN" | "AN" | "ON", _) => value_as_contact(name, address, &written),
         (_, Address::Word { area, byte }) if position > 0 && is_count(quoted, position) => {
             let low = Address::Byte { area, byte: byte + 1 };
             match written == address.to_string() {
@@ -116,7 +150,7 @@ pub(crate) fn way_of_kind(quoted: Quoted<'_>, position: usize) -> Option<String>
                 )),
             }
         }
-        (_, Address::Bit { .. }) => instead_of_bit(name, address, &written),
+        (_, Address::Bit { .. }) => instead_of_bit(name, address, written),
         _ => way_of_width(quoted),
     }
 }

@@ -216,7 +216,7 @@ impl Resolver<'_> {
                 takes_several: written_operands(instruction.entry) > 1,
                 is_extra: pending.operand >= written_operands(instruction.entry),
             };
-            let timer = instruction.operands.first().map(|operand| operand.clone());
+            let timer = instruction.operands.first().cloned();
             let Some(operand) = instruction.operands.get_mut(pending.operand) else { continue };
             if let (1, Some(timer)) = (pending.operand, timer)
                 && let Some(diagnostic) =
