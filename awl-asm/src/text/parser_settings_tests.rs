@@ -156,7 +156,7 @@ fn setting_errors() {
         &[
             "E0020 1:5 `name`: name: a name is missing",
             "E0020 2:10 `\"x`: \"x: the quote is not closed",
-            "E0020 3:10 `ä`: ä: \\u{e4} cannot be in a name, only printable ASCII",
+            "E0020 3:10 `ä`: ä: ä cannot be in a name, only printable ASCII",
             "E0020 4:10 `1234567890123456789012345`: 1234567890123456789012345: a name has at \
              most 24 characters",
         ],

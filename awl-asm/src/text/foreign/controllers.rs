@@ -98,12 +98,12 @@ pub(super) const ROWS: &[Row] = &[
         "on an S7-200 `ED` after the contact is 1 for one scan: `LD I0.0`, `ED`, `= M0.0`",
     ),
     row(
-        &["EDGE", "R_EDGE", "RISING", "RISE", "POS", "P_TRIG", "UP_EDGE", "DIFF_UP"],
+        &["EDGE", "R_EDGE", "RISING", "RISE", "POS", "UP_EDGE", "DIFF_UP"],
         Like("EU"),
         "on an S7-200 `EU` after the contact is 1 for one scan: `LD I0.0`, `EU`, `= M0.0`",
     ),
     row(
-        &["F_EDGE", "FALLING", "FALL", "N_TRIG", "DOWN_EDGE", "DIFF_DOWN"],
+        &["F_EDGE", "FALLING", "FALL", "DOWN_EDGE", "DIFF_DOWN"],
         Like("ED"),
         "on an S7-200 `ED` after the contact is 1 for one scan: `LD I0.0`, `ED`, `= M0.0`",
     ),

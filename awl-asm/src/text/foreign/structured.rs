@@ -41,7 +41,6 @@ pub(super) const ROWS: &[Row] = &[
             "END_FUNCTION",
             "END_FUNCTION_BLOCK",
             "END_PROGRAM",
-            "SUBROUTINE",
             "END_SUBROUTINE",
         ],
         Block,
