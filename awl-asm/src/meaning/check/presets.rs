@@ -1,6 +1,8 @@
 //! Timers and counters that have nothing to wait for: a preset of 0 or less, a counter whose reset
 //! is always 1, a fine timer that resets itself before anything has seen its bit.
 
+use std::collections::HashMap;
+
 use plc_isa::{Area, Op, TimerKind, TimerResolution, timer_resolution};
 
 use crate::diagnostic::{Code, Diagnostic};
@@ -12,12 +14,13 @@ use crate::text::ast::Program;
 
 /// Warns of each.
 pub fn presets(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnostic>) {
+    let first_reads = first_reads(code);
     for (index, selected) in code.iter().enumerate() {
         match selected.arguments[0] {
             Argument::Timer(number) if TimerKind::started_by(selected.op).is_some() => {
                 let address = Address::Timer(number);
                 diagnostics.extend(no_time(program, selected, address));
-                diagnostics.extend(unseen(program, code, index, number));
+                diagnostics.extend(unseen(program, code, index, &first_reads));
             }
             Argument::Counter(number) if is_counter(selected.op) => {
                 let address = Address::Counter(number);
@@ -27,6 +30,19 @@ pub fn presets(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagn
             _ => {}
         }
     }
+}
+
+/// Where the bit of each timer is read first.
+fn first_reads(code: &[Selected]) -> HashMap<u8, usize> {
+    let mut first = HashMap::new();
+    for (index, selected) in code.iter().enumerate() {
+        for argument in selected.arguments {
+            if let Argument::Bit(Address::Timer(number)) = argument {
+                first.entry(number).or_insert(index);
+            }
+        }
+    }
+    first
 }
 
 fn is_counter(op: Op) -> bool {
@@ -90,8 +106,14 @@ fn held(
 
 /// A timer of 1 or 10 ms that its own bit stops, and whose bit is only read further down: it is 0
 /// again there.
-fn unseen(program: &Program, code: &[Selected], index: usize, number: u8) -> Option<Diagnostic> {
+fn unseen(
+    program: &Program,
+    code: &[Selected],
+    index: usize,
+    first_reads: &HashMap<u8, usize>,
+) -> Option<Diagnostic> {
     let selected = code.get(index).filter(|selected| selected.op == Op::Ton)?;
+    let Argument::Timer(number) = selected.arguments[0] else { return None };
     if timer_resolution(number) == TimerResolution::Ms100 {
         return None;
     }
@@ -102,7 +124,7 @@ fn unseen(program: &Program, code: &[Selected], index: usize, number: u8) -> Opt
         return None;
     }
     let start = index - contacts(&code[..index]).len();
-    let is_seen = code[..start].iter().any(reads);
+    let is_seen = first_reads.get(&number).is_some_and(|&first| first < start);
     let reader = code[index + 1..].iter().find(|one| reads(one)).filter(|_| !is_seen)?;
     let short = short(program, operand_span(program, selected, 0), Address::Timer(number));
     let message = format!(

@@ -1,4 +1,5 @@
-//! Segments of a sequence that nothing switches on, and steps that no segment stands for.
+//! Segments of a sequence that nothing switches on, and steps that no segment stands for and nothing
+//! reads.
 
 use std::collections::HashSet;
 
@@ -26,7 +27,7 @@ pub fn steps(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
     if segments.is_empty() {
         return;
     }
-    let set = Set::of(code);
+    let steps = Steps::of(code);
     for selected in code {
         let (Some(number), Argument::Bit(address)) = (bit_of(selected), selected.arguments[0])
         else {
@@ -35,7 +36,7 @@ pub fn steps(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
         let span = operand_span(program, selected, 0);
         let name = told(program, span, address);
         match selected.op {
-            Op::Lscr if !set.has(number) => {
+            Op::Lscr if !steps.is_set(number) => {
                 let message = format!("{name} is never set: this segment is never executed");
                 let first = short(program, span, address);
                 diagnostics.push(Diagnostic::new(Code::NeverActive, span, message).help(format!(
@@ -43,7 +44,7 @@ pub fn steps(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
                      are reached by `SCRT {first}`"
                 )));
             }
-            Op::Scrt if !segments.contains(&number) => {
+            Op::Scrt if !segments.contains(&number) && !steps.is_read(number) => {
                 let message = format!("{name} has no segment: the sequence ends here");
                 let step = short(program, span, address);
                 diagnostics.push(Diagnostic::new(Code::NeverActive, span, message).help(format!(
@@ -56,43 +57,59 @@ pub fn steps(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
     }
 }
 
-/// Which bits of S something may set.
-struct Set {
-    bits: HashSet<u32>,
-    /// Something may set any of them.
-    any: bool,
+/// Which bits of S something may set, and which a contact reads: what waits for several steps needs
+/// no segment of them.
+#[derive(Default)]
+struct Steps {
+    set: HashSet<u32>,
+    read: HashSet<u32>,
+    /// Something may set, or reads, any of them.
+    any_set: bool,
+    any_read: bool,
 }
 
-impl Set {
-    fn of(code: &[Selected]) -> Set {
-        let mut set = Set { bits: HashSet::new(), any: false };
+impl Steps {
+    fn of(code: &[Selected]) -> Steps {
+        let mut steps = Steps::default();
         for selected in code {
             for (argument, written) in selected.arguments() {
-                match (argument, selected.op) {
-                    (_, Op::Reset | Op::Lscr) => {}
-                    (Argument::Bit(Address::Bit { area: Area::S, byte, bit }), op)
-                        if written || op == Op::Scrt =>
+                match argument {
+                    Argument::Bit(Address::Bit { area: Area::S, byte, bit }) => {
+                        steps.bit(selected, u32::from(byte) * 8 + u32::from(bit), written);
+                    }
+                    Argument::Memory(address) | Argument::Pointer(address)
+                        if address.area() == Some(Area::S) =>
                     {
-                        let first = u32::from(byte) * 8 + u32::from(bit);
-                        let count = match (op, selected.arguments[1]) {
-                            (Op::Set, Argument::Constant(count)) => u32::from(count),
-                            (Op::Assign | Op::Scrt, _) => 1,
-                            _ => BITS,
-                        };
-                        set.bits.extend(first..(first + count).min(BITS));
+                        let is_pointer = matches!(argument, Argument::Pointer(_));
+                        steps.any_set |= written || is_pointer;
+                        steps.any_read |= !written || is_pointer;
                     }
-                    (Argument::Memory(address), _) if written => {
-                        set.any |= address.area() == Some(Area::S);
-                    }
-                    (Argument::Pointer(address), _) => set.any |= address.area() == Some(Area::S),
                     _ => {}
                 }
             }
         }
-        set
+        steps
     }
 
-    fn has(&self, bit: u32) -> bool {
-        self.any || self.bits.contains(&bit)
+    fn bit(&mut self, selected: &Selected, first: u32, written: bool) {
+        let count = match (selected.op, selected.arguments[1]) {
+            (Op::Reset | Op::Lscr, _) => return,
+            (Op::Set, Argument::Constant(count)) => u32::from(count),
+            (Op::Assign | Op::Scrt, _) => 1,
+            _ if !written => {
+                self.read.insert(first);
+                return;
+            }
+            _ => BITS,
+        };
+        self.set.extend(first..(first + count).min(BITS));
+    }
+
+    fn is_set(&self, bit: u32) -> bool {
+        self.any_set || self.set.contains(&bit)
+    }
+
+    fn is_read(&self, bit: u32) -> bool {
+        self.any_read || self.read.contains(&bit)
     }
 }
