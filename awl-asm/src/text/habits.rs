@@ -1,6 +1,6 @@
 //! Instructions of the S7-200 that are written by the habit of another language: a comparison
-//! between its operands, a logarithm that is a contact, a coil with a letter. Each is one answer for
-//! the whole line.
+//! between its operands, a logarithm that is a contact, a coil with a letter. Each is one answer
+//! for the whole line.
 
 use plc_isa::{Instruction, Op};
 

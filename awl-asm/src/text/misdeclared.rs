@@ -117,8 +117,8 @@ pub(crate) fn several_names(
             let one = names.concat();
             let joined = names.join("_");
             Box::new(wrong(piece, "a name has no blank").help(format!(
-                "`//# var {joined} {kind}`, or `{one}` in one word, or in quotes `//# var \"{long}\" \
-                 {kind}`"
+                "`//# var {joined} {kind}`, or `{one}` in one word, or in quotes `//# var \
+                 \"{long}\" {kind}`"
             )))
         }
     })

@@ -16,6 +16,7 @@ mod habits;
 mod hints;
 mod instructions;
 mod lexer;
+mod line_settings;
 mod literal;
 pub mod locals;
 mod misdeclared;

@@ -98,8 +98,8 @@ fn held(
         Diagnostic::new(Code::AlwaysReset, span_of(program, last), message)
             .related(span_of(program, selected), "the counter")
             .help(format!(
-                "the last load before it {does} it, such as `LD I0.1`; `LDN SM0.0`, which is always \
-                 0, does not {verb} it ever"
+                "the last load before it {does} it, such as `LD I0.1`; `LDN SM0.0`, which is \
+                 always 0, does not {verb} it ever"
             )),
     )
 }

@@ -1,5 +1,5 @@
-//! Segments of a sequence that nothing switches on, and steps that no segment stands for and nothing
-//! reads.
+//! Segments of a sequence that nothing switches on, and steps that no segment stands for and
+//! nothing reads.
 
 use std::collections::HashSet;
 

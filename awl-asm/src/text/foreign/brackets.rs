@@ -1,5 +1,5 @@
-//! Contacts with brackets, as STEP 7 has them (`U(`, `O E0.0`, `O E0.1`, `)`, `U E0.2`), and with `O`
-//! alone before a branch, as the contacts of an S7-200, which joins branches by ALD and OLD.
+//! Contacts with brackets, as STEP 7 has them (`U(`, `O E0.0`, `O E0.1`, `)`, `U E0.2`), and with
+//! `O` alone before a branch, as the contacts of an S7-200, which joins branches by ALD and OLD.
 
 use super::together::{Flow, Lines, Together, address};
 

@@ -28,8 +28,8 @@ const COMMAS: &str = "operands are separated by commas, and the target is the la
 const NEEDS_CONTACT: &str = "it executes while the contact before it is 1; `LD SM0.0` always is";
 /// What blocks of other systems call their parameters.
 const PARAMETERS: [&str; 10] = ["IN", "PT", "Q", "ET", "CU", "CD", "PV", "CV", "EN", "ENO"];
-const INSTANCE: &str = "an S7-200 has no instances of blocks: the inputs of a timer or counter are the \
-     contacts before it, `LD I0.0`, `TON T37, 20`, and `LD T37` is its output; a subroutine is \
+const INSTANCE: &str = "an S7-200 has no instances of blocks: the inputs of a timer or counter are \
+     the contacts before it, `LD I0.0`, `TON T37, 20`, and `LD T37` is its output; a subroutine is \
      called by `CALL SBR0`";
 const NO_NAMES: &str = "operands have an order and no names: `LD I0.0`, `TON T37, 20`, and \
      `LD T37` is what comes out";
@@ -549,8 +549,8 @@ fn set_and_reset(inside: &str) -> Option<String> {
     let set = argument(inside, &["S", "S1", "SET", "SET1"])?;
     let reset = argument(inside, &["R", "R1", "RESET", "RESET1"])?;
     Some(format!(
-        "a bit is set and reset by two rungs, of which the later one wins: `LD {set}`, `S Q0.0, 1`, \
-         then `LD {reset}`, `R Q0.0, 1`"
+        "a bit is set and reset by two rungs, of which the later one wins: `LD {set}`, `S Q0.0, \
+         1`, then `LD {reset}`, `R Q0.0, 1`"
     ))
 }
 
