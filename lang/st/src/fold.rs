@@ -104,13 +104,8 @@ fn nearest(to: &Type, value: i64) -> Value {
 
 /// The low bits of a number, read as one of the target.
 fn bits(to: &Type, value: i64) -> Value {
-    Value::Int(match to {
-        Type::Byte => value & 0xFF,
-        Type::Word => value & 0xFFFF,
-        Type::Int => i64::from(value as i16),
-        Type::Dword => value & 0xFFFF_FFFF,
-        _ => i64::from(value as i32),
-    })
+    let (low, high) = to.range().unwrap_or((i64::MIN / 2, i64::MAX / 2));
+    Value::Int((value - low).rem_euclid(high - low + 1) + low)
 }
 
 /// A standard function of known values; `None` of those that are left to the program.

@@ -18,10 +18,18 @@ pub enum Type {
     Word,
     /// 32 bits.
     Dword,
+    /// -128 to 127.
+    Sint,
+    /// 0 to 255.
+    Usint,
     /// -32768 to 32767.
     Int,
+    /// 0 to 65535.
+    Uint,
     /// -2147483648 to 2147483647.
     Dint,
+    /// 0 to 4294967295.
+    Udint,
     /// An IEEE 754 single.
     Real,
     /// Milliseconds, as DINT.
@@ -90,13 +98,17 @@ pub enum Value {
 }
 
 /// The elementary types by their names.
-pub const ELEMENTARY: [(&str, Type); 8] = [
+pub const ELEMENTARY: [(&str, Type); 12] = [
     ("BOOL", Type::Bool),
     ("BYTE", Type::Byte),
     ("WORD", Type::Word),
     ("DWORD", Type::Dword),
+    ("SINT", Type::Sint),
+    ("USINT", Type::Usint),
     ("INT", Type::Int),
+    ("UINT", Type::Uint),
     ("DINT", Type::Dint),
+    ("UDINT", Type::Udint),
     ("REAL", Type::Real),
     ("TIME", Type::Time),
 ];
@@ -128,21 +140,27 @@ impl Type {
     pub fn range(&self) -> Option<(i64, i64)> {
         match self {
             Type::Bool => Some((0, 1)),
-            Type::Byte => Some((0, 0xFF)),
-            Type::Word => Some((0, 0xFFFF)),
-            Type::Dword => Some((0, 0xFFFF_FFFF)),
+            Type::Byte | Type::Usint => Some((0, 0xFF)),
+            Type::Word | Type::Uint => Some((0, 0xFFFF)),
+            Type::Dword | Type::Udint => Some((0, 0xFFFF_FFFF)),
+            Type::Sint => Some((i8::MIN.into(), i8::MAX.into())),
             Type::Int => Some((i16::MIN.into(), i16::MAX.into())),
             Type::Dint | Type::Time => Some((i32::MIN.into(), i32::MAX.into())),
             _ => None,
         }
     }
 
-    /// INT, DINT.
+    /// SINT, USINT, INT, UINT, DINT, UDINT.
     pub fn is_whole(&self) -> bool {
-        matches!(self, Type::Int | Type::Dint)
+        matches!(self, Type::Sint | Type::Int | Type::Dint) || self.is_unsigned()
     }
 
-    /// INT, DINT, REAL.
+    /// USINT, UINT, UDINT.
+    pub fn is_unsigned(&self) -> bool {
+        matches!(self, Type::Usint | Type::Uint | Type::Udint)
+    }
+
+    /// Whole numbers and REAL.
     pub fn is_number(&self) -> bool {
         self.is_whole() || *self == Type::Real
     }
@@ -159,19 +177,30 @@ impl Type {
 
     /// Whether every value of `self` is one of `wider`, or is taken for it.
     pub fn widens_to(&self, wider: &Type) -> bool {
-        matches!(
-            (self, wider),
-            (Type::Int, Type::Dint | Type::Real)
-                | (Type::Byte, Type::Word | Type::Dword)
-                | (Type::Word, Type::Dword)
-        )
+        if self == wider {
+            return false;
+        }
+        match (self.is_whole(), self.is_bits()) {
+            (true, _) if *wider == Type::Real => !matches!(self, Type::Dint | Type::Udint),
+            (true, _) => wider.is_whole() && self.is_within(wider),
+            (_, true) => wider.is_bits() && self.is_within(wider),
+            _ => false,
+        }
+    }
+
+    /// Whether another type has all of its numbers.
+    pub fn is_within(&self, other: &Type) -> bool {
+        match (self.range(), other.range()) {
+            (Some((low, high)), Some((least, most))) => least <= low && high <= most,
+            _ => false,
+        }
     }
 
     /// Bytes of an element of an array of this type.
     pub fn bytes(&self) -> i64 {
         match self {
-            Type::Bool | Type::Byte => 1,
-            Type::Word | Type::Int | Type::Enumeration(_) => 2,
+            Type::Bool | Type::Byte | Type::Sint | Type::Usint => 1,
+            Type::Word | Type::Int | Type::Uint | Type::Enumeration(_) => 2,
             Type::Array(array) => (array.count() as i64).saturating_mul(array.of.bytes()),
             Type::Struct(kind) => kind.members.iter().map(|one| one.of_type.bytes()).sum(),
             _ => 4,

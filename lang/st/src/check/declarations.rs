@@ -225,9 +225,11 @@ impl<'a> Checker<'a> {
         };
         let wanted = match of_type {
             Type::Bool => "a bit such as %M0.0",
-            Type::Byte => "a byte such as %MB0",
-            Type::Word | Type::Int | Type::Enumeration(_) => "a word such as %MW0",
-            Type::Dword | Type::Dint | Type::Real | Type::Time => "a double word such as %MD0",
+            Type::Byte | Type::Sint | Type::Usint => "a byte such as %MB0",
+            Type::Word | Type::Int | Type::Uint | Type::Enumeration(_) => "a word such as %MW0",
+            Type::Dword | Type::Dint | Type::Udint | Type::Real | Type::Time => {
+                "a double word such as %MD0"
+            }
             Type::Invalid => return None,
             _ => {
                 self.error(Code::NotThere, at.span, format!("{of_type}: not at an address yet"));
@@ -236,13 +238,13 @@ impl<'a> Checker<'a> {
         };
         let fits = match address {
             Address::Bit { .. } => *of_type == Type::Bool,
-            Address::Byte { .. } => *of_type == Type::Byte,
+            Address::Byte { .. } => wanted.starts_with("a byte"),
             Address::Word { .. } | Address::Analog(_) | Address::AnalogOutput(_) => {
                 wanted.starts_with("a word")
             }
             Address::Double { .. } | Address::HighSpeedCounter(_) => wanted.starts_with("a double"),
             Address::Timer(_) | Address::Counter(_) => {
-                matches!(of_type, Type::Bool | Type::Int | Type::Word)
+                matches!(of_type, Type::Bool | Type::Int | Type::Uint | Type::Word)
             }
             _ => false,
         };

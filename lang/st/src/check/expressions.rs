@@ -75,13 +75,12 @@ impl Checker<'_> {
             found.kind,
             ExpressionKind::Binary(BinaryOperator::Multiply | BinaryOperator::Add, ..)
         );
-        if is_product && found.of_type == Type::Int && matches!(wanted, Type::Dint | Type::Real) {
-            let message = "this is computed as INT before it becomes a ".to_owned();
-            let found =
-                Diagnostic::new(Code::NarrowProduct, text.span, message + &wanted.to_string());
-            self.report(
-                found.help(format!("INT_TO_{wanted}(...) of an operand computes it as such")),
-            );
+        let is_narrow = found.of_type.is_whole() && found.of_type.widens_to(wanted);
+        if is_product && is_narrow {
+            let from = &found.of_type;
+            let message = format!("this is computed as {from} before it becomes a {wanted}");
+            let help = format!("{from}_TO_{wanted}(...) of an operand computes it as such");
+            self.report(Diagnostic::new(Code::NarrowProduct, text.span, message).help(help));
         }
         self.coerce(found, wanted)
     }
@@ -107,7 +106,15 @@ impl Checker<'_> {
         if let ExpressionKind::Constant(value) = &found.kind {
             return known(fold::convert(&found.of_type, to, value), to.clone(), span);
         }
-        let kind = ExpressionKind::Convert(Box::new(found));
+        let in_library = match (&found.of_type, to) {
+            (Type::Udint, Type::Real) => self.library("__UDINT_TO_REAL"),
+            (Type::Real, Type::Udint) => self.library("__REAL_TO_UDINT"),
+            _ => None,
+        };
+        let kind = match in_library {
+            Some(number) => ExpressionKind::Call(number, vec![found]),
+            None => ExpressionKind::Convert(Box::new(found)),
+        };
         Expression { kind, of_type: to.clone(), span }
     }
 
@@ -137,22 +144,35 @@ impl Checker<'_> {
             }
             _ => {}
         }
-        let kind = if i16::try_from(value).is_ok() { Type::Int } else { Type::Dint };
+        let kinds = [Type::Int, Type::Dint, Type::Udint];
+        let kind = kinds.into_iter().find(|kind| has(kind, value)).unwrap_or(Type::Dint);
         self.check_range(value, &kind, span);
         known(Value::Int(value), kind, span)
     }
 
     fn check_range(&mut self, value: i64, kind: &Type, span: Span) {
         let Some((low, high)) = kind.range() else { return };
-        if (low..=high).contains(&value) {
+        if has(kind, value) {
             return;
         }
         let message = format!("{kind} cannot take {value}: it has {low} to {high}");
-        let mut found = Diagnostic::new(Code::ConstantRange, span, message);
-        if *kind == Type::Int && i32::try_from(value).is_ok() {
-            found = found.help("DINT can");
-        }
-        self.report(found);
+        let found = Diagnostic::new(Code::ConstantRange, span, message);
+        let others: [&[Type]; 2] = match kind.is_bits() {
+            true => [&[Type::Word, Type::Dword], &[]],
+            false => {
+                [&[Type::Usint, Type::Uint, Type::Udint], &[Type::Sint, Type::Int, Type::Dint]]
+            }
+        };
+        // The shortest without a sign, and the shortest with one.
+        let able: Vec<String> = others
+            .iter()
+            .filter_map(|list| list.iter().find(|one| has(one, value)))
+            .map(Type::to_string)
+            .collect();
+        self.report(match able.is_empty() {
+            true => found,
+            false => found.help(format!("{} can", able.join(" or "))),
+        });
     }
 
     fn typed(&mut self, name: &str, value: &tree::Expression, span: Span) -> Expression {
@@ -259,7 +279,7 @@ impl Checker<'_> {
         let inside = self.expression(operand, wanted);
         let kind = inside.of_type.clone();
         let fits = match operator {
-            UnaryOperator::Minus => kind.is_number() || kind == Type::Time,
+            UnaryOperator::Minus => kind.is_number() && !kind.is_unsigned() || kind == Type::Time,
             UnaryOperator::Not => kind == Type::Bool || kind.is_bits(),
         };
         if kind == Type::Invalid {
@@ -267,7 +287,7 @@ impl Checker<'_> {
         }
         if !fits {
             let (what, needed) = match operator {
-                UnaryOperator::Minus => ("-", "a number"),
+                UnaryOperator::Minus => ("-", "a number with a sign"),
                 UnaryOperator::Not => ("NOT", "a BOOL or a bit string"),
             };
             self.error(Code::WrongType, span, format!("{what} needs {needed}, this is a {kind}"));
@@ -343,7 +363,8 @@ impl Checker<'_> {
         }
         let is_scaled_time = left.of_type == Type::Time
             && matches!(operator, BinaryOperator::Multiply | BinaryOperator::Divide)
-            && right.of_type.is_whole();
+            && right.of_type.is_whole()
+            && right.of_type.is_within(&Type::Dint);
         if is_scaled_time {
             let right = self.convert_if(right, &Type::Dint);
             return self.folded(operator, left, right, Type::Time, span);
@@ -392,8 +413,22 @@ impl Checker<'_> {
             let value = fold::binary(operator, &left.of_type, a, b);
             return known(value, of_type, span);
         }
-        let kind = ExpressionKind::Binary(operator, Box::new(left), Box::new(right));
+        let in_library = match (operator, &of_type) {
+            (BinaryOperator::Multiply, Type::Udint) => self.library("__UDINT_MUL"),
+            (BinaryOperator::Divide, Type::Udint) => self.library("__UDINT_DIV"),
+            (BinaryOperator::Modulo, Type::Udint) => self.library("__UDINT_MOD"),
+            _ => None,
+        };
+        let kind = match in_library {
+            Some(number) => ExpressionKind::Call(number, vec![left, right]),
+            None => ExpressionKind::Binary(operator, Box::new(left), Box::new(right)),
+        };
         Expression { kind, of_type, span }
+    }
+
+    /// A function of the library, by the number of its unit.
+    fn library(&self, name: &str) -> Option<usize> {
+        self.program.units.iter().position(|unit| unit.file.is_none() && unit.name == name)
     }
 
     fn no_common(
@@ -445,6 +480,11 @@ impl Checker<'_> {
         self.report(found);
         false
     }
+}
+
+/// Whether a type has a number.
+fn has(kind: &Type, value: i64) -> bool {
+    kind.range().is_some_and(|(low, high)| (low..=high).contains(&value))
 }
 
 /// The type of two operands that takes the other one.

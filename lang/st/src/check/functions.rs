@@ -271,6 +271,9 @@ impl Checker<'_> {
             self.error(Code::WrongType, value.span, message);
             return invalid(span);
         }
+        if function == Function::Abs && value.of_type.is_unsigned() {
+            return value;
+        }
         let of_type = match function {
             Function::Trunc => Type::Dint,
             _ => value.of_type.clone(),

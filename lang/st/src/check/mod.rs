@@ -16,7 +16,7 @@ use std::collections::HashMap;
 
 use diagnostics::{Source, Span};
 
-pub(crate) use recursion::inside;
+pub(crate) use recursion::{each_expression, inside};
 
 use crate::around::Around;
 use crate::diagnostic::{Code, Diagnostic};
@@ -47,7 +47,7 @@ pub(crate) fn check(
         checker.program.settings.extend(settings);
     }
     let all: Vec<(Option<usize>, &tree::File)> =
-        (0..).map(Some).zip(files).chain([(None, &library)]).collect();
+        (0..).map(Some).zip(files).chain(library.iter().map(|file| (None, file))).collect();
     checker.collect_types(&all);
     checker.collect_units(&all);
     checker.collect_globals(&all);
@@ -59,11 +59,12 @@ pub(crate) fn check(
     (program, diagnostics)
 }
 
-/// The standard blocks.
-fn library() -> tree::File {
-    let text = include_str!("../blocks.st");
-    let source = Source::new("blocks.st", text).ok();
-    source.map(|source| parser::parse(&source).0).unwrap_or_default()
+/// The standard blocks, and functions that no instruction computes.
+fn library() -> [tree::File; 2] {
+    [include_str!("../blocks.st"), include_str!("../functions.st")].map(|text| {
+        let source = Source::new("library.st", text).ok();
+        source.map(|source| parser::parse(&source).0).unwrap_or_default()
+    })
 }
 
 pub(crate) struct Checker<'a> {

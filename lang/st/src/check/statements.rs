@@ -104,7 +104,8 @@ impl Checker<'_> {
         let kind = selector.of_type.clone();
         let fits = kind.is_whole() || matches!(kind, Type::Enumeration(_) | Type::Invalid);
         if !fits {
-            let message = format!("CASE chooses by INT, DINT or an enumeration, this is a {kind}");
+            let message =
+                format!("CASE chooses by whole numbers or an enumeration, this is a {kind}");
             let found = Diagnostic::new(Code::WrongType, selector.span, message);
             let help = match kind.is_bits() {
                 true => format!("{kind}_TO_INT(...) is a number"),
@@ -164,14 +165,14 @@ impl Checker<'_> {
         let kind = place.as_ref().map_or(Type::Int, |place| place.of_type.clone());
         let is_plain = place.as_ref().is_none_or(|place| place.steps.is_empty());
         if !kind.is_whole() || !is_plain {
-            let message = "a loop counts with a variable of INT or DINT";
+            let message = "a loop counts with a variable of whole numbers, such as INT";
             self.error(Code::Loop, one.variable.span, message);
         }
         let from = self.value_of(&one.from, &kind);
         let to = self.value_of(&one.to, &kind);
         let by = match &one.by {
             None => 1,
-            Some(by) => match self.constant(by, &kind) {
+            Some(by) => match self.constant(by, &step_type(&kind)) {
                 Some(Value::Int(0)) => {
                     self.error(Code::Loop, by.span, "with the step 0 the loop never ends");
                     1
@@ -194,5 +195,14 @@ impl Checker<'_> {
         let body = self.in_loop(control, &one.body);
         let variable = place.filter(|_| kind.is_whole())?;
         Some(StatementKind::For(Box::new(ForLoop { variable, from, to, by, body })))
+    }
+}
+
+/// The type of a loop's step: unsigned types count down, too.
+fn step_type(kind: &Type) -> Type {
+    match kind {
+        Type::Usint => Type::Int,
+        Type::Uint | Type::Udint => Type::Dint,
+        _ => kind.clone(),
     }
 }

@@ -1,6 +1,8 @@
 //! From a checked program to AWL that a person can read.
 
+mod arithmetic;
 mod calls;
+mod compare;
 mod control;
 mod convert;
 mod logic;
@@ -17,7 +19,7 @@ use std::collections::HashSet;
 use diagnostics::{Source, Span};
 
 use crate::around::Around;
-use crate::model::{Program, SectionKind, Type, UnitKind};
+use crate::model::{ExpressionKind, Program, SectionKind, Type, UnitKind};
 use timers::Short;
 use writer::Writer;
 
@@ -87,13 +89,32 @@ pub(crate) fn generate(program: &Program, sources: &[Source], around: &Around) -
     } else {
         lines.extend(generator.main());
     }
-    for number in 0..program.units.len() {
-        if program.units.get(number).is_some_and(|unit| unit.kind == UnitKind::Function) {
+    let called = called(program);
+    for (number, unit) in program.units.iter().enumerate() {
+        let is_needed = unit.file.is_some() || called.contains(&number);
+        if unit.kind == UnitKind::Function && is_needed {
             lines.extend(generator.function(number, routine));
             routine += 1;
         }
     }
     lines.join("\n") + "\n"
+}
+
+/// The functions that are called by what is in the files, and by those.
+fn called(program: &Program) -> HashSet<usize> {
+    let mut found = HashSet::new();
+    let is_written = |unit: &&crate::model::Unit| unit.file.is_some();
+    let mut open: Vec<&crate::model::Unit> = program.units.iter().filter(is_written).collect();
+    while let Some(unit) = open.pop() {
+        crate::check::each_expression(&unit.body, &mut |expression| {
+            if let ExpressionKind::Call(number, _) = expression.kind
+                && found.insert(number)
+            {
+                open.extend(program.units.get(number));
+            }
+        });
+    }
+    found
 }
 
 fn located(program: &Program) -> HashSet<String> {
@@ -257,8 +278,7 @@ impl Generator<'_> {
 fn local_type(kind: &Type) -> String {
     match kind {
         Type::Time => "DINT".to_owned(),
-        Type::Enumeration(_) => "INT".to_owned(),
-        _ => kind.to_string(),
+        _ => memory::type_name(kind),
     }
 }
 

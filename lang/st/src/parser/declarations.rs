@@ -175,7 +175,9 @@ impl Parser<'_> {
         }
         if self.token().kind == Kind::Word && super::is_keyword(self.word_at(0)) {
             let ends = ["END_VAR", "END_STRUCT"];
-            if matches!(self.ahead(1).kind, Kind::Sign(":" | ",")) && !self.is_one_of(&ends) {
+            let is_declared = matches!(self.ahead(1).kind, Kind::Sign(":" | ","))
+                || self.word_at(1).eq_ignore_ascii_case("AT");
+            if is_declared && !self.is_one_of(&ends) {
                 let word = self.word_at(0).to_owned();
                 let message = format!("{word}: is a word of the language and names no variable");
                 self.report(Diagnostic::new(Code::Declaration, self.token().span, message));

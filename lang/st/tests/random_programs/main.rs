@@ -12,7 +12,7 @@ use diagnostics::Source;
 use evaluator::Evaluator;
 use fastrand::Rng;
 use generate::{Generator, VARIABLES};
-use values::Value;
+use values::{Kind, Value};
 
 const SCANS: usize = 12;
 
@@ -28,14 +28,15 @@ fn name_in_awl(name: &str) -> String {
 fn seen(value: Value) -> i64 {
     match value {
         Value::Bool(value) => value.into(),
-        Value::Number(values::Kind::Word, value) => i64::from(value as u16 as i16),
+        Value::Number(Kind::Word | Kind::Uint, value) => i64::from(value as u16 as i16),
+        Value::Number(Kind::Sint, value) => i64::from(value as i8 as u8),
+        Value::Number(Kind::Udint, value) => i64::from(value as u32 as i32),
         Value::Number(_, value) | Value::Open(value) => value,
         Value::Real(value) => i64::from(value.to_bits() as i32),
     }
 }
 
 fn input(kind: &str, rng: &mut Rng) -> Value {
-    use values::Kind;
     let edges = [0, 1, -1, 2, 5, 32767, -32768, 100];
     let small = edges[rng.usize(..edges.len())];
     match kind {
@@ -44,6 +45,13 @@ fn input(kind: &str, rng: &mut Rng) -> Value {
         "INT" => Value::Number(Kind::Int, small),
         "DINT" if rng.bool() => Value::Number(Kind::Dint, small * 65_535),
         "DINT" => Value::Number(Kind::Dint, small),
+        "SINT" | "USINT" | "UINT" | "UDINT" => {
+            let kind = Kind::of(kind).expect("a type");
+            let (low, high) = kind.range();
+            let near = [rng.i64(0..8), low + rng.i64(0..4), high - rng.i64(0..4)];
+            let value = if rng.bool() { near[rng.usize(..3)] } else { rng.i64(low..=high) };
+            Value::Number(kind, value)
+        }
         "WORD" => Value::Number(Kind::Word, rng.u16(..).into()),
         _ => Value::Real(f32::from(rng.i16(-1000..1000)) / 8.0),
     }
