@@ -1,5 +1,5 @@
-//! What is said about mistakes, and where: a mistake in its line, then the code, the place, and what
-//! the answer must contain. Nothing else is reported.
+//! What is said about mistakes, and where: a mistake in its line, then the code, the place, and
+//! what the answer must contain. Nothing else is reported.
 
 use diagnostics::Source;
 use st::{Around, compile};

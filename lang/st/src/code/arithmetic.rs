@@ -1,5 +1,5 @@
-//! Arithmetic of the types that have no instructions of their own: SINT and USINT in bytes, UINT and
-//! UDINT without sign. An operation that has no result leaves the left operand.
+//! Arithmetic of the types that have no instructions of their own: SINT and USINT in bytes, UINT
+//! and UDINT without sign. An operation that has no result leaves the left operand.
 
 use super::Generator;
 use super::compare::relation;
@@ -136,7 +136,7 @@ impl Generator<'_> {
         self.writer.boxed(&format!("{word}{sign}"), &format!("{right}, {left}"));
     }
 
-    /// `left := left - left / right * right`: with 0 nothing is divided, and left * 0 is taken away.
+    /// `left := left - left / right * right`: with 0 nothing is divided, and left * 0 taken away.
     fn remainder(&mut self, storage: Storage, left: &str, right: &str) {
         let sign = if storage == Storage::Double { 'D' } else { 'I' };
         let quotient = self.writer.temporary(storage);
@@ -147,8 +147,8 @@ impl Generator<'_> {
     }
 
     /// `+` and `-` of UINT and UDINT. With the highest bit inverted, the left operand is the number
-    /// 32768 (2147483648) below it, and overflows where the type does. That is for right operands in
-    /// the lower half; those in the upper half have the difference in themselves.
+    /// 32768 (2147483648) below it, and overflows where the type does. That is for right operands
+    /// in the lower half; those in the upper half have the difference in themselves.
     fn without_sign(
         &mut self,
         operator: BinaryOperator,
