@@ -3,6 +3,7 @@
 mod calls;
 mod control;
 mod convert;
+mod hardware;
 mod logic;
 mod memory;
 mod places;
@@ -17,7 +18,9 @@ use std::collections::HashSet;
 use diagnostics::{Source, Span};
 
 use crate::around::Around;
+use crate::diagnostic::Diagnostic;
 use crate::model::{Program, SectionKind, Type, UnitKind};
+use hardware::Devices;
 use timers::Short;
 use writer::Writer;
 
@@ -51,6 +54,8 @@ struct Generator<'a> {
     program: &'a Program,
     sources: &'a [Source],
     short: Short,
+    /// Instances that are timers and counters of the controller.
+    devices: Devices,
     /// Names that stand for addresses.
     located: HashSet<String>,
     writer: Writer,
@@ -59,8 +64,13 @@ struct Generator<'a> {
     is_tick: bool,
 }
 
-/// Writes a checked program.
-pub(crate) fn generate(program: &Program, sources: &[Source], around: &Around) -> String {
+/// Writes a checked program. Beside it what its author should know of timers, with the number of
+/// the file.
+pub(crate) fn generate(
+    program: &Program,
+    sources: &[Source],
+    around: &Around,
+) -> (String, Vec<(usize, Diagnostic)>) {
     let frame = Frame {
         unit: 0,
         names: Names::Local,
@@ -70,10 +80,12 @@ pub(crate) fn generate(program: &Program, sources: &[Source], around: &Around) -
         end: None,
         loops: Vec::new(),
     };
+    let (devices, notes) = hardware::devices(program, around);
     let mut generator = Generator {
         program,
         sources,
         short: timers::short_timers(program),
+        devices,
         located: located(program),
         writer: Writer::default(),
         frame,
@@ -93,7 +105,7 @@ pub(crate) fn generate(program: &Program, sources: &[Source], around: &Around) -
             routine += 1;
         }
     }
-    lines.join("\n") + "\n"
+    (lines.join("\n") + "\n", notes)
 }
 
 fn located(program: &Program) -> HashSet<String> {
