@@ -6,7 +6,8 @@ use st::{Around, compile};
 /// A program with variables and statements.
 fn program(variables: &str, statements: &str) -> String {
     format!(
-        "VAR_GLOBAL a AT %I0.0 : BOOL; b AT %I0.1 : BOOL; p : TIME := T#1s; c : BOOL; n : INT; END_VAR\n\
+        "VAR_GLOBAL a AT %I0.0 : BOOL; b AT %I0.1 : BOOL; p : TIME := T#1s;\n\
+         c : BOOL; n : INT; END_VAR\n\
          PROGRAM Main\nVAR {variables} END_VAR\n{statements}\nEND_PROGRAM\n"
     )
 }

@@ -1,5 +1,5 @@
-//! Timers of the controller as docs/structured-text.md tells of them: they count the steps of a clock
-//! that runs by itself.
+//! Timers of the controller as docs/structured-text.md tells of them: they count the steps of a
+//! clock that runs by itself.
 
 use super::evaluator::Evaluator;
 use super::values::{Value, whole};
