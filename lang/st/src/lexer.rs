@@ -1,5 +1,5 @@
-//! Cuts the text into tokens. Comments and pragmas are passed over; settings (`//# ...`) are kept
-//! aside. It knows characters, not the language.
+//! Cuts the text into tokens. Comments and pragmas are passed over; settings (`//# ...`) and
+//! `{coarse}` are kept aside. It knows characters, not the language.
 
 use diagnostics::Span;
 
@@ -43,6 +43,8 @@ pub(crate) struct Tokens {
     pub(crate) tokens: Vec<Token>,
     /// The lines `//# ...`.
     pub(crate) settings: Vec<Span>,
+    /// The pragmas `{coarse}`.
+    pub(crate) coarse: Vec<Span>,
     pub(crate) diagnostics: Vec<Diagnostic>,
 }
 
@@ -54,19 +56,22 @@ const SIGNS: [&str; 23] = [
 
 /// Cuts a text.
 pub(crate) fn cut(text: &str) -> Tokens {
-    let mut lexer = Lexer { text, at: 0, settings: Vec::new(), diagnostics: Vec::new() };
+    let mut lexer =
+        Lexer { text, at: 0, settings: Vec::new(), coarse: Vec::new(), diagnostics: Vec::new() };
     let mut tokens = Vec::new();
     while let Some(token) = lexer.next() {
         tokens.push(token);
     }
     tokens.push(Token { kind: Kind::End, span: Span::new(text.len(), text.len()) });
-    Tokens { tokens, settings: lexer.settings, diagnostics: lexer.diagnostics }
+    let Lexer { settings, coarse, diagnostics, .. } = lexer;
+    Tokens { tokens, settings, coarse, diagnostics }
 }
 
 struct Lexer<'t> {
     text: &'t str,
     at: usize,
     settings: Vec<Span>,
+    coarse: Vec<Span>,
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -170,6 +175,11 @@ impl<'t> Lexer<'t> {
                 self.at = self.text.len();
                 self.error(Span::new(start, start + 1), "the pragma is not closed: `}` is missing");
             }
+        }
+        let span = Span::new(start, self.at);
+        let inside = span.text(self.text).trim_matches(['{', '}']).trim();
+        if inside.eq_ignore_ascii_case("coarse") {
+            self.coarse.push(span);
         }
         rest.starts_with("{every scan}").then_some(Kind::EveryScan)
     }

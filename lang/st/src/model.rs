@@ -289,8 +289,23 @@ pub struct Program {
     pub units: Vec<Unit>,
     /// Its global variables.
     pub globals: Vec<Variable>,
+    /// Timers that need not be exact.
+    pub coarse: Vec<Coarse>,
     /// Lines `//# ...`.
     pub settings: Vec<String>,
+}
+
+/// A variable with the pragma `{coarse}`.
+#[derive(Debug, Clone)]
+pub struct Coarse {
+    /// The unit that declares it; `None`: it is global.
+    pub unit: Option<usize>,
+    /// Its number among the variables there.
+    pub variable: usize,
+    /// The number of the file.
+    pub file: usize,
+    /// Where the pragma is.
+    pub span: Span,
 }
 
 /// Where a value is.

@@ -93,6 +93,8 @@ pub struct Declaration {
     pub of_type: TypeText,
     /// Their initial value.
     pub initial: Option<Expression>,
+    /// The pragma `{coarse}`.
+    pub coarse: Option<Span>,
 }
 
 /// `Name : type := value` in TYPE.

@@ -87,10 +87,16 @@ pub fn parse(source: &Source) -> (File, Vec<Diagnostic>) {
         tokens: tokens.tokens,
         at: 0,
         depth: 0,
+        coarse: tokens.coarse,
         diagnostics: tokens.diagnostics,
     };
     let mut file = parser.file();
     file.settings = tokens.settings;
+    for span in std::mem::take(&mut parser.coarse) {
+        let message = "`{coarse}` is not at the declaration of a timer";
+        let found = Diagnostic::new(Code::Coarse, span, message);
+        parser.report(found.help("such as `{coarse} Delay : TON;`"));
+    }
     (file, parser.diagnostics)
 }
 
@@ -99,6 +105,8 @@ struct Parser<'t> {
     tokens: Vec<Token>,
     at: usize,
     depth: u32,
+    /// The pragmas `{coarse}` that belong to no declaration yet.
+    coarse: Vec<Span>,
     diagnostics: Vec<Diagnostic>,
 }
 
