@@ -7,7 +7,8 @@ use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::fold;
 use crate::model::{
-    BinaryOperator, ELEMENTARY, Expression, ExpressionKind, Root, Step, Type, Value,
+    BinaryOperator, ELEMENTARY, Expression, ExpressionKind, Function, Range, Root, Step, Type,
+    Value,
 };
 use crate::tree::{self, UnaryOperator};
 
@@ -70,6 +71,42 @@ impl Checker<'_> {
 
     /// An expression of a type.
     pub(super) fn value_of(&mut self, text: &tree::Expression, wanted: &Type) -> Expression {
+        let Type::Range(range) = wanted else { return self.plain_value_of(text, wanted) };
+        let found = self.plain_value_of(text, &range.of);
+        match found.kind {
+            _ if found.of_type == Type::Invalid => found,
+            ExpressionKind::Constant(Value::Int(value)) => {
+                if !has(wanted, value) {
+                    let (low, high) = (range.low, range.high);
+                    let message = format!("{value}: this is {low} to {high} only");
+                    self.error(Code::ConstantRange, text.span, message);
+                }
+                found
+            }
+            _ => self.limited(found, range),
+        }
+    }
+
+    /// The nearest value of a part of a type's numbers.
+    fn limited(&mut self, value: Expression, range: &Range) -> Expression {
+        let span = value.span;
+        let bound = |bound: i64| known(Value::Int(bound), range.of.clone(), span);
+        let of_type = range.of.clone();
+        let (least, most) = of_type.range().unwrap_or((range.low, range.high));
+        let mut limited = value;
+        for (is_needed, function, limit) in [
+            (range.low > least, Function::Max, range.low),
+            (range.high < most, Function::Min, range.high),
+        ] {
+            if is_needed {
+                let kind = ExpressionKind::Standard(function, vec![limited, bound(limit)]);
+                limited = Expression { kind, of_type: of_type.clone(), span };
+            }
+        }
+        limited
+    }
+
+    fn plain_value_of(&mut self, text: &tree::Expression, wanted: &Type) -> Expression {
         let found = self.expression(text, Some(wanted));
         let is_product = matches!(
             found.kind,
@@ -226,10 +263,10 @@ impl Checker<'_> {
             self.report(found.help(format!("its outputs are, such as {}.Q", name.text)));
             return invalid(span);
         }
+        let of_type = place.of_type.base().clone();
         if let Some(value) = self.constant_at(&place) {
-            return known(value, place.of_type, span);
+            return known(value, of_type, span);
         }
-        let of_type = place.of_type.clone();
         Expression { kind: ExpressionKind::Read(place), of_type, span }
     }
 
@@ -356,10 +393,7 @@ impl Checker<'_> {
             return invalid(span);
         }
         if operator == BinaryOperator::Power {
-            let message = "** is not there yet";
-            let found = Diagnostic::new(Code::NotThere, span, message);
-            self.report(found.help("x * x, or EXP(y * LN(x)) for a REAL above 0"));
-            return invalid(span);
+            return self.power(left, right, span);
         }
         let is_scaled_time = left.of_type == Type::Time
             && matches!(operator, BinaryOperator::Multiply | BinaryOperator::Divide)
@@ -381,6 +415,25 @@ impl Checker<'_> {
         self.zero_divisor(operator, &right);
         let of_type = if operator.is_comparison() { Type::Bool } else { common };
         self.folded(operator, left, right, of_type, span)
+    }
+
+    /// `x ** y`, of REAL; a known whole exponent of a known number is computed.
+    fn power(&mut self, left: Expression, right: Expression, span: Span) -> Expression {
+        let (left, right) = (self.coerce(left, &Type::Real), self.coerce(right, &Type::Real));
+        let Some(number) = self.library("__POWER") else { return invalid(span) };
+        if left.of_type == Type::Invalid || right.of_type == Type::Invalid {
+            return invalid(span);
+        }
+        if let (
+            ExpressionKind::Constant(Value::Real(base)),
+            ExpressionKind::Constant(Value::Real(exponent)),
+        ) = (&left.kind, &right.kind)
+            && let Some(value) = fold::power(*base, *exponent)
+        {
+            return known(Value::Real(value), Type::Real, span);
+        }
+        let kind = ExpressionKind::Call(number, vec![left, right]);
+        Expression { kind, of_type: Type::Real, span }
     }
 
     pub(super) fn convert_if(&mut self, found: Expression, to: &Type) -> Expression {
@@ -427,7 +480,7 @@ impl Checker<'_> {
     }
 
     /// A function of the library, by the number of its unit.
-    fn library(&self, name: &str) -> Option<usize> {
+    pub(super) fn library(&self, name: &str) -> Option<usize> {
         self.program.units.iter().position(|unit| unit.file.is_none() && unit.name == name)
     }
 

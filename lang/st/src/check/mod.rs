@@ -20,7 +20,7 @@ pub(crate) use recursion::{each_expression, inside};
 
 use crate::around::Around;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{Program, Type, Unit, UnitKind, Variable};
+use crate::model::{Program, Type, Unit, UnitKind, Value, Variable};
 use crate::parser;
 use crate::tree;
 
@@ -35,6 +35,7 @@ pub(crate) fn check(
         around,
         program: Program::default(),
         types: HashMap::new(),
+        type_initials: HashMap::new(),
         type_texts: HashMap::new(),
         unit_names: HashMap::new(),
         diagnostics: Vec::new(),
@@ -72,6 +73,8 @@ pub(crate) struct Checker<'a> {
     pub(crate) program: Program,
     /// Types by name, upper case; `None` while one is being read.
     types: HashMap<String, Option<Type>>,
+    /// The initial values of variables of these types.
+    type_initials: HashMap<String, Value>,
     type_texts: HashMap<String, (Option<usize>, &'a tree::TypeDeclaration)>,
     /// Units by name, upper case.
     unit_names: HashMap<String, usize>,

@@ -164,7 +164,7 @@ impl Checker<'_> {
         let place = self.target(&one.variable);
         let kind = place.as_ref().map_or(Type::Int, |place| place.of_type.clone());
         let is_plain = place.as_ref().is_none_or(|place| place.steps.is_empty());
-        if !kind.is_whole() || !is_plain {
+        if !kind.base().is_whole() || !is_plain {
             let message = "a loop counts with a variable of whole numbers, such as INT";
             self.error(Code::Loop, one.variable.span, message);
         }
@@ -172,7 +172,7 @@ impl Checker<'_> {
         let to = self.value_of(&one.to, &kind);
         let by = match &one.by {
             None => 1,
-            Some(by) => match self.constant(by, &step_type(&kind)) {
+            Some(by) => match self.constant(by, &step_type(kind.base())) {
                 Some(Value::Int(0)) => {
                     self.error(Code::Loop, by.span, "with the step 0 the loop never ends");
                     1
@@ -193,7 +193,7 @@ impl Checker<'_> {
             _ => None,
         };
         let body = self.in_loop(control, &one.body);
-        let variable = place.filter(|_| kind.is_whole())?;
+        let variable = place.filter(|_| kind.base().is_whole())?;
         Some(StatementKind::For(Box::new(ForLoop { variable, from, to, by, body })))
     }
 }

@@ -69,14 +69,7 @@ impl Generator<'_> {
     ) {
         let left = self.writer.temporary(Storage::Word);
         self.word_of(kind, to, &left);
-        let right = match known {
-            Some(value) => value.to_string(),
-            None => {
-                let word = self.writer.temporary(Storage::Word);
-                self.word_of(kind, operand, &word);
-                word
-            }
-        };
+        let right = self.longer(known, Storage::Word, |one, to| one.word_of(kind, operand, to));
         self.compute(operator, Storage::Word, &left, &right);
         if *kind == Type::Usint {
             // What is no byte changes nothing.
@@ -101,14 +94,7 @@ impl Generator<'_> {
     ) {
         let left = self.writer.temporary(Storage::Double);
         self.double_of(to, &left);
-        let right = match known {
-            Some(value) => value.to_string(),
-            None => {
-                let double = self.writer.temporary(Storage::Double);
-                self.double_of(operand, &double);
-                double
-            }
-        };
+        let right = self.longer(known, Storage::Double, |one, to| one.double_of(operand, to));
         self.compute(operator, Storage::Double, &left, &right);
         // A product above a DINT leaves the left operand, which fits.
         let fits = if operator == BinaryOperator::Multiply { 65_535 } else { i32::MAX };
@@ -116,6 +102,21 @@ impl Generator<'_> {
         self.writer.boxed_here("MOVD", &format!("{left}, AC0"));
         self.writer.boxed_here("MOVW", &format!("AC0, {to}"));
         self.writer.forget();
+    }
+
+    /// The right operand: a constant, or a temporary that it is written to.
+    fn longer(
+        &mut self,
+        known: Option<i64>,
+        storage: Storage,
+        write: impl FnOnce(&mut Self, &str),
+    ) -> String {
+        if let Some(value) = known {
+            return value.to_string();
+        }
+        let to = self.writer.temporary(storage);
+        write(self, &to);
+        to
     }
 
     /// A word without sign as a double word.

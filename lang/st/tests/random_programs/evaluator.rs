@@ -1,13 +1,13 @@
 //! A naive evaluator of the syntax tree, written from docs/structured-text.md alone: it looks up
 //! every name and every type when it gets there. It uses nothing of the compiler but the parser.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::values::{Kind, Value, as_type, binary, convert, shift, unary, whole};
 use st::tree::{
     Argument, BinaryOperator, CaseArm, Expression, ExpressionKind, File, Name, Section,
-    SectionKind, Selector, Statement, StatementKind, TypeText, TypeTextKind, UnaryOperator, Unit,
-    UnitKind,
+    SectionKind, Selector, Statement, StatementKind, TypeDeclaration, TypeText, TypeTextKind,
+    UnaryOperator, Unit, UnitKind,
 };
 
 /// What a statement leaves.
@@ -25,6 +25,10 @@ pub struct Evaluator {
     pub values: HashMap<String, Value>,
     /// Bounds of arrays by their full name.
     bounds: HashMap<String, Vec<(i64, i64)>>,
+    /// Arrays and structures.
+    wholes: HashSet<String>,
+    /// Variables that have only some of the numbers of their type.
+    ranges: HashMap<String, (i64, i64)>,
     /// The types of instances by their full name.
     instances: HashMap<String, String>,
     /// Enumerations: their values by name.
@@ -45,6 +49,8 @@ impl Evaluator {
             file: file.clone(),
             values: HashMap::new(),
             bounds: HashMap::new(),
+            wholes: HashSet::new(),
+            ranges: HashMap::new(),
             instances: HashMap::new(),
             enumerators: HashMap::new(),
             since: HashMap::new(),
@@ -89,8 +95,15 @@ impl Evaluator {
                     self.values.insert(full.to_owned(), as_type(value, &name));
                     return;
                 }
-                if self.enumeration(&name) {
-                    self.values.insert(full.to_owned(), Value::Number(Kind::Int, 0));
+                if let Some(declared) = self.type_declaration(&name) {
+                    if let TypeTextKind::Enumeration(_) = declared.of_type.kind {
+                        self.values.insert(full.to_owned(), Value::Number(Kind::Int, 0));
+                        return;
+                    }
+                    self.declare_one(full, &declared.of_type, declared.initial.as_ref());
+                    if let Some(initial) = initial {
+                        self.start(full, initial);
+                    }
                     return;
                 }
                 self.instances.insert(full.to_owned(), name.clone());
@@ -110,16 +123,65 @@ impl Evaluator {
                     .collect();
                 let count: i64 = known.iter().map(|(low, high)| high - low + 1).product();
                 self.bounds.insert(full.to_owned(), known);
+                self.wholes.insert(full.to_owned());
                 for at in 0..count {
                     self.declare_one(&format!("{full}[{at}]"), of, None);
+                }
+                if let Some(initial) = initial {
+                    self.start(full, initial);
+                }
+            }
+            TypeTextKind::Range(name, bounds) => {
+                let (low, high) = (number(&bounds.0.kind), number(&bounds.1.kind));
+                let kind = Kind::of(&upper(name)).expect("whole numbers");
+                self.ranges.insert(full.to_owned(), (low, high));
+                self.values.insert(full.to_owned(), Value::Number(kind, low));
+                if let Some(initial) = initial {
+                    self.start(full, initial);
+                }
+            }
+            TypeTextKind::Struct(members) => {
+                self.wholes.insert(full.to_owned());
+                for member in members {
+                    for name in &member.names {
+                        let full = join(full, &name.text);
+                        self.declare_one(&full, &member.of_type, member.initial.as_ref());
+                    }
+                }
+                if let Some(initial) = initial {
+                    self.start(full, initial);
                 }
             }
             other => panic!("not evaluated: {other:?}"),
         }
     }
 
-    fn enumeration(&self, name: &str) -> bool {
-        self.file.types.iter().any(|declared| upper(&declared.name.text) == name)
+    fn type_declaration(&self, name: &str) -> Option<TypeDeclaration> {
+        self.file.types.iter().find(|declared| upper(&declared.name.text) == name).cloned()
+    }
+
+    /// Writes an initial value over what a variable is by its type.
+    fn start(&mut self, full: &str, initial: &Expression) {
+        match &initial.kind {
+            ExpressionKind::List(list) => {
+                let mut at = 0;
+                for (count, value) in list {
+                    for _ in 0..*count {
+                        self.start(&format!("{full}[{at}]"), value);
+                        at += 1;
+                    }
+                }
+            }
+            ExpressionKind::Members(members) => {
+                for (name, value) in members {
+                    self.start(&join(full, &name.text), value);
+                }
+            }
+            _ => {
+                let value = self.expression(initial, "");
+                self.write(full, value);
+            }
+        }
     }
 
     fn unit(&self, name: &str) -> Option<Unit> {
@@ -166,8 +228,13 @@ impl Evaluator {
     fn statement(&mut self, statement: &Statement, prefix: &str) -> Flow {
         match &statement.kind {
             StatementKind::Assign(target, value) => {
-                let value = self.expression(value, prefix);
                 let place = self.place(target, prefix);
+                if self.wholes.contains(&place) {
+                    let from = self.place(value, prefix);
+                    self.copy_whole(&from, &place);
+                    return Flow::On;
+                }
+                let value = self.expression(value, prefix);
                 self.write(&place, value);
             }
             StatementKind::Call(target, arguments) => self.call(target, arguments, prefix),
@@ -238,6 +305,7 @@ impl Evaluator {
         let to = whole(self.expression(&one.to, prefix));
         let by = one.by.as_ref().map_or(1, |by| whole(self.expression(by, prefix)));
         let place = self.place(&one.variable, prefix);
+        let to = self.ranges.get(&place).map_or(to, |&(low, high)| to.clamp(low, high));
         self.write(&place, from);
         let is_past = |value: i64| if by > 0 { value > to } else { value < to };
         if is_past(whole(self.values[&place])) {
@@ -269,6 +337,7 @@ impl Evaluator {
         let local = join(prefix, &name.text);
         let is_local = self.values.contains_key(&local)
             || self.bounds.contains_key(&local)
+            || self.wholes.contains(&local)
             || self.instances.contains_key(&local);
         let mut full = if is_local { local } else { upper(&name.text) };
         for selector in selectors {
@@ -288,7 +357,24 @@ impl Evaluator {
         full
     }
 
+    /// All that is in a structure or array.
+    fn copy_whole(&mut self, from: &str, to: &str) {
+        let inside = |name: &String| {
+            let rest = name.strip_prefix(from)?;
+            rest.starts_with(['.', '[']).then(|| rest.to_owned())
+        };
+        let all: Vec<String> = self.values.keys().filter_map(inside).collect();
+        for rest in all {
+            let value = self.values[&format!("{from}{rest}")];
+            self.write(&format!("{to}{rest}"), value);
+        }
+    }
+
     fn write(&mut self, place: &str, value: Value) {
+        let value = match self.ranges.get(place) {
+            Some(&(low, high)) => Value::Open(whole(value).clamp(low, high)),
+            None => value,
+        };
         let slot = self.values.get_mut(place).unwrap_or_else(|| panic!("no {place}"));
         *slot = match (*slot, value) {
             (Value::Number(kind, _), Value::Number(_, value) | Value::Open(value)) => {
