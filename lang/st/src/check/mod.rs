@@ -6,13 +6,17 @@ mod constants;
 mod declarations;
 mod expressions;
 mod functions;
+mod loops;
 mod names;
+mod operators;
 mod places;
 mod recursion;
 mod statements;
 mod types;
+mod unwritten;
 
 use std::collections::HashMap;
+use std::sync::OnceLock;
 
 use diagnostics::{Source, Span};
 
@@ -30,7 +34,7 @@ pub(crate) fn check(
     files: &[tree::File],
     around: &Around,
 ) -> (Program, Vec<(usize, Diagnostic)>) {
-    let library = library();
+    let library = LIBRARY.get_or_init(library);
     let mut checker = Checker {
         around,
         program: Program::default(),
@@ -56,9 +60,13 @@ pub(crate) fn check(
     checker.bodies(&all);
     checker.recursion();
     checker.written_in_two_programs();
+    checker.read_before_written();
     let Checker { program, diagnostics, .. } = checker;
     (program, diagnostics)
 }
+
+/// The tree of [`library`], read once.
+static LIBRARY: OnceLock<[tree::File; 2]> = OnceLock::new();
 
 /// The standard blocks, and functions that no instruction computes.
 fn library() -> [tree::File; 2] {

@@ -45,11 +45,15 @@ impl Checker<'_> {
             Kind::For(one) => self.for_loop(one),
             Kind::While(condition, body) => {
                 let condition = self.condition(condition);
-                Some(StatementKind::While(condition, self.in_loop(None, body)))
+                let body = self.in_loop(None, body);
+                self.never_ends(&condition, true, &body);
+                Some(StatementKind::While(condition, body))
             }
             Kind::Repeat(body, condition) => {
                 let body = self.in_loop(None, body);
-                Some(StatementKind::Repeat(body, self.condition(condition)))
+                let condition = self.condition(condition);
+                self.never_ends(&condition, false, &body);
+                Some(StatementKind::Repeat(body, condition))
             }
             Kind::Exit => self.leave(StatementKind::Exit, "EXIT", statement.span),
             Kind::Continue => self.leave(StatementKind::Continue, "CONTINUE", statement.span),
@@ -118,11 +122,25 @@ impl Checker<'_> {
         for arm in arms {
             let mut labels = Vec::new();
             for (first, last) in &arm.labels {
-                labels.extend(self.label(first, last.as_ref(), &kind, fits, &mut taken));
+                let label = self.label(first, last.as_ref(), &kind, fits, &mut taken);
+                if let Some(label) = label {
+                    self.never_chosen(label, &selector, first.span);
+                    labels.push(label);
+                }
             }
             known.push((labels, self.statements(&arm.body)));
         }
         StatementKind::Case(selector, known, self.statements(otherwise))
+    }
+
+    /// Reports a label that a variable with a part of its type's numbers never has.
+    fn never_chosen(&mut self, (low, high): (i64, i64), selector: &Expression, span: Span) {
+        let ExpressionKind::Read(place) = &selector.kind else { return };
+        let Some((least, most)) = place.of_type.range() else { return };
+        if high < least || low > most {
+            let message = format!("nothing gets here: this is {least} to {most} only");
+            self.error(Code::NeverReached, span, message);
+        }
     }
 
     fn label(
