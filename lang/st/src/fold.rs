@@ -61,7 +61,8 @@ fn real(operator: BinaryOperator, a: f32, b: f32) -> Value {
     Value::Real(if executed.is_finite() { executed } else { a })
 }
 
-/// `base ** exponent` where the exponent is a whole number up to 64; the base where there is no result.
+/// `base ** exponent` where the exponent is a whole number up to 64; the base where there is no
+/// result.
 pub(crate) fn power(base: f32, exponent: f32) -> Option<f32> {
     let count = exponent.abs();
     if count.fract() != 0.0 || count > 64.0 {

@@ -25,8 +25,8 @@ impl Checker<'_> {
             self.file = file;
             let message = format!("{name}: is read before anything is written to it");
             let found = Diagnostic::new(Code::ReadUnwritten, span, message);
-            let help = "it begins anew in each call: VAR of a FUNCTION_BLOCK or PROGRAM keeps its value, an \
-                        initial value says that this is meant";
+            let help = "it begins anew in each call: VAR of a FUNCTION_BLOCK or PROGRAM keeps its \
+                        value, an initial value says that this is meant";
             self.report(found.help(help));
         }
     }

@@ -6,8 +6,7 @@ use std::collections::{HashMap, HashSet};
 use super::values::{Kind, Value, as_type, binary, convert, shift, unary, whole};
 use st::tree::{
     Argument, BinaryOperator, CaseArm, Expression, ExpressionKind, File, Name, Section,
-    SectionKind, Selector, Statement, StatementKind, TypeDeclaration, TypeText, TypeTextKind,
-    UnaryOperator, Unit, UnitKind,
+    SectionKind, Selector, Statement, StatementKind, TypeTextKind, UnaryOperator, Unit, UnitKind,
 };
 
 /// What a statement leaves.
@@ -20,17 +19,17 @@ enum Flow {
 
 /// A program that is being evaluated.
 pub struct Evaluator {
-    file: File,
+    pub(super) file: File,
     /// Variables by their full name, upper case.
     pub values: HashMap<String, Value>,
     /// Bounds of arrays by their full name.
-    bounds: HashMap<String, Vec<(i64, i64)>>,
+    pub(super) bounds: HashMap<String, Vec<(i64, i64)>>,
     /// Arrays and structures.
-    wholes: HashSet<String>,
+    pub(super) wholes: HashSet<String>,
     /// Variables that have only some of the numbers of their type.
-    ranges: HashMap<String, (i64, i64)>,
+    pub(super) ranges: HashMap<String, (i64, i64)>,
     /// The types of instances by their full name.
-    instances: HashMap<String, String>,
+    pub(super) instances: HashMap<String, String>,
     /// Enumerations: their values by name.
     enumerators: HashMap<String, i64>,
     /// For timers and edges: what they remember, by instance.
@@ -39,7 +38,7 @@ pub struct Evaluator {
     now: u64,
 }
 
-fn upper(text: &str) -> String {
+pub(super) fn upper(text: &str) -> String {
     text.to_uppercase()
 }
 
@@ -77,7 +76,7 @@ impl Evaluator {
         evaluator
     }
 
-    fn declare(&mut self, section: &Section, prefix: &str) {
+    pub(super) fn declare(&mut self, section: &Section, prefix: &str) {
         for declared in &section.declarations {
             for name in &declared.names {
                 let full = join(prefix, &name.text);
@@ -86,105 +85,7 @@ impl Evaluator {
         }
     }
 
-    fn declare_one(&mut self, full: &str, text: &TypeText, initial: Option<&Expression>) {
-        match &text.kind {
-            TypeTextKind::Named(name) => {
-                let name = upper(name);
-                if name == "BOOL" || name == "REAL" || Kind::of(&name).is_some() {
-                    let value = initial.map_or(Value::Open(0), |one| self.expression(one, ""));
-                    self.values.insert(full.to_owned(), as_type(value, &name));
-                    return;
-                }
-                if let Some(declared) = self.type_declaration(&name) {
-                    if let TypeTextKind::Enumeration(_) = declared.of_type.kind {
-                        self.values.insert(full.to_owned(), Value::Number(Kind::Int, 0));
-                        return;
-                    }
-                    self.declare_one(full, &declared.of_type, declared.initial.as_ref());
-                    if let Some(initial) = initial {
-                        self.start(full, initial);
-                    }
-                    return;
-                }
-                self.instances.insert(full.to_owned(), name.clone());
-                for (parameter, kind) in standard_variables(&name) {
-                    let value = as_type(Value::Open(0), kind);
-                    self.values.insert(format!("{full}.{parameter}"), value);
-                }
-                let unit = self.unit(&name);
-                for section in unit.iter().flat_map(|unit| &unit.sections) {
-                    self.declare(section, full);
-                }
-            }
-            TypeTextKind::Array(bounds, of) => {
-                let known: Vec<(i64, i64)> = bounds
-                    .iter()
-                    .map(|(low, high)| (number(&low.kind), number(&high.kind)))
-                    .collect();
-                let count: i64 = known.iter().map(|(low, high)| high - low + 1).product();
-                self.bounds.insert(full.to_owned(), known);
-                self.wholes.insert(full.to_owned());
-                for at in 0..count {
-                    self.declare_one(&format!("{full}[{at}]"), of, None);
-                }
-                if let Some(initial) = initial {
-                    self.start(full, initial);
-                }
-            }
-            TypeTextKind::Range(name, bounds) => {
-                let (low, high) = (number(&bounds.0.kind), number(&bounds.1.kind));
-                let kind = Kind::of(&upper(name)).expect("whole numbers");
-                self.ranges.insert(full.to_owned(), (low, high));
-                self.values.insert(full.to_owned(), Value::Number(kind, low));
-                if let Some(initial) = initial {
-                    self.start(full, initial);
-                }
-            }
-            TypeTextKind::Struct(members) => {
-                self.wholes.insert(full.to_owned());
-                for member in members {
-                    for name in &member.names {
-                        let full = join(full, &name.text);
-                        self.declare_one(&full, &member.of_type, member.initial.as_ref());
-                    }
-                }
-                if let Some(initial) = initial {
-                    self.start(full, initial);
-                }
-            }
-            other => panic!("not evaluated: {other:?}"),
-        }
-    }
-
-    fn type_declaration(&self, name: &str) -> Option<TypeDeclaration> {
-        self.file.types.iter().find(|declared| upper(&declared.name.text) == name).cloned()
-    }
-
-    /// Writes an initial value over what a variable is by its type.
-    fn start(&mut self, full: &str, initial: &Expression) {
-        match &initial.kind {
-            ExpressionKind::List(list) => {
-                let mut at = 0;
-                for (count, value) in list {
-                    for _ in 0..*count {
-                        self.start(&format!("{full}[{at}]"), value);
-                        at += 1;
-                    }
-                }
-            }
-            ExpressionKind::Members(members) => {
-                for (name, value) in members {
-                    self.start(&join(full, &name.text), value);
-                }
-            }
-            _ => {
-                let value = self.expression(initial, "");
-                self.write(full, value);
-            }
-        }
-    }
-
-    fn unit(&self, name: &str) -> Option<Unit> {
+    pub(super) fn unit(&self, name: &str) -> Option<Unit> {
         self.file.units.iter().find(|unit| upper(&unit.name.text) == name).cloned()
     }
 
@@ -357,20 +258,7 @@ impl Evaluator {
         full
     }
 
-    /// All that is in a structure or array.
-    fn copy_whole(&mut self, from: &str, to: &str) {
-        let inside = |name: &String| {
-            let rest = name.strip_prefix(from)?;
-            rest.starts_with(['.', '[']).then(|| rest.to_owned())
-        };
-        let all: Vec<String> = self.values.keys().filter_map(inside).collect();
-        for rest in all {
-            let value = self.values[&format!("{from}{rest}")];
-            self.write(&format!("{to}{rest}"), value);
-        }
-    }
-
-    fn write(&mut self, place: &str, value: Value) {
+    pub(super) fn write(&mut self, place: &str, value: Value) {
         let value = match self.ranges.get(place) {
             Some(&(low, high)) => Value::Open(whole(value).clamp(low, high)),
             None => value,
@@ -529,7 +417,7 @@ impl Evaluator {
         self.set(instance, "ET", Value::Open(elapsed));
     }
 
-    fn expression(&mut self, expression: &Expression, prefix: &str) -> Value {
+    pub(super) fn expression(&mut self, expression: &Expression, prefix: &str) -> Value {
         match &expression.kind {
             ExpressionKind::Integer(value) => Value::Open(*value),
             ExpressionKind::Real(value) => Value::Real(*value),
@@ -614,14 +502,14 @@ impl Evaluator {
     }
 }
 
-fn join(prefix: &str, name: &str) -> String {
+pub(super) fn join(prefix: &str, name: &str) -> String {
     match prefix {
         "" => upper(name),
         prefix => format!("{prefix}.{}", upper(name)),
     }
 }
 
-fn standard_variables(name: &str) -> &'static [(&'static str, &'static str)] {
+pub(super) fn standard_variables(name: &str) -> &'static [(&'static str, &'static str)] {
     match name {
         "TON" | "TOF" | "TP" => &[("IN", "BOOL"), ("PT", "TIME"), ("Q", "BOOL"), ("ET", "TIME")],
         "CTU" => &[("CU", "BOOL"), ("R", "BOOL"), ("PV", "INT"), ("Q", "BOOL"), ("CV", "INT")],
@@ -630,7 +518,7 @@ fn standard_variables(name: &str) -> &'static [(&'static str, &'static str)] {
     }
 }
 
-fn number(kind: &ExpressionKind) -> i64 {
+pub(super) fn number(kind: &ExpressionKind) -> i64 {
     match kind {
         ExpressionKind::Integer(value) => *value,
         other => panic!("no number: {other:?}"),
