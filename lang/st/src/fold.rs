@@ -61,6 +61,18 @@ fn real(operator: BinaryOperator, a: f32, b: f32) -> Value {
     Value::Real(if executed.is_finite() { executed } else { a })
 }
 
+/// `base ** exponent` where the exponent is a whole number up to 64; the base where there is no
+/// result.
+pub(crate) fn power(base: f32, exponent: f32) -> Option<f32> {
+    let count = exponent.abs();
+    if count.fract() != 0.0 || count > 64.0 {
+        return None;
+    }
+    let product = (0..count as u32).fold(1.0, |product, _| product * f64::from(base));
+    let result = (if exponent < 0.0 { 1.0 / product } else { product }) as f32;
+    Some(if result.is_finite() { result } else { base })
+}
+
 /// The opposite number; the same where there is none.
 pub(crate) fn negate(kind: &Type, value: &Value) -> Value {
     match value {

@@ -36,6 +36,8 @@ pub enum Type {
     Time,
     /// One of several names, stored as INT.
     Enumeration(Arc<Enumeration>),
+    /// Part of the whole numbers of a type. Places alone have it: a value is of the type itself.
+    Range(Arc<Range>),
     /// Elements of one type.
     Array(Arc<Array>),
     /// Members.
@@ -55,13 +57,33 @@ pub struct Enumeration {
     pub values: Vec<(String, i64)>,
 }
 
-/// An array type.
+/// Part of the whole numbers of a type.
 #[derive(Debug, PartialEq)]
+pub struct Range {
+    /// The type.
+    pub of: Type,
+    /// The lowest value.
+    pub low: i64,
+    /// The highest value.
+    pub high: i64,
+}
+
+/// An array type.
+#[derive(Debug)]
 pub struct Array {
     /// Lowest and highest index of each dimension.
     pub bounds: Vec<(i64, i64)>,
     /// The type of the elements.
     pub of: Type,
+    /// The initial value of each.
+    pub initial: Value,
+}
+
+impl PartialEq for Array {
+    /// Initial values make no other type.
+    fn eq(&self, other: &Self) -> bool {
+        self.bounds == other.bounds && self.of == other.of
+    }
 }
 
 /// A structure type.
@@ -119,6 +141,7 @@ impl fmt::Display for Type {
             Type::Enumeration(kind) => f.write_str(&kind.name),
             Type::Struct(kind) => f.write_str(&kind.name),
             Type::Block(_, name) => f.write_str(name),
+            Type::Range(range) => write!(f, "{}({}..{})", range.of, range.low, range.high),
             Type::Array(array) => {
                 f.write_str("ARRAY[")?;
                 for (number, (low, high)) in array.bounds.iter().enumerate() {
@@ -136,6 +159,14 @@ impl fmt::Display for Type {
 }
 
 impl Type {
+    /// The type of the values: of a part of a type's numbers that type.
+    pub fn base(&self) -> &Type {
+        match self {
+            Type::Range(range) => &range.of,
+            _ => self,
+        }
+    }
+
     /// The lowest and highest value of a type with whole numbers; of bit strings without sign.
     pub fn range(&self) -> Option<(i64, i64)> {
         match self {
@@ -146,6 +177,7 @@ impl Type {
             Type::Sint => Some((i8::MIN.into(), i8::MAX.into())),
             Type::Int => Some((i16::MIN.into(), i16::MAX.into())),
             Type::Dint | Type::Time => Some((i32::MIN.into(), i32::MAX.into())),
+            Type::Range(range) => Some((range.low, range.high)),
             _ => None,
         }
     }
@@ -203,6 +235,7 @@ impl Type {
             Type::Word | Type::Int | Type::Uint | Type::Enumeration(_) => 2,
             Type::Array(array) => (array.count() as i64).saturating_mul(array.of.bytes()),
             Type::Struct(kind) => kind.members.iter().map(|one| one.of_type.bytes()).sum(),
+            Type::Range(range) => range.of.bytes(),
             _ => 4,
         }
     }
@@ -213,7 +246,8 @@ impl Type {
             Type::Bool => Value::Bool(false),
             Type::Real => Value::Real(0.0),
             Type::Enumeration(kind) => Value::Int(kind.values.first().map_or(0, |(_, n)| *n)),
-            Type::Array(array) => Value::List(vec![array.of.initial(); array.count()]),
+            Type::Range(range) => Value::Int(range.low),
+            Type::Array(array) => Value::List(vec![array.initial.clone(); array.count()]),
             Type::Struct(kind) => {
                 Value::List(kind.members.iter().map(|member| member.initial.clone()).collect())
             }

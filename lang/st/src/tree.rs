@@ -124,8 +124,8 @@ pub enum TypeTextKind {
     Named(String),
     /// `STRING[20]`
     Text,
-    /// `INT (0..10)`
-    Range,
+    /// `INT (0..10)`: the type, the lowest and the highest value.
+    Range(String, Box<(Expression, Expression)>),
     /// `ARRAY[1..3] OF T`
     Array(Vec<(Expression, Expression)>, Box<TypeText>),
     /// `STRUCT ... END_STRUCT`

@@ -45,11 +45,15 @@ impl Checker<'_> {
             Kind::For(one) => self.for_loop(one),
             Kind::While(condition, body) => {
                 let condition = self.condition(condition);
-                Some(StatementKind::While(condition, self.in_loop(None, body)))
+                let body = self.in_loop(None, body);
+                self.never_ends(&condition, true, &body);
+                Some(StatementKind::While(condition, body))
             }
             Kind::Repeat(body, condition) => {
                 let body = self.in_loop(None, body);
-                Some(StatementKind::Repeat(body, self.condition(condition)))
+                let condition = self.condition(condition);
+                self.never_ends(&condition, false, &body);
+                Some(StatementKind::Repeat(body, condition))
             }
             Kind::Exit => self.leave(StatementKind::Exit, "EXIT", statement.span),
             Kind::Continue => self.leave(StatementKind::Continue, "CONTINUE", statement.span),
@@ -118,11 +122,25 @@ impl Checker<'_> {
         for arm in arms {
             let mut labels = Vec::new();
             for (first, last) in &arm.labels {
-                labels.extend(self.label(first, last.as_ref(), &kind, fits, &mut taken));
+                let label = self.label(first, last.as_ref(), &kind, fits, &mut taken);
+                if let Some(label) = label {
+                    self.never_chosen(label, &selector, first.span);
+                    labels.push(label);
+                }
             }
             known.push((labels, self.statements(&arm.body)));
         }
         StatementKind::Case(selector, known, self.statements(otherwise))
+    }
+
+    /// Reports a label that a variable with a part of its type's numbers never has.
+    fn never_chosen(&mut self, (low, high): (i64, i64), selector: &Expression, span: Span) {
+        let ExpressionKind::Read(place) = &selector.kind else { return };
+        let Some((least, most)) = place.of_type.range() else { return };
+        if high < least || low > most {
+            let message = format!("nothing gets here: this is {least} to {most} only");
+            self.error(Code::NeverReached, span, message);
+        }
     }
 
     fn label(
@@ -164,7 +182,7 @@ impl Checker<'_> {
         let place = self.target(&one.variable);
         let kind = place.as_ref().map_or(Type::Int, |place| place.of_type.clone());
         let is_plain = place.as_ref().is_none_or(|place| place.steps.is_empty());
-        if !kind.is_whole() || !is_plain {
+        if !kind.base().is_whole() || !is_plain {
             let message = "a loop counts with a variable of whole numbers, such as INT";
             self.error(Code::Loop, one.variable.span, message);
         }
@@ -172,7 +190,7 @@ impl Checker<'_> {
         let to = self.value_of(&one.to, &kind);
         let by = match &one.by {
             None => 1,
-            Some(by) => match self.constant(by, &step_type(&kind)) {
+            Some(by) => match self.constant(by, &step_type(kind.base())) {
                 Some(Value::Int(0)) => {
                     self.error(Code::Loop, by.span, "with the step 0 the loop never ends");
                     1
@@ -193,7 +211,7 @@ impl Checker<'_> {
             _ => None,
         };
         let body = self.in_loop(control, &one.body);
-        let variable = place.filter(|_| kind.is_whole())?;
+        let variable = place.filter(|_| kind.base().is_whole())?;
         Some(StatementKind::For(Box::new(ForLoop { variable, from, to, by, body })))
     }
 }

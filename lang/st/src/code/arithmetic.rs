@@ -8,6 +8,17 @@ use super::values::known;
 use super::writer::Storage;
 use crate::model::{BinaryOperator, Expression, Type, Value};
 
+/// `to := to op operand`, where `to` holds the left operand.
+#[derive(Clone, Copy)]
+struct Operation<'a> {
+    operator: BinaryOperator,
+    kind: &'a Type,
+    /// The value of the right operand, if that is a constant.
+    known: Option<i64>,
+    operand: &'a str,
+    to: &'a str,
+}
+
 impl Generator<'_> {
     /// `to := to op operand`, where `to` holds the left operand; `right` is what the operand is.
     pub(super) fn operate(
@@ -20,16 +31,17 @@ impl Generator<'_> {
         let kind = &right.of_type;
         let known = known(right);
         let is_sum = matches!(operator, BinaryOperator::Add | BinaryOperator::Subtract);
+        let operation = Operation { operator, kind, known, operand, to };
         match kind {
-            _ if is_sum && known == Some(1) => self.step(operator, kind, to),
-            Type::Sint | Type::Usint => self.by_words(operator, kind, known, operand, to),
-            _ if is_sum => self.without_sign(operator, kind, known, operand, to),
-            _ => self.by_double_words(operator, known, operand, to),
+            _ if is_sum && known == Some(1) => self.step(operation),
+            Type::Sint | Type::Usint => self.by_words(operation),
+            _ if is_sum => self.without_sign(operation),
+            _ => self.by_double_words(operation),
         }
     }
 
     /// One more or less, unless that is none of the type.
-    fn step(&mut self, operator: BinaryOperator, kind: &Type, to: &str) {
+    fn step(&mut self, Operation { operator, kind, to, .. }: Operation) {
         let Some((low, high)) = kind.range() else { return };
         let (last, word) = match operator {
             BinaryOperator::Add => (high, "INC"),
@@ -59,24 +71,10 @@ impl Generator<'_> {
     }
 
     /// SINT and USINT are computed as INT.
-    fn by_words(
-        &mut self,
-        operator: BinaryOperator,
-        kind: &Type,
-        known: Option<i64>,
-        operand: &str,
-        to: &str,
-    ) {
+    fn by_words(&mut self, Operation { operator, kind, known, operand, to }: Operation) {
         let left = self.writer.temporary(Storage::Word);
         self.word_of(kind, to, &left);
-        let right = match known {
-            Some(value) => value.to_string(),
-            None => {
-                let word = self.writer.temporary(Storage::Word);
-                self.word_of(kind, operand, &word);
-                word
-            }
-        };
+        let right = self.longer(known, Storage::Word, |one, to| one.word_of(kind, operand, to));
         self.compute(operator, Storage::Word, &left, &right);
         if *kind == Type::Usint {
             // What is no byte changes nothing.
@@ -92,23 +90,10 @@ impl Generator<'_> {
     }
 
     /// `* / MOD` of UINT are computed as DINT.
-    fn by_double_words(
-        &mut self,
-        operator: BinaryOperator,
-        known: Option<i64>,
-        operand: &str,
-        to: &str,
-    ) {
+    fn by_double_words(&mut self, Operation { operator, known, operand, to, .. }: Operation) {
         let left = self.writer.temporary(Storage::Double);
         self.double_of(to, &left);
-        let right = match known {
-            Some(value) => value.to_string(),
-            None => {
-                let double = self.writer.temporary(Storage::Double);
-                self.double_of(operand, &double);
-                double
-            }
-        };
+        let right = self.longer(known, Storage::Double, |one, to| one.double_of(operand, to));
         self.compute(operator, Storage::Double, &left, &right);
         // A product above a DINT leaves the left operand, which fits.
         let fits = if operator == BinaryOperator::Multiply { 65_535 } else { i32::MAX };
@@ -116,6 +101,21 @@ impl Generator<'_> {
         self.writer.boxed_here("MOVD", &format!("{left}, AC0"));
         self.writer.boxed_here("MOVW", &format!("AC0, {to}"));
         self.writer.forget();
+    }
+
+    /// The right operand: a constant, or a temporary that it is written to.
+    fn longer(
+        &mut self,
+        known: Option<i64>,
+        storage: Storage,
+        write: impl FnOnce(&mut Self, &str),
+    ) -> String {
+        if let Some(value) = known {
+            return value.to_string();
+        }
+        let to = self.writer.temporary(storage);
+        write(self, &to);
+        to
     }
 
     /// A word without sign as a double word.
@@ -149,14 +149,7 @@ impl Generator<'_> {
     /// `+` and `-` of UINT and UDINT. With the highest bit inverted, the left operand is the number
     /// 32768 (2147483648) below it, and overflows where the type does. That is for right operands
     /// in the lower half; those in the upper half have the difference in themselves.
-    fn without_sign(
-        &mut self,
-        operator: BinaryOperator,
-        kind: &Type,
-        known: Option<i64>,
-        operand: &str,
-        to: &str,
-    ) {
+    fn without_sign(&mut self, Operation { operator, kind, known, operand, to }: Operation) {
         let (letter, sign, highest) = match kind {
             Type::Udint => ('D', 'D', "16#80000000"),
             _ => ('W', 'I', "16#8000"),

@@ -235,7 +235,7 @@ impl Generator<'_> {
         let past = if one.by > 0 { ">" } else { "<" };
         let is_entered = enters(one);
         if !is_entered {
-            let kind = (&one.variable.of_type, storage);
+            let kind = (one.variable.of_type.base(), storage);
             self.load(&relation(kind, past, &variable, &to, known(&one.to)));
             self.writer.jump(exit);
             self.writer.forget();
@@ -265,7 +265,7 @@ impl Generator<'_> {
 
     /// Leaves the loop where the next value is past the end, else sets it.
     fn next_pass(&mut self, one: &ForLoop, variable: &str, to: &str, storage: Storage, exit: u16) {
-        let kind = &one.variable.of_type;
+        let kind = one.variable.of_type.base();
         if one.by == 1 || one.by == -1 {
             let at_end = if one.by > 0 { ">=" } else { "<=" };
             self.load(&relation((kind, storage), at_end, variable, to, known(&one.to)));

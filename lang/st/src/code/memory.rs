@@ -9,7 +9,7 @@ use crate::model::{SectionKind, Type, UnitKind, Value, Variable};
 
 /// How a value of an elementary type is stored; `is_short`: a TIME is a word.
 pub(super) fn storage(kind: &Type, is_short: bool) -> Storage {
-    match kind {
+    match kind.base() {
         Type::Bool => Storage::Bit,
         Type::Byte | Type::Sint | Type::Usint => Storage::Byte,
         Type::Time if is_short => Storage::Word,
@@ -21,6 +21,7 @@ pub(super) fn storage(kind: &Type, is_short: bool) -> Storage {
 
 /// The type that a variable has in AWL.
 pub(super) fn type_name(kind: &Type) -> String {
+    let kind = kind.base();
     match kind {
         Type::Sint | Type::Usint => "BYTE".to_owned(),
         Type::Uint => "WORD".to_owned(),
@@ -41,7 +42,7 @@ pub(super) fn safe_name(name: &str) -> String {
 
 /// A constant as AWL writes it.
 pub(super) fn literal(value: &Value, kind: &Type) -> String {
-    match (value, kind) {
+    match (value, kind.base()) {
         (Value::Bool(value), _) => u8::from(*value).to_string(),
         (Value::Int(value), Type::Word) => format!("16#{value:04X}"),
         (Value::Int(value), Type::Uint) if *value > i16::MAX.into() => format!("16#{value:04X}"),

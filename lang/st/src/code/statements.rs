@@ -102,7 +102,8 @@ impl Generator<'_> {
             _ => {
                 let read = ExpressionKind::Read(from.clone());
                 let span = diagnostics::Span::default();
-                self.store(to, &Expression { kind: read, of_type: kind.clone(), span });
+                let of_type = kind.base().clone();
+                self.store(to, &Expression { kind: read, of_type, span });
             }
         }
     }

@@ -223,8 +223,11 @@ impl<'t> Parser<'t> {
 
     /// Reports that a word or sign is missing at the end of what was read.
     fn missing(&mut self, what: &str, opened: Option<(Span, &str)>) {
-        let end = self.previous().end as usize;
-        let start = self.previous().start as usize;
+        self.missing_after(self.previous(), what, opened);
+    }
+
+    fn missing_after(&mut self, before: Span, what: &str, opened: Option<(Span, &str)>) {
+        let (start, end) = (before.start as usize, before.end as usize);
         let before = self.text.get(start..end).and_then(|text| text.char_indices().last());
         let last = start + before.map_or(0, |(at, _)| at);
         let span = Span::new(last, end);

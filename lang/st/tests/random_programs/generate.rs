@@ -33,6 +33,17 @@ fn whole_type(kind: &str) -> (i64, i64, &'static str, &'static [&'static str]) {
     (found.1, found.2, found.3, found.4)
 }
 
+/// Types, with initial values.
+const TYPES: &str = "TYPE
+State : (Idle, Run, Done);
+Part : INT(-5..20) := 3;
+Row : ARRAY[0..3] OF Part := [1, 2(-4)];
+Pair : STRUCT x : INT := 2; y : UINT; z : Part; END_STRUCT;
+Twin : Pair := (y := 7);
+END_TYPE
+VAR_GLOBAL
+";
+
 const EDGES: [i64; 14] = [0, 1, -1, 2, 3, 5, 7, 10, 100, 255, 300, 32767, -32768, 181];
 
 pub struct Generator {
@@ -58,7 +69,7 @@ impl Generator {
     }
 
     fn text(&mut self) -> String {
-        let mut text = String::from("TYPE State : (Idle, Run, Done); END_TYPE\nVAR_GLOBAL\n");
+        let mut text = String::from(TYPES);
         for (kind, names) in VARIABLES {
             let written: Vec<&str> =
                 names.iter().copied().filter(|name| name.starts_with('g')).collect();
@@ -79,6 +90,9 @@ impl Generator {
         for (kind, _, _, counter, _) in WHOLE {
             text += &format!("{counter}1, {counter}2, {counter}3 : {kind};\n");
         }
+        text += "part, counter : Part; low : USINT(10..200); row : Row; row2 : Row := [5];\n";
+        text += "pair : Pair := (x := 9); twin : Twin; twin2 : Twin := (z := -1);\n";
+        text += "pairs : ARRAY[0..2] OF Twin := [(x := 1), 1((y := 4))];\n";
         text += "bytes : ARRAY[0..3] OF SINT;\nwords : ARRAY[0..2] OF UINT;\n";
         text += "longs : ARRAY[0..1] OF UDINT;\n";
         text += "list : ARRAY[1..5] OF INT;\nflags : ARRAY[0..3] OF BOOL;\n";
@@ -161,6 +175,15 @@ impl Generator {
         }
         let names = VARIABLES.iter().find(|(one, _)| *one == kind).map(|(_, names)| *names);
         match (kind, self.rng.u8(..6)) {
+            ("INT", 0) if self.rng.bool() => match self.rng.u8(..5) {
+                0 => "part".to_owned(),
+                1 => format!("row[{}]", self.index(0, 3)),
+                2 => self.pick(&["pair.x", "twin.z", "twin2.x"]).to_owned(),
+                3 => format!("pairs[{}].z", self.index(0, 2)),
+                _ => format!("pairs[{}].x", self.index(0, 2)),
+            },
+            ("UINT", 1) => self.pick(&["pair.y", "twin2.y", "pairs[1].y"]).to_owned(),
+            ("USINT", 0) => "low".to_owned(),
             ("INT", 0) => format!("list[{}]", self.index(1, 5)),
             ("DINT", 0) => format!("grid[{}, {}]", self.index(0, 2), self.index(-1, 1)),
             ("SINT", 0) => format!("bytes[{}]", self.index(0, 3)),
@@ -215,6 +238,10 @@ impl Generator {
             10 | 11 => self.for_loop(),
             12 => self.while_loop(),
             13 => self.call(),
+            14 if self.rng.u8(..3) == 0 => {
+                let whole = ["pair := twin;", "twin2 := pairs[gi];", "row := row2;"];
+                self.pick(&whole).to_owned() + "\n"
+            }
             14 => format!("s := {};\n", self.pick(&["Idle", "Run", "Done"])),
             _ => self.machine(),
         };
@@ -314,6 +341,9 @@ impl Generator {
         let by = if to.starts_with('M') { by.replace("-1", "2") } else { by };
         let body = self.some() + &self.leave() + &self.some();
         self.loops -= 1;
+        if kind == "INT" && number == 1 && base == 3 && self.rng.bool() {
+            return format!("FOR counter := {from} TO {to}{by} DO\n{body}END_FOR;\n");
+        }
         // From a high number on there would be no end of passes backwards.
         let from = if to.starts_with('M') { from.clamp(0.max(low), 6) } else { from };
         format!("FOR {counter}{number} := {from} TO {to}{by} DO\n{body}END_FOR;\n")
