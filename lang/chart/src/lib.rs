@@ -1,0 +1,7 @@
+//! Charts: GRAFCET of IEC 60848 and SFC of IEC 61131-3. What a chart means is in docs/charts.md.
+//! It opens no files, and never runs a program.
+
+pub mod drawn;
+pub mod model;
+
+pub use model::Chart;
