@@ -15,4 +15,8 @@ diagnostics::codes! {
     Unit = "E0307";
     Pragma = "E0308";
     NotInAction = "E0309";
+    NeverReached = "W0300";
+    NeverLeft = "W0301";
+    NeverJoined = "W0302";
+    NeverExecuted = "W0303";
 }

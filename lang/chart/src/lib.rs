@@ -2,11 +2,13 @@
 //! It opens no files, and never runs a program.
 //!
 //! [`text`] reads a file into the [`model`]; [`translate`] makes Structured Text of it, which
-//! becomes AWL like any other.
+//! becomes AWL like any other. [`interpret`] executes a chart without translating it.
 
+mod check;
 pub mod diagnostic;
 pub mod drawn;
 mod generate;
+pub mod interpret;
 pub mod model;
 pub mod text;
 

@@ -5,8 +5,8 @@ use std::collections::HashSet;
 use awl_asm::source::Source;
 use st::tree::File;
 
-use crate::findings::{Diagnostic, from_chart};
 use crate::Language;
+use crate::findings::{Diagnostic, from_chart};
 
 /// What was read.
 pub(crate) struct Read {

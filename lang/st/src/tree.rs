@@ -166,11 +166,11 @@ pub enum StatementKind {
     Continue,
     /// RETURN
     Return,
-    /// What follows and has no place of its own belongs to an element of a drawing. No text says so:
-    /// front ends of other languages do.
+    /// What follows and has no place of its own belongs to an element of a drawing. No text says
+    /// so: front ends of other languages do.
     Element(Element),
-    /// Adds the milliseconds since the start of the scan before to an INT, which ends at its highest
-    /// number, or a TIME. It is the last statement of its body. No text says so.
+    /// Adds the milliseconds since the start of the scan before to an INT, which ends at its
+    /// highest number, or a TIME. It is the last statement of its body. No text says so.
     AddElapsed(Expression),
 }
 

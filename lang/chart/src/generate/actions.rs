@@ -9,8 +9,8 @@ use super::build::{
     all, any, assign, binary, duration, element, integer, not, set, variable, when,
 };
 use super::mentions::{Length, Scope, Times, rewrite};
+use super::names::{Variables, step_name, stored_name};
 use super::parsed::Parsed;
-use super::{Variables, step_name, stored_name};
 use crate::model::{Action, ActionId, Body, Instance, Qualifier, StepId};
 
 /// The actions of a chart.
@@ -56,9 +56,11 @@ impl<'e> Actions<'e> {
                     return statements;
                 }
                 let control = self.control(&name, &instances);
-                let is_active = control.unless_reset(any(
-                    control.levels.iter().chain(&control.pulses).cloned(),
-                ));
+                let is_active = control.unless_reset(any(control
+                    .levels
+                    .iter()
+                    .chain(&control.pulses)
+                    .cloned()));
                 statements.extend(control.before);
                 statements.push(assign(target, is_active));
             }
@@ -104,11 +106,7 @@ impl<'e> Actions<'e> {
         [write(Qualifier::S, true), write(Qualifier::R, false)].into_iter().flatten().collect()
     }
 
-    fn control(
-        &mut self,
-        name: &str,
-        instances: &[(StepId, usize, &Instance)],
-    ) -> Control {
+    fn control(&mut self, name: &str, instances: &[(StepId, usize, &Instance)]) -> Control {
         let mut control = Control::default();
         let mut stored: Vec<Statement> = Vec::new();
         let mut has_stored = false;
@@ -166,7 +164,9 @@ impl<'e> Actions<'e> {
         at: usize,
     ) -> Expression {
         let time = variable(&format!("{owner}.T"));
-        let Some(limit) = self.parsed.times.get(&(step, at)) else { return super::build::truth(false) };
+        let Some(limit) = self.parsed.times.get(&(step, at)) else {
+            return super::build::truth(false);
+        };
         let mut limit = limit.clone();
         if self.times.get(owner) == Some(&Length::Short)
             && let Some(ms) = super::mentions::short(&limit)

@@ -77,10 +77,7 @@ pub(super) fn element(name: &str, title: String) -> Statement {
 /// Variables of a type.
 pub(super) fn section(kind: SectionKind, names: Vec<(Name, &str)>) -> Section {
     let declaration = |(name, of_type): (Name, &str)| Declaration {
-        of_type: TypeText {
-            kind: TypeTextKind::Named(of_type.to_owned()),
-            span: name.span,
-        },
+        of_type: TypeText { kind: TypeTextKind::Named(of_type.to_owned()), span: name.span },
         names: vec![name],
         at: None,
         initial: None,

@@ -81,9 +81,7 @@ fn is_logic(operator: BinaryOperator) -> bool {
 fn is_plainly_bool(value: &Expression) -> bool {
     match &value.kind {
         ExpressionKind::Bool(_) | ExpressionKind::Unary(UnaryOperator::Not, _) => true,
-        ExpressionKind::Binary(operator, ..) => {
-            is_logic(*operator) || operator.is_comparison()
-        }
+        ExpressionKind::Binary(operator, ..) => is_logic(*operator) || operator.is_comparison(),
         _ => false,
     }
 }

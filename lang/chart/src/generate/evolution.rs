@@ -12,8 +12,8 @@ use st::tree::{Expression, ExpressionKind, Statement};
 
 use super::build::{all, assign, duration, element, integer, not, set, variable, when};
 use super::mentions::{Length, Part, Scope, Times, rewrite};
+use super::names::{Variables, step_name};
 use super::parsed::Parsed;
-use super::{Variables, step_name};
 use crate::model::{Chart, StepId, Transition, TransitionId};
 
 /// The order in which transitions are asked: alternatives by their priority, and what leaves a
@@ -92,8 +92,7 @@ impl Evolution<'_> {
     ) -> Expression {
         let missing = Expression { kind: ExpressionKind::Missing, span: Default::default() };
         let mut condition = self.parsed.conditions.get(&id).cloned().unwrap_or(missing);
-        let left: Vec<String> =
-            transition.from.iter().map(|step| self.step(*step)).collect();
+        let left: Vec<String> = transition.from.iter().map(|step| self.step(*step)).collect();
         rewrite(&mut condition, self.scope, self.times, &mut |step, part| {
             let is_direct = left.iter().any(|one| one == step) || !self.scope.is_own(step);
             if is_direct {

@@ -134,7 +134,7 @@ pub(super) fn note_times(parsed: &mut Parsed, scope: &Scope, times: &mut Times) 
         let length = short(time).map_or(Length::Long, |_| Length::Short);
         let owner = match instance.qualifier {
             Qualifier::SD | Qualifier::SL => {
-                super::stored_name(parsed.chart, scope, &step.name, instance)
+                super::names::stored_name(parsed.chart, scope, &step.name, instance)
             }
             _ => format!("{}{}", scope.prefix, step.name),
         };

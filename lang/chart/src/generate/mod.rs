@@ -7,23 +7,26 @@ mod build;
 mod declare;
 mod evolution;
 mod mentions;
+mod names;
 mod not_yet;
 mod parsed;
 mod visit;
 
 use std::collections::{BTreeSet, HashSet};
 
-use diagnostics::{Source, Span};
+use diagnostics::Source;
 use st::tree::{File, Name, SectionKind, Statement, Unit, UnitKind};
 
+use crate::check;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{Body, Chart, Instance, StepId};
+use crate::model::{Body, Chart};
 use crate::text::{self, Region};
 pub use declare::globals as declared;
 
 use actions::Actions;
 use evolution::Evolution;
 use mentions::{Scope, Times};
+use names::{Variables, step_name, stored_name};
 use parsed::Parsed;
 
 /// A text with charts as Structured Text.
@@ -44,17 +47,17 @@ pub fn translate(source: &Source, known: &mut HashSet<String>) -> Translation {
     let (mut file, mut of_st) = around(source, &reading.regions);
     let mut diagnostics = reading.diagnostics;
     known.extend(declare::globals(&file));
-    let mut has_bare = false;
+    let (mut has_bare, mut warnings) = (false, Vec::new());
     for (chart, region) in reading.document.charts().zip(&reading.regions) {
         let before = diagnostics.len();
-        not_yet::check(chart, region.span, &mut diagnostics);
+        not_yet::check(chart, region.first(), &mut diagnostics);
         let is_sound = diagnostics.len() == before;
         let mut parsed = Parsed::of(&source.text, chart, &mut of_st);
         if !region.has_head {
             file.globals.extend(declare::by_use(&mut parsed, known));
             if has_bare {
                 let message = "a second chart without a head in this file";
-                let found = Diagnostic::new(Code::Unit, first(region.span), message);
+                let found = Diagnostic::new(Code::Unit, region.first(), message);
                 diagnostics.push(found.help("PROGRAM and a name before it, END_PROGRAM after it"));
                 continue;
             }
@@ -64,10 +67,14 @@ pub fn translate(source: &Source, known: &mut HashSet<String>) -> Translation {
         if !is_sound {
             continue;
         }
+        if diagnostics.is_empty() {
+            check::check(chart, &mut warnings);
+        }
         let mut variables = Variables::default();
         unit.body = unit_body(&mut parsed, &mut variables, &mut diagnostics);
         unit.sections.push(build::section(SectionKind::Var, variables.0));
     }
+    diagnostics.extend(warnings);
     diagnostics.sort_by_key(|one| one.span);
     diagnostics.dedup_by(|a, b| a.span == b.span && a.message == b.message);
     Translation { file, diagnostics, of_st }
@@ -89,11 +96,6 @@ fn around(source: &Source, regions: &[Region]) -> (File, Vec<st::Diagnostic>) {
     (file, of_st)
 }
 
-/// The beginning of a region, as the place of what is said about all of it.
-fn first(span: Span) -> Span {
-    Span { start: span.start, end: span.end.min(span.start + 1) }
-}
-
 /// The unit that a chart is the body of; a new one for a chart without a head.
 fn unit_of<'f>(
     file: &'f mut File,
@@ -104,7 +106,7 @@ fn unit_of<'f>(
     if !region.has_head {
         file.units.push(Unit {
             kind: UnitKind::Program,
-            name: Name { text: chart.name.clone(), span: first(region.span) },
+            name: Name { text: chart.name.clone(), span: region.first() },
             sections: Vec::new(),
             every_scan: Vec::new(),
             body: Vec::new(),
@@ -118,35 +120,8 @@ fn unit_of<'f>(
         _ => return Some(unit),
     };
     let help = "statements of a chart are in its actions";
-    diagnostics.push(Diagnostic::new(Code::Unit, first(region.span), what).help(help));
+    diagnostics.push(Diagnostic::new(Code::Unit, region.first(), what).help(help));
     None
-}
-
-/// Variables that a chart adds to its unit.
-#[derive(Default)]
-struct Variables(Vec<(Name, &'static str)>);
-
-impl Variables {
-    fn add(&mut self, name: &str, of_type: &'static str) {
-        self.add_at(name, of_type, Span::default());
-    }
-
-    fn add_at(&mut self, name: &str, of_type: &'static str, span: Span) {
-        self.0.push((Name { text: name.to_owned(), span }, of_type));
-    }
-}
-
-/// The variable of a step.
-fn step_name(chart: &Chart, scope: &Scope, id: StepId) -> String {
-    let name = chart.steps.get(&id).map_or("", |step| step.name.as_str());
-    format!("{}{name}", scope.prefix)
-}
-
-/// The variable that says whether an instance with a stored qualifier is stored.
-fn stored_name(chart: &Chart, scope: &Scope, step: &str, instance: &Instance) -> String {
-    let action = chart.actions.get(&instance.action).map_or("", |action| action.name.as_str());
-    let action = action.trim_start_matches('%');
-    format!("{}{action}.{step}.{}", scope.prefix, instance.qualifier.text())
 }
 
 fn unit_body(

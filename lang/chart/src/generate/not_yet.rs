@@ -3,23 +3,23 @@
 
 use diagnostics::Span;
 
-use super::first;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Body, Chart, Standard, Step, StepKind};
 
 /// Reports what keeps a chart from being translated.
-pub(super) fn check(chart: &Chart, region: Span, found: &mut Vec<Diagnostic>) {
-    if chart.standard == Standard::Grafcet {
+pub(super) fn check(chart: &Chart, first: Span, found: &mut Vec<Diagnostic>) {
+    let is_grafcet = chart.standard == Standard::Grafcet;
+    if is_grafcet {
         let message = "charts by the rules of GRAFCET cannot be translated yet";
         let help = "without {grafcet} the rules of SFC apply";
-        found.push(Diagnostic::new(Code::NotThere, first(region), message).help(help));
+        found.push(Diagnostic::new(Code::NotThere, first, message).help(help));
     }
     let initial: Vec<&Step> = chart.steps.values().filter(|step| step.is_initial).collect();
     match initial[..] {
         [] => {
             let message = format!("{}: the chart has no initial step", chart.name);
             let help = "such as `INITIAL_STEP Start: END_STEP`";
-            found.push(Diagnostic::new(Code::Initial, first(region), message).help(help));
+            found.push(Diagnostic::new(Code::Initial, first, message).help(help));
         }
         [_] => {}
         [one, ref others @ ..] => {
@@ -39,7 +39,10 @@ pub(super) fn check(chart: &Chart, region: Span, found: &mut Vec<Diagnostic>) {
         }
     }
     for action in chart.actions.values() {
-        if let Body::Chart(inner) = &action.body {
+        // Of a GRAFCET with charts in it that is said once.
+        if let Body::Chart(inner) = &action.body
+            && !is_grafcet
+        {
             check(inner, action.origin.0, found);
         }
     }

@@ -69,12 +69,4 @@ impl<'c> Parsed<'c> {
         }
         parsed
     }
-
-    /// Calls `each` with every expression that the author wrote, here and in the charts of actions.
-    pub(super) fn expressions(&mut self, each: &mut dyn FnMut(&mut Expression) -> bool) {
-        let conditions = self.conditions.values_mut().chain(self.times.values_mut());
-        conditions.for_each(|one| super::visit::expressions(one, each));
-        self.bodies.values_mut().for_each(|body| super::visit::in_statements(body, each));
-        self.charts.values_mut().for_each(|inner| inner.expressions(each));
-    }
 }

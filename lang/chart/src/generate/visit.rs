@@ -88,7 +88,8 @@ pub(super) fn in_statement(
         }
         StatementKind::Case(selector, ..) => expressions(selector, found),
         StatementKind::For(one) => {
-            for part in [&mut one.variable, &mut one.from, &mut one.to].into_iter().chain(&mut one.by)
+            for part in
+                [&mut one.variable, &mut one.from, &mut one.to].into_iter().chain(&mut one.by)
             {
                 expressions(part, found);
             }

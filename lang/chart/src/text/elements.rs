@@ -10,8 +10,7 @@ use st::lexer::Kind;
 use super::reader::{Begin, Reader};
 use crate::diagnostic::{Code as ErrorCode, Diagnostic};
 use crate::model::{
-    Action, Body, Chart, Code, Instance, Origin, Qualifier, Step, StepId, Transition,
-    TransitionId,
+    Action, Body, Chart, Code, Instance, Origin, Qualifier, Step, StepId, Transition, TransitionId,
 };
 
 /// A name in the text.
@@ -81,6 +80,20 @@ impl Reader<'_> {
         }
     }
 
+    /// Goes on where the element ends.
+    fn skip_element(&mut self) {
+        while !self.is_end_of_element() {
+            self.step();
+        }
+    }
+
+    /// Goes on after the next `;`, or where the element ends.
+    fn skip_instance(&mut self) {
+        while !self.is_end_of_element() && !self.take_sign(";") {
+            self.step();
+        }
+    }
+
     pub(super) fn expected(&mut self, what: &str) {
         let token = self.token();
         let message = match token.kind {
@@ -99,9 +112,7 @@ impl Reader<'_> {
         }
         if !self.is_end_of_element() {
             self.expected(word);
-            while !self.is_end_of_element() {
-                self.step();
-            }
+            self.skip_element();
             if self.take_word(word) {
                 self.take_sign(";");
                 return;
@@ -152,7 +163,8 @@ impl Reader<'_> {
 
     /// The comments of an element that was read, without their signs.
     fn comment(&mut self) -> String {
-        let lines: Vec<String> = self.pending.drain(..).map(|span| plain(span.text(self.text))).collect();
+        let lines: Vec<String> =
+            self.pending.drain(..).map(|span| plain(span.text(self.text))).collect();
         lines.join("\n")
     }
 
@@ -167,18 +179,14 @@ impl Reader<'_> {
                 continue;
             }
             let Some((name, instance)) = self.instance() else {
-                while !self.is_end_of_element() && !self.take_sign(";") {
-                    self.step();
-                }
+                self.skip_instance();
                 continue;
             };
             names.push(name);
             step.block.push(instance);
             if !self.take_sign(";") && !self.is_word("END_STEP") {
                 self.expected("`;`");
-                while !self.is_end_of_element() && !self.take_sign(";") {
-                    self.step();
-                }
+                self.skip_instance();
             }
             self.step_pragmas(&mut step);
         }
@@ -291,9 +299,7 @@ impl Reader<'_> {
         let from = self.side("FROM");
         let to = if from.is_empty() { Vec::new() } else { self.side("TO") };
         if to.is_empty() {
-            while !self.is_end_of_element() {
-                self.step();
-            }
+            self.skip_element();
         } else {
             self.condition(&mut transition);
         }
@@ -315,6 +321,7 @@ impl Reader<'_> {
             self.step();
         } else if !self.take_sign(":=") {
             self.expected("`:=` and a condition");
+            self.skip_element();
             return;
         }
         match self.code(|reader, _| reader.is_sign(";")) {

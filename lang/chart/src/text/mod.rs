@@ -62,6 +62,13 @@ pub struct Region {
     pub has_head: bool,
 }
 
+impl Region {
+    /// Its first character: the place of what is said about all of it.
+    pub fn first(&self) -> Span {
+        Span { start: self.span.start, end: self.span.end.min(self.span.start + 1) }
+    }
+}
+
 /// Reads a text with charts. All that is wrong is reported; what could be read is there.
 pub fn read(source: &Source) -> Reading {
     reader::read(source)

@@ -82,9 +82,7 @@ impl Reader<'_> {
                 "enclosing" => {
                     names(rest).map(|names| step.kind = StepKind::Enclosing(names)).is_some()
                 }
-                "force" => {
-                    forcing(rest, span).map(|one| step.forcings.push(one)).is_some()
-                }
+                "force" => forcing(rest, span).map(|one| step.forcings.push(one)).is_some(),
                 "if" | "on" => match step.block.last_mut().filter(|_| !rest.is_empty()) {
                     Some(instance) => self.conditional(instance, &word, span, rest),
                     None => false,
@@ -140,7 +138,9 @@ impl Reader<'_> {
                 "at" => "a place is two whole numbers: {at 120 40}",
                 "macro" => "a macro-step names the action with its chart: {macro Wash}",
                 "enclosing" => "an enclosing step names charts: {enclosing G2, G3}",
-                "force" => "an order names a chart and a situation: {force G2 (S3)}, {force G2 INIT}",
+                "force" => {
+                    "an order names a chart and a situation: {force G2 (S3)}, {force G2 INIT}"
+                }
                 "if" | "on" => "{if a} and {on a} stand after an action of a step, once",
                 "linked" => "{linked} belongs to a step",
                 _ => "{crossing Count := Count + 1;} belongs to a transition, once",

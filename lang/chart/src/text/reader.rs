@@ -48,7 +48,7 @@ pub(super) fn read(source: &Source) -> Reading {
         diagnostics: Vec::new(),
     };
     let mut found = Vec::new();
-    // What the lexer has to say, the parser of what is around says, too; inside of charts only here.
+    // What the lexer says about the text around charts, the parser of that says, too.
     let mut unit = None;
     while !reader.is_at_end() {
         if reader.begins().is_some() {
@@ -220,9 +220,7 @@ impl<'t> Reader<'t> {
         let start = standard.map_or(start, |span| start.min(span.start as usize));
         // The first step passes the comments that are in the chart; others stay in the text before.
         let end_before = self.end_before();
-        let stays = |span: &Span| {
-            span.start as usize >= start || span.end as usize <= end_before
-        };
+        let stays = |span: &Span| span.start as usize >= start || span.end as usize <= end_before;
         self.comments.retain(stays);
         self.pragmas.retain(stays);
         let at = self.at;

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use super::{Document, Piece};
 use crate::model::{
-    Action, Body, Chart, Forcing, Instance, Position, Qualifier, Situation, Standard, Step,
-    StepId, StepKind, Transition,
+    Action, Body, Chart, Forcing, Instance, Position, Qualifier, Situation, Standard, Step, StepId,
+    StepKind, Transition,
 };
 
 /// The text of a document.
