@@ -2,7 +2,8 @@
 //! interpreter says. `CHARTS` sets how many, `CHART_SEED` shows one.
 
 use awl_sim::machine::Machine;
-use awl_sim::open::{File, open};
+use awl_sim::machine::host::Host;
+use awl_sim::open::{File, Opened, open};
 use awl_sim::operand::{Operand, Width};
 use chart::interpret::Interpreter;
 use chart::model::{ActionId, Body, Chart};
@@ -63,6 +64,87 @@ fn inside<'i>(interpreter: &'i Interpreter<'i>, around: &[ActionId]) -> &'i Inte
     around.iter().fold(interpreter, |outer, id| outer.inner(*id).expect("a chart"))
 }
 
+/// A chart that is being executed twice.
+struct Both<'c> {
+    opened: Opened<Host>,
+    interpreter: Interpreter<'c>,
+    values: Values,
+    /// Steps with their times, where they have one.
+    steps: Vec<(Operand, Option<Operand>, Path)>,
+    written: Vec<(&'static str, Operand)>,
+    inputs: Vec<(&'static str, Operand)>,
+}
+
+impl<'c> Both<'c> {
+    fn new(chart: &'c Chart, opened: Opened<Host>) -> Both<'c> {
+        let operand = |name: &str| Operand::parse(&format!("Main.{name}"), &opened.symbols);
+        let mut paths = Vec::new();
+        steps(chart, "", &[], &mut paths);
+        let steps = paths.into_iter().map(|path| {
+            let time = operand(&format!("{}.T", path.0)).ok();
+            (operand(&path.0).expect("a step"), time, path)
+        });
+        let steps = steps.collect();
+        let named = |name: &'static str| (name, operand(name).expect("a variable"));
+        let all = OUTPUTS.iter().chain(&MARKS).chain(&COUNTERS);
+        let written: Vec<_> = all.map(|name| named(name)).collect();
+        let inputs: Vec<_> = INPUTS.iter().map(|name| named(name)).collect();
+        let mut values = Values::default();
+        for (name, _) in written.iter().chain(&inputs) {
+            values.0.insert(name.to_uppercase(), 0);
+        }
+        values.0.insert("LIMIT".to_owned(), LIMIT_MS);
+        let interpreter = Interpreter::new(chart);
+        Both { opened, interpreter, values, steps, written, inputs }
+    }
+
+    fn scan(&mut self, now: u64, elapsed: i64, random: &mut Rng) {
+        for (name, operand) in &self.inputs {
+            let value = i64::from(random.bool());
+            self.values.0.insert(name.to_uppercase(), value);
+            // What the program does not use is nowhere.
+            let _ = self.opened.machine.write(*operand, value as i32);
+        }
+        self.interpreter.scan(elapsed, &mut self.values);
+        self.opened.machine.scan(now);
+    }
+
+    /// How an operand that is somewhere differs.
+    fn wrong(&mut self, name: &str, operand: Operand, wanted: i64) -> Option<String> {
+        let found = i64::from(self.opened.machine.read(operand).ok()?);
+        (found != wanted).then(|| format!("{name} is {found}, not {wanted}"))
+    }
+
+    /// The steps that are active, or how one differs.
+    fn situation(&mut self) -> Result<Vec<bool>, String> {
+        let mut situation = Vec::new();
+        for (active, time, (name, around, step)) in std::mem::take(&mut self.steps) {
+            let view = inside(&self.interpreter, &around).view();
+            let is_active = view.is_active(&step).expect("a step");
+            let exact = view.time(&step).expect("a step");
+            situation.push(is_active);
+            let mut wrong = self.wrong(&name, active, is_active.into());
+            if let Some(time) = time {
+                // A word ends at its highest number.
+                let is_word = time.width() == Width::Word;
+                let wanted = if is_word { exact.min(i16::MAX.into()) } else { exact };
+                wrong = wrong.or_else(|| self.wrong(&format!("{name}.T"), time, wanted));
+            }
+            self.steps.push((active, time, (name, around, step)));
+            wrong.map_or(Ok(()), Err)?;
+        }
+        Ok(situation)
+    }
+
+    fn wrong_variable(&mut self) -> Option<String> {
+        let all = self.written.clone();
+        all.into_iter().find_map(|(name, operand)| {
+            let wanted = self.values.0[&name.to_uppercase()];
+            self.wrong(name, operand, wanted)
+        })
+    }
+}
+
 fn differs(seed: u64, counts: &mut Counts) -> Option<String> {
     let text = program(seed);
     let source = Source::new("r.sfc", text.as_str()).expect("a short text");
@@ -70,80 +152,28 @@ fn differs(seed: u64, counts: &mut Counts) -> Option<String> {
     let chart = reading.document.charts().next().expect("a chart");
     counts.take(chart);
     let file = File { name: "r.sfc".to_owned(), bytes: text.clone().into_bytes() };
-    let mut opened = match open(&file, &[]) {
+    let opened = match open(&file, &[]) {
         Ok(opened) => opened,
         Err(error) => return Some(format!("seed {seed}: {error}\n{text}")),
     };
-    let operand = |name: &str| Operand::parse(&format!("Main.{name}"), &opened.symbols);
-    let mut paths = Vec::new();
-    steps(chart, "", &[], &mut paths);
-    let paths: Vec<(Operand, Option<Operand>, Path)> = paths
-        .into_iter()
-        .map(|path| {
-            let time = operand(&format!("{}.T", path.0)).ok();
-            (operand(&path.0).expect("a step"), time, path)
-        })
-        .collect();
-    let written = OUTPUTS.iter().chain(&MARKS).chain(&COUNTERS);
-    let written: Vec<(&str, Operand)> =
-        written.map(|name| (*name, operand(name).expect("a variable"))).collect();
-    let inputs = INPUTS.map(|name| (name, operand(name).expect("a variable")));
-
-    let mut interpreter = Interpreter::new(chart);
-    let mut values = Values::default();
-    for name in INPUTS.iter().chain(&OUTPUTS).chain(&MARKS).chain(&COUNTERS) {
-        values.0.insert(name.to_uppercase(), 0);
-    }
-    values.0.insert("LIMIT".to_owned(), LIMIT_MS);
+    let mut both = Both::new(chart, opened);
     let mut random = Rng::with_seed(seed);
     let (mut now, mut elapsed) = (0, 0);
-    let mut situation = Vec::new();
+    let mut before = Vec::new();
     for scan in 0..SCANS {
-        for (name, operand) in &inputs {
-            let value = i64::from(random.bool());
-            values.0.insert(name.to_uppercase(), value);
-            // What the program does not use is nowhere.
-            let _ = opened.machine.write(*operand, value as i32);
+        both.scan(now, elapsed, &mut random);
+        let situation = both.situation();
+        let wrong = match (both.opened.machine.fault(), &situation) {
+            (Some(fault), _) => Some(fault.to_string()),
+            (None, Err(wrong)) => Some(wrong.clone()),
+            (None, Ok(_)) => both.wrong_variable(),
+        };
+        if let Some(wrong) = wrong {
+            return Some(format!("seed {seed}, scan {scan}: {wrong}\n{text}"));
         }
-        interpreter.scan(elapsed, &mut values);
-        opened.machine.scan(now);
-        if let Some(fault) = opened.machine.fault() {
-            return Some(format!("seed {seed}, scan {scan}: {fault}\n{text}"));
-        }
-        let mut seen = Vec::new();
-        for (active, time, (name, around, step)) in &paths {
-            let view = inside(&interpreter, around).view();
-            let wanted = i64::from(view.is_active(step).expect("a step"));
-            seen.push(wanted);
-            let found = opened.machine.read(*active).map(i64::from);
-            if found.as_ref().is_ok_and(|found| *found != wanted) {
-                return Some(format!(
-                    "seed {seed}, scan {scan}: {name} is {found:?}, not {wanted}\n{text}"
-                ));
-            }
-            let Some(time) = time else { continue };
-            // A word ends at its highest number.
-            let is_word = time.width() == Width::Word;
-            let exact = view.time(step).expect("a step");
-            let wanted = if is_word { exact.min(i16::MAX.into()) } else { exact };
-            let found = opened.machine.read(*time).map(i64::from);
-            if found.as_ref().is_ok_and(|found| *found != wanted) {
-                return Some(format!(
-                    "seed {seed}, scan {scan}: {name}.T is {found:?}, not {wanted}\n{text}"
-                ));
-            }
-        }
-        counts.evolutions += u32::from(seen != situation);
-        situation = seen;
-        for (name, operand) in &written {
-            let Ok(found) = opened.machine.read(*operand).map(i64::from) else { continue };
-            let wanted = values.0[&name.to_uppercase()];
-            if found != wanted {
-                return Some(format!(
-                    "seed {seed}, scan {scan}: {name} is {found}, not {wanted}\n{text}"
-                ));
-            }
-        }
+        let situation = situation.unwrap_or_default();
+        counts.evolutions += u32::from(situation != before);
+        before = situation;
         elapsed = match random.u8(..40) {
             0 => random.i64(10_000..16_000),
             _ => random.i64(1..30),
