@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use diagnostics::Span;
 
-pub use crate::tree::{BinaryOperator, SectionKind};
+pub use crate::tree::{BinaryOperator, Element, SectionKind};
 
 /// A type.
 #[derive(Debug, Clone, PartialEq)]
@@ -461,6 +461,10 @@ pub enum StatementKind {
     Continue,
     /// RETURN
     Return,
+    /// What follows belongs to an element of a drawing.
+    Element(Element),
+    /// Adds the milliseconds since the start of the scan before.
+    AddElapsed(Place),
     /// A call of an instance.
     Call(Box<BlockCall>),
     /// A call of a subroutine in AWL.

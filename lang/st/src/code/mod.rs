@@ -21,7 +21,7 @@ use diagnostics::{Source, Span};
 
 use crate::around::Around;
 use crate::diagnostic::Diagnostic;
-use crate::model::{ExpressionKind, Program, SectionKind, Type, UnitKind};
+use crate::model::{Element, ExpressionKind, Program, SectionKind, Type, UnitKind};
 use hardware::Devices;
 use timers::Short;
 use writer::Writer;
@@ -280,8 +280,18 @@ impl Generator<'_> {
 
     /// What follows in the AWL text belongs to a statement, if that is of a file.
     fn begin(&mut self, span: Span) {
+        if span == Span::default() {
+            return;
+        }
         if let Some(source) = self.frame.file.and_then(|file| self.sources.get(file)) {
             self.writer.statement(source, span);
+        }
+    }
+
+    /// What follows in the AWL text belongs to an element of a drawing.
+    fn begin_element(&mut self, element: &Element) {
+        if let Some(source) = self.frame.file.and_then(|file| self.sources.get(file)) {
+            self.writer.element(&source.name, element);
         }
     }
 }

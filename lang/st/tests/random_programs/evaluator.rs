@@ -185,6 +185,7 @@ impl Evaluator {
             StatementKind::Exit => return Flow::Exit,
             StatementKind::Continue => return Flow::Continue,
             StatementKind::Return => return Flow::Return,
+            other => panic!("no text has {other:?}"),
         }
         Flow::On
     }
