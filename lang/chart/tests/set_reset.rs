@@ -317,3 +317,53 @@ fn the_examples_of_the_pages_do_what_the_page_says() {
     }
     assert!(seen >= 9, "pages with charts in XML");
 }
+
+/// What the example does in a run: one condition at a time, each for a scan.
+const RUN: &str = "
+scan 10ms
+at 5ms   expect X0 = 1, X1 = 0
+at 10ms  T0_1 = 1
+at 15ms  expect X0 = 1, X1 = 1, A1 = 1
+at 20ms  T0_1 = 0
+at 25ms  expect X0 = 0, X1 = 1
+at 30ms  T1_23 = 1
+at 40ms  T1_23 = 0
+at 55ms  expect X1 = 0, X2 = 1, X3 = 1, A1 = 0
+at 60ms  T2_6 = 1, T3_4 = 1
+at 70ms  T2_6 = 0, T3_4 = 0
+at 85ms  expect X2 = 0, X3 = 0, X4 = 1, X5 = 0, X6 = 1
+at 90ms  T6_7 = 1
+at 100ms T6_7 = 0
+at 115ms expect X4 = 1, X6 = 0, X7 = 1, A2 = 0
+at 120ms T47_8 = 1
+at 130ms T47_8 = 0
+at 145ms expect X4 = 0, X7 = 0, X8 = 1, A2 = 1
+at 150ms a1_ = 1
+at 155ms expect A2 = 0
+at 160ms T8_0 = 1
+at 170ms T8_0 = 0
+at 185ms expect X8 = 0, X0 = 1
+run 200ms
+";
+
+#[test]
+fn what_is_written_for_here_compiles_and_runs_as_the_chart_says() {
+    use awl_sim::open::{File, open};
+    use awl_sim::run::{Job, Length, run};
+    use awl_sim::scenario::{Context, Scenario};
+
+    let bytes = st(EJEMPLO, "", Target::Uno200).into_bytes();
+    let file = File { name: "ejemplo.st".to_owned(), bytes };
+    let mut opened = open(&file, &[]).unwrap_or_else(|error| panic!("{error}"));
+    let machine = &mut *opened.machine;
+    let mut has_operand = |operand| awl_sim::machine::Machine::read(machine, operand).map(|_| ());
+    let context = Context { symbols: &opened.symbols, plant: None, has_operand: &mut has_operand };
+    let scenario = Scenario::parse("run.scn", RUN, context)
+        .unwrap_or_else(|problems| panic!("{}", problems.render(false)));
+    let scan_ms = scenario.scan_ms.unwrap_or(1);
+    let length = Length::Scenario;
+    let job = Job { scan_ms, length, signals: Vec::new(), plant: None, progress: None };
+    let outcome = run(&mut *opened.machine, &scenario, job).expect("operands that are there");
+    assert!(outcome.failures.is_empty(), "{:?}", outcome.failures);
+    assert!(outcome.fault.is_none(), "{:?}", outcome.fault);
+}
