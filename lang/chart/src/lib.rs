@@ -6,6 +6,7 @@ pub mod drawn;
 pub mod model;
 pub mod set_reset;
 pub mod sfcedit;
+pub mod summary;
 
 pub use diagnostic::{Code, Diagnostic};
 pub use model::Chart;

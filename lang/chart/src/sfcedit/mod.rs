@@ -4,6 +4,7 @@
 
 pub mod condition;
 pub mod document;
+pub mod model;
 mod read;
 pub mod wiring;
 pub mod words;
