@@ -15,8 +15,17 @@ diagnostics::codes! {
     Unit = "E0307";
     Pragma = "E0308";
     NotInAction = "E0309";
+    BrokenXml = "E0340";
+    XmlStructure = "E0341";
+    NotInStyle = "E0342";
+    BadCondition = "E0343";
+    BadVariables = "E0344";
     NeverReached = "W0300";
     NeverLeft = "W0301";
     NeverJoined = "W0302";
     NeverExecuted = "W0303";
+    XmlIgnored = "W0340";
+    StyleDiffers = "W0341";
+    NeverWritten = "W0342";
+    LetterCase = "W0343";
 }

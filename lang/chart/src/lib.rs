@@ -2,7 +2,8 @@
 //! It opens no files, and never runs a program.
 //!
 //! [`text`] reads a file into the [`model`]; [`translate`] makes Structured Text of it, which
-//! becomes AWL like any other. [`interpret`] executes a chart without translating it.
+//! becomes AWL like any other. [`interpret`] executes a chart without translating it. [`sfcedit`] reads
+//! charts of another editor, [`set_reset`] makes Structured Text of those for other controllers.
 
 mod check;
 pub mod diagnostic;
@@ -10,6 +11,9 @@ pub mod drawn;
 mod generate;
 pub mod interpret;
 pub mod model;
+pub mod set_reset;
+pub mod sfcedit;
+pub mod summary;
 pub mod text;
 
 pub use diagnostic::{Code, Diagnostic};

@@ -21,7 +21,10 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("virtual-uno", &["simavr"]),
     ("client", &["plc-isa", "plc-vm", "plc-link", "awl-asm"]),
     ("flash", &["plc-isa"]),
-    ("uno200", &["plc-isa", "diagnostics", "awl-asm", "awl-sim", "analysis", "client", "project"]),
+    (
+        "uno200",
+        &["plc-isa", "diagnostics", "awl-asm", "awl-sim", "analysis", "client", "project", "chart"],
+    ),
     ("ide-core", &["plc-isa", "diagnostics", "awl-asm", "awl-sim", "analysis", "client", "flash"]),
     (
         "tests",
