@@ -15,6 +15,10 @@ fn the_examples_of_every_page_do_what_the_page_says() {
     for code in Code::ALL {
         let (page, text) = (code.page(), code.text());
         assert!(page.starts_with(&format!("# {text}: ")), "{text}");
+        // Charts in XML have a test of their own.
+        if page.contains("```xml") {
+            continue;
+        }
         let wrong = compile(example(page, "Wrong:")).codes();
         assert_eq!(wrong, [text], "the wrong example of {text}");
         let right = compile(example(page, "Right:")).codes();
