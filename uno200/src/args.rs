@@ -126,6 +126,9 @@ pub enum Command {
 /// What `ide` takes.
 #[derive(Debug, Args)]
 pub struct Ide {
+    /// A folder that is the project: the page opens it, and saves into it
+    pub folder: Option<PathBuf>,
+
     /// The folder of the page [default: target/ide, where a build leaves it]
     #[arg(long, value_name = "FOLDER")]
     pub page: Option<PathBuf>,

@@ -24,6 +24,8 @@ const PLANTS: &[(&str, &str)] = &[
     ("pid", "tank"),
 ];
 
+/// The folder that the page works in when that is checked.
+const PROJECT: &str = "target/ide-project/lamp";
 /// What awl-sim writes of the same run that the page is asked for.
 const FIGURES: &str = "target/ide-figures.csv";
 
@@ -54,7 +56,26 @@ pub fn check() -> Result<()> {
     let mut server = Serving::page(&folder, &[])?;
     let address = server.line()?;
     run(node("test/page.mjs").arg(&address).arg(root().join(FIGURES)))?;
+    check_folder(&folder, &sources)?;
     check_board(&folder, &sources)
+}
+
+/// Has the page work in a folder of this computer.
+fn check_folder(folder: &Path, sources: &Path) -> Result<()> {
+    let project = root().join(PROJECT);
+    if project.exists() {
+        fs::remove_dir_all(&project)?;
+    }
+    fs::create_dir_all(&project)?;
+    // As Micro/WIN writes it.
+    fs::write(project.join("lamp.awl"), b"// L\xFCfter\r\nLD I0.0\r\n")?;
+    #[cfg(unix)]
+    std::os::unix::fs::symlink(root().join("README.md"), project.join("link.txt"))?;
+    let mut server = Serving::page(folder, &[PROJECT])?;
+    let address = server.line()?;
+    let mut test = Command::new("node");
+    test.current_dir(sources).args(["test/folder.mjs", &address]).arg(&project);
+    run(test.arg(server.0.id().to_string()))
 }
 
 /// Has the page write a board from the factory, with its real bootloader, and talk to it.

@@ -1,8 +1,9 @@
-//! `uno200 ide`: the page of the IDE from a folder, for browsers on this computer alone, and the
-//! bridge through which that page reaches ports. What the page does is in `ide`.
+//! `uno200 ide`: the page of the IDE, for browsers on this computer alone, and the bridge through
+//! which that page reaches ports and a folder. What the page does is in `ide`.
 
 mod access;
 pub mod bridge;
+pub mod folder;
 mod http;
 mod page;
 
@@ -17,8 +18,9 @@ use tungstenite::handshake::server::{Request, create_response, write_response};
 use tungstenite::http::{Method, StatusCode};
 
 use access::Access;
-use bridge::Ports;
 use bridge::protocol::{Kind, Port};
+use bridge::{Ports, Reach};
+use folder::Folder;
 use page::Page;
 
 /// Where a build leaves the page.
@@ -27,6 +29,8 @@ const BUILT: &str = "target/ide";
 /// What is served, and where.
 #[derive(Debug)]
 pub struct Settings {
+    /// The folder that is the project.
+    pub folder: Option<PathBuf>,
     /// The folder of the page; without it the one that a build leaves.
     pub page: Option<PathBuf>,
     /// Where browsers find it. Only addresses of this computer.
@@ -50,7 +54,7 @@ pub struct Server {
 struct Site {
     page: Page,
     access: Access,
-    ports: Arc<Ports>,
+    reach: Reach,
 }
 
 /// Serves the page until the process ends. The first line on standard output is its address.
@@ -72,6 +76,7 @@ impl Server {
             "{address}: others could reach it; the IDE listens on this computer alone, such as \
              127.0.0.1:8200"
         );
+        let project = settings.folder.as_deref().map(Folder::new).transpose()?;
         let page = Page::new(folder(settings.page.clone())?);
         let listener = TcpListener::bind(address).with_context(|| format!("{address}"))?;
         let address = listener.local_addr()?;
@@ -79,9 +84,9 @@ impl Server {
         let serial = settings.port.iter().map(|name| (name, Kind::Serial));
         let tcp = settings.tcp.iter().map(|name| (name, Kind::Tcp));
         let named = serial.chain(tcp).map(|(name, kind)| Port { name: name.clone(), kind });
-        let ports = Arc::new(Ports::new(named.collect()));
+        let reach = Reach { ports: Arc::new(Ports::new(named.collect())), folder: project };
         let url = format!("http://{address}/?token={token}");
-        Ok(Server { listener, url, site: Arc::new(Site { page, access, ports }) })
+        Ok(Server { listener, url, site: Arc::new(Site { page, access, reach }) })
     }
 
     /// The address with the token that is good for once. A fragment can be appended.
@@ -128,7 +133,7 @@ impl Site {
         let mut head = Vec::new();
         write_response(&mut head, &response).map_err(std::io::Error::other)?;
         std::io::Write::write_all(&mut stream, &head)?;
-        bridge::serve(stream, &self.access, &self.ports)
+        bridge::serve(stream, &self.access, &self.reach)
     }
 }
 

@@ -181,6 +181,18 @@ export class Editors {
     }
   }
 
+  /** Gives a file another text; the cursor stays where nothing has changed. */
+  replace(file: string, text: string): void {
+    const before = this.project.text(file) ?? "";
+    const least = Math.min(before.length, text.length);
+    let from = 0;
+    while (from < least && before[from] === text[from]) from += 1;
+    let same = 0;
+    while (same < least - from && before.at(-1 - same) === text.at(-1 - same)) same += 1;
+    const changed = text.slice(from, text.length - same);
+    this.apply([{ file, from, to: before.length - same, text: changed }]);
+  }
+
   /** Where the file is shown, if it is. */
   viewOf(file: string): EditorView | undefined {
     return this.panes.find((pane) => pane.current === file)?.view;
