@@ -9,7 +9,7 @@ mod page;
 
 use std::fs;
 use std::net::{SocketAddr, TcpListener, TcpStream};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
 
@@ -23,15 +23,12 @@ use bridge::{Ports, Reach};
 use folder::Folder;
 use page::Page;
 
-/// Where a build leaves the page.
-const BUILT: &str = "target/ide";
-
 /// What is served, and where.
 #[derive(Debug)]
 pub struct Settings {
     /// The folder that is the project.
     pub folder: Option<PathBuf>,
-    /// The folder of the page; without it the one that a build leaves.
+    /// The folder of another page than the one that is part of this program.
     pub page: Option<PathBuf>,
     /// Where browsers find it. Only addresses of this computer.
     pub listen: SocketAddr,
@@ -77,7 +74,7 @@ impl Server {
              127.0.0.1:8200"
         );
         let project = settings.folder.as_deref().map(Folder::new).transpose()?;
-        let page = Page::new(folder(settings.page.clone())?);
+        let page = settings.page.as_deref().map_or_else(|| Ok(Page::own()), other_page)?;
         let listener = TcpListener::bind(address).with_context(|| format!("{address}"))?;
         let address = listener.local_addr()?;
         let (access, token) = Access::new(address.port())?;
@@ -142,16 +139,16 @@ fn refusal(status: StatusCode) -> (StatusCode, Vec<u8>, &'static str) {
     (status, text.as_bytes().to_vec(), "text/plain; charset=utf-8")
 }
 
-fn folder(given: Option<PathBuf>) -> Result<PathBuf> {
-    let folder = given.unwrap_or_else(|| PathBuf::from(BUILT));
+/// The page in a folder.
+fn other_page(folder: &Path) -> Result<Page> {
     if !folder.join("index.html").is_file() {
         bail!(
-            "{}: the page of the IDE is not there; `cargo xtask ide` builds it in a clone, \
-             --page names another folder",
+            "{}: the page of the IDE is not there; `cargo xtask ide` builds it in a clone, into \
+             target/ide",
             folder.display()
         );
     }
-    Ok(fs::canonicalize(folder)?)
+    Ok(Page::In(fs::canonicalize(folder)?))
 }
 
 /// Starts the browser. Who has none has the address.

@@ -1,5 +1,6 @@
 // The core as the rest of the page sees it: orders, questions, events. Where it runs is known here
 // alone.
+import { addressOf } from "../offline/address";
 import type { Event, EventKind, EventOf, Orders, Questions } from "./protocol";
 
 type Listener = (event: never) => void;
@@ -20,7 +21,7 @@ const ORDERS_MAX = 256;
 export class Core {
   /** Called before a question: what was written and not yet sent has to come first. */
   beforeQuestion: () => void = () => {};
-  private worker = new Worker("worker.js", { type: "module" });
+  private worker = new Worker(addressOf("worker.js"), { type: "module" });
   private lastId = 0;
   private open = new Map<number, Open>();
   private orders = new Map<number, Order["do"]>();
