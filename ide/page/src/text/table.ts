@@ -283,6 +283,16 @@ export const TABLE = {
   ],
   renameSymbol: ["Rename {0}", "{0} umbenennen", "Renombrar {0}"],
   renamed: ["places changed: {0}", "geänderte Stellen: {0}", "lugares cambiados: {0}"],
+  undoElsewhere: [
+    "It was not undone in {0}: that was changed afterwards. Undo there goes back to it.",
+    "In {0} wurde es nicht rückgängig gemacht: Dort wurde danach geändert. Rückgängig geht dort bis dahin zurück.",
+    "No se deshizo en {0}: se cambió después. Deshacer allí llega hasta ello.",
+  ],
+  redoElsewhere: [
+    "It was not redone in {0}: that was changed meanwhile.",
+    "In {0} wurde es nicht wiederholt: Dort wurde inzwischen geändert.",
+    "No se rehizo en {0}: se cambió entretanto.",
+  ],
   find: ["Find", "Suchen", "Buscar"],
   replaceField: ["Replace", "Ersetzen", "Reemplazar"],
   findNext: ["next", "weiter", "siguiente"],
