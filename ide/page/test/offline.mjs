@@ -70,12 +70,18 @@ const { browser, page, errors } = await open();
 const editor = (name) => page.getByRole("textbox", { name });
 
 /** Waits until this version is the one that the browser keeps. */
-const isKept = (version) =>
-  page.waitForFunction(async (version) => {
-    const { active } = (await navigator.serviceWorker.getRegistration()) ?? {};
-    const kept = await caches.open(`uno200 ${version}/files.json`);
-    return active?.state === "activated" && (await kept.match("./")) !== undefined;
-  }, version);
+async function isKept(version) {
+  const look = async (version) => {
+    const { installing, waiting, active } = (await navigator.serviceWorker.getRegistration()) ?? {};
+    if (installing || waiting || active?.state !== "activated") return false;
+    const name = (await caches.keys()).find((name) => name.includes(version));
+    return name !== undefined && (await (await caches.open(name)).match("./")) !== undefined;
+  };
+  for (let tries = 0; !(await page.evaluate(look, version)); tries += 1) {
+    assert(tries < 300, `${version} is not kept`);
+    await page.waitForTimeout(100);
+  }
+}
 
 /** Opens the page again: everything in it is of one version, and it works. */
 async function works(version) {

@@ -14,6 +14,8 @@ use crate::process::{cargo, root, run};
 
 /// The page as it is committed.
 const PAGE: &str = "ide/page/dist";
+/// Where the tests of the core write what they told it, and its answers.
+const LOG: &str = "target/tmp/ide-log";
 /// The folder that the page works in when that is checked.
 const PROJECT: &str = "target/ide-project/lamp";
 /// What awl-sim writes of the same run that the page is asked for.
@@ -69,6 +71,15 @@ fn check_folder(folder: &Path, sources: &Path) -> Result<()> {
     let mut test = Command::new("node");
     test.current_dir(sources).args(["test/folder.mjs", &address]).arg(&project);
     run(test.arg(server.0.id().to_string()))
+}
+
+/// Has the core in WebAssembly answer what it was told in tests on this computer: the same. To be
+/// called after both were built.
+pub fn log() -> Result<()> {
+    let sources = root().join("ide/page");
+    let mut test = Command::new("node");
+    test.current_dir(sources).arg("test/log.mjs").arg(core::folder()).arg(root().join(LOG));
+    run(&mut test)
 }
 
 /// Has the page write a board from the factory, with its real bootloader, and talk to it.

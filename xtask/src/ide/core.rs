@@ -16,7 +16,7 @@ const KEPT: &str = "ide/site/core";
 const COMPILERS: &str = "ide/site/core/compilers.txt";
 
 /// Where it is built.
-fn folder() -> PathBuf {
+pub fn folder() -> PathBuf {
     root().join("target/ide-core")
 }
 

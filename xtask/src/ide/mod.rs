@@ -12,7 +12,7 @@ use ide_site::Core;
 
 use crate::process::{cargo, root, run};
 
-pub use check::check;
+pub use check::{check, log};
 
 /// Where page and core are together: any web server can give them away from here.
 const BUILT: &str = "target/ide";

@@ -56,7 +56,8 @@ async function tidy(): Promise<void> {
 /** The page of the server, and without one that of this version. */
 async function page(request: Request): Promise<Response> {
   try {
-    const response = await fetch(request, { signal: AbortSignal.timeout(PATIENCE_MS) });
+    const signal = AbortSignal.timeout(PATIENCE_MS);
+    const response = await fetch(request.url, { signal, cache: "no-cache" });
     if (response.status < 500) return response;
     return (await kept(PAGE)) ?? response;
   } catch (error) {
