@@ -63,10 +63,16 @@ await button("new.awl").waitFor({ state: "detached" });
 // Both at once: nothing is overwritten before somebody has chosen.
 const conflict = page.getByRole("dialog", { name: "lamp.awl was changed in the folder, and here" });
 const both = async (theirs, mine) => {
-  await page.evaluate(() => document.querySelector(".cm-content").focus());
+  // A page that nobody sees does not look at the folder, so it cannot have seen this before.
+  const see = (state) =>
+    page.evaluate((value) => {
+      Object.defineProperty(document, "visibilityState", { value, configurable: true });
+    }, state);
+  await see("hidden");
   await writeFile(file("lamp.awl"), theirs);
   await write(mine);
   await conflict.waitFor();
+  await see("visible");
   assert.equal(await text("lamp.awl"), theirs);
 };
 await both("LD I0.3\n", "// mine\n");

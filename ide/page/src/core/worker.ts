@@ -48,9 +48,11 @@ function tick(ide: Ide): void {
   post(ide, ide.tick(began, scansMax));
   uno.goOn(ide, began + TICK_MS_MAX, (bytes) => post(ide, ide.receive(bytes, performance.now())));
   const took = performance.now() - began;
+  // Only a tick that was cut off says how many scans fit into one.
   if (took > TICK_MS_MAX) scansMax = Math.max(SCANS_MIN, scansMax >> 1);
-  else if (took > TICK_MS_MAX / 4) scansMax = Math.min(SCANS_MAX, scansMax + (scansMax >> 2));
-  else if (isBusy) scansMax = Math.min(SCANS_MAX, scansMax * 2);
+  else if (!ide.isBehind()) return;
+  else if (took > TICK_MS_MAX / 2) scansMax = Math.min(SCANS_MAX, scansMax + (scansMax >> 3));
+  else scansMax = Math.min(SCANS_MAX, scansMax * 2);
 }
 
 /** What the core does not survive ends it: its state cannot be trusted any more. */
