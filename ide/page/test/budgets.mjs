@@ -13,7 +13,7 @@ const [, , address, folder, given] = process.argv;
 /** How often the page is told something new before its heap is looked at again. */
 const POLLS = Number(given ?? 20_000);
 /** So many times a budget other programs may make of a time. */
-const NOISE = 4;
+const NOISE = 8;
 const over = [];
 
 function report(what, measured, unit, budget, isGood, isIn) {

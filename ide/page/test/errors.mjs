@@ -17,13 +17,11 @@ const { TABLE } = await loadSource("src/text/table.ts");
 /** What tells that something is wrong or cannot be done, and is not in a `notice(…, true)`. */
 const OTHERS = ["fault", "linkLost", "otherProgram", "leaveForced", "noDefinition", "noReferences"];
 const MORE = ["nothingToRename", "noValueHere", "portGone", "bridgeGone", "samplesLost"];
-/** Told with a board or a folder: test/board.mjs, test/folder.mjs. */
+/** Told with a board, a folder, or several files: test/board.mjs, folder.mjs, reload.mjs. */
 const ELSEWHERE = [
-  "otherFirmware",
-  "writeFirmware",
-  "notSaved",
-  "filesLeftOut",
-  "folderOutOfReach",
+  ...["otherFirmware", "writeFirmware"],
+  ...["notSaved", "filesLeftOut", "folderOutOfReach"],
+  ...["undoElsewhere", "redoElsewhere"],
 ];
 
 /** All of them, as the sources have them. */
@@ -32,7 +30,7 @@ async function catalogue() {
   const files = (await readdir("src", { recursive: true })).filter((name) => name.endsWith(".ts"));
   for (const name of files) {
     const text = await readFile(join("src", name), "utf8");
-    for (const [, given] of text.matchAll(/notice\(\s*([^;]*?),\s*true,?\s*\)/g))
+    for (const [, given] of text.matchAll(/notice\(((?:(?!notice\()[^;])*?),\s*true,?\s*\)/g))
       for (const [, key] of given.matchAll(/"(\w+)"/g)) keys.add(key);
     for (const [, key] of text.matchAll(/new Error\(t\("(\w+)"/g)) keys.add(key);
   }
@@ -200,19 +198,6 @@ await situation(server.plain, async (page) => {
   await said(page, "noValueHere");
 });
 
-// A change of several files that one of them has gone on from.
-const three = {
-  files: [
-    file(
-      "main.awl",
-      "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD Lamp\n= Q0.0\nEND_ORGANIZATION_BLOCK\n",
-    ),
-    file("symbols.csv", "Lamp,I0.0\n"),
-  ],
-  main: "main.awl",
-};
-assert(three.files.length > 1);
-
 // The browser's storage.
 const fill = () => {
   localStorage.clear();
@@ -272,6 +257,34 @@ await situation(server.plain, async (page) => {
   await button(page, "Create").click();
   await said(page, "leaveForced");
 });
+
+// Samples that could not be taken: how the core finds that its own tests ask.
+await situation(
+  server.plain,
+  async (page) => {
+    await editor(page).waitFor();
+    await page.getByRole("tab", { name: "Oscilloscope", exact: true }).click();
+    const scope = page.getByRole("tabpanel", { name: "Oscilloscope" });
+    await scope.getByLabel("Signal", { exact: true }).fill("Q0.0");
+    await page.keyboard.press("Enter");
+    await page.evaluate(() => {
+      const samples = (times, lost) => ({ is: "samples", times, columns: [[0, 1]], lost });
+      const data = [samples([1, 2], false), samples([500, 501], true)];
+      globalThis.core.onmessage({ data });
+    });
+    await said(page, "samplesLost");
+  },
+  (page) =>
+    page.addInitScript(() => {
+      const Real = Worker;
+      globalThis.Worker = class extends Real {
+        constructor(...given) {
+          super(...given);
+          globalThis.core = this;
+        }
+      };
+    }),
+);
 
 // A picture that the browser does not make.
 await situation(

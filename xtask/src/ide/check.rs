@@ -18,6 +18,8 @@ const PAGE: &str = "ide/page/dist";
 const LOG: &str = "target/tmp/ide-log";
 /// The folder that the page works in when that is checked.
 const PROJECT: &str = "target/ide-project/lamp";
+/// The tool that serves the page.
+const UNO200: &str = "target/debug/uno200";
 /// What awl-sim writes of the same run that the page is asked for.
 const FIGURES: &str = "target/ide-figures.csv";
 
@@ -50,6 +52,9 @@ pub fn check() -> Result<()> {
     let mut server = Serving::page(&folder, &[])?;
     let address = server.line()?;
     run(node("test/page.mjs").arg(&address).arg(root().join(FIGURES)))?;
+    run(node("test/budgets.mjs").arg(&address).arg(&folder))?;
+    run(node("test/reload.mjs").arg(&address))?;
+    run(node("test/errors.mjs").arg(root().join(UNO200)).arg(&folder))?;
     run(node("test/offline.mjs").arg(&folder))?;
     check_folder(&folder, &sources)?;
     check_board(&folder, &sources)
@@ -134,7 +139,7 @@ impl Serving {
     fn page(folder: &Path, arguments: &[&str]) -> Result<Serving> {
         run(cargo().args(["build", "--quiet", "--package", "uno200"]))?;
         // Not by way of cargo, which would be ended in its place.
-        let mut ide = Command::new(root().join("target/debug/uno200"));
+        let mut ide = Command::new(root().join(UNO200));
         ide.args(["ide", "--no-open", "--listen", "127.0.0.1:0", "--page"]).arg(folder);
         Serving::start(ide.args(arguments))
     }

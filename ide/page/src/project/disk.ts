@@ -4,6 +4,7 @@ import type { Bridge } from "../ports/bridge";
 import type { Opened } from "./begin";
 import type { Project } from "./project";
 import { kept } from "./storage";
+import { store, storedText } from "./stored";
 
 /** So long after the last letter a file is saved. */
 const QUIET_MS = 500;
@@ -139,16 +140,12 @@ export class Disk {
   private remember(): void {
     const dirty = [...this.names()].filter((file) => this.isDirty(file));
     const bases = dirty.map((file) => [file, this.known.get(file)?.version ?? null] as const);
-    try {
-      if (bases.length === 0) localStorage.removeItem(DIRTY + this.id);
-      else localStorage.setItem(DIRTY + this.id, JSON.stringify(Object.fromEntries(bases)));
-    } catch {
-      // The storage is full: who keeps the project says so.
-    }
+    const isAny = bases.length > 0;
+    store(DIRTY + this.id, isAny ? JSON.stringify(Object.fromEntries(bases)) : null);
   }
 
   private unsavedLast(): [string, string | null][] {
-    const value = JSON.parse(localStorage.getItem(DIRTY + this.id) ?? "{}") as object;
+    const value = JSON.parse(storedText(DIRTY + this.id) ?? "{}") as object;
     return Object.entries(value);
   }
 
