@@ -27,7 +27,7 @@ const PANELS = {
   },
   Tests: async (page) => {
     await page.getByRole("button", { name: "Test all" }).click();
-    await page.getByText("passed").first().waitFor();
+    await page.getByText(/met, 0 failed/).first().waitFor();
   },
   Problems: async (page) => {
     await page.getByRole("textbox", { name: "station1.awl" }).focus();

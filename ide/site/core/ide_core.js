@@ -83,6 +83,14 @@ export class Ide {
         return v4;
     }
     /**
+     * See [`Session::is_behind`].
+     * @returns {boolean}
+     */
+    isBehind() {
+        const ret = wasm.ide_isBehind(this.__wbg_ptr);
+        return ret !== 0;
+    }
+    /**
      * With an empty project.
      */
     constructor() {
