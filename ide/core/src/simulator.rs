@@ -89,7 +89,8 @@ impl Simulator {
             symbols,
             scan_ms,
             now_ms: 0,
-            due_ms: 0.0, is_behind: false,
+            due_ms: 0.0,
+            is_behind: false,
         };
         for (&operand, &value) in &bench.driven {
             simulator.drive(operand, value)?;

@@ -8,7 +8,7 @@ import { open } from "./browser.mjs";
 
 const [, , address, out] = process.argv;
 const AXE = await readFile(new URL("../node_modules/axe-core/axe.min.js", import.meta.url), "utf8");
-const WIDTHS = { 1024: 700, 390: 844 };
+const WIDTHS = { 1024: 900, 390: 844 };
 /** Panels, and what is done in each before it is looked at. */
 const PANELS = {
   Plant: (page) => page.waitForTimeout(500),

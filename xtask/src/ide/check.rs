@@ -14,6 +14,8 @@ use crate::process::{cargo, root, run};
 
 /// The page as it is committed.
 const PAGE: &str = "ide/page/dist";
+/// How the page looked; docs/ide has those that are shown there.
+const PICTURES: &str = "target/ide-pictures";
 /// Where the tests of the core write what they told it, and its answers.
 const LOG: &str = "target/tmp/ide-log";
 /// The folder that the page works in when that is checked.
@@ -55,6 +57,7 @@ pub fn check() -> Result<()> {
     run(node("test/budgets.mjs").arg(&address).arg(&folder))?;
     run(node("test/reload.mjs").arg(&address))?;
     run(node("test/errors.mjs").arg(root().join(UNO200)).arg(&folder))?;
+    run(node("test/pictures.mjs").arg(&address).arg(root().join(PICTURES)))?;
     run(node("test/offline.mjs").arg(&folder))?;
     check_folder(&folder, &sources)?;
     check_board(&folder, &sources)
