@@ -152,8 +152,8 @@ impl Session {
         events
     }
 
-    /// Whether the simulator was allowed fewer scans in the last [`tick`](Self::tick) than were due:
-    /// as fast as it can go, that is always so.
+    /// Whether the simulator was allowed fewer scans in the last [`tick`](Self::tick) than were
+    /// due: as fast as it can go, that is always so.
     pub fn is_behind(&self) -> bool {
         self.simulator.as_ref().is_some_and(|simulator| simulator.is_behind)
     }

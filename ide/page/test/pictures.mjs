@@ -23,11 +23,17 @@ const PANELS = {
   Capture: async (page) => {
     await signals(page, "Capture", ["Push", "Height"]);
     await page.getByRole("button", { name: "Simulate", exact: true }).click();
-    await page.getByText(/s simulated/).first().waitFor();
+    await page
+      .getByText(/s simulated/)
+      .first()
+      .waitFor();
   },
   Tests: async (page) => {
     await page.getByRole("button", { name: "Test all" }).click();
-    await page.getByText(/met, 0 failed/).first().waitFor();
+    await page
+      .getByText(/met, 0 failed/)
+      .first()
+      .waitFor();
   },
   Problems: async (page) => {
     await page.getByRole("textbox", { name: "station1.awl" }).focus();

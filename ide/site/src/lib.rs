@@ -1,5 +1,5 @@
-//! The page of the IDE with its core and its examples, as the files that a web server gives away: it
-//! is put together here, from what is committed. No server, and nothing of what the page does.
+//! The page of the IDE with its core and its examples, as the files that a web server gives away:
+//! it is put together here, from what is committed. No server, and nothing of what the page does.
 
 mod examples;
 mod files;

@@ -1,6 +1,6 @@
-//! A folder of this computer as the project of a page: which of its files belong to it, their texts,
-//! and how they are written so that nothing is lost that somebody else has changed. Who may ask for
-//! that, and how, is not known here.
+//! A folder of this computer as the project of a page: which of its files belong to it, their
+//! texts, and how they are written so that nothing is lost that somebody else has changed. Who may
+//! ask for that, and how, is not known here.
 
 use std::collections::VecDeque;
 use std::fs;

@@ -1,4 +1,5 @@
-//! The check of the IDE: the page is what its sources say, and does what it should in a real browser.
+//! The check of the IDE: the page is what its sources say, and does what it should in a real
+//! browser.
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -10,7 +10,8 @@ use ide_core::Session;
 use ide_core::protocol::{Event, Request};
 use serde_json::json;
 
-/// The session. Its log is in `target/tmp/ide-log`, a file for each test: a line for each call, JSON.
+/// The session. Its log is in `target/tmp/ide-log`, a file for each test, a line of JSON for each
+/// call.
 #[derive(Default)]
 pub struct Recorded {
     session: Session,
