@@ -72,6 +72,7 @@ pub fn translate(source: &Source, known: &mut HashSet<String>) -> Translation {
         }
         let mut variables = Variables::default();
         unit.body = unit_body(&mut parsed, &mut variables, &mut diagnostics);
+        variables.check(&mut diagnostics);
         unit.sections.push(build::section(SectionKind::Var, variables.0));
     }
     diagnostics.extend(warnings);
