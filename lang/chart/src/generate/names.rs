@@ -7,42 +7,61 @@ use st::tree::Name;
 
 use super::mentions::Scope;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{Chart, Instance, StepId, is_same_name};
+use crate::model::{Chart, Instance, StepId};
 
 /// Variables that a chart adds to its unit.
 #[derive(Default)]
-pub(super) struct Variables(pub(super) Vec<(Name, &'static str)>);
+pub(super) struct Variables {
+    list: Vec<(Name, &'static str)>,
+    /// Their names in upper case.
+    names: HashSet<String>,
+}
 
 impl Variables {
     /// A name that begins so and that no variable has yet.
     pub(super) fn unused(&self, name: &str) -> String {
-        let is_used = |name: &str| self.0.iter().any(|(other, _)| is_same_name(&other.text, name));
         let numbered = (2..).map(|number| format!("{name}{number}"));
         let mut names = std::iter::once(name.to_owned()).chain(numbered);
-        names.find(|name| !is_used(name)).unwrap_or_default()
+        names.find(|name| !self.names.contains(&name.to_uppercase())).unwrap_or_default()
     }
 
-    /// Reports steps whose variable would be one that the chart needs for itself.
-    pub(super) fn check(&self, found: &mut Vec<Diagnostic>) {
-        let mut own = HashSet::new();
-        let unnamed = |(name, _): &&(Name, &str)| name.span == Span::default();
-        own.extend(self.0.iter().filter(unnamed).map(|(name, _)| name.text.to_uppercase()));
-        for (name, _) in self.0.iter().filter(|one| !unnamed(one)) {
-            if own.contains(&name.text.to_uppercase()) {
+    /// Reports and removes steps whose variable would be one that the chart needs for itself.
+    pub(super) fn check(&mut self, found: &mut Vec<Diagnostic>) {
+        let is_own = |name: &Name| name.span == Span::default();
+        let names = self.list.iter().map(|(name, _)| name);
+        let own: HashSet<String> =
+            names.filter(|name| is_own(name)).map(|name| name.text.to_uppercase()).collect();
+        self.list.retain(|(name, _)| {
+            let is_taken = !is_own(name) && own.contains(&name.text.to_uppercase());
+            if is_taken {
                 let message =
                     format!("{}: the chart has a variable of this name itself", name.text);
                 let twice = Diagnostic::new(Code::Duplicate, name.span, message);
                 found.push(twice.help("another name for the step makes both possible"));
             }
-        }
+            !is_taken
+        });
     }
 
     pub(super) fn add(&mut self, name: &str, of_type: &'static str) {
         self.add_at(name, of_type, Span::default());
     }
 
-    pub(super) fn add_at(&mut self, name: &str, of_type: &'static str, span: Span) {
-        self.0.push((Name { text: name.to_owned(), span }, of_type));
+    /// A variable of an element. A second one of the same name is reported where it was read.
+    pub(super) fn add_once(&mut self, name: &str, of_type: &'static str, span: Span) {
+        if self.unused(name) == name {
+            self.add_at(name, of_type, span);
+        }
+    }
+
+    fn add_at(&mut self, name: &str, of_type: &'static str, span: Span) {
+        self.names.insert(name.to_uppercase());
+        self.list.push((Name { text: name.to_owned(), span }, of_type));
+    }
+
+    /// All of them, with their types.
+    pub(super) fn list(self) -> Vec<(Name, &'static str)> {
+        self.list
     }
 }
 

@@ -218,11 +218,6 @@ impl Reader<'_> {
         let text = span.text(self.text).to_owned();
         let mut instance = Instance::new(ActionId(0));
         instance.origin = Origin(span);
-        if kind == Kind::Word && is_address(&text) {
-            let message = format!("{text}: an address is written with `%`");
-            let found = Diagnostic::new(ErrorCode::Syntax, span, message);
-            self.report(found.suggest(format!("%{text}")));
-        }
         if self.take_sign("(") {
             self.qualified(&mut instance);
             if !self.take_sign(")") {
@@ -498,11 +493,6 @@ impl Reader<'_> {
         }
         found.into_iter().for_each(|one| self.report(one));
     }
-}
-
-/// `Q0.0` without its sign.
-fn is_address(text: &str) -> bool {
-    text.contains('.') && awl_asm::Address::parse(text).is_ok()
 }
 
 fn short(text: &str) -> String {
