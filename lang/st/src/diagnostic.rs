@@ -26,4 +26,5 @@ diagnostics::codes! {
     NeverReached = "W0201";
     WrittenTwice = "W0202";
     ReadUnwritten = "W0203";
+    Coarse = "W0210";
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use diagnostics::Span;
 
-pub use crate::tree::{BinaryOperator, SectionKind};
+pub use crate::tree::{BinaryOperator, Element, SectionKind};
 
 /// A type.
 #[derive(Debug, Clone, PartialEq)]
@@ -323,8 +323,23 @@ pub struct Program {
     pub units: Vec<Unit>,
     /// Its global variables.
     pub globals: Vec<Variable>,
+    /// Timers that need not be exact.
+    pub coarse: Vec<Coarse>,
     /// Lines `//# ...`.
     pub settings: Vec<String>,
+}
+
+/// A variable with the pragma `{coarse}`.
+#[derive(Debug, Clone)]
+pub struct Coarse {
+    /// The unit that declares it; `None`: it is global.
+    pub unit: Option<usize>,
+    /// Its number among the variables there.
+    pub variable: usize,
+    /// The number of the file.
+    pub file: usize,
+    /// Where the pragma is.
+    pub span: Span,
 }
 
 /// Where a value is.
@@ -446,6 +461,10 @@ pub enum StatementKind {
     Continue,
     /// RETURN
     Return,
+    /// What follows belongs to an element of a drawing.
+    Element(Element),
+    /// Adds the milliseconds since the start of the scan before.
+    AddElapsed(Place),
     /// A call of an instance.
     Call(Box<BlockCall>),
     /// A call of a subroutine in AWL.

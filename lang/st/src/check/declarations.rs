@@ -5,7 +5,7 @@ use awl_asm::Address;
 use super::Checker;
 use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{SectionKind, Type, Unit, UnitKind, Variable};
+use crate::model::{Coarse, SectionKind, Type, Unit, UnitKind, Variable};
 use crate::tree;
 
 impl<'a> Checker<'a> {
@@ -130,6 +130,7 @@ impl<'a> Checker<'a> {
                 if self.is_taken(name) {
                     continue;
                 }
+                self.coarse(declared, &of_type);
                 self.add(Variable {
                     name: name.text.clone(),
                     span: name.span,
@@ -143,6 +144,26 @@ impl<'a> Checker<'a> {
                 });
             }
         }
+    }
+
+    /// A variable of these that is added next need not be exact.
+    fn coarse(&mut self, declared: &tree::Declaration, of_type: &Type) {
+        let (Some(span), Some(file)) = (declared.coarse, self.file) else { return };
+        let is_timer = match of_type {
+            Type::Block(number, name) => {
+                let unit = self.program.units.get(*number);
+                unit.is_some_and(|unit| unit.file.is_none()) && ["TON", "TOF"].contains(&&**name)
+            }
+            _ => false,
+        };
+        if !is_timer {
+            let message = format!("`{{coarse}}` changes nothing: no timer can be a {of_type}");
+            let found = Diagnostic::new(Code::Coarse, span, message);
+            self.report(found.help("TON and TOF can be timers of the controller"));
+            return;
+        }
+        let variable = self.unit.map_or(self.program.globals.len(), |_| self.locals().len());
+        self.program.coarse.push(Coarse { unit: self.unit, variable, file, span });
     }
 
     fn is_taken(&mut self, name: &tree::Name) -> bool {

@@ -20,7 +20,7 @@ use std::sync::OnceLock;
 
 use diagnostics::{Source, Span};
 
-pub(crate) use recursion::{each_expression, inside};
+pub(crate) use recursion::{each_assignment, each_expression, inside};
 
 use crate::around::Around;
 use crate::diagnostic::{Code, Diagnostic};

@@ -58,6 +58,8 @@ impl Checker<'_> {
             Kind::Exit => self.leave(StatementKind::Exit, "EXIT", statement.span),
             Kind::Continue => self.leave(StatementKind::Continue, "CONTINUE", statement.span),
             Kind::Return => Some(StatementKind::Return),
+            Kind::Element(element) => Some(StatementKind::Element(element.clone())),
+            Kind::AddElapsed(target) => self.target(target).map(StatementKind::AddElapsed),
         }
     }
 

@@ -122,6 +122,7 @@ impl Generator<'_> {
             match &statement.kind {
                 StatementKind::Assign(place, value) => self.assign(place, value),
                 StatementKind::If(arms, otherwise) => self.nested(arms, otherwise),
+                StatementKind::AddElapsed(place) => self.add_elapsed(place),
                 kind => {
                     let label = self.target_of(kind);
                     self.writer.jump(label);

@@ -137,6 +137,11 @@ impl Generator<'_> {
         is_retained: bool,
         lines: &mut Vec<String>,
     ) {
+        if let Some(device) = self.devices.get(name) {
+            lines.push(format!("//# symbol {name} {}", device.address));
+            lines.push(format!("//# symbol {name}.Q {}", device.address));
+            return;
+        }
         let Some(unit) = self.program.units.get(number) else { return };
         let short = self.short.get(&(owner, at));
         for (inner, variable) in unit.variables.iter().enumerate() {

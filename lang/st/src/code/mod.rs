@@ -5,6 +5,7 @@ mod calls;
 mod compare;
 mod control;
 mod convert;
+mod hardware;
 mod logic;
 mod memory;
 mod places;
@@ -19,7 +20,9 @@ use std::collections::HashSet;
 use diagnostics::{Source, Span};
 
 use crate::around::Around;
-use crate::model::{ExpressionKind, Program, SectionKind, Type, UnitKind};
+use crate::diagnostic::Diagnostic;
+use crate::model::{Element, ExpressionKind, Program, SectionKind, Type, UnitKind};
+use hardware::Devices;
 use timers::Short;
 use writer::Writer;
 
@@ -53,6 +56,8 @@ struct Generator<'a> {
     program: &'a Program,
     sources: &'a [Source],
     short: Short,
+    /// Instances that are timers and counters of the controller.
+    devices: Devices,
     /// Names that stand for addresses.
     located: HashSet<String>,
     writer: Writer,
@@ -61,8 +66,13 @@ struct Generator<'a> {
     is_tick: bool,
 }
 
-/// Writes a checked program.
-pub(crate) fn generate(program: &Program, sources: &[Source], around: &Around) -> String {
+/// Writes a checked program. Beside it what its author should know of timers, with the number of
+/// the file.
+pub(crate) fn generate(
+    program: &Program,
+    sources: &[Source],
+    around: &Around,
+) -> (String, Vec<(usize, Diagnostic)>) {
     let frame = Frame {
         unit: 0,
         names: Names::Local,
@@ -72,10 +82,12 @@ pub(crate) fn generate(program: &Program, sources: &[Source], around: &Around) -
         end: None,
         loops: Vec::new(),
     };
+    let (devices, notes) = hardware::devices(program, around);
     let mut generator = Generator {
         program,
         sources,
         short: timers::short_timers(program),
+        devices,
         located: located(program),
         writer: Writer::default(),
         frame,
@@ -97,7 +109,7 @@ pub(crate) fn generate(program: &Program, sources: &[Source], around: &Around) -
             routine += 1;
         }
     }
-    lines.join("\n") + "\n"
+    (lines.join("\n") + "\n", notes)
 }
 
 /// The functions that are called by what is in the files, and by those.
@@ -268,8 +280,18 @@ impl Generator<'_> {
 
     /// What follows in the AWL text belongs to a statement, if that is of a file.
     fn begin(&mut self, span: Span) {
+        if span == Span::default() {
+            return;
+        }
         if let Some(source) = self.frame.file.and_then(|file| self.sources.get(file)) {
             self.writer.statement(source, span);
+        }
+    }
+
+    /// What follows in the AWL text belongs to an element of a drawing.
+    fn begin_element(&mut self, element: &Element) {
+        if let Some(source) = self.frame.file.and_then(|file| self.sources.get(file)) {
+            self.writer.element(&source.name, element);
         }
     }
 }

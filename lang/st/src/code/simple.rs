@@ -40,6 +40,7 @@ impl Generator<'_> {
                 }
                 Some(sum)
             }
+            StatementKind::AddElapsed(_) => Some(2),
             StatementKind::Exit | StatementKind::Continue | StatementKind::Return => {
                 (level == 1).then_some(1)
             }

@@ -21,6 +21,8 @@ impl Generator<'_> {
 
     fn statement(&mut self, statement: &Statement) {
         match &statement.kind {
+            StatementKind::Element(element) => self.begin_element(element),
+            StatementKind::AddElapsed(place) => self.add_elapsed(place),
             StatementKind::Assign(place, value) => self.assign(place, value),
             StatementKind::If(arms, otherwise) => self.if_statement(arms, otherwise),
             StatementKind::Case(selector, arms, otherwise) => {

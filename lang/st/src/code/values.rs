@@ -183,10 +183,27 @@ impl Generator<'_> {
         };
         self.writer.boxed(&mnemonic, &format!("{operand}, {to}"));
         if self.is_tick {
-            // A timer's word ends at the highest number, not before.
-            self.writer.logic("A", "SM1.1", false);
-            self.writer.boxed_here("MOVW", &format!("{}, {to}", i16::MAX));
+            self.end_at_highest(to);
         }
+    }
+
+    /// A word of milliseconds ends at the highest number, not before.
+    fn end_at_highest(&mut self, to: &str) {
+        self.writer.logic("A", "SM1.1", false);
+        self.writer.boxed_here("MOVW", &format!("{}, {to}", i16::MAX));
+    }
+
+    /// Adds the milliseconds since the start of the scan before.
+    pub(super) fn add_elapsed(&mut self, place: &Place) {
+        let found = self.locate(place);
+        if found.storage == Storage::Double {
+            let elapsed = self.writer.temporary(Storage::Double);
+            self.writer.boxed("ITD", &format!("SMW22, {elapsed}"));
+            self.writer.boxed("+D", &format!("{elapsed}, {}", found.text));
+            return;
+        }
+        self.writer.boxed("+I", &format!("SMW22, {}", found.text));
+        self.end_at_highest(&found.text);
     }
 
     /// `a - a / b * b`: with b = 0 nothing is divided, and a * 0 is taken away.

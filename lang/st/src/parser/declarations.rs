@@ -1,5 +1,7 @@
 //! Units, sections of variables, types.
 
+use diagnostics::Span;
+
 use super::expressions::joined;
 use super::{Failed, Outcome, Parser};
 use crate::diagnostic::{Code, Diagnostic};
@@ -190,6 +192,7 @@ impl Parser<'_> {
     }
 
     fn declaration(&mut self) -> Outcome<Declaration> {
+        let before = self.previous().end;
         let mut names = vec![self.name("a name")?];
         while self.take_sign(",") {
             names.push(self.name("a name")?);
@@ -205,7 +208,14 @@ impl Parser<'_> {
         self.need_sign(":")?;
         let of_type = self.type_text();
         let initial = self.initial_value()?;
-        Ok(Declaration { names, at, of_type, initial })
+        let coarse = self.coarse_within(before, self.token().span.start);
+        Ok(Declaration { names, at, of_type, initial, coarse })
+    }
+
+    /// The pragma `{coarse}` between two places in the text, which is taken.
+    fn coarse_within(&mut self, start: u32, end: u32) -> Option<Span> {
+        let found = self.coarse.iter().position(|one| start <= one.start && one.end <= end)?;
+        Some(self.coarse.remove(found))
     }
 
     fn initial_value(&mut self) -> Outcome<Option<crate::tree::Expression>> {
@@ -273,7 +283,8 @@ impl Parser<'_> {
         }
         if self.is_word("STRUCT") {
             let opened = self.step().span;
-            let members = self.declarations();
+            let mut members = self.declarations();
+            self.coarse.extend(members.iter_mut().filter_map(|member| member.coarse.take()));
             if !self.take_word("END_STRUCT") {
                 self.missing("END_STRUCT", Some((opened, "for this one")));
             }

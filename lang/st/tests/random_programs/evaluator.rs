@@ -3,6 +3,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::coarse::Coarse;
 use super::values::{Kind, Value, as_type, binary, convert, shift, unary, whole};
 use st::tree::{
     Argument, BinaryOperator, CaseArm, Expression, ExpressionKind, File, Name, Section,
@@ -35,7 +36,9 @@ pub struct Evaluator {
     /// For timers and edges: what they remember, by instance.
     since: HashMap<String, Option<u64>>,
     was_on: HashMap<String, bool>,
-    now: u64,
+    /// Timers that need not be exact, by instance.
+    pub(super) coarse: HashMap<String, Coarse>,
+    pub(super) now: u64,
 }
 
 pub(super) fn upper(text: &str) -> String {
@@ -54,6 +57,7 @@ impl Evaluator {
             enumerators: HashMap::new(),
             since: HashMap::new(),
             was_on: HashMap::new(),
+            coarse: HashMap::new(),
             now: 0,
         };
         for declared in &file.types {
@@ -81,6 +85,9 @@ impl Evaluator {
             for name in &declared.names {
                 let full = join(prefix, &name.text);
                 self.declare_one(&full, &declared.of_type, declared.initial.as_ref());
+                if declared.coarse.is_some() {
+                    self.coarse.insert(full, Coarse::default());
+                }
             }
         }
     }
@@ -91,6 +98,7 @@ impl Evaluator {
 
     /// One scan that begins at a time.
     pub fn scan(&mut self, now: u64) {
+        self.values.insert("MAIN.FIRST".to_owned(), Value::Bool(now == 0));
         self.now = now;
         self.go_on();
         for unit in self.file.units.clone() {
@@ -103,6 +111,10 @@ impl Evaluator {
     /// Timers that run show the time since they began, whether or not they are called.
     fn go_on(&mut self) {
         for (instance, block) in self.instances.clone() {
+            if self.coarse.contains_key(&instance) {
+                self.steps_at_scan_start(&block, &instance);
+                continue;
+            }
             let Some(began) = self.since.get(&instance).copied().flatten() else { continue };
             let (on, q) = (self.bit(&instance, "IN"), self.bit(&instance, "Q"));
             let runs = match block.as_str() {
@@ -167,6 +179,7 @@ impl Evaluator {
             StatementKind::Exit => return Flow::Exit,
             StatementKind::Continue => return Flow::Continue,
             StatementKind::Return => return Flow::Return,
+            other => panic!("no text has {other:?}"),
         }
         Flow::On
     }
@@ -338,11 +351,11 @@ impl Evaluator {
         }
     }
 
-    fn bit(&self, instance: &str, name: &str) -> bool {
+    pub(super) fn bit(&self, instance: &str, name: &str) -> bool {
         self.values[&format!("{instance}.{name}")] == Value::Bool(true)
     }
 
-    fn set(&mut self, instance: &str, name: &str, value: Value) {
+    pub(super) fn set(&mut self, instance: &str, name: &str, value: Value) {
         self.write(&format!("{instance}.{name}"), value);
     }
 
@@ -352,6 +365,9 @@ impl Evaluator {
         let number =
             |evaluator: &Self, name: &str| whole(evaluator.values[&format!("{instance}.{name}")]);
         match block {
+            "TON" | "TOF" if self.coarse.contains_key(instance) => {
+                self.coarse_timer(block, instance);
+            }
             "TON" | "TOF" | "TP" => self.timer(block, instance, was_on),
             "R_TRIG" => {
                 let clk = self.bit(instance, "CLK");

@@ -98,10 +98,23 @@ impl Generator {
         text += "list : ARRAY[1..5] OF INT;\nflags : ARRAY[0..3] OF BOOL;\n";
         text += "grid : ARRAY[0..2, -1..1] OF DINT;\n";
         text += "s : State;\nton1 : TON; tof1 : TOF; tp1 : TP; ton2 : TON; count1 : CTU;\n";
+        text += "{coarse} slow1, fast1 : TON;\nslow2, fast2 : TOF {coarse};\n";
+        text += "first AT %SM0.1 : BOOL; count2 : CTU;\n";
         text += "edge1 : R_TRIG;\none, two : Block;\nEND_VAR\n";
+        text += &self.devices();
         let count = self.rng.usize(3..10);
         text += &self.statements(count);
         text + "END_PROGRAM\n"
+    }
+
+    /// Calls of instances that are timers and counters of the controller.
+    fn devices(&mut self) -> String {
+        let mut text = String::new();
+        for (name, preset) in [("slow1", 100), ("fast1", 30), ("slow2", 100), ("fast2", 20)] {
+            text += &format!("{name}(IN := {}, PT := T#{preset}ms);\n", self.condition());
+        }
+        let (up, reset) = (self.condition(), self.condition());
+        text + &format!("count2(CU := {up}, R := {reset} OR first, PV := 3);\n")
     }
 
     fn function(&mut self) -> String {
@@ -386,7 +399,19 @@ impl Generator {
             0 | 1 if self.in_function || self.in_block => "p".to_owned(),
             0 | 1 => self.variable("BOOL"),
             2 if !self.in_function && !self.in_block => self
-                .pick(&["ton1.Q", "tof1.Q", "tp1.Q", "ton2.Q", "count1.Q", "(s = Run)"])
+                .pick(&[
+                    "ton1.Q",
+                    "tof1.Q",
+                    "tp1.Q",
+                    "ton2.Q",
+                    "count1.Q",
+                    "(s = Run)",
+                    "slow1.Q",
+                    "fast1.Q",
+                    "slow2.Q",
+                    "fast2.Q",
+                    "count2.Q",
+                ])
                 .to_owned(),
             2 => "p".to_owned(),
             3 | 4 => {
@@ -466,7 +491,7 @@ impl Generator {
                 1 => format!("REAL_TO_INT({})", self.real()),
                 2 => format!("WORD_TO_INT({})", self.bits()),
                 3 => format!("BOOL_TO_INT({})", self.condition()),
-                _ => "count1.CV".to_owned(),
+                _ => self.pick(&["count1.CV", "count2.CV"]).to_owned(),
             },
             12 if kind == "DINT" && !is_plain => match self.rng.u8(..3) {
                 0 => format!("TIME_TO_DINT({})", self.time()),

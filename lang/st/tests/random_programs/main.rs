@@ -1,6 +1,7 @@
 //! Random programs: what the compiled program leaves in its variables after every scan is what the
 //! naive evaluator of the syntax tree says. `ST_PROGRAMS` sets how many, `ST_SEED` shows one.
 
+mod coarse;
 mod declarations;
 mod evaluator;
 mod generate;
