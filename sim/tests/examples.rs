@@ -7,6 +7,7 @@ use awl_sim::open::{Opened, Target, open_machine};
 use awl_sim::plant::{Report, parse_spec};
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
+use awl_sim::suite::plant_for;
 
 fn examples() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples")
@@ -25,9 +26,12 @@ fn run_scenario(stem: &str, scan_ms: Option<u64>) -> Outcome {
     let path = examples().join(stem).with_extension("scn");
     let text = fs::read_to_string(&path).unwrap();
     let mut has_operand = |operand| machine.read(operand).map(|_| ());
-    let context = Context { symbols: &symbols, plant: None, has_operand: &mut has_operand };
-    let scenario = Scenario::parse(&path.display().to_string(), &text, context)
-        .unwrap_or_else(|error| panic!("{error}"));
+    let origin = path.display().to_string();
+    let plant = plant_for(&path, &origin, &text).unwrap_or_else(|error| panic!("{error}"));
+    let plant = plant.as_ref();
+    let context = Context { symbols: &symbols, plant, has_operand: &mut has_operand };
+    let scenario =
+        Scenario::parse(&origin, &text, context).unwrap_or_else(|error| panic!("{error}"));
     let plant = scenario.plant.as_ref().map(|spec| spec.build().unwrap());
     let scan_ms = scan_ms.or(scenario.scan_ms).or(period_ms).unwrap_or(1);
     let job = Job { scan_ms, length: Length::Scenario, signals: Vec::new(), plant, progress: None };

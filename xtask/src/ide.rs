@@ -169,24 +169,24 @@ fn copy(from: &Path, to: &Path) -> Result<()> {
 /// The examples as projects, and the list of them.
 fn examples(to: &Path) -> Result<()> {
     let from = root().join("examples");
-    let mut names = Vec::new();
+    let mut all = Vec::new();
     for entry in fs::read_dir(&from)? {
-        let path = entry?.path();
-        let (Some(stem), true) = (path.file_stem(), path.extension() == Some("awl".as_ref()))
-        else {
-            continue;
-        };
-        names.push(stem.to_string_lossy().into_owned());
+        all.push(entry?.file_name().to_string_lossy().into_owned());
     }
-    names.sort();
+    // The shorter ones first: the program and the scenario that is called like it.
+    all.sort_by_key(|file| (file.len(), file.clone()));
+    let mut names: Vec<&str> = all.iter().filter_map(|file| file.strip_suffix(".awl")).collect();
+    names.sort_unstable();
     for name in &names {
-        let file = |ending: &str| {
-            let file = format!("{name}.{ending}");
-            let text = fs::read_to_string(from.join(&file)).ok()?;
-            Some(json!({ "name": file, "text": text }))
-        };
-        let files: Vec<_> = ["awl", "scn"].iter().filter_map(|ending| file(ending)).collect();
-        let plant = PLANTS.iter().find(|(of, _)| of == name).map(|(_, plant)| plant);
+        let mut files = Vec::new();
+        for file in &all {
+            if file.strip_prefix(*name).is_some_and(|behind| behind.starts_with('.')) {
+                files.push(json!({ "name": file, "text": fs::read_to_string(from.join(file))? }));
+            }
+        }
+        let described = format!("{name}.plant");
+        let plant = PLANTS.iter().find(|(of, _)| of == name).map(|(_, plant)| *plant);
+        let plant = plant.or_else(|| all.contains(&described).then_some(described.as_str()));
         let project = json!({ "files": files, "main": format!("{name}.awl"), "plant": plant });
         fs::write(to.join(name).with_extension("json"), project.to_string())?;
     }

@@ -6,6 +6,8 @@ mod status;
 
 use awl_asm::diagnostic::Code;
 use awl_sim::operand::Operand;
+use awl_sim::plant::file;
+use awl_sim::scenario::plant_of;
 use client::line::Framing;
 use client::show::state::{Agreement, Link, Order};
 use serde::Serialize;
@@ -16,12 +18,13 @@ use crate::editor::Editor;
 use crate::ladder::Shown;
 use crate::outside::{Outside, Then};
 use crate::plc::Plc;
+use crate::protocol::plant::PlantInfo;
 use crate::protocol::{
-    ApartWish, Event, LookWish, ProjectWish, Request, TargetKind, TargetWish, TextWish, Wish,
+    ApartWish, Event, File, LookWish, ProjectWish, Request, TargetKind, TargetWish, TextWish, Wish,
 };
 use crate::pulse::Pulse;
 use crate::scope::{Scope, signals};
-use crate::simulator::{Bench, Simulator};
+use crate::simulator::{Bench, Simulator, built};
 use crate::surroundings::Surroundings;
 use crate::told::Told;
 
@@ -207,8 +210,7 @@ impl Session {
                     .map(|shown| Event::Power { id: shown.id, rungs: shown.power(&plc.state) }),
             );
         }
-        let spec = self.bench.plant.as_deref().unwrap_or_default();
-        let name = spec.split_whitespace().next().unwrap_or_default();
+        let name = self.bench.plant.as_ref().map(|(_, spec)| spec.name()).unwrap_or_default();
         if let Some(simulator) = &mut self.simulator {
             events.push(simulator.pins());
             events.extend(simulator.plant(name, &mut self.plant_events));
@@ -227,10 +229,14 @@ impl Session {
             Wish::Target(wish) => self.act(wish).map(|()| None),
             Wish::Look(wish) => self.look(wish).map(|()| None),
             Wish::Apart(ApartWish::Simulate { signals, for_ms, scan_ms, plant }) => {
-                let wanted = Wanted { signals: &signals, for_ms, scan_ms, plant: plant.as_deref() };
+                let plant = plant.map(|spec| self.editor.plant(&spec)).transpose()?;
+                let wanted = Wanted { signals: &signals, for_ms, scan_ms, plant: plant.as_ref() };
                 answer(apart::simulate(&build::files(&self.editor)?, &wanted)?)
             }
             Wish::Apart(ApartWish::Test { file }) => self.test(&file),
+            Wish::Apart(ApartWish::Check { name, text, plants }) => {
+                self.check(&name, &text, &plants)
+            }
         }
     }
 
@@ -275,9 +281,14 @@ impl Session {
                 self.ladder = editor.ladder(&file, at).map(|drawing| Shown { id, file, drawing });
                 answer(self.ladder.as_ref().map(Shown::ladder))
             }
+            TextWish::AboutPlant { spec } => {
+                let spec = editor.plant(&spec)?;
+                answer(PlantInfo::of(&spec, &*built(&spec)?))
+            }
             TextWish::Explain { code } => {
-                let found = Code::find(&code).ok_or_else(|| format!("{code}: no such code"))?;
-                answer(found.page())
+                let page = Code::find(&code).map(Code::page);
+                let page = page.or_else(|| file::Code::find(&code).map(file::Code::page));
+                answer(page.ok_or_else(|| format!("{code}: no such code"))?)
             }
         }
     }
@@ -285,7 +296,19 @@ impl Session {
     fn test(&self, file: &str) -> Done {
         let text = self.editor.text(file).ok_or_else(|| format!("there is no file {file}"))?;
         let program = self.editor.program_of(file).ok_or("the project has no program")?;
-        answer(apart::test(&build::files_of(&self.editor, &program), file, text)?)
+        let plant = self.editor.plant_of(file, text)?;
+        let files = build::files_of(&self.editor, &program);
+        answer(apart::test(&files, file, text, plant.as_ref())?)
+    }
+
+    /// Runs a scenario that is not in the project.
+    fn check(&self, name: &str, text: &str, plants: &[File]) -> Done {
+        let mut read = |file: &str| {
+            let found = plants.iter().find(|plant| plant.name == file);
+            found.map(|plant| plant.text.clone()).ok_or_else(|| format!("there is no file {file}"))
+        };
+        let plant = plant_of(name, text, &mut read).map_err(|error| error.to_string())?;
+        answer(apart::test(&build::files(&self.editor)?, name, text, plant.as_ref())?)
     }
 
     /// What is done with the target.
@@ -326,6 +349,7 @@ impl Session {
                 self.bench.speed = factor;
             }
             TargetWish::Plant { spec } => self.wire(spec)?,
+            TargetWish::Handle { name, value } => self.handle(name, value)?,
             TargetWish::Drive { operand, value } => self.drive(&operand, value)?,
             TargetWish::Set { operand, value } => {
                 let (operand, raw) = self.value(&operand, &value)?;
@@ -405,6 +429,7 @@ impl Session {
     }
 
     fn switch_on_simulator(&mut self) -> Result<(), String> {
+        self.renew_plant()?;
         let program = build::program(&self.editor)?;
         let files = build::files(&self.editor)?;
         self.simulator = Some(Simulator::new(&files, &self.bench)?);
@@ -416,6 +441,7 @@ impl Session {
 
     /// The virtual Uno with firmware and program. It boots before it hears.
     fn switch_on_chip(&mut self) -> Result<(), String> {
+        self.renew_plant()?;
         let program = build::board_program(&self.editor)?;
         let settings = build::settings(&program);
         self.chip = Some(Surroundings::new(settings, &self.bench)?);
@@ -517,13 +543,42 @@ impl Session {
 
     /// Another plant: what it is wired to is switched on anew with it.
     fn wire(&mut self, spec: Option<String>) -> Result<(), String> {
-        let before = std::mem::replace(&mut self.bench.plant, spec);
-        if let Err(message) = self.bench.new_plant() {
-            self.bench.plant = before;
-            return Err(message);
-        }
+        self.bench.plant = match spec {
+            Some(text) => {
+                let spec = self.editor.plant(&text)?;
+                built(&spec)?;
+                Some((text, spec))
+            }
+            None => None,
+        };
+        self.bench.handled.clear();
         let is_on = self.simulator.is_some() || self.chip.is_some();
         if is_on { self.download() } else { Ok(()) }
+    }
+
+    /// The file of the plant may have been edited.
+    fn renew_plant(&mut self) -> Result<(), String> {
+        if let Some((text, spec)) = &mut self.bench.plant {
+            *spec = self.editor.plant(text)?;
+        }
+        Ok(())
+    }
+
+    /// Sets something in the plant, now and after the next download.
+    fn handle(&mut self, name: String, value: i64) -> Result<(), String> {
+        let is_known = match (&mut self.simulator, &mut self.chip) {
+            (Some(simulator), _) => simulator.handle(&name, value),
+            (None, Some(chip)) => chip.handle(&name, value),
+            (None, None) => {
+                let plant = self.bench.new_plant()?;
+                plant.is_some_and(|plant| plant.controls().iter().any(|one| one.is_named(&name)))
+            }
+        };
+        if !is_known {
+            return Err(format!("nothing can be set in the plant by the name {name}"));
+        }
+        self.bench.handled.insert(name, value);
+        Ok(())
     }
 
     fn drive(&mut self, name: &str, value: i32) -> Result<(), String> {
