@@ -10,6 +10,7 @@ use std::process::{Child, Command, Stdio};
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
 
+use crate::exercises::exercises;
 use crate::process::{cargo, root, run};
 use crate::{packages, wasm};
 
@@ -191,5 +192,24 @@ fn examples(to: &Path) -> Result<()> {
         fs::write(to.join(name).with_extension("json"), project.to_string())?;
     }
     fs::write(to.join("list.json"), json!(names).to_string())?;
+    let mut files = Vec::new();
+    texts(&from, "", &mut files)?;
+    files.sort();
+    for (name, value) in exercises(&files) {
+        fs::write(to.join(name).with_extension("json"), value.to_string())?;
+    }
+    Ok(())
+}
+
+/// The texts of a folder and of those in it, with their paths from the first one on.
+fn texts(folder: &Path, path: &str, files: &mut Vec<(String, String)>) -> Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = format!("{path}{}", entry.file_name().to_string_lossy());
+        match entry.path().is_dir() {
+            true => texts(&entry.path(), &format!("{name}/"), files)?,
+            false => files.push((name, fs::read_to_string(entry.path())?)),
+        }
+    }
     Ok(())
 }

@@ -7,6 +7,7 @@ mod board;
 mod budgets;
 mod demo;
 mod dist;
+mod exercises;
 mod docs;
 mod firmware;
 mod grammar;

@@ -17,6 +17,7 @@ import { Tabs } from "./page/tabs";
 import { unfitWords } from "./page/unfit";
 import { valueMenu, valuesMenu } from "./page/values";
 import { Capture } from "./panels/capture";
+import { Exercises } from "./panels/exercises";
 import { Ladder } from "./panels/ladder";
 import { Operands } from "./panels/operands";
 import { Plant } from "./panels/plant";
@@ -70,6 +71,7 @@ const scope = new Scope(core, operands);
 const capture = new Capture(core, project, operands);
 const plant = new Plant(core, project);
 const tests = new Tests(core, project, editors, () => tabs);
+const exercises = new Exercises(core, project, open, () => current);
 const menu = new ProjectMenu(project, open, () => current);
 const header = new Header(core, {
   project: (at) => menu.show(at),
@@ -100,6 +102,12 @@ const tabs: Tabs = new Tabs("panels", [
     text: "ladder",
     element: ladder.element,
     shown: (shown) => ladder.shown(shown),
+  },
+  {
+    id: "exercises",
+    text: "exercises",
+    element: exercises.element,
+    shown: (shown) => exercises.shown(shown),
   },
 ]);
 new Outside(core, () => header.status?.target ?? "simulator");

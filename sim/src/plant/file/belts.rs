@@ -15,10 +15,10 @@ pub(super) struct Pieces {
 }
 
 impl Pieces {
-    /// A piece comes, where there is room: the one before it has left the beginning.
+    /// A piece comes, where there is room.
     pub(super) fn feed(&mut self, belt: &Belt) -> bool {
         let begin = belt.range.0 * UNIT;
-        let has_room = self.fronts.last().is_none_or(|last| last - belt.long * UNIT >= begin);
+        let has_room = self.fronts.last().is_none_or(|last| last - pitch(belt) >= begin);
         let comes = has_room && self.fronts.len() < belt.pieces;
         if comes {
             self.fronts.push(begin);
@@ -39,7 +39,7 @@ impl Pieces {
             let hold = holds.iter().copied().filter(|hold| *hold >= *front).min();
             let reach = (*front + by).min(limit).min(hold.unwrap_or(i64::MAX));
             *front = reach.max(*front);
-            limit = *front - belt.long * UNIT;
+            limit = *front - pitch(belt);
         }
         let before = self.fronts.len();
         self.fronts.retain(|front| *front < belt.range.1 * UNIT);
@@ -58,4 +58,9 @@ impl Pieces {
         let reaches = |front: &i64| *front >= low * UNIT && front - belt.long * UNIT <= high * UNIT;
         self.fronts.iter().any(reaches)
     }
+}
+
+/// From one front to the next at least.
+fn pitch(belt: &Belt) -> i64 {
+    (belt.long + belt.gap) * UNIT
 }

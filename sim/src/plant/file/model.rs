@@ -62,6 +62,8 @@ pub struct Belt {
     pub pieces: usize,
     /// How long a piece is.
     pub long: i64,
+    /// How far it stays behind the one before it, at least.
+    pub gap: i64,
 }
 
 /// Something that is counted, and told as an event.

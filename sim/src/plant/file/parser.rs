@@ -51,8 +51,10 @@ pub(super) fn read(text: &str) -> (Description, Vec<Diagnostic>) {
     let mut broken = Vec::new();
     for line in &statements {
         if let Err(error) = declare(&mut plant, line) {
+            if error.code != Code::Duplicate {
+                broken.push({ line.rest }.word().text);
+            }
             errors.push(error);
-            broken.push({ line.rest }.word().text);
         }
     }
     for line in &statements {
@@ -171,7 +173,8 @@ fn belt(plant: &Description, rest: &mut Cursor<'_>) -> Read<Belt> {
     if rest.takes("long") {
         long = rest.number_in(1, NUMBER_MAX)?;
     }
-    Ok(Belt { name, range, pieces, long })
+    let gap = if rest.takes("gap") { rest.number_in(0, NUMBER_MAX)? } else { 0 };
+    Ok(Belt { name, range, pieces, long, gap })
 }
 
 fn control(plant: &Description, word: &str, rest: &mut Cursor<'_>) -> Read<Control> {
