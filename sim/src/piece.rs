@@ -1,5 +1,5 @@
-//! Stretches of a text of lines, such as a scenario, that know where they are, and ways to cut them.
-//! What they mean is not known here.
+//! Stretches of a text of lines, such as a scenario, that know where they are, and ways to cut
+//! them. What they mean is not known here.
 
 use std::ops::Range;
 

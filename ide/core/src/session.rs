@@ -1,13 +1,13 @@
 //! Everything together: takes the page's requests, lets time pass, tells what is new.
 
 mod chip;
+mod plants;
 mod reach;
 mod status;
 
 use awl_asm::diagnostic::Code;
 use awl_sim::operand::Operand;
 use awl_sim::plant::file;
-use awl_sim::scenario::plant_of;
 use client::line::Framing;
 use client::show::state::{Agreement, Link, Order};
 use serde::Serialize;
@@ -18,13 +18,12 @@ use crate::editor::Editor;
 use crate::ladder::Shown;
 use crate::outside::{Outside, Then};
 use crate::plc::Plc;
-use crate::protocol::plant::PlantInfo;
 use crate::protocol::{
-    ApartWish, Event, File, LookWish, ProjectWish, Request, TargetKind, TargetWish, TextWish, Wish,
+    ApartWish, Event, LookWish, ProjectWish, Request, TargetKind, TargetWish, TextWish, Wish,
 };
 use crate::pulse::Pulse;
 use crate::scope::{Scope, signals};
-use crate::simulator::{Bench, Simulator, built};
+use crate::simulator::{Bench, Simulator};
 use crate::surroundings::Surroundings;
 use crate::told::Told;
 
@@ -281,34 +280,13 @@ impl Session {
                 self.ladder = editor.ladder(&file, at).map(|drawing| Shown { id, file, drawing });
                 answer(self.ladder.as_ref().map(Shown::ladder))
             }
-            TextWish::AboutPlant { spec } => {
-                let spec = editor.plant(&spec)?;
-                answer(PlantInfo::of(&spec, &*built(&spec)?))
-            }
+            TextWish::AboutPlant { spec } => self.about_plant(&spec),
             TextWish::Explain { code } => {
                 let page = Code::find(&code).map(Code::page);
                 let page = page.or_else(|| file::Code::find(&code).map(file::Code::page));
                 answer(page.ok_or_else(|| format!("{code}: no such code"))?)
             }
         }
-    }
-
-    fn test(&self, file: &str) -> Done {
-        let text = self.editor.text(file).ok_or_else(|| format!("there is no file {file}"))?;
-        let program = self.editor.program_of(file).ok_or("the project has no program")?;
-        let plant = self.editor.plant_of(file, text)?;
-        let files = build::files_of(&self.editor, &program);
-        answer(apart::test(&files, file, text, plant.as_ref())?)
-    }
-
-    /// Runs a scenario that is not in the project.
-    fn check(&self, name: &str, text: &str, plants: &[File]) -> Done {
-        let mut read = |file: &str| {
-            let found = plants.iter().find(|plant| plant.name == file);
-            found.map(|plant| plant.text.clone()).ok_or_else(|| format!("there is no file {file}"))
-        };
-        let plant = plant_of(name, text, &mut read).map_err(|error| error.to_string())?;
-        answer(apart::test(&build::files(&self.editor)?, name, text, plant.as_ref())?)
     }
 
     /// What is done with the target.
@@ -538,46 +516,6 @@ impl Session {
             }
             (None, _) => return Err("not connected: press Run or Connect".to_owned()),
         }
-        Ok(())
-    }
-
-    /// Another plant: what it is wired to is switched on anew with it.
-    fn wire(&mut self, spec: Option<String>) -> Result<(), String> {
-        self.bench.plant = match spec {
-            Some(text) => {
-                let spec = self.editor.plant(&text)?;
-                built(&spec)?;
-                Some((text, spec))
-            }
-            None => None,
-        };
-        self.bench.handled.clear();
-        let is_on = self.simulator.is_some() || self.chip.is_some();
-        if is_on { self.download() } else { Ok(()) }
-    }
-
-    /// The file of the plant may have been edited.
-    fn renew_plant(&mut self) -> Result<(), String> {
-        if let Some((text, spec)) = &mut self.bench.plant {
-            *spec = self.editor.plant(text)?;
-        }
-        Ok(())
-    }
-
-    /// Sets something in the plant, now and after the next download.
-    fn handle(&mut self, name: String, value: i64) -> Result<(), String> {
-        let is_known = match (&mut self.simulator, &mut self.chip) {
-            (Some(simulator), _) => simulator.handle(&name, value),
-            (None, Some(chip)) => chip.handle(&name, value),
-            (None, None) => {
-                let plant = self.bench.new_plant()?;
-                plant.is_some_and(|plant| plant.controls().iter().any(|one| one.is_named(&name)))
-            }
-        };
-        if !is_known {
-            return Err(format!("nothing can be set in the plant by the name {name}"));
-        }
-        self.bench.handled.insert(name, value);
         Ok(())
     }
 

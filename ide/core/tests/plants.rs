@@ -19,8 +19,7 @@ struct Page {
 
 impl Page {
     fn new(program: &str) -> Page {
-        let file =
-            |name: &str, text: &str| File { name: name.to_owned(), text: text.to_owned() };
+        let file = |name: &str, text: &str| File { name: name.to_owned(), text: text.to_owned() };
         let files = vec![file("door.awl", program), file("door.plant", DOOR)];
         let mut page = Page { session: Session::new(), now_ms: 0, events: Vec::new() };
         page.ask(Wish::Project(ProjectWish::Open { files, main: None })).unwrap();

@@ -1,4 +1,4 @@
-//! What people, or a scenario, can set in a plant: buttons, switches, sliders and faults.
+//! What people, or a scenario, can set in a plant: buttons, switches, sliders and faults, as data.
 
 /// Words for people in the languages of the page.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -74,3 +74,29 @@ impl Control {
         (self.range.0..=self.range.1).contains(&value)
     }
 }
+
+/// A fault by name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// Its name.
+    pub name: String,
+    /// What is broken.
+    pub words: Words,
+    /// What that does.
+    pub effect: Effect,
+}
+
+/// What a fault does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Effect {
+    /// The pin of I0.n keeps its level.
+    Stuck(u8),
+    /// Analog input n keeps its voltage.
+    StuckAnalog(u8),
+    /// What is at Q0.n sees a change of the pin so many milliseconds later; a shorter one not at
+    /// all.
+    Slow(u8, u64),
+}
+
+/// How late a slow actuator is where nothing else is said, in milliseconds.
+pub const SLOW_MS: u64 = 2000;

@@ -1,33 +1,8 @@
 //! Faults that every plant can have, whatever it models: a sensor whose signal stays as it is, an
 //! actuator that follows its output late. They are between the plant and its wires.
 
-use super::{Control, ControlKind, Inputs, Plant, Report, Signals, Words};
-
-/// A fault by name.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Fault {
-    /// Its name.
-    pub name: String,
-    /// What is broken.
-    pub words: Words,
-    /// What that does.
-    pub effect: Effect,
-}
-
-/// What a fault does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Effect {
-    /// The pin of I0.n keeps its level.
-    Stuck(u8),
-    /// Analog input n keeps its voltage.
-    StuckAnalog(u8),
-    /// What is at Q0.n sees a change of the pin so many milliseconds later; a shorter one not at
-    /// all.
-    Slow(u8, u64),
-}
-
-/// How late a slow actuator is where nothing else is said, in milliseconds.
-pub const SLOW_MS: u64 = 2000;
+use super::control::{Control, ControlKind, Effect, Fault};
+use super::{Inputs, Plant, Report, Signals};
 
 /// A plant with faults that can be switched.
 pub(super) struct WithFaults {
@@ -142,6 +117,7 @@ impl Plant for WithFaults {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plant::Words;
 
     /// I0.0 and Ain0 follow Q0.0.
     struct Wire;

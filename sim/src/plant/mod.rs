@@ -47,8 +47,7 @@ use awl_asm::Address;
 use plc_isa::{AnalogInput, Area};
 
 use crate::operand::Operand;
-pub use control::{Control, ControlKind, Words};
-pub use faults::{Effect, Fault};
+pub use control::{Control, ControlKind, Effect, Fault, Words};
 pub(crate) use file::words_of;
 pub use options::{OptionError, Options};
 pub use report::{EVENTS_MAX, Event, Report};
@@ -75,8 +74,8 @@ pub trait Plant: Send {
     /// What has happened so far.
     fn report(&self) -> Report;
 
-    /// How it is now, for a picture and for scenarios: names of its parts with positions, counts, or
-    /// 0 and 1; always the same names.
+    /// How it is now, for a picture and for scenarios: names of its parts with positions, counts,
+    /// or 0 and 1; always the same names.
     fn view(&self) -> Vec<(String, f64)>;
 
     /// What people and scenarios can set.
@@ -91,8 +90,8 @@ pub trait Plant: Send {
     }
 
     /// How the shapes of a plant file are, in their order: empty where one is not to be seen;
-    /// otherwise how far it is moved, in thousandths, and behind that for a lamp 0 or 1, for a level
-    /// its thousandths, for a value that, for pieces the thousandths of their way.
+    /// otherwise how far it is moved, in thousandths, and behind that for a lamp 0 or 1, for a
+    /// level its thousandths, for a value that, for pieces the thousandths of their way.
     fn places(&self) -> Vec<Vec<f64>> {
         Vec::new()
     }

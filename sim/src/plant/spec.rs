@@ -3,7 +3,8 @@
 
 use std::ops::Range;
 
-use super::faults::{Fault, WithFaults};
+use super::control::Fault;
+use super::faults::WithFaults;
 use super::file::{PlantErrors, PlantFile, is_plant_file};
 use super::{OptionError, Options, PLANTS, Plant, PlantKind, Words};
 use crate::problem::Problem;

@@ -5,9 +5,9 @@
 //! nothing moves. The model knows times and end positions, no forces: what the program should do
 //! with a height is not known here.
 
-use super::faults::SLOW_MS;
+use super::control::{Effect, SLOW_MS};
 use super::options::{OptionError, Options};
-use super::{Effect, Inputs, Plant, PlantKind, Report, Signals, named};
+use super::{Inputs, Plant, PlantKind, Report, Signals, named};
 
 /// The row for the table of plants.
 pub const KIND: PlantKind = PlantKind {

@@ -4,9 +4,9 @@
 //! Q0.0 runs the pump, Q0.1 opens the outlet where `outlet=valve`; a high pin is on. The level is
 //! on analog input 0, 0 to 100 % as AIW0 = 0 to 32000, and I0.0 is the overflow switch.
 
-use super::faults::SLOW_MS;
+use super::control::{Effect, SLOW_MS};
 use super::options::{OptionError, Options};
-use super::{Effect, Inputs, Plant, PlantKind, Report, Signals, named};
+use super::{Inputs, Plant, PlantKind, Report, Signals, named};
 
 /// The row for the table of plants.
 pub const KIND: PlantKind = PlantKind {

@@ -1,6 +1,6 @@
-//! Plants that a file describes: what there is, how outputs move it, what the PLC sees of it, how it
-//! is drawn. A text becomes a [`Description`], which is data; a plant runs it. docs/simulator.md
-//! tells how it is written.
+//! Plants that a file describes: what there is, how outputs move it, what the PLC sees of it, how
+//! it is drawn. A text becomes a [`Description`], which is data; a plant runs it.
+//! docs/simulator.md tells how it is written.
 //!
 //! ```
 //! use awl_sim::plant::file::PlantFile;

@@ -14,7 +14,7 @@ use super::model::{
 use super::names::point_of;
 use super::words::{STATEMENTS, form};
 use crate::piece::{Piece, lines};
-use crate::plant::faults::SLOW_MS;
+use crate::plant::control::SLOW_MS;
 use crate::plant::{Control, ControlKind, Effect, Fault, Words};
 
 /// Most statements of a file.

@@ -32,8 +32,8 @@ pub const STATEMENTS: [Statement; 18] = [
     row(
         "belt",
         "belt NAME A..B [pieces N] [long N] [gap N]",
-        "A belt or a road: pieces (at most 20, each 50 long, without a gap, unless said otherwise) come at A and \
-         leave at B; none goes through another.",
+        "A belt or a road: pieces (at most 20, each 50 long, without a gap, unless said otherwise) \
+         come at A and leave at B; none goes through another.",
     ),
     row("button", "button NAME \"WORDS\"", "1 as long as somebody presses it."),
     row("switch", "switch NAME \"WORDS\" [on]", "0 or 1, as somebody has set it."),
