@@ -37,8 +37,7 @@ fn exercise(files: &[(String, String)], name: &str) -> Value {
         (title.trim_start_matches("# "), text.trim())
     });
     let scenarios: Vec<_> = here().filter(|(path, _)| path.ends_with(".scn")).collect();
-    let plants = scenarios.iter().filter_map(|(_, text)| plant_of(text));
-    let plant = plants.last().unwrap_or_default();
+    let plant = scenarios.iter().rev().find_map(|(_, text)| plant_of(text)).unwrap_or_default();
     let main = format!("{}.awl", name.trim_start_matches(|c: char| c.is_ascii_digit() || c == '_'));
     let mut project = vec![json!({ "name": main, "text": text("start.awl") })];
     let mut hidden = Vec::new();

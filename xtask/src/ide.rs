@@ -55,6 +55,7 @@ pub fn check() -> Result<()> {
     let mut server = Serving::page(&folder, &[])?;
     let address = server.line()?;
     run(node("test/page.mjs").arg(&address).arg(root().join(FIGURES)))?;
+    run(node("test/plants.mjs").arg(&address))?;
     check_board(&folder, &sources)
 }
 

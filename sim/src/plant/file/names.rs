@@ -36,9 +36,26 @@ impl Description {
         if let Some(output) = point(word.text, "Q0.") {
             return Ok(Subject::Output(output));
         }
-        let names = self.names();
-        let found = names.iter().find(|(name, _)| name.eq_ignore_ascii_case(word.text));
-        found.map(|(_, subject)| *subject).ok_or_else(|| unknown(word, &names, "a name"))
+        self.find(word.text).ok_or_else(|| unknown(word, &self.names(), "a name"))
+    }
+
+    /// What a name stands for, in any letter case.
+    pub(super) fn find(&self, word: &str) -> Option<Subject> {
+        let is = |name: &str| name.eq_ignore_ascii_case(word);
+        if let Some(part) = self.parts.iter().position(|part| is(&part.name)) {
+            return Some(Subject::Part(part));
+        }
+        let (bare, suffix) = word.split_once('.').unwrap_or((word, ""));
+        let belt = self.belts.iter().position(|belt| belt.name.eq_ignore_ascii_case(bare));
+        match (belt, suffix.to_ascii_lowercase().as_str()) {
+            (Some(belt), "") if bare == word => return Some(Subject::Belt(belt)),
+            (Some(belt), "out") => return Some(Subject::Out(belt)),
+            (Some(belt), "taken") => return Some(Subject::Taken(belt)),
+            _ => {}
+        }
+        let control = self.controls.iter().position(|control| control.is_named(word));
+        let count = || self.counts.iter().position(|count| is(&count.name));
+        control.map(Subject::Control).or_else(|| count().map(Subject::Count))
     }
 
     /// The part of this name.

@@ -150,9 +150,8 @@ fn declare(plant: &mut Description, line: &Line<'_>) -> Read<()> {
 /// Takes a name that nothing else has.
 fn new_name(plant: &Description, rest: &mut Cursor<'_>) -> Read<String> {
     let name = rest.name()?;
-    let names = plant.names().into_iter().map(|(name, _)| name);
-    let faults = plant.faults.iter().map(|fault| fault.name.clone());
-    if names.chain(faults).any(|known| known.eq_ignore_ascii_case(name.text)) {
+    let is_fault = |fault: &Fault| fault.name.eq_ignore_ascii_case(name.text);
+    if plant.find(name.text).is_some() || plant.faults.iter().any(is_fault) {
         let message = format!("there is a {} already", name.text);
         return Err(wrong(Code::Duplicate, name, message));
     }

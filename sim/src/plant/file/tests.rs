@@ -218,6 +218,17 @@ fn every_form_is_that_of_its_statement() {
     }
 }
 
+#[test]
+fn the_manual_has_every_statement_and_every_shape() {
+    let manual = include_str!("../../../../docs/simulator.md");
+    for row in STATEMENTS {
+        assert!(manual.contains(&format!("\n| `{} ", row.word)), "{}", row.word);
+    }
+    for (shape, _) in SHAPES {
+        assert!(manual.contains(&format!("\n| `draw {shape} ")), "{shape}");
+    }
+}
+
 /// The plants of the examples, whole, cut off and with letters exchanged: never a panic, and what
 /// is good runs.
 #[test]
