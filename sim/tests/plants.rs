@@ -27,7 +27,7 @@ fn a_scenario_presses_looks_and_breaks() {
     let (code, out, _) = told(&folder.sim(&["test", "p.scn"]));
     assert_eq!(code, Some(1), "{out}");
     assert!(out.contains("missing: The lift stops at the top\n"), "{out}");
-    assert!(out.contains("p.scn:6: at 4s expected Q0.0 = 0, got 1"), "{out}");
+    assert!(out.contains("p.scn:7: at 4s expected Q0.0 = 0, got 1"), "{out}");
 }
 
 #[test]
@@ -37,7 +37,7 @@ fn the_command_line_takes_a_plant_file() {
     let arguments = ["p.awl", "--plant", "lift.plant", "--for", "3s"];
     let (code, _, errors) = told(&folder.sim(&arguments));
     assert_eq!(code, Some(0));
-    assert!(errors.contains("2.001 s  at the top\nplant lift.plant: Top 1\n"), "{errors}");
+    assert!(errors.contains("2.000 s  at the top\nplant lift.plant: Top 1\n"), "{errors}");
 }
 
 #[test]
