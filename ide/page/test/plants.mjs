@@ -186,6 +186,8 @@ if (pictures)
         }
         const name = `${colorScheme}-${width}-${fragment.replace(/\W/g, "-")}`;
         const fullPage = width < 800;
+        const drawing = page.locator(".panel:not([hidden]) svg.drawing").first();
+        if (prepare) await drawing.evaluate((element) => element.scrollIntoView());
         await page.waitForTimeout(400);
         await page.screenshot({ path: `${pictures}/${name}.png`, fullPage });
         await axe(name);

@@ -67,7 +67,7 @@ export class Controls {
   private toggle(control: Control, label: HTMLElement): HTMLElement {
     const isOn = () => toggle.getAttribute("aria-checked") === "true";
     const toggle = h("button", {
-      class: control.kind === "fault" ? "switch fault" : "switch",
+      class: control.kind === "fault" ? "switch of-fault" : "switch",
       attributes: {
         type: "button",
         role: "switch",
