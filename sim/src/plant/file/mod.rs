@@ -17,6 +17,8 @@
 //! assert!(inputs.digital(1));
 //! ```
 
+#![expect(clippy::result_large_err, reason = "a diagnostic is large, and made where reading ends")]
+
 mod belts;
 mod conditions;
 mod cursor;
