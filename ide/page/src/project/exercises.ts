@@ -1,5 +1,6 @@
 // The exercises that the server has, and which of them have been solved in this browser.
 import type { File } from "../core/protocol";
+import { addressOf } from "../offline/address";
 import type { Words } from "../text/language";
 import type { Opened } from "./begin";
 import { checked, Unfit } from "./project";
@@ -33,7 +34,7 @@ export function exerciseOf(id: string): string | null {
 /** All of them; none where the server has no list. */
 export async function listed(): Promise<Listed[]> {
   try {
-    const answer = await fetch("examples/exercises.json");
+    const answer = await fetch(addressOf("examples/exercises.json"));
     return answer.ok ? ((await answer.json()) as Listed[]) : [];
   } catch {
     return [];
@@ -42,7 +43,7 @@ export async function listed(): Promise<Listed[]> {
 
 async function fetched(name: string): Promise<Exercise & { project: unknown }> {
   if (!/^[\w-]{1,60}$/.test(name)) throw new Unfit("name", name);
-  const answer = await fetch(`examples/exercise-${name}.json`);
+  const answer = await fetch(addressOf(`examples/exercise-${name}.json`));
   if (!answer.ok) throw new Unfit("empty", name);
   return { ...((await answer.json()) as Exercise & { project: unknown }), name };
 }
