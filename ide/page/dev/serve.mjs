@@ -21,7 +21,8 @@ const PLANTS = { station1: "station1", tank: "tank" };
 async function example(name) {
   const files = (await readdir(EXAMPLES)).filter((file) => file.replace(/\.\w+$/, "") === name);
   const read = async (file) => ({ name: file, text: await readFile(EXAMPLES + file, "utf8") });
-  const plant = PLANTS[name] ?? null;
+  const described = files.find((file) => file === `${name}.plant`);
+  const plant = PLANTS[name] ?? described ?? null;
   const content = { files: await Promise.all(files), main: `${name}.awl`, plant };
   content.files = await Promise.all(files.map(read));
   return JSON.stringify({ ...content, view: plant ? "plant" : "problems" });

@@ -17,6 +17,7 @@ import { Tabs } from "./page/tabs";
 import { unfitWords } from "./page/unfit";
 import { valueMenu, valuesMenu } from "./page/values";
 import { Capture } from "./panels/capture";
+import { Exercises } from "./panels/exercises";
 import { Ladder } from "./panels/ladder";
 import { Operands } from "./panels/operands";
 import { Plant } from "./panels/plant";
@@ -75,6 +76,7 @@ const scope = new Scope(core, operands);
 const capture = new Capture(core, project, operands);
 const plant = new Plant(core, project);
 const tests = new Tests(core, project, editors, () => tabs);
+const exercises = new Exercises(core, project, open, () => current);
 const disk =
   bridge && new Disk(bridge, project, (file, text) => editors.replace(file, text), diskTalk);
 const menu = new ProjectMenu(
@@ -112,6 +114,12 @@ const tabs: Tabs = new Tabs("panels", [
     text: "ladder",
     element: ladder.element,
     shown: (shown) => ladder.shown(shown),
+  },
+  {
+    id: "exercises",
+    text: "exercises",
+    element: exercises.element,
+    shown: (shown) => exercises.shown(shown),
   },
 ]);
 new Outside(core, bridge, () => header.status?.target ?? "simulator");

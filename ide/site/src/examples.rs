@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde_json::json;
 
+use crate::exercises::exercises;
 use crate::files::EXAMPLES;
 
 /// Examples that come with more than their scenario: their plant.
@@ -24,15 +25,26 @@ pub fn projects() -> Vec<(String, String)> {
     let names: Vec<&str> =
         programs.filter(|name| Path::new(name).parent() == Some("".as_ref())).collect();
     let list = ("list".to_owned(), json!(names).to_string());
-    names.iter().map(|name| ((*name).to_owned(), project(name))).chain([list]).collect()
+    let text = |(path, bytes): &(&str, &[u8])| {
+        ((*path).to_owned(), String::from_utf8_lossy(bytes).into_owned())
+    };
+    let texts: Vec<_> = EXAMPLES.iter().map(text).collect();
+    let exercises = exercises(&texts).into_iter().map(|(name, value)| (name, value.to_string()));
+    let projects = names.iter().map(|name| ((*name).to_owned(), project(name)));
+    projects.chain([list]).chain(exercises).collect()
 }
 
 fn project(name: &str) -> String {
-    let file = |ending: &str| {
-        let name = format!("{name}.{ending}");
-        let (_, bytes) = EXAMPLES.iter().find(|(path, _)| *path == name)?;
-        Some(json!({ "name": name, "text": String::from_utf8_lossy(bytes) }))
+    let is_its = |path: &str| {
+        path.strip_prefix(name).is_some_and(|rest| rest.starts_with('.') && !rest.contains('/'))
     };
-    let files: Vec<_> = ["awl", "scn"].iter().filter_map(|ending| file(ending)).collect();
-    json!({ "files": files, "main": format!("{name}.awl"), "plant": plant_of(name) }).to_string()
+    let mut own: Vec<_> = EXAMPLES.iter().filter(|(path, _)| is_its(path)).collect();
+    // The shorter ones first: the program and the scenario that is called like it.
+    own.sort_by_key(|(path, _)| (path.len(), *path));
+    let file = |(path, bytes): &&(&str, &[u8])| json!({ "name": path, "text": String::from_utf8_lossy(bytes) });
+    let files: Vec<_> = own.iter().map(file).collect();
+    let described = format!("{name}.plant");
+    let has_plant = own.iter().any(|(path, _)| *path == described);
+    let plant = plant_of(name).or_else(|| has_plant.then_some(described.as_str()));
+    json!({ "files": files, "main": format!("{name}.awl"), "plant": plant }).to_string()
 }

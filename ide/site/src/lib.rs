@@ -2,6 +2,7 @@
 //! it is put together here, from what is committed. No server, and nothing of what the page does.
 
 mod examples;
+mod exercises;
 mod files;
 
 pub use examples::plant_of;

@@ -55,6 +55,7 @@ pub fn check() -> Result<()> {
     let mut server = Serving::page(&folder, &[])?;
     let address = server.line()?;
     run(node("test/page.mjs").arg(&address).arg(root().join(FIGURES)))?;
+    run(node("test/plants.mjs").arg(&address))?;
     run(node("test/budgets.mjs").arg(&address).arg(&folder))?;
     run(node("test/reload.mjs").arg(&address))?;
     run(node("test/errors.mjs").arg(root().join(UNO200)).arg(&folder))?;

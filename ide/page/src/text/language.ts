@@ -34,6 +34,14 @@ export function onLanguage(listener: () => void): void {
   listeners.push(listener);
 }
 
+/** Words that come from a file, in the languages in their order. */
+export type Words = readonly [string, string, string];
+
+/** Those in the language that is chosen. */
+export function inLanguage(words: Words): string {
+  return words[index] ?? words[0];
+}
+
 /** The words for a key; `{0}` and so on are replaced by `args`. */
 export function t(key: Key, ...args: Args): string {
   const words = TABLE[key][index] ?? TABLE[key][0];

@@ -450,6 +450,9 @@ export const TABLE = {
   // Plants
   plantChoice: ["Model", "Modell", "Modelo"],
   plantOptions: ["Options", "Optionen", "Opciones"],
+  operatePlant: ["Operate", "Bedienen", "Manejar"],
+  faultsOfPlant: ["Faults", "Störungen", "Averías"],
+  pressControl: ["press: {0}", "drücken: {0}", "pulsar: {0}"],
   plantNews: ["What happened", "Was geschah", "Lo que pasó"],
   noPlant: ["None: by hand", "Keines: von Hand", "Ninguno: a mano"],
   plantStation1: ["Measuring station", "Messstation", "Estación de medida"],
@@ -492,6 +495,40 @@ export const TABLE = {
     "{0} Zyklen, {1} erfüllt, {2} nicht",
     "{0} ciclos, {1} cumplidas, {2} no",
   ],
+
+  // Exercises
+  exercises: ["Exercises", "Übungen", "Ejercicios"],
+  check: ["Check", "Kontrollieren", "Comprobar"],
+  allExercises: ["Choose another one", "Andere wählen", "Elegir otro"],
+  exerciseAnew: ["Begin from scratch", "Ganz neu anfangen", "Comenzar de cero"],
+  exerciseAnewAsk: [
+    "What you have written for this exercise will be gone.",
+    "Was Sie zu dieser Übung geschrieben haben, geht verloren.",
+    "Se perderá lo que ha escrito para este ejercicio.",
+  ],
+  chooseExercise: [
+    "Write the program that the text asks for, try it with the plant, and have it looked at. What has been solved is remembered in this browser.",
+    "Schreiben Sie das Programm, das der Text verlangt, probieren Sie es an der Anlage aus und lassen Sie es ansehen. Was gelöst ist, merkt sich dieser Browser.",
+    "Escriba el programa que pide el texto, pruébelo con la planta y hágalo revisar. Este navegador recuerda lo que está resuelto.",
+  ],
+  noExercises: [
+    "This server has no exercises.",
+    "Dieser Server hat keine Übungen.",
+    "Este servidor no tiene ejercicios.",
+  ],
+  solved: ["solved", "gelöst", "resuelto"],
+  exerciseSolved: [
+    "Solved: everything is there.",
+    "Gelöst: Alles ist da.",
+    "Resuelto: no falta nada.",
+  ],
+  behaviours: [
+    "{0} of {1} are there; what is still missing:",
+    "{0} von {1} sind da; was noch fehlt:",
+    "Hay {0} de {1}; lo que aún falta:",
+  ],
+  behaviourDone: ["there", "vorhanden", "presente"],
+  behaviourMissing: ["missing", "fehlt", "falta"],
 
   // Help
   shortcuts: ["Shortcuts", "Tastenkürzel", "Atajos"],

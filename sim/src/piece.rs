@@ -1,49 +1,49 @@
-//! Stretches of a scenario's text that know where they are, and ways to cut them. What they mean is
-//! not known here.
+//! Stretches of a text of lines, such as a scenario, that know where they are, and ways to cut
+//! them. What they mean is not known here.
 
 use std::ops::Range;
 
 /// A stretch of the text that knows where it is.
 #[derive(Clone, Copy)]
-pub(super) struct Piece<'a> {
-    pub(super) text: &'a str,
-    pub(super) start: usize,
+pub(crate) struct Piece<'a> {
+    pub(crate) text: &'a str,
+    pub(crate) start: usize,
 }
 
 impl<'a> Piece<'a> {
-    pub(super) fn span(self) -> Range<usize> {
+    pub(crate) fn span(self) -> Range<usize> {
         // At least one column wide, so that there is a caret where something is missing.
         self.start..self.start + self.text.len().max(1)
     }
 
-    pub(super) fn part(self, range: Range<usize>) -> Piece<'a> {
+    pub(crate) fn part(self, range: Range<usize>) -> Piece<'a> {
         Piece { text: &self.text[range.clone()], start: self.start + range.start }
     }
 
     /// What is behind this place.
-    pub(super) fn behind(self, at: usize) -> Piece<'a> {
+    pub(crate) fn behind(self, at: usize) -> Piece<'a> {
         self.part(at..self.text.len())
     }
 
-    pub(super) fn trim(self) -> Piece<'a> {
+    pub(crate) fn trim(self) -> Piece<'a> {
         let text = self.text.trim_start();
         let start = self.start + self.text.len() - text.len();
         Piece { text: text.trim_end(), start }
     }
 
-    pub(super) fn is(self, word: &str) -> bool {
+    pub(crate) fn is(self, word: &str) -> bool {
         self.text.eq_ignore_ascii_case(word)
     }
 
     /// The first word, and what follows it; both without blanks around.
-    pub(super) fn split_word(self) -> (Piece<'a>, Piece<'a>) {
+    pub(crate) fn split_word(self) -> (Piece<'a>, Piece<'a>) {
         let piece = self.trim();
         let end = piece.text.find(char::is_whitespace).unwrap_or(piece.text.len());
         (piece.part(0..end), piece.behind(end).trim())
     }
 
     /// Cuts at a character that is not in quotes.
-    pub(super) fn split(self, separator: char) -> Vec<Piece<'a>> {
+    pub(crate) fn split(self, separator: char) -> Vec<Piece<'a>> {
         let mut pieces = Vec::new();
         let mut from = 0;
         for (at, c) in self.unquoted() {
@@ -57,7 +57,7 @@ impl<'a> Piece<'a> {
     }
 
     /// The characters that are not in quotes, with their places.
-    pub(super) fn unquoted(self) -> impl Iterator<Item = (usize, char)> + use<'a> {
+    pub(crate) fn unquoted(self) -> impl Iterator<Item = (usize, char)> + use<'a> {
         let mut quoted = false;
         self.text.char_indices().filter(move |&(_, c)| {
             quoted ^= c == '"';
@@ -67,7 +67,7 @@ impl<'a> Piece<'a> {
 
     /// Cuts at the first of these words that follows a comparison: `Q0.0 = 1 and M0.0 = 1` at
     /// `and`. Before the sign of a comparison such a word is part of a name.
-    pub(super) fn split_after_comparison(
+    pub(crate) fn split_after_comparison(
         self,
         words: &[&'static str],
     ) -> Option<(Piece<'a>, &'static str, Piece<'a>)> {
@@ -92,4 +92,28 @@ impl<'a> Piece<'a> {
         }
         None
     }
+}
+
+/// The lines without comments and without blanks around.
+pub(crate) fn lines(text: &str) -> impl Iterator<Item = Piece<'_>> {
+    let mut start = 0;
+    text.split_inclusive('\n').map(move |line| {
+        let piece = Piece { text: without_comment(line), start }.trim();
+        start += line.len();
+        piece
+    })
+}
+
+/// The line up to a `#` that neither is in quotes nor belongs to a number such as `16#FF`.
+fn without_comment(line: &str) -> &str {
+    let piece = Piece { text: line, start: 0 };
+    let comment = piece.unquoted().find(|&(at, c)| c == '#' && !is_radix_sign(line, at));
+    comment.map_or(line, |(at, _)| &line[..at])
+}
+
+/// Any digits before and a digit after make it a number, so that `8#7` is an error and not an 8
+/// with a comment.
+fn is_radix_sign(line: &str, at: usize) -> bool {
+    line[..at].ends_with(|c: char| c.is_ascii_digit())
+        && line[at + 1..].starts_with(|c: char| c.is_ascii_hexdigit())
 }
