@@ -17,16 +17,19 @@ pub enum Language {
     Scenario,
     /// A symbol table.
     Symbols,
+    /// A plant file of the simulator.
+    Plant,
 }
 
 impl Language {
-    /// The language of a text of this name, by its ending: `.awl`, `.scn`; `.csv` and `.txt` are
-    /// symbol tables.
+    /// The language of a text of this name, by its ending: `.awl`, `.scn`, `.plant`; `.csv` and
+    /// `.txt` are symbol tables.
     pub fn of_name(name: &str) -> Option<Language> {
         let (_, ending) = name.rsplit_once('.')?;
         match ending.to_ascii_lowercase().as_str() {
             "awl" => Some(Language::Awl),
             "scn" => Some(Language::Scenario),
+            "plant" => Some(Language::Plant),
             "csv" | "txt" => Some(Language::Symbols),
             _ => None,
         }
@@ -54,6 +57,8 @@ pub(crate) struct View<'p> {
     pub source: &'p Source,
     /// The program that it is, or belongs to.
     pub model: Option<&'p Model>,
+    /// The text of another file of the project.
+    pub other: &'p dyn Fn(&str) -> Option<&'p str>,
 }
 
 impl<'p> View<'p> {

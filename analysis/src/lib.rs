@@ -12,6 +12,7 @@ mod explain;
 pub mod ladder;
 mod language;
 mod names;
+mod plant;
 mod project;
 mod rename;
 mod scenario;

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use awl_asm::assemble::assemble;
 use awl_asm::symbols::load;
-use awl_sim::scenario::program_of;
+use awl_sim::scenario::{plant_file_of, program_of};
 use diagnostics::source::SourceError;
 use diagnostics::{Source, Span};
 
@@ -16,6 +16,7 @@ use crate::explain::explain;
 use crate::ladder::{Drawing, drawing_at};
 use crate::language::{Language, Model, Text, View};
 use crate::names::{is_table_of, joined, split};
+use crate::plant::Plant;
 use crate::rename;
 use crate::scenario::Scenario;
 use crate::subject::{Mention, Subject};
@@ -83,6 +84,11 @@ impl Project {
     /// The text of this name.
     pub fn source(&self, name: &str) -> Option<&Source> {
         self.texts.get(name).map(|entry| &entry.source)
+    }
+
+    /// The text that another one names by its path, which counts from the folder of that one.
+    pub fn beside(&self, name: &str, path: &str) -> Option<&Source> {
+        self.source(&joined(name, path))
     }
 
     /// The symbol tables that belong to a program.
@@ -237,7 +243,9 @@ impl Project {
     fn ask<T>(&self, name: &str, question: impl FnOnce(&dyn Text, View<'_>) -> T) -> Option<T> {
         let Entry { language, source } = self.texts.get(name)?;
         let model = self.model_of(name);
-        Some(question(text_of(*language), View { source, model: model.as_ref() }))
+        let other = |name: &str| self.source(name).map(|source| source.text.as_str());
+        let view = View { source, model: model.as_ref(), other: &other };
+        Some(question(text_of(*language), view))
     }
 
     /// The word at an offset; of two that touch there the one after it.
@@ -316,6 +324,14 @@ impl Project {
                 let is_wanted = |other: &&String| wanted.as_deref() == Some(other.as_str());
                 programs().filter(is_wanted).map(String::as_str).collect()
             }
+            Language::Plant => {
+                let scenarios = self.names().filter(|scenario| {
+                    let source = self.source(scenario);
+                    let file = source.and_then(|source| plant_file_of(&source.text));
+                    file.is_some_and(|file| joined(scenario, file) == name)
+                });
+                scenarios.flat_map(|scenario| self.programs_of(scenario)).collect()
+            }
             Language::Symbols => {
                 let is_its = |program: &&String| is_table_of(name, program);
                 programs().filter(is_its).map(String::as_str).collect()
@@ -344,6 +360,7 @@ fn text_of(language: Language) -> &'static dyn Text {
         Language::Awl => &Awl,
         Language::Scenario => &Scenario,
         Language::Symbols => &Symbols,
+        Language::Plant => &Plant,
     }
 }
 

@@ -6,8 +6,12 @@ use awl_asm::ast::{Symbol, Value};
 use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
 use awl_sim::operand::{Operand, stem};
-use awl_sim::plant::PLANTS;
-use awl_sim::scenario::{AFTER_TIME, Context, Reading, STATEMENTS, Word, program_of, read};
+use awl_sim::plant::{PLANTS, PlantSpec};
+use awl_sim::problem;
+use awl_sim::scenario::{
+    AFTER_TIME, Context, NoPlant, Reading, STATEMENTS, Word, plant_file_of, plant_of, program_of,
+    read,
+};
 use diagnostics::{Diagnostic, Span};
 
 use crate::answer::{Completion, CompletionKind, Edit, Outline, Problem, Refusal};
@@ -25,7 +29,11 @@ impl Text for Scenario {
         if view.model.is_none() {
             return vec![without_program(view)];
         }
-        let problems = reading(view).problems.into_iter();
+        let mut problems = reading(view).problems;
+        let no_plant = plant(view).err();
+        // That it was not given says less than why.
+        problems.retain(|problem| no_plant.as_ref().is_none_or(|one| one.span != problem.span));
+        let problems = problems.into_iter().chain(no_plant);
         problems.map(|problem| Problem::of(problem.diagnostic(), view.text())).collect()
     }
 
@@ -34,7 +42,7 @@ impl Text for Scenario {
         let spans = reading(view).operands.into_iter();
         let spans = spans.map(|span| Span::new(span.start, span.end.min(text.len())));
         let mentions = spans.filter_map(|span| mention(view, span));
-        mentions.chain(program(view)).collect()
+        mentions.chain(program(view)).chain(plant_file(view)).collect()
     }
 
     fn word_at(&self, view: View<'_>, offset: usize) -> Option<Mention> {
@@ -87,7 +95,9 @@ fn reading(view: View<'_>) -> Reading {
         Some(host) => host.read(operand).map(drop),
         None => Ok(()),
     };
-    let context = Context { symbols: symbols(view), plant: None, has_operand: &mut has_operand };
+    let plant = plant(view).ok().flatten();
+    let context =
+        Context { symbols: symbols(view), plant: plant.as_ref(), has_operand: &mut has_operand };
     read(&view.source.name, view.text(), context)
 }
 
@@ -109,10 +119,42 @@ fn mention(view: View<'_>, span: Span) -> Option<Mention> {
     Some(Mention { address, ..Mention::of(span, subject) })
 }
 
+/// The plant of a file, or what is wrong with it.
+fn plant(view: View<'_>) -> Result<Option<PlantSpec>, problem::Problem> {
+    let name = &view.source.name;
+    let mut read = |file: &str| {
+        let text = (view.other)(&joined(name, file)).map(str::to_owned);
+        text.ok_or_else(|| format!("{file} is not in the project"))
+    };
+    plant_of(name, view.text(), &mut read).map_err(|error| {
+        let span = plant_file(view)
+            .map_or(0..0, |mention| mention.span.start as usize..mention.span.end as usize);
+        match error {
+            NoPlant::Scenario(problems) => {
+                let first = problems.list.into_iter().next();
+                first.unwrap_or_else(|| problem::Problem::new(span, "there is no such plant"))
+            }
+            NoPlant::File(errors) => {
+                problem::Problem::new(span, format!("{} has errors", errors.name))
+            }
+        }
+    })
+}
+
+/// The file of the line `plant`.
+fn plant_file(view: View<'_>) -> Option<Mention> {
+    file_mention(view, plant_file_of(view.text())?)
+}
+
 /// The file of the line `program`.
 fn program(view: View<'_>) -> Option<Mention> {
     let file = program_of(view.text()).into_iter().find(|file| !file.is_empty())?;
-    // It is a part of the text, so the difference is its place.
+    file_mention(view, file)
+}
+
+/// A part of the text that names a file.
+fn file_mention(view: View<'_>, file: &str) -> Option<Mention> {
+    // The difference is its place.
     let start = file.as_ptr() as usize - view.text().as_ptr() as usize;
     let span = Span::new(start, start + file.len());
     Some(Mention::of(span, Subject::File(joined(&view.source.name, file))))

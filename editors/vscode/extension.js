@@ -1,4 +1,4 @@
-// Starts the language server of uno200 for programs, scenarios and symbol tables.
+// Starts the language server of uno200 for programs, scenarios, plant files and symbol tables.
 
 const { workspace } = require("vscode");
 const { LanguageClient } = require("vscode-languageclient/node");
@@ -12,10 +12,11 @@ exports.activate = async () => {
     documentSelector: [
       { language: "awl" },
       { language: "uno200-scenario" },
+      { language: "uno200-plant" },
       // Of a table that belongs to no program the server says nothing.
       { scheme: "file", pattern: "**/*.csv" },
     ],
-    synchronize: { fileEvents: workspace.createFileSystemWatcher("**/*.{awl,scn,csv,txt}") },
+    synchronize: { fileEvents: workspace.createFileSystemWatcher("**/*.{awl,scn,plant,csv,txt}") },
   });
   await client.start();
 };

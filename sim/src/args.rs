@@ -51,8 +51,8 @@ pub struct Args {
     #[arg(long, value_name = "MACHINE", value_enum, default_value_t = On::Host)]
     pub on: On,
 
-    /// What is wired to the PLC, with its options: "station1 noise=2"; overrides the scenario's
-    /// `plant`
+    /// What is wired to the PLC, with its options: "station1 noise=2", or a file that describes it:
+    /// door.plant; overrides the scenario's `plant`
     #[arg(long, value_name = "PLANT")]
     pub plant: Option<String>,
 

@@ -15,6 +15,7 @@ pub mod coverage;
 pub mod machine;
 pub mod open;
 pub mod operand;
+mod piece;
 pub mod plant;
 pub mod problem;
 pub mod pulse;

@@ -10,6 +10,7 @@ mod changes;
 mod checks;
 mod follow;
 mod outcome;
+mod plant_checks;
 mod wiring;
 
 use crate::machine::{Machine, MachineError, Mode};
@@ -18,6 +19,7 @@ use crate::scenario::Scenario;
 use crate::trace::{Signal, Trace};
 use changes::Changes;
 use checks::Checks;
+use plant_checks::Handlings;
 use wiring::Wiring;
 
 pub use outcome::{Failure, Fault, Outcome};
@@ -104,6 +106,7 @@ fn boundary(at_ms: u64, scan_ms: u64) -> u64 {
 pub struct Course {
     checks: Checks,
     changes: Changes,
+    handlings: Handlings,
     wiring: Option<Wiring>,
     /// Start of the last scan.
     scan_ms: Option<u64>,
@@ -116,6 +119,7 @@ impl Course {
         Course {
             checks: Checks::new(scenario),
             changes: Changes::new(scenario, scan_ms),
+            handlings: Handlings::new(scenario),
             wiring: plant.map(Wiring::new),
             scan_ms: None,
         }
@@ -130,17 +134,25 @@ impl Course {
         outcome: &mut Outcome,
     ) -> Result<(), MachineError> {
         let before_ms = self.scan_ms.replace(now_ms);
-        self.checks.go_on(now_ms, before_ms, machine, outcome)?;
+        let plant = self.wiring.as_ref().map(Wiring::plant);
+        self.checks.go_on(now_ms, before_ms, machine, plant, outcome)?;
         if self.checks.is_over() {
             return Ok(());
         }
         self.changes.go_on(now_ms, machine)?;
-        self.wiring.as_mut().map_or(Ok(()), |wiring| wiring.step(now_ms, machine))
+        let Some(wiring) = &mut self.wiring else { return Ok(()) };
+        self.handlings.go_on(now_ms, wiring.plant_mut());
+        wiring.step(now_ms, machine)
     }
 
     /// The plant, if there is one.
     pub fn plant(&self) -> Option<&dyn Plant> {
         self.wiring.as_ref().map(Wiring::plant)
+    }
+
+    /// The same, to be set.
+    pub fn plant_mut(&mut self) -> Option<&mut dyn Plant> {
+        self.wiring.as_mut().map(Wiring::plant_mut)
     }
 
     /// Whether the scenario still waits for something to be sent on the serial line.
@@ -158,13 +170,14 @@ impl Course {
         if self.checks.is_over() {
             return Ok(());
         }
-        self.checks.go_on(now_ms, self.scan_ms, machine, outcome)?;
+        let plant = self.wiring.as_ref().map(Wiring::plant);
+        self.checks.go_on(now_ms, self.scan_ms, machine, plant, outcome)?;
         self.checks.check_end(now_ms, machine, outcome)
     }
 
     /// The end: tells what was not reached, and what the plant has to say.
     pub fn finish(self, outcome: &mut Outcome) {
-        outcome.unreached_settings = self.changes.left();
+        outcome.unreached_settings = self.changes.left() + self.handlings.left();
         self.checks.finish(outcome);
         outcome.plant = self.wiring.map(|wiring| wiring.report());
     }

@@ -19,6 +19,7 @@ mod parser;
 mod value;
 mod words;
 
+use std::fmt;
 use std::ops::{Range, RangeInclusive};
 
 use awl_asm::ast::Symbol;
@@ -26,11 +27,12 @@ use awl_asm::ast::Symbol;
 use crate::action::Action;
 use crate::machine::MachineError;
 use crate::operand::Operand;
-use crate::plant::PlantSpec;
+use crate::plant::file::PlantErrors;
+use crate::plant::{PlantSpec, SpecErrors, Words, parse_spec_with};
 use crate::problem::{Problem, Problems};
-use condition::Condition;
+use condition::{Condition, Relation};
 
-pub use parser::program_of;
+pub use parser::{plant_file_of, program_of};
 pub use words::{AFTER_TIME, STATEMENTS, Word};
 
 /// Shortest to longest scan in milliseconds.
@@ -51,6 +53,12 @@ pub struct Scenario {
     pub program: Vec<String>,
     /// `plant`: the plant model.
     pub plant: Option<PlantSpec>,
+    /// `goal`: what the scenario is about.
+    pub goal: Option<Words>,
+    /// `at T plant name = value`, in the order of the file.
+    pub handlings: Vec<Handling>,
+    /// `at T expect plant name = value`, in the order of the file.
+    pub plant_expectations: Vec<PlantExpectation>,
     /// `at T operand = value` and `every P operand = value`, in the order of the file.
     pub settings: Vec<Setting>,
     /// What else happens, in the order of the file.
@@ -145,6 +153,41 @@ impl Repeat {
     }
 }
 
+/// Something that is set in the plant.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Handling {
+    /// When, in milliseconds: the plant has it from the scan on that starts then or later.
+    pub at_ms: u64,
+    /// The name of the control.
+    pub control: String,
+    /// Its new value.
+    pub value: i64,
+}
+
+/// A number of the plant that must be so.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PlantExpectation {
+    /// Line of the scenario, from 1.
+    pub line: usize,
+    /// When, in milliseconds: the state before the scan counts that starts then or later.
+    pub at_ms: u64,
+    /// For so long after that it may become true; 0: it must be then.
+    pub within_ms: u64,
+    /// The name, as [`Plant::view`](crate::plant::Plant::view) has it, in any letter case.
+    pub name: String,
+    /// How it is compared.
+    pub relation: Relation,
+    /// With what.
+    pub values: RangeInclusive<i64>,
+}
+
+impl PlantExpectation {
+    /// When it must have become true, in milliseconds.
+    pub fn end_ms(&self) -> u64 {
+        self.at_ms + self.within_ms
+    }
+}
+
 /// A condition that must be true.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Expectation {
@@ -206,11 +249,55 @@ pub struct SentExpectation {
 pub struct Context<'a> {
     /// The names that the program gives to addresses.
     pub symbols: &'a [Symbol],
-    /// A plant that takes the place of the scenario's.
+    /// A plant that takes the place of the scenario's; where that is a file, the plant of
+    /// [`plant_of`].
     pub plant: Option<&'a PlantSpec>,
     /// Whether the machine has the operand: usually
     /// [`Machine::read`](crate::machine::Machine::read).
     pub has_operand: &'a mut dyn FnMut(Operand) -> Result<(), MachineError>,
+}
+
+/// Why the plant of a scenario cannot be had.
+#[derive(Debug, Clone)]
+pub enum NoPlant {
+    /// There is no such file.
+    Scenario(Problems),
+    /// There are errors in the file.
+    File(PlantErrors),
+}
+
+impl fmt::Display for NoPlant {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoPlant::Scenario(problems) => problems.fmt(f),
+            NoPlant::File(errors) => errors.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for NoPlant {}
+
+/// The plant of the file that a scenario names, for its [`Context`]; `None` where it names none.
+/// `read` gives the text of that file, whose name counts from the scenario's folder, or says in a
+/// sentence without full stop why there is none.
+pub fn plant_of(
+    origin: &str,
+    text: &str,
+    read: &mut dyn FnMut(&str) -> Result<String, String>,
+) -> Result<Option<PlantSpec>, NoPlant> {
+    let Some(file) = parser::plant_file_of(text) else { return Ok(None) };
+    parse_spec_with(file, read).map(Some).map_err(|errors| match errors {
+        SpecErrors::File(errors) => NoPlant::File(errors),
+        SpecErrors::Spec(mut list) => {
+            // It is a part of the text, so the difference is its place.
+            let start = file.as_ptr() as usize - text.as_ptr() as usize;
+            for problem in &mut list {
+                problem.span = problem.span.start + start..problem.span.end + start;
+            }
+            let (origin, text) = (origin.to_string(), text.to_string());
+            NoPlant::Scenario(Problems { origin, text, list })
+        }
+    })
 }
 
 /// What was read of a text that may have errors.
@@ -252,8 +339,9 @@ impl Scenario {
 
     /// Whether there is anything in it that can fail.
     pub fn expects_something(&self) -> bool {
-        let Scenario { expectations, sent, rules, until, .. } = self;
-        !(expectations.is_empty() && sent.is_empty() && rules.is_empty() && until.is_none())
+        let Scenario { expectations, plant_expectations, sent, rules, until, .. } = self;
+        let is_empty = expectations.is_empty() && plant_expectations.is_empty();
+        !(is_empty && sent.is_empty() && rules.is_empty() && until.is_none())
     }
 
     /// Scans that start before this time in milliseconds are run, if the scenario says so.
@@ -265,7 +353,8 @@ impl Scenario {
     /// scan is to see it. What is repeated without an end counts with its first time.
     pub fn last_changes(&self) -> impl Iterator<Item = u64> {
         let settings = self.settings.iter().map(Setting::last_ms);
-        settings.chain(self.actions.iter().map(Action::end_ms))
+        let handlings = self.handlings.iter().map(|handling| handling.at_ms);
+        settings.chain(self.actions.iter().map(Action::end_ms)).chain(handlings)
     }
 
     /// Times before which the scans are run that a check needs, in milliseconds.
@@ -277,7 +366,8 @@ impl Scenario {
             .rules
             .iter()
             .filter_map(|rule| rule.to_ms.or((rule.from_ms > 0).then_some(rule.from_ms + 1)));
-        expectations.chain(sent).chain(rules)
+        let of_plant = self.plant_expectations.iter().map(PlantExpectation::end_ms);
+        expectations.chain(sent).chain(rules).chain(of_plant)
     }
 
     /// The time of the last statement in milliseconds, 0 if there is none.

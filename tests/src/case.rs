@@ -15,7 +15,7 @@ use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
 use awl_sim::plant::PlantSpec;
 use awl_sim::run::{Job, Length, Outcome, run};
-use awl_sim::scenario::{Context, Scenario};
+use awl_sim::scenario::{Context, Scenario, plant_of};
 
 /// What a line of the scenario begins with.
 const MARK: &str = "//$ ";
@@ -62,7 +62,9 @@ impl Case {
                 faults: Vec::new(),
             }
         };
-        files(&root).iter().map(example).collect()
+        // An exercise has more than one scenario, and a program that is to become one.
+        let has_scenario = |path: &&PathBuf| path.with_extension("scn").is_file();
+        files(&root).iter().filter(has_scenario).map(example).collect()
     }
 
     /// A case from its text.
@@ -156,7 +158,13 @@ impl Prepared {
     fn scenario(&self, machine: &mut dyn Machine) -> Result<Scenario, String> {
         let mut has_operand = |operand| machine.read(operand).map(|_| ());
         let symbols = &self.assembly.program.symbols;
-        let context = Context { symbols, plant: None, has_operand: &mut has_operand };
+        let beside = folder("..").join(&self.case.scenario_file);
+        let mut read = |file: &str| {
+            fs::read_to_string(beside.with_file_name(file)).map_err(|error| error.to_string())
+        };
+        let plant = plant_of(&self.case.scenario_file, &self.case.scenario, &mut read)
+            .map_err(|error| error.to_string())?;
+        let context = Context { symbols, plant: plant.as_ref(), has_operand: &mut has_operand };
         Scenario::parse(&self.case.scenario_file, &self.case.scenario, context)
             .map_err(|problems| problems.to_string())
     }

@@ -120,10 +120,12 @@ pub fn text(bytes: &[u8]) {
     read_text(bytes);
 }
 
+/// A scenario, and a plant file.
 fn read_scenario(text: &str) {
     let mut has_operand = |_| Ok(());
     let context = Context { symbols: &[], plant: None, has_operand: &mut has_operand };
     let _ = Scenario::parse("random", text, context);
+    let _ = awl_sim::plant::file::problems(text);
 }
 
 /// A scenario, or what is none.

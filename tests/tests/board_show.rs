@@ -456,7 +456,7 @@ fn station1(directives: &str, milliseconds: u64, good: i64, rejected: i64) -> us
     let Compared { scans, lines, values } = Bench::new(&text, &text).run(milliseconds);
     let report = with_station(|station| station.plant.report());
     let sorted =
-        ["good", "rejected"].map(|name| report.summary.iter().find(|(key, _)| *key == name));
+        ["good", "rejected"].map(|name| report.summary.iter().find(|(key, _)| key == name));
     assert_eq!(
         sorted.map(|entry| entry.map(|(_, count)| *count)),
         [Some(good), Some(rejected)],

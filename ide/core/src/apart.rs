@@ -4,14 +4,16 @@
 use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
 use awl_sim::open::{Opened, open};
+use awl_sim::plant::PlantSpec;
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
 use awl_sim::trace::{Signal, Trace, csv, vcd};
 
 use crate::build::Files;
+use crate::protocol::plant::words;
 use crate::protocol::{Recording, TestResult};
 use crate::scope::number;
-use crate::simulator::plant_of;
+use crate::simulator::built;
 
 /// A wish to simulate.
 pub struct Wanted<'a> {
@@ -22,7 +24,7 @@ pub struct Wanted<'a> {
     /// Time from scan start to scan start; 0: as the program says.
     pub scan_ms: u32,
     /// What is wired to the PLC.
-    pub plant: Option<&'a str>,
+    pub plant: Option<&'a PlantSpec>,
 }
 
 /// Runs the program for some time.
@@ -34,7 +36,7 @@ pub fn simulate(files: &Files, wanted: &Wanted<'_>) -> Result<Recording, String>
     };
     let parse = |name: &String| Signal::parse(name, &symbols).map_err(|error| error.to_string());
     let signals = wanted.signals.iter().map(parse).collect::<Result<Vec<_>, _>>()?;
-    let plant = wanted.plant.map(plant_of).transpose()?;
+    let plant = wanted.plant.map(built).transpose()?;
     let length = Length::For(u64::from(wanted.for_ms));
     let job = Job { scan_ms, length, signals, plant, progress: None };
     let outcome =
@@ -61,7 +63,7 @@ fn recording(outcome: &Outcome) -> Result<Recording, String> {
         columns,
         csv,
         vcd,
-        plant: plant(outcome),
+        plant: counts(outcome),
     })
 }
 
@@ -96,24 +98,29 @@ fn figures(times: &[f64], column: &[f64]) -> (f64, f64, f64) {
 }
 
 /// What the plant counted.
-fn plant(outcome: &Outcome) -> Option<String> {
+fn counts(outcome: &Outcome) -> Option<String> {
     let report = outcome.plant.as_ref()?;
     let counts = report.summary.iter().map(|(name, count)| format!("{name} {count}"));
     Some(counts.collect::<Vec<_>>().join(", "))
 }
 
-/// Runs a scenario with its program.
-pub fn test(files: &Files, name: &str, text: &str) -> Result<TestResult, String> {
+/// Runs a scenario with its program. `plant`: the one of the file that it names.
+pub fn test(
+    files: &Files,
+    name: &str,
+    text: &str,
+    plant: Option<&PlantSpec>,
+) -> Result<TestResult, String> {
     let Opened { mut machine, symbols, scan_ms, .. } = opened(files)?;
     let mut has_operand = |operand| machine.read(operand).map(drop);
-    let context = Context { symbols: &symbols, plant: None, has_operand: &mut has_operand };
+    let context = Context { symbols: &symbols, plant, has_operand: &mut has_operand };
     let scenario = Scenario::parse(name, text, context).map_err(|problems| problems.to_string())?;
-    let wired = scenario.plant.as_ref().map(|spec| spec.build()).transpose();
+    let wired = scenario.plant.as_ref().map(built).transpose()?;
     let job = Job {
         scan_ms: scenario.scan_ms.or(scan_ms).unwrap_or(1),
         length: Length::Scenario,
         signals: Vec::new(),
-        plant: wired.map_err(|error| error.message)?,
+        plant: wired,
         progress: None,
     };
     let outcome = run(&mut *machine, &scenario, job).map_err(|error| error.to_string())?;
@@ -127,8 +134,9 @@ pub fn test(files: &Files, name: &str, text: &str) -> Result<TestResult, String>
         let count = outcome.unreached_expectations;
         failures.push((0, format!("the run was too short for {count} expectations")));
     }
-    let counts = plant(&outcome);
+    let counts = counts(&outcome);
     Ok(TestResult {
+        goal: scenario.goal.as_ref().map(words),
         passed: failures.is_empty(),
         scans: outcome.scans,
         met: outcome.met as u64,

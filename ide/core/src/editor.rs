@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 
 use analysis::ladder::Drawing;
 use analysis::{CompletionKind, Location, OutlineKind, Project};
+use awl_sim::plant::{PlantSpec, SpecErrors, parse_spec_with};
+use awl_sim::scenario::plant_of;
 use diagnostics::{Severity, Source, Span};
 
 use crate::offsets::{of_page, to_page};
@@ -75,6 +77,31 @@ impl Editor {
     /// A file with its text.
     pub fn text(&self, name: &str) -> Option<&str> {
         self.texts.get(name).map(String::as_str)
+    }
+
+    /// A plant as `awl-sim --plant` takes it; files are those of the project.
+    pub fn plant(&self, spec: &str) -> Result<PlantSpec, String> {
+        let mut read = |file: &str| {
+            let text = self.text(file).map(str::to_owned);
+            text.ok_or_else(|| format!("there is no file {file}"))
+        };
+        parse_spec_with(spec, &mut read).map_err(|errors| match errors {
+            SpecErrors::File(errors) => errors.first(),
+            SpecErrors::Spec(problems) => {
+                let messages = problems.into_iter().map(|problem| problem.message);
+                messages.collect::<Vec<_>>().join("; ")
+            }
+        })
+    }
+
+    /// The plant of the file that a scenario with this text names.
+    pub fn plant_of(&self, name: &str, text: &str) -> Result<Option<PlantSpec>, String> {
+        let mut read = |file: &str| {
+            let source = self.project.beside(name, file);
+            let text = source.map(|source| source.text.clone());
+            text.ok_or_else(|| format!("{file} is not in the project"))
+        };
+        plant_of(name, text, &mut read).map_err(|error| error.to_string())
     }
 
     /// The symbol tables of a program.

@@ -4,12 +4,13 @@
 use awl_sim::machine::Machine;
 use awl_sim::machine::emulated::{Chip, Emulated};
 use awl_sim::open::open;
+use awl_sim::plant::PlantSpec;
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
 use awl_sim::trace::{Signal, csv};
 
 use crate::build::Files;
-use crate::simulator::plant_of;
+use crate::simulator::built;
 
 /// What is compared, and how.
 pub struct Comparison<'a> {
@@ -19,21 +20,24 @@ pub struct Comparison<'a> {
     pub flash: Vec<u8>,
     /// What happens: a scenario with its name, or for so many milliseconds nothing.
     pub scenario: Option<(&'a str, &'a str)>,
+    /// The plant of the file that it names.
+    pub described: Option<&'a PlantSpec>,
     /// Without a scenario.
     pub for_ms: u32,
     /// What is wired to both.
-    pub plant: Option<&'a str>,
+    pub plant: Option<&'a PlantSpec>,
 }
 
 /// Compares every operand that the program uses after every scan. Gives scans and operands, or the
 /// first difference.
 pub fn compare(comparison: Comparison<'_>, chip: impl Chip) -> Result<(u64, usize), String> {
-    let Comparison { files, flash, scenario, for_ms, plant } = comparison;
+    let Comparison { files, flash, scenario, described, for_ms, plant } = comparison;
     let opened = || open(&files.program, &files.tables).map_err(|error| error.to_string());
     let about = opened()?;
     let mut host = opened()?.machine;
     let mut has_operand = |operand| host.read(operand).map(drop);
-    let context = Context { symbols: &about.symbols, plant: None, has_operand: &mut has_operand };
+    let context =
+        Context { symbols: &about.symbols, plant: described, has_operand: &mut has_operand };
     let scenario = scenario.map(|(name, text)| Scenario::parse(name, text, context));
     let scenario = scenario.transpose().map_err(|problems| problems.to_string())?;
     let length = if scenario.is_some() { Length::Scenario } else { Length::For(for_ms.into()) };
@@ -41,9 +45,7 @@ pub fn compare(comparison: Comparison<'_>, chip: impl Chip) -> Result<(u64, usiz
     let scan_ms = scenario.scan_ms.or(about.scan_ms).unwrap_or(1);
     let operands = &about.default_signals;
     let trace = |machine: &mut dyn Machine| -> Result<(String, Outcome), String> {
-        let of_scenario = scenario.plant.as_ref().map(|spec| spec.build()).transpose();
-        let of_scenario = of_scenario.map_err(|error| error.message)?;
-        let plant = if plant.is_some() { plant.map(plant_of).transpose()? } else { of_scenario };
+        let plant = plant.or(scenario.plant.as_ref()).map(built).transpose()?;
         let signals = operands
             .iter()
             .map(|&operand| Signal {

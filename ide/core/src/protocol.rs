@@ -2,6 +2,7 @@
 //! browser does. Times are milliseconds.
 
 pub mod ladder;
+pub mod plant;
 
 use serde::{Deserialize, Serialize};
 
@@ -79,6 +80,9 @@ pub enum TextWish {
     /// The network there as a ladder, whose power flow is told from then on. Answer:
     /// [`Ladder`](ladder::Ladder) or null.
     Ladder { file: String, at: u32 },
+    /// A plant as `awl-sim --plant` takes it; files are those of the project. Answer:
+    /// [`PlantInfo`](plant::PlantInfo).
+    AboutPlant { spec: String },
     /// The page of a diagnostic's code. Answer: text in Markdown.
     Explain { code: String },
 }
@@ -118,6 +122,8 @@ pub enum TargetWish {
     Speed { factor: f64 },
     /// The plant that is wired to them, as `awl-sim --plant` takes it; none without it.
     Plant { spec: Option<String> },
+    /// Something in their plant is set: a button, a fault.
+    Handle { name: String, value: i64 },
     /// Their input gets a value: `I0.0` to `I0.5` logically, `Ain0` to `Ain5` in counts.
     Drive { operand: String, value: i32 },
     /// Writes a value once. `value` as people write it.
@@ -152,6 +158,9 @@ pub enum ApartWish {
     Simulate { signals: Vec<String>, for_ms: u32, scan_ms: u32, plant: Option<String> },
     /// Runs a scenario of the project. Answer: [`TestResult`].
     Test { file: String },
+    /// Runs one that is not in it with the program that is run, as the hidden ones of exercises.
+    /// `plants`: the plant files that it may name. Answer: [`TestResult`].
+    Check { name: String, text: String, plants: Vec<File> },
 }
 
 /// What a program can run on.
@@ -195,8 +204,9 @@ pub enum Event {
     /// The points of the simulator or the virtual Uno, logical. `pwm`: the part of the time in
     /// thousandths that Q0.1 and Q0.2 are on, of those that are modulated.
     Pins { inputs: u8, outputs: u8, analog: Vec<u16>, pwm: Vec<u16> },
-    /// How the plant is: what its picture needs.
-    Plant { name: String, state: Vec<(String, f64)>, news: Vec<String> },
+    /// How the plant is: what its picture needs. `places`: how its shapes are, as
+    /// [`places`](awl_sim::plant::Plant::places) gives them.
+    Plant { name: String, state: Vec<(String, f64)>, places: Vec<Vec<f64>>, news: Vec<String> },
     /// Samples of the oscilloscope, in its order of signals; `lost` where some could not be taken
     /// before the first of these.
     Samples { times: Vec<f64>, columns: Vec<Vec<f64>>, lost: bool },
@@ -435,6 +445,8 @@ pub struct Recording {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct TestResult {
+    /// What it is about, where it says so.
+    pub goal: Option<plant::Words>,
     /// Whether all was as expected.
     pub passed: bool,
     /// Scans that were run.

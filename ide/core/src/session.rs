@@ -1,11 +1,13 @@
 //! Everything together: takes the page's requests, lets time pass, tells what is new.
 
 mod chip;
+mod plants;
 mod reach;
 mod status;
 
 use awl_asm::diagnostic::Code;
 use awl_sim::operand::Operand;
+use awl_sim::plant::file;
 use client::line::Framing;
 use client::show::state::{Agreement, Link, Order};
 use serde::Serialize;
@@ -152,6 +154,12 @@ impl Session {
         events
     }
 
+    /// Whether the simulator was allowed fewer scans in the last [`tick`](Self::tick) than were
+    /// due: as fast as it can go, that is always so.
+    pub fn is_behind(&self) -> bool {
+        self.simulator.as_ref().is_some_and(|simulator| simulator.is_behind)
+    }
+
     /// Requests and answers, as far as the target answers at once.
     fn exchange(&mut self, now_ms: u64) -> Vec<Event> {
         let Some(plc) = &mut self.plc else { return Vec::new() };
@@ -207,8 +215,7 @@ impl Session {
                     .map(|shown| Event::Power { id: shown.id, rungs: shown.power(&plc.state) }),
             );
         }
-        let spec = self.bench.plant.as_deref().unwrap_or_default();
-        let name = spec.split_whitespace().next().unwrap_or_default();
+        let name = self.bench.plant.as_ref().map(|(_, spec)| spec.name()).unwrap_or_default();
         if let Some(simulator) = &mut self.simulator {
             events.push(simulator.pins());
             events.extend(simulator.plant(name, &mut self.plant_events));
@@ -227,10 +234,14 @@ impl Session {
             Wish::Target(wish) => self.act(wish).map(|()| None),
             Wish::Look(wish) => self.look(wish).map(|()| None),
             Wish::Apart(ApartWish::Simulate { signals, for_ms, scan_ms, plant }) => {
-                let wanted = Wanted { signals: &signals, for_ms, scan_ms, plant: plant.as_deref() };
+                let plant = plant.map(|spec| self.editor.plant(&spec)).transpose()?;
+                let wanted = Wanted { signals: &signals, for_ms, scan_ms, plant: plant.as_ref() };
                 answer(apart::simulate(&build::files(&self.editor)?, &wanted)?)
             }
             Wish::Apart(ApartWish::Test { file }) => self.test(&file),
+            Wish::Apart(ApartWish::Check { name, text, plants }) => {
+                self.check(&name, &text, &plants)
+            }
         }
     }
 
@@ -275,17 +286,13 @@ impl Session {
                 self.ladder = editor.ladder(&file, at).map(|drawing| Shown { id, file, drawing });
                 answer(self.ladder.as_ref().map(Shown::ladder))
             }
+            TextWish::AboutPlant { spec } => self.about_plant(&spec),
             TextWish::Explain { code } => {
-                let found = Code::find(&code).ok_or_else(|| format!("{code}: no such code"))?;
-                answer(found.page())
+                let page = Code::find(&code).map(Code::page);
+                let page = page.or_else(|| file::Code::find(&code).map(file::Code::page));
+                answer(page.ok_or_else(|| format!("{code}: no such code"))?)
             }
         }
-    }
-
-    fn test(&self, file: &str) -> Done {
-        let text = self.editor.text(file).ok_or_else(|| format!("there is no file {file}"))?;
-        let program = self.editor.program_of(file).ok_or("the project has no program")?;
-        answer(apart::test(&build::files_of(&self.editor, &program), file, text)?)
     }
 
     /// What is done with the target.
@@ -326,6 +333,7 @@ impl Session {
                 self.bench.speed = factor;
             }
             TargetWish::Plant { spec } => self.wire(spec)?,
+            TargetWish::Handle { name, value } => self.handle(name, value)?,
             TargetWish::Drive { operand, value } => self.drive(&operand, value)?,
             TargetWish::Set { operand, value } => {
                 let (operand, raw) = self.value(&operand, &value)?;
@@ -405,6 +413,7 @@ impl Session {
     }
 
     fn switch_on_simulator(&mut self) -> Result<(), String> {
+        self.renew_plant()?;
         let program = build::program(&self.editor)?;
         let files = build::files(&self.editor)?;
         self.simulator = Some(Simulator::new(&files, &self.bench)?);
@@ -416,6 +425,7 @@ impl Session {
 
     /// The virtual Uno with firmware and program. It boots before it hears.
     fn switch_on_chip(&mut self) -> Result<(), String> {
+        self.renew_plant()?;
         let program = build::board_program(&self.editor)?;
         let settings = build::settings(&program);
         self.chip = Some(Surroundings::new(settings, &self.bench)?);
@@ -513,17 +523,6 @@ impl Session {
             (None, _) => return Err("not connected: press Run or Connect".to_owned()),
         }
         Ok(())
-    }
-
-    /// Another plant: what it is wired to is switched on anew with it.
-    fn wire(&mut self, spec: Option<String>) -> Result<(), String> {
-        let before = std::mem::replace(&mut self.bench.plant, spec);
-        if let Err(message) = self.bench.new_plant() {
-            self.bench.plant = before;
-            return Err(message);
-        }
-        let is_on = self.simulator.is_some() || self.chip.is_some();
-        if is_on { self.download() } else { Ok(()) }
     }
 
     fn drive(&mut self, name: &str, value: i32) -> Result<(), String> {

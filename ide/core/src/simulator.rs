@@ -10,7 +10,7 @@ use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
 use awl_sim::open::{Opened, open};
 use awl_sim::operand::Operand;
-use awl_sim::plant::{Plant, parse_spec};
+use awl_sim::plant::{Plant, PlantSpec};
 use awl_sim::run::Course;
 use awl_sim::scenario::Scenario;
 use awl_sim::serve::{Access, Endpoint, Frames, Request};
@@ -25,8 +25,10 @@ const SCAN_MS: u64 = 1;
 /// What is wired to the PLC and how fast its time goes: stays when another program comes.
 #[derive(Debug)]
 pub struct Bench {
-    /// The plant.
-    pub plant: Option<String>,
+    /// The plant as it was asked for, and what that means.
+    pub plant: Option<(String, PlantSpec)>,
+    /// What people have set in it.
+    pub handled: BTreeMap<String, i64>,
     /// What people have set the inputs to.
     pub driven: BTreeMap<Operand, i32>,
     /// 1 is real time, 0 as fast as it can.
@@ -37,23 +39,30 @@ pub struct Bench {
 
 impl Default for Bench {
     fn default() -> Bench {
-        Bench { plant: None, driven: BTreeMap::new(), speed: 1.0, is_paused: false }
+        Bench {
+            plant: None,
+            handled: BTreeMap::new(),
+            driven: BTreeMap::new(),
+            speed: 1.0,
+            is_paused: false,
+        }
     }
 }
 
 impl Bench {
     /// The plant before anything has happened.
     pub fn new_plant(&self) -> Result<Option<Box<dyn Plant>>, String> {
-        self.plant.as_deref().map(plant_of).transpose()
+        let Some((_, spec)) = &self.plant else { return Ok(None) };
+        let mut plant = built(spec)?;
+        for (name, &value) in &self.handled {
+            plant.set(name, value);
+        }
+        Ok(Some(plant))
     }
 }
 
-/// The plant of a line as `awl-sim --plant` takes it.
-pub fn plant_of(spec: &str) -> Result<Box<dyn Plant>, String> {
-    let spec = parse_spec(spec).map_err(|problems| {
-        let messages: Vec<String> = problems.into_iter().map(|problem| problem.message).collect();
-        messages.join("; ")
-    })?;
+/// A plant before anything has happened.
+pub fn built(spec: &PlantSpec) -> Result<Box<dyn Plant>, String> {
     spec.build().map_err(|error| error.message)
 }
 
@@ -68,6 +77,8 @@ pub struct Simulator {
     /// How far its time is, and how far it is to be.
     now_ms: u64,
     due_ms: f64,
+    /// Whether more scans were due the last time than it was allowed to do.
+    pub is_behind: bool,
 }
 
 impl Simulator {
@@ -88,6 +99,7 @@ impl Simulator {
             scan_ms,
             now_ms: 0,
             due_ms: 0.0,
+            is_behind: false,
         };
         for (&operand, &value) in &bench.driven {
             simulator.drive(operand, value)?;
@@ -98,6 +110,11 @@ impl Simulator {
     /// Sets an input.
     pub fn drive(&mut self, operand: Operand, value: i32) -> Result<(), String> {
         self.host.write(operand, value).map_err(|error| error.to_string())
+    }
+
+    /// Sets something in the plant; whether there is such a thing.
+    pub fn handle(&mut self, name: &str, value: i64) -> bool {
+        self.endpoint.plant_mut().is_some_and(|plant| plant.set(name, value))
     }
 
     /// Goes on for so long, at most so many scans; gives the bytes that it answers meanwhile.
@@ -113,6 +130,7 @@ impl Simulator {
             return answers;
         }
         self.due_ms += elapsed_ms as f64 * bench.speed;
+        self.is_behind = false;
         for _ in 0..scans_max {
             if bench.speed > 0.0 && self.due_ms < self.scan_ms as f64 {
                 return answers;
@@ -122,6 +140,7 @@ impl Simulator {
         }
         // Time that it could not keep up with is lost, not made up for later.
         self.due_ms = 0.0;
+        self.is_behind = true;
         answers
     }
 
@@ -185,7 +204,7 @@ impl Simulator {
 
 /// A plant as a picture needs it; `told`: events that were told before.
 pub fn plant_event(plant: &dyn Plant, name: &str, told: &mut usize) -> Event {
-    let state = plant.view().into_iter().map(|(key, value)| (key.to_owned(), value)).collect();
+    let (state, places) = (plant.view(), plant.places());
     let events = plant.report().events;
     let news = events
         .iter()
@@ -193,5 +212,5 @@ pub fn plant_event(plant: &dyn Plant, name: &str, told: &mut usize) -> Event {
         .map(|event| format!("{:.3} s: {}", event.time_ms as f64 / 1000.0, event.text));
     let news = news.collect();
     *told = events.len();
-    Event::Plant { name: name.to_owned(), state, news }
+    Event::Plant { name: name.to_owned(), state, places, news }
 }

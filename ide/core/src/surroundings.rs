@@ -79,6 +79,11 @@ impl Surroundings {
         Ok(())
     }
 
+    /// Sets something in the plant; whether there is such a thing.
+    pub fn handle(&mut self, name: &str, value: i64) -> bool {
+        self.plant.as_mut().is_some_and(|plant| plant.set(name, value))
+    }
+
     /// So much time of a clock on the wall has passed, of which a time-lapse makes more or less.
     pub fn is_due(&mut self, elapsed_ms: u64, bench: &Bench) {
         self.due_ms = match bench.is_paused {

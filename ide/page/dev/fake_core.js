@@ -35,6 +35,9 @@ export class Ide {
     return "[]";
   }
 
+  isBehind() {
+    return false;
+  }
   chipDueMs() {
     return 0;
   }
@@ -228,6 +231,7 @@ export class Ide {
     const passed = !/bad/.test(wish.file);
     const failures = [[3, "at 2.9s expected Q0.0 = 1, got 0; it became 1 at 3s"]];
     this.reply(wish, {
+      goal: null,
       passed,
       scans: 40000,
       met: 48,
@@ -282,6 +286,15 @@ export class Ide {
   do_speed({ factor }) {
     this.speed = factor;
   }
+  do_aboutPlant(wish) {
+    const title = ["", "", ""];
+    const words = ["Sensor stuck", "Sensor klemmt", "Sensor bloqueado"];
+    const controls = [{ name: "Stuck", words, kind: "fault", low: 0, high: 1, value: 0 }];
+    this.reply(wish, { title, digital: 0x1f, analog: 1, controls, shapes: [] });
+  }
+
+  do_handle() {}
+
   do_plant({ spec }) {
     this.plant = spec;
   }
@@ -412,6 +425,7 @@ export class Ide {
       is: "plant",
       name,
       state,
+      places: [],
       news: isNews ? ["2.5 s piece 1 (207) put on the platform"] : [],
     });
   }

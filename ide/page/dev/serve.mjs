@@ -21,7 +21,8 @@ const PLANTS = { station1: "station1", tank: "tank" };
 async function example(name) {
   const files = (await readdir(EXAMPLES)).filter((file) => file.replace(/\.\w+$/, "") === name);
   const read = async (file) => ({ name: file, text: await readFile(EXAMPLES + file, "utf8") });
-  const plant = PLANTS[name] ?? null;
+  const described = files.find((file) => file === `${name}.plant`);
+  const plant = PLANTS[name] ?? described ?? null;
   const content = { files: await Promise.all(files), main: `${name}.awl`, plant };
   content.files = await Promise.all(files.map(read));
   return JSON.stringify({ ...content, view: plant ? "plant" : "problems" });
@@ -33,15 +34,15 @@ async function exampleNames() {
 }
 
 async function answer(path) {
-  if (path === "/examples/list.json") return exampleNames();
-  const name = /^\/examples\/(\w+)\.json$/.exec(path)?.[1];
+  if (path === "/version/examples/list.json") return exampleNames();
+  const name = /^\/version\/examples\/(\w+)\.json$/.exec(path)?.[1];
   if (name) return example(name);
   const file = path === "/" ? "/index.html" : path;
-  if (/^\/ide_core/.test(file)) {
-    const real = at(`../../../target/ide${file}`);
+  if (/^\/version\/ide_core/.test(file)) {
+    const real = at(`../../../target/ide-core/${file.slice("/version/".length)}`);
     return readFile(real).catch(() => readFile(at("./fake_core.js")));
   }
-  if (!/^\/[\w.]+$/.test(file)) throw new Error("no such file");
+  if (!/^\/(version\/)?[\w.]+$/.test(file)) throw new Error("no such file");
   return readFile(at(`../dist${file}`));
 }
 

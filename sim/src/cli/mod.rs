@@ -81,7 +81,7 @@ fn simulate(args: &Args) -> Result<u8> {
     let outcome = run_with_progress(&mut *machine, &scenario, job)?;
     // What was found out is told even if the trace cannot be written.
     let written = output::write(args, &outcome.trace);
-    let plant = spec.as_ref().map(|spec| spec.name);
+    let plant = spec.as_ref().map(PlantSpec::name);
     report::print(&scenario.origin, plant, &outcome, args.on == On::Host, args.messages.quiet);
     written?;
     Ok(outcome.exit_code())

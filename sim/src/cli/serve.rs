@@ -42,7 +42,7 @@ pub fn serve(args: &Args, address: &str) -> Result<()> {
     announce(server.address(), access)?;
     let course = Course::new(&scenario, model, scan_ms);
     let outcome = server.run(&mut machine, course, scan_ms, &mut tell)?;
-    let plant = spec.as_ref().map(|spec| spec.name);
+    let plant = spec.as_ref().map(PlantSpec::name);
     report::print(&scenario.origin, plant, &outcome, true, args.messages.quiet);
     Ok(())
 }

@@ -28,12 +28,15 @@
 //!         self.report.clone()
 //!     }
 //!
-//!     fn view(&self) -> Vec<(&'static str, f64)> {
+//!     fn view(&self) -> Vec<(String, f64)> {
 //!         Vec::new()
 //!     }
 //! }
 //! ```
 
+mod control;
+mod faults;
+pub mod file;
 mod options;
 mod report;
 mod spec;
@@ -44,9 +47,12 @@ use awl_asm::Address;
 use plc_isa::{AnalogInput, Area};
 
 use crate::operand::Operand;
+pub use control::{Control, ControlKind, Effect, Fault, Words};
+pub(crate) use file::words_of;
 pub use options::{OptionError, Options};
 pub use report::{EVENTS_MAX, Event, Report};
-pub use spec::{PlantSpec, parse_spec};
+pub(crate) use spec::file_of;
+pub use spec::{PlantSpec, SpecErrors, parse_spec, parse_spec_with};
 
 /// A plant model.
 ///
@@ -68,9 +74,27 @@ pub trait Plant: Send {
     /// What has happened so far.
     fn report(&self) -> Report;
 
-    /// How it is now, for a picture: names of its parts with positions from 0 to 1000, counts, or 0
-    /// and 1.
-    fn view(&self) -> Vec<(&'static str, f64)>;
+    /// How it is now, for a picture and for scenarios: names of its parts with positions, counts,
+    /// or 0 and 1; always the same names.
+    fn view(&self) -> Vec<(String, f64)>;
+
+    /// What people and scenarios can set.
+    fn controls(&self) -> Vec<Control> {
+        Vec::new()
+    }
+
+    /// Sets a control, named in any letter case; whether there is one of this name. From the next
+    /// step on it has this value.
+    fn set(&mut self, _control: &str, _value: i64) -> bool {
+        false
+    }
+
+    /// How the shapes of a plant file are, in their order: empty where one is not to be seen;
+    /// otherwise how far it is moved, in thousandths, and behind that for a lamp 0 or 1, for a
+    /// level its thousandths, for a value that, for pieces the thousandths of their way.
+    fn places(&self) -> Vec<Vec<f64>> {
+        Vec::new()
+    }
 }
 
 /// A choice of inputs.
@@ -139,9 +163,16 @@ pub struct PlantKind {
     pub doc: &'static str,
     /// Its options: name, and what it takes.
     pub options: &'static [(&'static str, &'static str)],
+    /// Faults that it can have: name, what it does, and words in English, German and Spanish.
+    pub faults: &'static [(&'static str, Effect, [&'static str; 3])],
     /// Makes one from its options.
     pub build: fn(&Options) -> Result<Box<dyn Plant>, OptionError>,
 }
 
-/// All plants.
+/// Names with numbers, as [`Plant::view`] gives them.
+fn named<const COUNT: usize>(list: [(&str, f64); COUNT]) -> Vec<(String, f64)> {
+    list.into_iter().map(|(name, value)| (name.to_string(), value)).collect()
+}
+
+/// All plants that need no file.
 pub const PLANTS: &[PlantKind] = &[station1::KIND, tank::KIND];

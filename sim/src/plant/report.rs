@@ -1,5 +1,7 @@
 //! What a plant tells: a timeline and named counts. It judges nothing.
 
+use std::borrow::Cow;
+
 /// Most events that a timeline keeps; later ones are only counted.
 pub const EVENTS_MAX: usize = 10_000;
 
@@ -20,7 +22,7 @@ pub struct Report {
     /// Events beyond [`EVENTS_MAX`].
     pub events_left_out: u64,
     /// Named counts, in the order they are shown.
-    pub summary: Vec<(&'static str, i64)>,
+    pub summary: Vec<(Cow<'static, str>, i64)>,
 }
 
 impl Report {
@@ -33,8 +35,14 @@ impl Report {
         }
     }
 
+    /// The same with these counts.
+    pub(super) fn with_summary(&self, summary: Vec<(&'static str, i64)>) -> Report {
+        let summary = summary.into_iter().map(|(name, count)| (name.into(), count)).collect();
+        Report { summary, ..self.clone() }
+    }
+
     /// A count of the summary.
     pub fn count(&self, name: &str) -> Option<i64> {
-        self.summary.iter().find(|(known, _)| *known == name).map(|&(_, count)| count)
+        self.summary.iter().find(|(known, _)| known == name).map(|&(_, count)| count)
     }
 }

@@ -1,34 +1,88 @@
-//! A plant as it is asked for: `station1 noise=2 seed=1`, in a scenario and on the command line
-//! alike.
+//! A plant as it is asked for: `station1 noise=2 seed=1`, or the name of a file that describes it,
+//! in a scenario and on the command line alike.
 
 use std::ops::Range;
 
-use super::{OptionError, Options, PLANTS, Plant, PlantKind};
+use super::control::Fault;
+use super::faults::WithFaults;
+use super::file::{PlantErrors, PlantFile, is_plant_file};
+use super::{OptionError, Options, PLANTS, Plant, PlantKind, Words};
 use crate::problem::Problem;
 use awl_asm::suggest::nearest;
 
-/// A known plant with options that it takes.
+/// A plant that there is.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct PlantSpec {
-    /// Its name in [`PLANTS`].
-    pub name: &'static str,
-    /// Its options.
-    pub options: Options,
+pub enum PlantSpec {
+    /// One of [`PLANTS`], by its name, with options that it takes.
+    Known(&'static str, Options),
+    /// One that a file describes.
+    Described(PlantFile),
 }
 
 impl PlantSpec {
-    /// Makes the plant, in its state at time 0.
-    pub fn build(&self) -> Result<Box<dyn Plant>, OptionError> {
-        match PLANTS.iter().find(|kind| kind.name == self.name) {
-            Some(kind) => (kind.build)(&self.options),
-            None => Err(OptionError::new("", format!("there is no plant {}", self.name))),
+    /// Its name, or that of its file.
+    pub fn name(&self) -> &str {
+        match self {
+            PlantSpec::Known(name, _) => name,
+            PlantSpec::Described(file) => &file.name,
         }
     }
+
+    /// Makes the plant, in its state at time 0.
+    pub fn build(&self) -> Result<Box<dyn Plant>, OptionError> {
+        let (name, options) = match self {
+            PlantSpec::Described(file) => return Ok(file.build()),
+            PlantSpec::Known(name, options) => (name, options),
+        };
+        let Some(kind) = PLANTS.iter().find(|kind| kind.name == *name) else {
+            return Err(OptionError::new("", format!("there is no plant {name}")));
+        };
+        let fault = |&(name, effect, [en, de, es]): &(&str, _, [&str; 3])| Fault {
+            name: name.to_string(),
+            words: Words::new(en, de, es),
+            effect,
+        };
+        let faults = kind.faults.iter().map(fault).collect();
+        Ok(Box::new(WithFaults::new((kind.build)(options)?, faults)))
+    }
+}
+
+/// The plant file that is asked for, without the quotes that it may have.
+pub(crate) fn file_of(text: &str) -> Option<&str> {
+    let text = text.trim();
+    let bare = text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text);
+    is_plant_file(bare).then_some(bare)
+}
+
+/// Why there is no such plant.
+#[derive(Debug, Clone)]
+pub enum SpecErrors {
+    /// What is wrong with the name or the options, with its place there.
+    Spec(Vec<Problem>),
+    /// What is wrong with the file.
+    File(PlantErrors),
+}
+
+/// Reads a name and its options, or the name of a plant file. `read`: gives the text of a file, or
+/// says in a sentence without full stop why there is none.
+pub fn parse_spec_with(
+    text: &str,
+    read: &mut dyn FnMut(&str) -> Result<String, String>,
+) -> Result<PlantSpec, SpecErrors> {
+    let Some(name) = file_of(text) else { return parse_spec(text).map_err(SpecErrors::Spec) };
+    let at = text.find(name).unwrap_or(0);
+    let missing = |message| SpecErrors::Spec(vec![Problem::new(at..at + name.len(), message)]);
+    let file = PlantFile::read(name, &read(name).map_err(missing)?);
+    file.map(PlantSpec::Described).map_err(SpecErrors::File)
 }
 
 /// Reads a name and its options. Problems have their places in `text`.
 pub fn parse_spec(text: &str) -> Result<PlantSpec, Vec<Problem>> {
     let mut words = words_of(text);
+    if let Some(name) = file_of(text) {
+        let message = format!("{name} cannot be read here: no files are at hand");
+        return Err(vec![Problem::new(0..text.len(), message)]);
+    }
     let Some((name_span, name)) = words.next() else {
         return Err(vec![
             Problem::new(0..1, "the name of a plant is missing").help(list_of_plants()),
@@ -54,7 +108,7 @@ pub fn parse_spec(text: &str) -> Result<PlantSpec, Vec<Problem>> {
         let span = place.map_or(name_span, |place| spans[place].clone());
         problems.push(Problem::new(span, error.message));
     }
-    if problems.is_empty() { Ok(PlantSpec { name: kind.name, options }) } else { Err(problems) }
+    if problems.is_empty() { Ok(PlantSpec::Known(kind.name, options)) } else { Err(problems) }
 }
 
 fn words_of(text: &str) -> impl Iterator<Item = (Range<usize>, &str)> {
@@ -94,7 +148,7 @@ fn unknown_plant(span: Range<usize>, name: &str) -> Problem {
 
 fn list_of_plants() -> String {
     let list: Vec<_> = PLANTS.iter().map(|kind| format!("{} ({})", kind.name, kind.doc)).collect();
-    format!("the plants are: {}", list.join(", "))
+    format!("the plants are: {}, and those that a file NAME.plant describes", list.join(", "))
 }
 
 fn list_of_options(kind: &PlantKind) -> String {
@@ -109,9 +163,10 @@ mod tests {
     #[test]
     fn known_plant_with_options() {
         let spec = parse_spec("station1 pieces=small,207 seed=7").unwrap();
-        assert_eq!(spec.name, "station1");
-        assert_eq!(spec.options.text("pieces"), Some("small,207"));
-        assert_eq!(spec.options.text("noise"), None);
+        let PlantSpec::Known(name, options) = spec else { panic!("it needs no file") };
+        assert_eq!(name, "station1");
+        assert_eq!(options.text("pieces"), Some("small,207"));
+        assert_eq!(options.text("noise"), None);
     }
 
     #[test]

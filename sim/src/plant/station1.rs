@@ -5,8 +5,9 @@
 //! nothing moves. The model knows times and end positions, no forces: what the program should do
 //! with a height is not known here.
 
+use super::control::{Effect, SLOW_MS};
 use super::options::{OptionError, Options};
-use super::{Inputs, Plant, PlantKind, Report, Signals};
+use super::{Inputs, Plant, PlantKind, Report, Signals, named};
 
 /// The row for the table of plants.
 pub const KIND: PlantKind = PlantKind {
@@ -18,6 +19,45 @@ pub const KIND: PlantKind = PlantKind {
         ("seed", "N"),
         ("button", "auto|manual"),
         ("start", "bottom|middle|top"),
+    ],
+    faults: &[
+        (
+            "BottomStuck",
+            Effect::Stuck(1),
+            [
+                "Lower end switch stuck",
+                "Unterer Endschalter klemmt",
+                "Final de carrera inferior bloqueado",
+            ],
+        ),
+        (
+            "TopStuck",
+            Effect::Stuck(2),
+            [
+                "Upper end switch stuck",
+                "Oberer Endschalter klemmt",
+                "Final de carrera superior bloqueado",
+            ],
+        ),
+        (
+            "PistonStuck",
+            Effect::Stuck(3),
+            [
+                "Switch of the piston stuck",
+                "Endschalter des Kolbens klemmt",
+                "Interruptor del pistón bloqueado",
+            ],
+        ),
+        (
+            "HeightStuck",
+            Effect::StuckAnalog(0),
+            ["Height sensor stuck", "Höhensensor klemmt", "Sensor de altura bloqueado"],
+        ),
+        (
+            "SlowPiston",
+            Effect::Slow(2, SLOW_MS),
+            ["Slow valve of the piston", "Kolbenventil träge", "Válvula del pistón lenta"],
+        ),
     ],
     build: |options| Ok(Box::new(Station1::new(options)?)),
 };
@@ -326,12 +366,12 @@ impl Plant for Station1 {
             ("conflicts", self.conflicts),
             ("left", left),
         ];
-        Report { summary, ..self.report.clone() }
+        self.report.with_summary(summary)
     }
 
-    fn view(&self) -> Vec<(&'static str, f64)> {
+    fn view(&self) -> Vec<(String, f64)> {
         let height = |piece: Option<Piece>| f64::from(piece.map_or(0, |piece| piece.height));
-        vec![
+        named([
             ("lift", self.platform.permille()),
             ("piston", self.piston.permille()),
             ("sensor", self.sensor.permille()),
@@ -347,7 +387,7 @@ impl Plant for Station1 {
             ("rejected", self.rejected as f64),
             ("collisions", self.collisions as f64),
             ("conflicts", self.conflicts as f64),
-        ]
+        ])
     }
 }
 

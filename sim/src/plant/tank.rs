@@ -4,8 +4,9 @@
 //! Q0.0 runs the pump, Q0.1 opens the outlet where `outlet=valve`; a high pin is on. The level is
 //! on analog input 0, 0 to 100 % as AIW0 = 0 to 32000, and I0.0 is the overflow switch.
 
+use super::control::{Effect, SLOW_MS};
 use super::options::{OptionError, Options};
-use super::{Inputs, Plant, PlantKind, Report, Signals};
+use super::{Inputs, Plant, PlantKind, Report, Signals, named};
 
 /// The row for the table of plants.
 pub const KIND: PlantKind = PlantKind {
@@ -20,6 +21,32 @@ pub const KIND: PlantKind = PlantKind {
         ("overflow", "1..100 %, where I0.0 switches"),
         ("noise", "0..50 counts"),
         ("seed", "N"),
+    ],
+    faults: &[
+        (
+            "LevelStuck",
+            Effect::StuckAnalog(0),
+            ["Level sensor stuck", "Füllstandsensor klemmt", "Sensor de nivel bloqueado"],
+        ),
+        (
+            "OverflowStuck",
+            Effect::Stuck(0),
+            ["Overflow switch stuck", "Überlaufschalter klemmt", "Interruptor de rebose bloqueado"],
+        ),
+        (
+            "SlowPump",
+            Effect::Slow(0, SLOW_MS),
+            [
+                "Pump starts and stops late",
+                "Pumpe läuft verspätet an und aus",
+                "La bomba arranca y para tarde",
+            ],
+        ),
+        (
+            "SlowValve",
+            Effect::Slow(1, SLOW_MS),
+            ["Slow outlet valve", "Auslassventil träge", "Válvula de salida lenta"],
+        ),
     ],
     build: |options| Ok(Box::new(Tank::new(options)?)),
 };
@@ -169,16 +196,16 @@ impl Plant for Tank {
             ("overflows", self.overflows),
             ("empty", self.dry),
         ];
-        Report { summary, ..self.report.clone() }
+        self.report.with_summary(summary)
     }
 
-    fn view(&self) -> Vec<(&'static str, f64)> {
-        vec![
+    fn view(&self) -> Vec<(String, f64)> {
+        named([
             ("level", (self.level / (PERCENT / 10)) as f64),
             ("overflow", (self.overflow / (PERCENT / 10)) as f64),
             ("pump", f64::from(u8::from(self.is_pumping))),
             ("outlet", f64::from(u8::from(self.is_outlet_open))),
-        ]
+        ])
     }
 }
 

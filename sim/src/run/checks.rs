@@ -3,7 +3,9 @@
 
 use super::follow::Follower;
 use super::outcome::Outcome;
+use super::plant_checks::PlantChecks;
 use crate::machine::{Machine, MachineError};
+use crate::plant::Plant;
 use crate::scenario::condition::Condition;
 use crate::scenario::{Expectation, Rule, Scenario, SentExpectation, Tolerance, Until};
 use crate::time::format_time;
@@ -19,6 +21,7 @@ pub(super) struct Checks {
     open: Vec<usize>,
     sent: Vec<SentExpectation>,
     sent_checked: usize,
+    of_plant: PlantChecks,
     rules: Vec<WatchedRule>,
     until: Option<(Until, usize)>,
     /// The time at which `until` ended the run.
@@ -69,6 +72,7 @@ impl Checks {
             open: Vec::new(),
             sent,
             sent_checked: 0,
+            of_plant: PlantChecks::new(scenario),
             rules,
             until: None,
             over_ms: None,
@@ -98,6 +102,7 @@ impl Checks {
         now_ms: u64,
         scan_ms: Option<u64>,
         machine: &mut (impl Machine + ?Sized),
+        plant: Option<&dyn Plant>,
         outcome: &mut Outcome,
     ) -> Result<(), MachineError> {
         if let Some(scan_ms) = scan_ms {
@@ -108,6 +113,7 @@ impl Checks {
         }
         self.check_expectations(now_ms, machine, outcome)?;
         self.check_sent(now_ms, machine, outcome)?;
+        self.of_plant.go_on(now_ms, plant, outcome);
         if self.until.as_ref().is_some_and(|(_, condition)| self.follower.holds(*condition)) {
             self.over_ms = Some(now_ms);
             outcome.met += 1;
@@ -272,6 +278,7 @@ impl Checks {
             .map(|expectation| (expectation.line, expectation.at_ms))
             .chain(self.sent[self.sent_checked..].iter().map(|sent| (sent.line, sent.at_ms)))
             .chain(rules.map(|rule| (rule.line, rule.from_ms)))
+            .chain(self.of_plant.left())
             .collect()
     }
 }

@@ -333,7 +333,7 @@ impl Plant for Mirror {
         self.0.clone()
     }
 
-    fn view(&self) -> Vec<(&'static str, f64)> {
+    fn view(&self) -> Vec<(String, f64)> {
         Vec::new()
     }
 }

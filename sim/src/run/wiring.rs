@@ -56,6 +56,10 @@ impl Wiring {
         &*self.plant
     }
 
+    pub(super) fn plant_mut(&mut self) -> &mut dyn Plant {
+        &mut *self.plant
+    }
+
     pub(super) fn report(&self) -> Report {
         self.plant.report()
     }

@@ -14,7 +14,7 @@ pub fn is_order(relation: Relation) -> bool {
 }
 
 /// Whether a value is related so to a range: equal is what is inside it.
-fn holds<T: PartialOrd>(relation: Relation, value: T, low: T, high: T) -> bool {
+pub(crate) fn is_related<T: PartialOrd>(relation: Relation, value: T, low: T, high: T) -> bool {
     match relation {
         Relation::Equal => (low..=high).contains(&value),
         Relation::NotEqual => !(low..=high).contains(&value),
@@ -43,8 +43,8 @@ impl Comparison {
     pub fn holds(&self, value: i32) -> bool {
         let (low, high) = (*self.values.start(), *self.values.end());
         match self.operand.width() {
-            Width::Real => holds(self.relation, real_of(value), real_of(low), real_of(high)),
-            _ => holds(self.relation, value, low, high),
+            Width::Real => is_related(self.relation, real_of(value), real_of(low), real_of(high)),
+            _ => is_related(self.relation, value, low, high),
         }
     }
 

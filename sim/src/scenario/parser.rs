@@ -2,7 +2,7 @@
 
 mod actions;
 mod conditions;
-mod piece;
+mod plant;
 mod sign;
 mod values;
 mod whole;
@@ -11,13 +11,13 @@ use std::ops::Range;
 
 use super::words::{self, names};
 use super::{Asked, Context, Reading, Repeat, SCAN_MS, Scenario};
-use crate::plant;
+use crate::piece::{Piece, lines};
 use crate::problem::Problem;
 use crate::time::{TIME_MAX_MS, parse_time};
 use awl_asm::suggest::nearest;
-use piece::Piece;
+use plant::is_about_plant;
 
-const STATEMENTS: [&str; 9] = names(&words::STATEMENTS);
+const STATEMENTS: [&str; 10] = names(&words::STATEMENTS);
 
 const LIST_FORM: &str = "write operand = value, several separated by commas";
 
@@ -47,6 +47,9 @@ struct Parser<'a, 'c> {
     expectation_spans: Vec<Range<usize>>,
     rule_spans: Vec<Range<usize>>,
     action_spans: Vec<Range<usize>>,
+    /// Names and values of what is set in the plant.
+    handling_spans: Vec<(Range<usize>, Range<usize>)>,
+    plant_expectation_spans: Vec<Range<usize>>,
     operand_spans: Vec<Range<usize>>,
     seen: Vec<&'a str>,
     /// The time of the last `at`, from which relative times count.
@@ -68,6 +71,8 @@ pub(super) fn read<'c>(
         expectation_spans: Vec::new(),
         rule_spans: Vec::new(),
         action_spans: Vec::new(),
+        handling_spans: Vec::new(),
+        plant_expectation_spans: Vec::new(),
         operand_spans: Vec::new(),
         seen: Vec::new(),
         at_ms: 0,
@@ -84,9 +89,16 @@ pub(super) fn read<'c>(
     }
     parser.check_times();
     parser.check_plant_inputs();
+    parser.check_plant();
     parser.problems.sort_by_key(|problem| problem.span.start);
     let Parser { scenario, problems, operand_spans: operands, .. } = parser;
     Reading { scenario, problems, operands }
+}
+
+/// The plant file that a scenario names, before anything else of it can be read.
+pub fn plant_file_of(text: &str) -> Option<&str> {
+    let line = lines(text).find(|line| line.split_word().0.is("plant"))?;
+    crate::plant::file_of(line.split_word().1.text)
 }
 
 /// The files that a scenario names as its program, before anything else of it can be read.
@@ -105,30 +117,6 @@ fn is_program(line: Piece<'_>) -> bool {
 
 fn unquoted(text: &str) -> &str {
     text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text)
-}
-
-/// The lines without comments and without blanks around.
-fn lines(text: &str) -> impl Iterator<Item = Piece<'_>> {
-    let mut start = 0;
-    text.split_inclusive('\n').map(move |line| {
-        let piece = Piece { text: without_comment(line), start }.trim();
-        start += line.len();
-        piece
-    })
-}
-
-/// The line up to a `#` that neither is in quotes nor belongs to a number such as `16#FF`.
-fn without_comment(line: &str) -> &str {
-    let piece = Piece { text: line, start: 0 };
-    let comment = piece.unquoted().find(|&(at, c)| c == '#' && !is_radix_sign(line, at));
-    comment.map_or(line, |(at, _)| &line[..at])
-}
-
-/// Any digits before and a digit after make it a number, so that `8#7` is an error and not an 8
-/// with a comment.
-fn is_radix_sign(line: &str, at: usize) -> bool {
-    line[..at].ends_with(|c: char| c.is_ascii_digit())
-        && line[at + 1..].starts_with(|c: char| c.is_ascii_hexdigit())
 }
 
 impl<'a> Parser<'a, '_> {
@@ -155,7 +143,8 @@ impl<'a> Parser<'a, '_> {
             "until" if self.is_first(word) => self.until(rest, line),
             "plant" if self.is_first(word) => self.plant(rest),
             "program" if self.is_first(word) => self.program(rest),
-            "scan" | "run" | "until" | "plant" | "program" => {}
+            "goal" if self.is_first(word) => self.goal(rest),
+            "scan" | "run" | "until" | "plant" | "program" | "goal" => {}
             _ => {
                 let problem = Problem::new(word.span(), format!("unknown statement {}", word.text));
                 let [first @ .., last] = STATEMENTS;
@@ -233,19 +222,6 @@ impl<'a> Parser<'a, '_> {
         Some(at_ms)
     }
 
-    fn plant(&mut self, rest: Piece<'a>) {
-        match plant::parse_spec(rest.text) {
-            Ok(spec) => {
-                self.ask(rest, Asked::Plant);
-                self.scenario.plant = Some(spec);
-            }
-            Err(problems) => self.problems.extend(problems.into_iter().map(|mut problem| {
-                problem.span = problem.span.start + rest.start..problem.span.end + rest.start;
-                problem
-            })),
-        }
-    }
-
     fn at(&mut self, rest: Piece<'a>, line: usize) {
         let (time_word, rest) = rest.split_word();
         // With a wrong time the rest is still checked; the time is reported already.
@@ -262,6 +238,10 @@ impl<'a> Parser<'a, '_> {
             "clock" => self.clock(after_word, at_ms),
             "receive" => self.receive(after_word, at_ms),
             "expect" => self.expect(after_word, moment),
+            "plant" if is_about_plant(word, after_word) => {
+                self.ask(word, Asked::Plant);
+                self.handle(after_word, at_ms);
+            }
             // With a sign behind it, it is a symbol.
             "within" if !after_word.text.starts_with('=') => self.within(after_word, moment),
             _ => self.assignments(rest, Times { at_ms, repeat: None }),

@@ -308,7 +308,9 @@ fn suggestions_for_misspelt_words() {
     assert_eq!(meant("plant tnak"), "tank");
     assert_eq!(
         first("measure 1s").help.as_deref(),
-        Some("the statements are scan, at, run, plant, every, always, never, until and program")
+        Some(
+            "the statements are scan, at, run, plant, every, always, never, until, program and goal"
+        )
     );
 }
 

@@ -16,7 +16,7 @@ const fn row(word: &'static str, example: &'static str, doc: &'static str) -> Wo
 }
 
 /// What a line begins with (docs/simulator.md has more about each).
-pub const STATEMENTS: [Word; 9] = [
+pub const STATEMENTS: [Word; 10] = [
     row("scan", "scan 1ms", "The time from scan start to scan start."),
     row(
         "at",
@@ -43,10 +43,15 @@ pub const STATEMENTS: [Word; 9] = [
         "program motor.awl",
         "The program, with its path from the folder of the scenario.",
     ),
+    row(
+        "goal",
+        "goal \"The lamp is on while the switch is on\"",
+        "What this scenario is about, in a sentence: it is told when the scenario fails.",
+    ),
 ];
 
 /// What can follow the time of an `at`, beside values that are set.
-pub const AFTER_TIME: [Word; 5] = [
+pub const AFTER_TIME: [Word; 6] = [
     row("expect", "expect Q0.1 = 0, MW3 = 200..210", "What must be true at that time."),
     row(
         "within",
@@ -56,6 +61,7 @@ pub const AFTER_TIME: [Word; 5] = [
     row("pulse", "pulse I0.0 1000Hz for 2s", "Pulses at an input, or at the two of an encoder."),
     row("clock", "clock 2026-11-21 15:00:00", "Sets the clock of the PLC."),
     row("receive", "receive \"text\"", "What comes on the serial line."),
+    row("plant", "plant PistonStuck = 1", "Sets something in the plant: a button, a fault."),
 ];
 
 /// The words of a table alone.
@@ -77,7 +83,10 @@ mod tests {
     #[test]
     fn every_example_is_read() {
         let lines = STATEMENTS.map(|word| (word, word.example.to_owned()));
-        let after = AFTER_TIME.map(|word| (word, format!("at 1s {}", word.example)));
+        let after = AFTER_TIME.map(|word| {
+            let plant = if word.word == "plant" { "plant station1\n" } else { "" };
+            (word, format!("{plant}at 1s {}", word.example))
+        });
         for (word, line) in lines.into_iter().chain(after) {
             assert!(word.example.starts_with(word.word), "{line}");
             let context = Context { symbols: &[], plant: None, has_operand: &mut |_| Ok(()) };

@@ -94,6 +94,11 @@ impl<T> Endpoint<T> {
         self.course.plant()
     }
 
+    /// The same, to be set.
+    pub fn plant_mut(&mut self) -> Option<&mut dyn Plant> {
+        self.course.plant_mut()
+    }
+
     /// Milliseconds from the first scan to the last.
     pub fn time_ms(&self) -> u64 {
         self.now_ms

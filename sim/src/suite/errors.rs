@@ -2,6 +2,7 @@
 //! scenario, as people and programs read them.
 
 use crate::open::{Findings, OpenError};
+use crate::plant::file::PlantErrors;
 use crate::problem::Problems;
 use anyhow::Error;
 use awl_asm::report::{Messages, Report, human};
@@ -32,6 +33,11 @@ pub fn show_error(error: &Error, messages: Messages) {
     if let Some(OpenError::Errors(findings)) = error.downcast_ref() {
         return show(findings, messages);
     }
+    if let Some(errors) = error.downcast_ref::<PlantErrors>()
+        && let Ok(source) = Source::new(&errors.name, &errors.text)
+    {
+        return Report::new(messages, false).show(&source, &errors.diagnostics);
+    }
     let problems = error.downcast_ref::<Problems>();
     let problems = problems.and_then(|all| Some((all, Source::new(&all.origin, &all.text).ok()?)));
     match problems {
@@ -42,7 +48,9 @@ pub fn show_error(error: &Error, messages: Messages) {
 
 /// An error as people read it, with terminal colours. Ends with a line feed.
 pub fn told(error: &Error) -> String {
-    if let Some(problems) = error.downcast_ref::<Problems>() {
+    if let Some(errors) = error.downcast_ref::<PlantErrors>() {
+        errors.render(true)
+    } else if let Some(problems) = error.downcast_ref::<Problems>() {
         problems.render(true)
     } else if let Some(OpenError::Errors(findings)) = error.downcast_ref() {
         shown(findings)

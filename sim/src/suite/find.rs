@@ -4,12 +4,13 @@ use std::collections::HashSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::scenario::program_of;
+use crate::plant::PlantSpec;
+use crate::scenario::{NoPlant, plant_of, program_of};
 use anyhow::{Context, Result, bail, ensure};
 use awl_asm::files::read_source;
 
 /// Endings of programs; the first one there is counts.
-const PROGRAM_ENDINGS: [&str; 3] = ["awl", "st", "bin"];
+const PROGRAM_ENDINGS: [&str; 4] = ["awl", "st", "sfc", "bin"];
 
 /// The scenarios at these paths, each once. What does not exist is given back as it is: it is a
 /// test that fails.
@@ -76,6 +77,21 @@ fn of_program(program: &Path) -> Result<Vec<PathBuf>> {
     };
     beside.retain(|path| is_scenario(path) && is_its(path));
     Ok(beside)
+}
+
+/// The plant of the file that a scenario with this text names, from its folder on. `origin` names
+/// the scenario in messages.
+pub fn plant_for(scenario: &Path, origin: &str, text: &str) -> Result<Option<PlantSpec>> {
+    let mut read = |file: &str| read_text(&scenario.with_file_name("").join(file));
+    plant_of(origin, text, &mut read).map_err(|error| match error {
+        NoPlant::Scenario(problems) => problems.into(),
+        NoPlant::File(errors) => errors.into(),
+    })
+}
+
+/// The text of a file, or why there is none.
+pub fn read_text(path: &Path) -> Result<String, String> {
+    read_source(path).map(|source| source.text).map_err(|error| format!("{error:#}"))
 }
 
 /// The files of the program of a scenario with this text; there is one at least.

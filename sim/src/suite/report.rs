@@ -13,6 +13,9 @@ pub fn human(result: &TestResult) -> String {
     let word = if result.status == 0 { "ok" } else { result.word() };
     let mut text =
         format!("{}{word:<7} {}{what}{}\n", result.warnings, result.scenario, result.summary);
+    if let (Some(goal), 1..) = (&result.goal, result.status) {
+        text += &format!("{INDENT}missing: {goal}\n");
+    }
     let notes = result.notes.iter().map(|note| format!("warning: {note}"));
     for line in result.failures.iter().cloned().chain(notes) {
         for line in line.lines() {
@@ -45,6 +48,7 @@ pub fn json(result: &TestResult) -> String {
         "program": result.program,
         "result": result.word(),
         "status": result.status,
+        "goal": result.goal,
         "met": result.met,
         "failures": result.plain_failures(),
         "warnings": result.notes,

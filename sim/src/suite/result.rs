@@ -20,6 +20,8 @@ pub struct TestResult {
     pub program: String,
     /// 0 good, 1 an expectation failed, 2 it could not be run, 3 the PLC had a fault.
     pub status: u8,
+    /// What the scenario is about, where it says so.
+    pub goal: Option<String>,
     /// What failed, each with its place; of errors the text as it is shown, with terminal colours.
     pub failures: Vec<String>,
     /// What the assembler has to say about the program, with terminal colours.

@@ -3,6 +3,7 @@
 mod build;
 mod context;
 mod control;
+mod convert;
 mod flash;
 mod force;
 mod program;
@@ -54,6 +55,7 @@ fn run(arguments: Arguments) -> Result<u8> {
     let base = if hex { Base::Hexadecimal } else { Base::Decimal };
     let is_good = match command {
         Command::Build(arguments) => build::build(&arguments),
+        Command::Convert(arguments) => convert::convert(&arguments),
         Command::Flash(arguments) => {
             let program = files.open(&arguments.files)?;
             flash::flash(target(connection, Some(&program)), program, &arguments)
@@ -64,9 +66,9 @@ fn run(arguments: Arguments) -> Result<u8> {
             show::run_in(base, client, show::Arguments { program, picture, line, scan })
                 .map(|()| true)
         }
-        Command::Ide(Ide { page, listen, no_open }) => {
+        Command::Ide(Ide { folder, page, listen, no_open }) => {
             let Connection { port, tcp, .. } = connection;
-            ide::serve(&ide::Settings { page, listen, port, tcp }, !no_open).map(|()| true)
+            ide::serve(&ide::Settings { folder, page, listen, port, tcp }, !no_open).map(|()| true)
         }
         Command::Test(arguments) => return test::test(&connection, &files, &arguments),
         Command::Shell { script } => {

@@ -137,7 +137,7 @@ impl Documents {
         let is_wanted = match Language::of_name(&name) {
             None => false,
             Some(Language::Symbols) => self.project.is_table(&name),
-            Some(Language::Awl | Language::Scenario) => true,
+            Some(Language::Awl | Language::Scenario | Language::Plant) => true,
         };
         let is_file =
             fs::metadata(path).is_ok_and(|about| about.is_file() && about.len() <= FILE_LEN_MAX);
@@ -162,6 +162,7 @@ fn language_of(id: &str) -> Option<Language> {
         "awl" => Some(Language::Awl),
         "uno200-scenario" | "scn" => Some(Language::Scenario),
         "uno200-symbols" => Some(Language::Symbols),
+        "uno200-plant" | "plant" => Some(Language::Plant),
         _ => None,
     }
 }

@@ -47,8 +47,13 @@ impl Session {
         let program = build::board_program(&self.editor)?;
         let text = |name| self.editor.text(name).ok_or_else(|| format!("there is no file {name}"));
         let scenario = scenario.map(|name| text(name).map(|text| (name, text))).transpose()?;
+        let described =
+            scenario.map(|(name, text)| self.editor.plant_of(name, text)).transpose()?;
+        let described = described.flatten();
+        let plant = plant.map(|spec| self.editor.plant(spec)).transpose()?;
         let (files, flash) = (build::files(&self.editor)?, build::flash(&program)?);
-        let comparison = Comparison { files: &files, flash, scenario, for_ms, plant };
+        let (described, plant) = (described.as_ref(), plant.as_ref());
+        let comparison = Comparison { files: &files, flash, scenario, described, for_ms, plant };
         lock_step::compare(comparison, chip)
     }
 }

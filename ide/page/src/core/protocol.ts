@@ -2,6 +2,7 @@
 // means is written there.
 
 import type { Parity } from "../ports/port";
+import type { Words } from "../text/language";
 
 export type TargetKind = "simulator" | "virtualUno" | "usb" | "bridge";
 
@@ -152,7 +153,36 @@ export interface Recording {
   plant: string | null;
 }
 
+/** Something in a plant that can be set. */
+export interface Control {
+  name: string;
+  words: Words;
+  kind: "button" | "switch" | "slider" | "fault";
+  low: number;
+  high: number;
+  value: number;
+}
+
+/** Something that a plant file draws. */
+export interface Shape {
+  kind: string;
+  at: [number, number];
+  size: number[];
+  words: Words | null;
+  colour: string;
+  by: [number, number];
+}
+
+export interface PlantInfo {
+  title: Words;
+  digital: number;
+  analog: number;
+  controls: Control[];
+  shapes: Shape[];
+}
+
 export interface TestResult {
+  goal: Words | null;
   passed: boolean;
   scans: number;
   met: number;
@@ -175,12 +205,14 @@ export interface Questions {
   format: { wish: { file: string }; answer: Edit[] };
   outline: { wish: { file: string }; answer: Item[] };
   ladder: { wish: At; answer: Ladder | null };
+  aboutPlant: { wish: { spec: string }; answer: PlantInfo };
   explain: { wish: { code: string }; answer: string };
   simulate: {
     wish: { signals: string[]; forMs: number; scanMs: number; plant: string | null };
     answer: Recording;
   };
   test: { wish: { file: string }; answer: TestResult };
+  check: { wish: { name: string; text: string; plants: File[] }; answer: TestResult };
 }
 
 /** What is done without an answer, unless it is refused. */
@@ -225,7 +257,7 @@ interface Events {
   watched: { values: Value[] };
   forced: { values: Value[] };
   pins: { inputs: number; outputs: number; analog: number[]; pwm: number[] };
-  plant: { name: string; state: [string, number][]; news: string[] };
+  plant: { name: string; state: [string, number][]; places: number[][]; news: string[] };
   samples: { times: number[]; columns: number[][]; lost: boolean };
   send: { bytes: number[] };
   powerOn: { flash: number[] };

@@ -5,7 +5,7 @@ import type { Editors } from "../editor/editors";
 import { button, h, say } from "../page/dom";
 import type { Tabs } from "../page/tabs";
 import type { Project } from "../project/project";
-import { onLanguage, t } from "../text/language";
+import { inLanguage, onLanguage, t } from "../text/language";
 
 type Outcome = TestResult | { refused: string } | "running";
 
@@ -103,7 +103,8 @@ export class Tests {
       );
     });
     const plant = result.plant && h("p", { class: "hint" }, result.plant);
-    return h("div", { class: "more" }, h("ul", { class: "list" }, ...rows), plant);
+    const goal = !result.passed && result.goal && h("p", {}, inLanguage(result.goal));
+    return h("div", { class: "more" }, goal, h("ul", { class: "list" }, ...rows), plant);
   }
 }
 

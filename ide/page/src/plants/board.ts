@@ -3,6 +3,7 @@
 import type { Core } from "../core/core";
 import type { Pins } from "../core/protocol";
 import { h, s, say } from "../page/dom";
+import { hold } from "./hold";
 import { sheet } from "./picture";
 
 const POINTS = 6;
@@ -90,30 +91,9 @@ export class Board {
     const push = h("button", { class: "push", attributes: { type: "button" } });
     say(push, "aria-label", "pushInput", name);
     say(push, "title", "pushInput", name);
-    this.wirePush(push, number);
+    hold(push, () => this.drive(number));
     const element = h("div", { class: "input" }, h("span", { class: "pin" }, name), toggle, push);
     return { element, toggle, push };
-  }
-
-  /** A button is on as long as it is held, by pointer or by key. */
-  private wirePush(push: HTMLElement, number: number): void {
-    const set = (isDown: boolean) => {
-      if (push.classList.contains("down") === isDown) return;
-      push.classList.toggle("down", isDown);
-      this.drive(number);
-    };
-    push.addEventListener("pointerdown", (event) => {
-      push.setPointerCapture(event.pointerId);
-      set(true);
-    });
-    for (const end of ["pointerup", "pointercancel", "blur"])
-      push.addEventListener(end, () => set(false));
-    push.addEventListener("keydown", (event) => {
-      if (event.key !== " " && event.key !== "Enter") return;
-      event.preventDefault();
-      set(true);
-    });
-    push.addEventListener("keyup", () => set(false));
   }
 
   private toggle(number: number): void {

@@ -9,15 +9,16 @@ export type State = ReadonlyMap<string, number>;
 
 export interface Drawing {
   element: SVGSVGElement;
-  show(state: State, pins: Pins): void;
+  /** `places`: how the shapes of a file are. */
+  show(state: State, pins: Pins, places: number[][]): void;
+  /** Says again what is not from the table. */
+  relabel?(): void;
 }
 
 export interface Picture {
   /** As `awl-sim --plant` names it. */
   name: string;
   title: Key;
-  /** The inputs that it drives with these options; a person can switch the others. */
-  drives(spec: string): { digital: number; analog: number };
   draw(): Drawing;
 }
 

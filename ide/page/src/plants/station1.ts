@@ -42,7 +42,6 @@ const FULL = 1000;
 export const station1: Picture = {
   name: "station1",
   title: "plantStation1",
-  drives: (spec) => ({ digital: /\bbutton=manual\b/.test(spec) ? 0x1f : 0x3f, analog: 1 }),
   draw: () => new Station1(),
 };
 

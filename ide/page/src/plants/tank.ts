@@ -11,7 +11,6 @@ const WIDTH = 200;
 export const tank: Picture = {
   name: "tank",
   title: "plantTank",
-  drives: () => ({ digital: 1, analog: 1 }),
   draw: () => new Tank(),
 };
 

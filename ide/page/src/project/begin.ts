@@ -1,5 +1,7 @@
 // Which project the page begins with: the one that its address names, the last one, or a lamp that
 // blinks.
+import { addressOf } from "../offline/address";
+import { exerciseAnew, exerciseId } from "./exercises";
 import { fromLink } from "./pack";
 import { checked, Unfit, type Content } from "./project";
 import { contentOf, kept, lastId } from "./storage";
@@ -7,6 +9,7 @@ import { contentOf, kept, lastId } from "./storage";
 /** The part of an address that holds a project, and the one that names an example. */
 const LINKED = "project";
 const EXAMPLE = "example";
+const EXERCISE = "exercise";
 
 /** A project, where it is kept, and what to show first. */
 export interface Opened {
@@ -42,10 +45,15 @@ export function fragmentParts(hash: string): Map<string, string> {
 /** The fragment of an address that opens this project again; what else it holds stays. */
 export function fragmentFor(id: string): string {
   const parts = location.hash.replace(/^#/, "").split("&").filter(Boolean);
-  const others = parts.filter((part) => !new RegExp(`^(${EXAMPLE}|${LINKED})=`).test(part));
+  const others = parts.filter(
+    (part) => !new RegExp(`^(${EXAMPLE}|${EXERCISE}|${LINKED})=`).test(part),
+  );
   const linked = parts.filter((part) => part.startsWith(`${LINKED}=`) && id.startsWith("link:"));
   const example = id.startsWith("example:") ? [`${EXAMPLE}=${id.slice("example:".length)}`] : [];
-  const all = [...example, ...linked, ...others];
+  const exercise = id.startsWith("exercise:")
+    ? [`${EXERCISE}=${id.slice("exercise:".length)}`]
+    : [];
+  const all = [...example, ...exercise, ...linked, ...others];
   return all.length > 0 ? `#${all.join("&")}` : "";
 }
 
@@ -57,7 +65,7 @@ export function linkTo(part: string): string {
 /** An example as it was written; throws [`Unfit`]. */
 export async function example(name: string): Promise<Opened> {
   if (!/^[\w-]{1,60}$/.test(name)) throw new Unfit("name", name);
-  const answer = await fetch(`examples/${name}.json`);
+  const answer = await fetch(addressOf(`examples/${name}.json`));
   if (!answer.ok) throw new Unfit("empty", name);
   const content = contentOf(await answer.json());
   if (!content) throw new Unfit("broken", name);
@@ -67,7 +75,7 @@ export async function example(name: string): Promise<Opened> {
 /** The names of the examples, where the server has a list of them. */
 export async function exampleNames(): Promise<string[]> {
   try {
-    const answer = await fetch("examples/list.json");
+    const answer = await fetch(addressOf("examples/list.json"));
     const names = answer.ok ? ((await answer.json()) as unknown) : [];
     return Array.isArray(names) ? names.filter((name) => typeof name === "string") : [];
   } catch {
@@ -99,6 +107,8 @@ export async function fromAddress(hash: string): Promise<Opened | null> {
   const parts = fragmentParts(hash);
   const part = parts.get(LINKED);
   if (part) return linked(part);
+  const toSolve = parts.get(EXERCISE);
+  if (toSolve) return keptProject(exerciseId(toSolve)) ?? (await exerciseAnew(toSolve));
   const name = parts.get(EXAMPLE);
   if (!name) return null;
   return keptProject(`example:${name}`) ?? (await example(name));

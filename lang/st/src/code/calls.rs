@@ -1,10 +1,12 @@
 //! Calls: functions as subroutines, function blocks written out, subroutines in AWL.
 
+use super::hardware::Device;
+use super::logic::Logic;
 use super::timers::Owner;
 use super::writer::Storage;
 use super::{Frame, Generator, Names};
 use crate::model::{
-    BlockCall, Expression, ExpressionKind, Place, Root, RoutineArgument, Type, UnitKind,
+    BlockCall, Expression, ExpressionKind, Place, Root, RoutineArgument, Step, Type, UnitKind,
 };
 
 impl Generator<'_> {
@@ -59,12 +61,27 @@ impl Generator<'_> {
         let program = self.program;
         let Some(unit) = program.units.get(call.block) else { return };
         let frame = self.instance(&call.instance, call.block);
+        if let Names::Static(name) = &frame.names
+            && let Some(device) = self.devices.get(name).cloned()
+        {
+            let name = name.clone();
+            self.device_call(&name, &device, call);
+            return;
+        }
         for (at, value) in &call.inputs {
-            self.pass(&frame, *at, value);
+            match &value.kind {
+                ExpressionKind::Read(from) if !value.of_type.is_elementary() => {
+                    self.copy_whole(from, &parameter(call, *at, &value.of_type), &value.of_type);
+                }
+                _ => self.pass(&frame, *at, value),
+            }
         }
         for (at, place) in &call.in_outs {
-            let from = read(place);
-            self.pass(&frame, *at, &from);
+            let of_type = &place.of_type;
+            match of_type.is_elementary() {
+                true => self.pass(&frame, *at, &read(place)),
+                false => self.copy_whole(place, &parameter(call, *at, of_type), of_type),
+            }
         }
         let around = std::mem::replace(&mut self.frame, frame.clone());
         self.reset_temporaries(unit);
@@ -72,7 +89,33 @@ impl Generator<'_> {
         self.end_of_unit();
         self.frame = around;
         for (at, place) in call.in_outs.iter().chain(&call.outputs) {
-            self.take(&frame, *at, place);
+            let of_type = &place.of_type;
+            match of_type.is_elementary() {
+                true => self.take(&frame, *at, place),
+                false => self.copy_whole(&parameter(call, *at, of_type), place, of_type),
+            }
+        }
+    }
+
+    /// A call of an instance that is a timer or counter of the controller.
+    fn device_call(&mut self, name: &str, device: &Device, call: &BlockCall) {
+        // A preset is a constant; what else there is are conditions, the counter's reset last.
+        let conditions: Vec<Logic> = call
+            .inputs
+            .iter()
+            .filter(|(_, value)| value.of_type == Type::Bool)
+            .map(|(_, value)| self.lower(value))
+            .collect();
+        for logic in &conditions {
+            self.writer.forget();
+            self.load(logic);
+        }
+        self.writer.boxed_here(device.mnemonic, &format!("{name}, {}", device.preset));
+        self.writer.forget();
+        for (_, place) in &call.outputs {
+            let root = Root::Address(name.to_owned());
+            let value = Place { root, steps: Vec::new(), of_type: place.of_type.clone() };
+            self.store(place, &read(&value));
         }
     }
 
@@ -169,6 +212,9 @@ impl Generator<'_> {
 
     /// What an instance and those in it do at the start of the scan.
     fn ticks(&mut self, block: usize, name: &str, owner: (Owner, usize)) {
+        if self.devices.contains_key(name) {
+            return;
+        }
         let program = self.program;
         let Some(unit) = program.units.get(block) else { return };
         let short = self.short.get(&owner).copied();
@@ -193,8 +239,17 @@ impl Generator<'_> {
     }
 }
 
+/// A parameter of an instance as a place of the unit that calls it.
+fn parameter(call: &BlockCall, at: usize, of_type: &Type) -> Place {
+    let mut place = call.instance.clone();
+    place.steps.push(Step::Member(at));
+    place.of_type = of_type.clone();
+    place
+}
+
 /// What is in a place.
 fn read(place: &Place) -> Expression {
     let kind = ExpressionKind::Read(place.clone());
-    Expression { kind, of_type: place.of_type.clone(), span: diagnostics::Span::default() }
+    let of_type = place.of_type.base().clone();
+    Expression { kind, of_type, span: diagnostics::Span::default() }
 }

@@ -124,8 +124,11 @@ impl Case<'_> {
         result: &mut TestResult,
     ) -> Result<Outcome> {
         let mut has_operand = |operand| access(machine, operand);
-        let context = Context { symbols, plant: None, has_operand: &mut has_operand };
-        let scenario = Scenario::parse(&self.path.display().to_string(), self.text, context)?;
+        let origin = self.path.display().to_string();
+        let plant = suite::plant_for(self.path, &origin, self.text)?;
+        let context = Context { symbols, plant: plant.as_ref(), has_operand: &mut has_operand };
+        let scenario = Scenario::parse(&origin, self.text, context)?;
+        result.goal = scenario.goal.as_ref().map(|goal| goal.en.clone());
         result.expects_something = scenario.expects_something();
         let plant = scenario.plant.as_ref().map(PlantSpec::build).transpose();
         let job = Job {

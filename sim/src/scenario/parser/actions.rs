@@ -8,9 +8,9 @@ use plc_vm::TimeOfDay;
 use super::super::SentExpectation;
 use super::super::value::text_bytes;
 use super::Parser;
-use super::piece::Piece;
 use crate::action::Action;
 use crate::operand::Operand;
+use crate::piece::Piece;
 use crate::problem::Problem;
 use crate::pulse::{FREQUENCY_MAX_HZ, Pulse};
 

@@ -3,9 +3,10 @@
 use super::super::condition::{Comparison, Condition, Relation};
 use super::super::value::{meant, parse_compared};
 use super::super::{Asked, Expectation, Rule, Until};
-use super::piece::Piece;
+use super::plant::is_about_plant;
 use super::sign::sign;
 use super::{LIST_FORM, Moment, Parser};
+use crate::piece::Piece;
 use crate::problem::Problem;
 
 const CONDITION_FORM: &str = "write operand = value, several joined by and, or";
@@ -26,6 +27,12 @@ impl<'a> Parser<'a, '_> {
             return self.fail(list, format!("nothing is expected here: {LIST_FORM}"));
         }
         for piece in list.split(',') {
+            let (word, rest) = piece.split_word();
+            if is_about_plant(word, rest) {
+                self.ask(word, Asked::Plant);
+                self.expect_plant(rest, moment);
+                continue;
+            }
             match (is_sent(piece), moment.within_ms) {
                 (true, 0) => {
                     self.ask(piece, Asked::Sent);

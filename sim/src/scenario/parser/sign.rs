@@ -1,7 +1,7 @@
 //! Finds the sign of a comparison. What stands on its sides is not known here.
 
 use super::super::condition::Relation;
-use super::piece::Piece;
+use crate::piece::Piece;
 
 /// The places of the sign of a comparison and of what is behind it. A name may have other signs in
 /// it than `=`.

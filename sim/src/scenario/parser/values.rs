@@ -8,15 +8,15 @@ use super::super::condition::{Comparison, Relation};
 use super::super::value::{meant, parse_value, text_bytes};
 use super::super::words::{AFTER_TIME, names};
 use super::super::{Asked, Repeat, Setting};
-use super::piece::Piece;
 use super::sign::sign;
 use super::{LIST_FORM, Parser, Times};
 use crate::operand::Operand;
+use crate::piece::Piece;
 use crate::problem::Problem;
 
 const EVERY_FORM: &str = "write every 2s I0.0 = 1 from 1s to 9s";
 /// What can follow a time beside an assignment.
-const WORDS_AFTER_TIME: [&str; 5] = names(&AFTER_TIME);
+const WORDS_AFTER_TIME: [&str; 6] = names(&AFTER_TIME);
 /// Most characters of a string.
 const TEXT_MAX: usize = 254;
 
@@ -45,8 +45,10 @@ impl<'a> Parser<'a, '_> {
         if period_ms == Some(0) {
             self.fail(period, "a period is 1ms or longer");
         }
-        let word = rest.split_word().0;
-        if WORDS_AFTER_TIME.iter().any(|keyword| word.is(keyword)) || word.is("from") {
+        let (word, behind) = rest.split_word();
+        let is_keyword = WORDS_AFTER_TIME.iter().any(|keyword| word.is(keyword));
+        // With a sign behind it, it is a symbol.
+        if (is_keyword && !behind.text.starts_with('=')) || word.is("from") {
             let problem = Problem::new(word.span(), "every repeats values that are set");
             return self.problems.push(problem.help(EVERY_FORM));
         }

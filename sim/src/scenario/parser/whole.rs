@@ -21,6 +21,9 @@ impl Parser<'_, '_> {
             // The first scan of a rule without an end must be run.
             (rule.to_ms.unwrap_or(rule.from_ms + 1), span.clone())
         }));
+        let expectations = self.scenario.plant_expectations.iter();
+        let expectations = expectations.zip(&self.plant_expectation_spans);
+        late.extend(expectations.map(|(one, span)| (one.end_ms(), span.clone())));
         late.retain(|(at_ms, _)| *at_ms > end_ms);
         for (at_ms, span) in late {
             let (at, end) = (format_time(at_ms), format_time(end_ms));
@@ -38,7 +41,7 @@ impl Parser<'_, '_> {
         let mut driven = Vec::new();
         for (setting, span) in self.scenario.settings.iter().zip(&self.setting_spans) {
             if signals.contain(setting.operand) {
-                let message = format!("{} is driven by the plant {}", setting.operand, spec.name);
+                let message = format!("{} is driven by the plant {}", setting.operand, spec.name());
                 driven.push(Problem::new(span.clone(), message));
             }
         }
@@ -46,7 +49,7 @@ impl Parser<'_, '_> {
             let Action::Pulse(pulse) = action else { continue };
             if (0..8).any(|input| signals.digital >> input & 1 == 1 && pulse.drives(input)) {
                 let message =
-                    format!("inputs of these pulses are driven by the plant {}", spec.name);
+                    format!("inputs of these pulses are driven by the plant {}", spec.name());
                 driven.push(Problem::new(span.clone(), message));
             }
         }

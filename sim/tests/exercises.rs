@@ -1,0 +1,89 @@
+//! The exercises: every solution does what its hidden scenarios want, no start program does, and
+//! each has its texts.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use awl_sim::open::{Opened, Target, open_machine};
+use awl_sim::plant::PlantSpec;
+use awl_sim::run::{Job, Length, Outcome, run};
+use awl_sim::scenario::{Context, Scenario};
+use awl_sim::suite::plant_for;
+
+/// The files of a folder, by name.
+fn entries(folder: &Path) -> Vec<PathBuf> {
+    let mut entries: Vec<_> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    entries.sort();
+    entries
+}
+
+fn exercises() -> Vec<PathBuf> {
+    entries(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/exercises"))
+}
+
+fn scenarios(exercise: &Path) -> Vec<PathBuf> {
+    let is_scenario = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "scn");
+    entries(exercise).into_iter().filter(is_scenario).collect()
+}
+
+fn outcome(exercise: &Path, program: &str, scenario: &Path) -> (Scenario, Outcome) {
+    let opened = open_machine(&exercise.join(program), &[], Target::Host);
+    let Opened { mut machine, symbols, scan_ms, warnings, .. } =
+        opened.unwrap_or_else(|error| panic!("{}/{program}: {error}", exercise.display()));
+    // What a start program does not yet use is warned of.
+    let is_whole = program == "solution.awl";
+    assert!(!is_whole || warnings.is_empty(), "{}: {warnings:?}", exercise.display());
+    let origin = scenario.display().to_string();
+    let text = fs::read_to_string(scenario).unwrap();
+    let plant = plant_for(scenario, &origin, &text).unwrap_or_else(|error| panic!("{error}"));
+    let mut has_operand = |operand| machine.read(operand).map(drop);
+    let plant = plant.as_ref();
+    let context = Context { symbols: &symbols, plant, has_operand: &mut has_operand };
+    let scenario =
+        Scenario::parse(&origin, &text, context).unwrap_or_else(|error| panic!("{error}"));
+    let plant = scenario.plant.as_ref().map(PlantSpec::build).transpose();
+    let job = Job {
+        scan_ms: scenario.scan_ms.or(scan_ms).unwrap_or(1),
+        length: Length::Scenario,
+        signals: Vec::new(),
+        plant: plant.unwrap_or_else(|error| panic!("{origin}: {}", error.message)),
+        progress: None,
+    };
+    let outcome = run(&mut *machine, &scenario, job).unwrap();
+    (scenario, outcome)
+}
+
+#[test]
+fn solutions_solve_and_start_programs_do_not() {
+    let exercises = exercises();
+    assert_eq!(exercises.len(), 8);
+    for exercise in &exercises {
+        let name = exercise.display();
+        let scenarios = scenarios(exercise);
+        assert!(scenarios.len() >= 2, "{name}: one behaviour is no exercise");
+        let mut missing = 0;
+        for path in &scenarios {
+            let (scenario, solved) = outcome(exercise, "solution.awl", path);
+            assert_eq!(solved.exit_code(), 0, "{}: {:#?}", path.display(), solved.failures);
+            assert_eq!((solved.unreached_expectations, solved.unreached_settings), (0, 0));
+            let goal = scenario.goal.unwrap_or_else(|| panic!("{}: no goal", path.display()));
+            assert!(goal.de.is_some() && goal.es.is_some(), "{}", path.display());
+            let (_, begun) = outcome(exercise, "start.awl", path);
+            assert!(begun.fault.is_none(), "{name}");
+            missing += usize::from(begun.exit_code() == 1);
+        }
+        assert!(missing > 0, "{name}: the start program does everything already");
+    }
+}
+
+#[test]
+fn every_exercise_has_its_text_in_three_languages() {
+    for exercise in exercises() {
+        for text in ["exercise.md", "exercise.de.md", "exercise.es.md"] {
+            let path = exercise.join(text);
+            let text = fs::read_to_string(&path).unwrap();
+            assert!(text.starts_with("# ") && text.lines().count() > 5, "{}", path.display());
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! The check of the IDE: the page is what its sources say, and does what it should in a real
+//! browser.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+
+use anyhow::{Context, Result, ensure};
+
+use super::{build, core};
+use crate::packages;
+use crate::process::{cargo, root, run};
+
+/// The page as it is committed.
+const PAGE: &str = "ide/page/dist";
+/// How the page looked; docs/ide has those that are shown there.
+const PICTURES: &str = "target/ide-pictures";
+/// Where the tests of the core write what they told it, and its answers.
+const LOG: &str = "target/tmp/ide-log";
+/// The folder that the page works in when that is checked.
+const PROJECT: &str = "target/ide-project/lamp";
+/// The tool that serves the page.
+const UNO200: &str = "target/debug/uno200";
+/// What awl-sim writes of the same run that the page is asked for.
+const FIGURES: &str = "target/ide-figures.csv";
+
+/// Checks that the committed page is what its sources say, that the firmware on its emulated chip
+/// does what the reference interpreter does, and uses the page with its core in a browser.
+pub fn check() -> Result<()> {
+    packages::ensure_installed(packages::BROWSER)?;
+    packages::ensure_npm()?;
+    let sources = root().join("ide/page");
+    let npm = |arguments: &[&str]| run(Command::new("npm").args(arguments).current_dir(&sources));
+    npm(&["ci", "--silent", "--no-audit", "--no-fund"])?;
+    let committed = files(&root().join(PAGE))?;
+    npm(&["run", "--silent", "check"])?;
+    npm(&["run", "--silent", "build"])?;
+    ensure!(
+        files(&root().join(PAGE))? == committed,
+        "{PAGE} was not what its sources say: it is now, and is to be committed"
+    );
+    let core = core::build()?;
+    core::check(&core)?;
+    let folder = build(&core)?;
+    let node = |script: &str| {
+        let mut node = Command::new("node");
+        node.current_dir(&sources).arg(script);
+        node
+    };
+    run(node("test/virtual_uno.mjs").arg(&folder))?;
+    run(node("test/lock_step.mjs").arg(&folder))?;
+    figures()?;
+    let mut server = Serving::page(&folder, &[])?;
+    let address = server.line()?;
+    run(node("test/page.mjs").arg(&address).arg(root().join(FIGURES)))?;
+    run(node("test/plants.mjs").arg(&address))?;
+    run(node("test/budgets.mjs").arg(&address).arg(&folder))?;
+    run(node("test/reload.mjs").arg(&address))?;
+    run(node("test/errors.mjs").arg(root().join(UNO200)).arg(&folder))?;
+    run(node("test/pictures.mjs").arg(&address).arg(root().join(PICTURES)))?;
+    run(node("test/offline.mjs").arg(&folder))?;
+    check_folder(&folder, &sources)?;
+    check_board(&folder, &sources)
+}
+
+/// Has the page work in a folder of this computer.
+fn check_folder(folder: &Path, sources: &Path) -> Result<()> {
+    let project = root().join(PROJECT);
+    if project.exists() {
+        fs::remove_dir_all(&project)?;
+    }
+    fs::create_dir_all(&project)?;
+    // As Micro/WIN writes it.
+    fs::write(project.join("lamp.awl"), b"// L\xFCfter\r\nLD I0.0\r\n")?;
+    #[cfg(unix)]
+    std::os::unix::fs::symlink(root().join("README.md"), project.join("link.txt"))?;
+    let mut server = Serving::page(folder, &[PROJECT])?;
+    let address = server.line()?;
+    let mut test = Command::new("node");
+    test.current_dir(sources).args(["test/folder.mjs", &address]).arg(&project);
+    run(test.arg(server.0.id().to_string()))
+}
+
+/// Has the core in WebAssembly answer what it was told in tests on this computer: the same. To be
+/// called after both were built.
+pub fn log() -> Result<()> {
+    let sources = root().join("ide/page");
+    let mut test = Command::new("node");
+    test.current_dir(sources).arg("test/log.mjs").arg(core::folder()).arg(root().join(LOG));
+    run(&mut test)
+}
+
+/// Has the page write a board from the factory, with its real bootloader, and talk to it.
+fn check_board(folder: &Path, sources: &Path) -> Result<()> {
+    packages::ensure_installed(packages::VIRTUAL_BOARD)?;
+    packages::ensure_installed(packages::AVR_LINKER)?;
+    run(cargo().args(["build", "--quiet", "--package", "virtual-uno", "--features", "link"]))?;
+    let mut board = Serving::start(&mut Command::new(root().join("target/debug/virtual-uno")))?;
+    let port = board.line()?;
+    let mut server = Serving::page(folder, &["--port", &port])?;
+    let address = server.line()?;
+    run(Command::new("node").current_dir(sources).args(["test/board.mjs", &address, &port]))
+}
+
+/// The files of a folder, and of those in it, with their bytes.
+fn files(folder: &Path) -> Result<BTreeMap<PathBuf, Vec<u8>>> {
+    let mut files = BTreeMap::new();
+    let entries = fs::read_dir(folder).with_context(|| format!("cannot read {}", folder.display()));
+    for entry in entries? {
+        let path = entry?.path();
+        match path.is_dir() {
+            true => files.extend(self::files(&path)?),
+            false => drop(files.insert(path.clone(), fs::read(&path)?)),
+        }
+    }
+    Ok(files)
+}
+
+fn figures() -> Result<()> {
+    let plant = ide_site::plant_of("station1").unwrap_or_default();
+    run(cargo()
+        .args(["run", "--quiet", "--package", "awl-sim", "--", "examples/station1.awl"])
+        .args([
+            "--plant",
+            plant,
+            "--for",
+            "60s",
+            "--scan-time",
+            "1ms",
+            "--trace",
+            "Push,Height",
+            "-o",
+            FIGURES,
+        ]))
+}
+
+/// A server, or a board, that ends with this.
+struct Serving(Child);
+
+impl Serving {
+    /// Serves the page in a folder.
+    fn page(folder: &Path, arguments: &[&str]) -> Result<Serving> {
+        run(cargo().args(["build", "--quiet", "--package", "uno200"]))?;
+        // Not by way of cargo, which would be ended in its place.
+        let mut ide = Command::new(root().join(UNO200));
+        ide.args(["ide", "--no-open", "--listen", "127.0.0.1:0", "--page"]).arg(folder);
+        Serving::start(ide.args(arguments))
+    }
+
+    fn start(command: &mut Command) -> Result<Serving> {
+        // It would take the end of the input for its own.
+        command.stdin(Stdio::null()).stdout(Stdio::piped());
+        Ok(Serving(command.spawn().context("cannot start what the page needs")?))
+    }
+
+    /// The line that it prints: address, or port.
+    fn line(&mut self) -> Result<String> {
+        let output = self.0.stdout.take().context("it has no output")?;
+        let mut line = String::new();
+        BufReader::new(output).read_line(&mut line)?;
+        ensure!(!line.trim().is_empty(), "it ended before it was there");
+        Ok(line.trim().to_owned())
+    }
+}
+
+impl Drop for Serving {
+    fn drop(&mut self) {
+        // It may have ended by itself.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
