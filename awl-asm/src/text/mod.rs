@@ -25,6 +25,7 @@ pub mod mnemonics;
 pub mod operand;
 pub mod parser;
 mod piece;
+mod pointers;
 mod qualified;
 pub mod refused;
 mod resolve;

@@ -17,7 +17,7 @@ use crate::text::lexer::{Ahead, Lexer};
 use crate::text::locals::{self, is_same_name};
 use crate::text::mnemonics::{Block, Keyword, Meaning, meaning};
 use crate::text::piece::Targets;
-pub use crate::text::resolve::with_sign;
+pub use crate::text::pointers::with_sign;
 use crate::text::resolve::{Pending, Resolver};
 use crate::text::suggest::Suggester;
 use crate::text::symbols::SymbolTable;

@@ -52,6 +52,21 @@ fn written(word: &str) -> String {
     if Address::parse(bare).is_ok() { bare.to_uppercase() } else { bare.to_owned() }
 }
 
+/// The same, if it is an address or a name.
+pub(super) fn operand(text: &str) -> Option<String> {
+    let bare = bare(text);
+    let is_name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.' | '"' | '#' | '[' | ']');
+    let starts = bare.starts_with(|c: char| c.is_alphabetic() || matches!(c, '"' | '#' | '_'));
+    let is_quoted = bare.len() > 2 && bare.starts_with('"') && bare.ends_with('"');
+    (is_quoted || starts && bare.chars().all(is_name)).then(|| written(text))
+}
+
+/// The instructions of an expression, told in a sentence.
+pub(super) fn listed(code: &[String]) -> String {
+    let quoted: Vec<String> = code.iter().map(|line| format!("`{line}`")).collect();
+    format!("on an S7-200 that is {}: one instruction on a line", quoted.join(", "))
+}
+
 fn truth(text: &str) -> Option<bool> {
     match text.to_ascii_uppercase().as_str() {
         "TRUE" => Some(true),

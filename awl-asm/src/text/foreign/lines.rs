@@ -1,18 +1,18 @@
-//! Lines that are no instruction as a whole: expressions of structured text, calls with brackets,
-//! drawings of ladders, an operand by itself.
+//! Lines that are no instruction as a whole: expressions of structured text, drawings of ladders,
+//! an operand by itself. Calls with brackets have a module of their own.
 
 use plc_isa::{Area, Op, TimerKind};
 
+use super::calls::called;
 use super::counts;
-use super::expression::{self, Token};
+use super::expression::{self, Token, listed, operand};
 use super::operands;
-use super::row::{Here, Instead, Meant};
+use super::row::{Instead, Meant, told};
 use super::width::{self, Width};
 use super::words::find;
 use crate::text::address::Address;
 use crate::text::ast::{Type, UnitId, UnitKind};
 use crate::text::directive_table;
-use crate::text::mnemonics::{self, Meaning};
 
 const DRAWING: &str = "a drawn ladder cannot be read: a contact is `LD I0.0` or `A I0.0`, a \
      contact that is normally closed `AN I0.0`, a branch `O I0.1`, a coil `= Q0.0`";
@@ -222,10 +222,6 @@ fn joined(word: &str, rest: &str) -> Option<Meant> {
     Some(Meant { instead: Some(Instead::Line(line)), help: Vec::new(), stand_in })
 }
 
-fn told(help: impl Into<String>) -> Meant {
-    Meant { help: vec![help.into()], ..Meant::default() }
-}
-
 /// Whether a text begins with the word of a setting.
 fn is_setting(text: &str) -> bool {
     let word = text.split([' ', '\t']).next().unwrap_or_default();
@@ -263,18 +259,6 @@ fn drawing(line: &str) -> Option<&'static str> {
     let is_comment = signs.iter().any(|sign| line.starts_with(sign))
         && find(line.split([' ', '\t']).next().unwrap_or_default()).is_none();
     is_comment.then_some(COMMENT)
-}
-
-/// An operand as it is written here: without the sign of an address, addresses in upper case.
-fn operand(text: &str) -> Option<String> {
-    let bare = expression::bare(text);
-    let is_name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.' | '"' | '#' | '[' | ']');
-    let starts = bare.starts_with(|c: char| c.is_alphabetic() || matches!(c, '"' | '#' | '_'));
-    let is_quoted = bare.len() > 2 && bare.starts_with('"') && bare.ends_with('"');
-    (is_quoted || starts && bare.chars().all(is_name)).then(|| match Address::parse(bare) {
-        Ok(_) => bare.to_uppercase(),
-        Err(_) => bare.to_owned(),
-    })
 }
 
 /// `Speed : INT;`
@@ -350,11 +334,6 @@ fn assignment(line: &str) -> Option<Meant> {
         None if width == Some(Width::Bit) => told(EXPRESSION_OF_BITS),
         None => told(EXPRESSION),
     })
-}
-
-fn listed(code: &[String]) -> String {
-    let quoted: Vec<String> = code.iter().map(|line| format!("`{line}`")).collect();
-    format!("on an S7-200 that is {}: one instruction on a line", quoted.join(", "))
 }
 
 /// `VW0 >= 5`
@@ -498,145 +477,4 @@ fn single(name: &str, address: Address) -> String {
         }
     };
     format!("an instruction begins with its mnemonic, such as {ways}")
-}
-
-/// A word with a bracket after it: `A(`, `TON(IN := I0.0, PT := 20)`.
-fn called(word: &str, rest: &str) -> Meant {
-    let inside = rest.trim_start_matches('(').trim_end_matches(';').trim_end_matches(')').trim();
-    if let Some(meant) = opened(word, rest, inside) {
-        return meant;
-    }
-    let bracket = find(&format!("{word}("));
-    if let Some(row) = bracket.filter(|_| inside.is_empty()) {
-        return row.meant("");
-    }
-    let upper = word.to_ascii_uppercase();
-    match (upper.as_str(), Address::parse(word)) {
-        ("TON" | "TOF" | "TONR", _) => timer(&upper, None, inside),
-        (_, Ok(timer_bit @ Address::Timer(_))) => timer("TON", Some(timer_bit), inside),
-        ("CTU" | "CTD" | "CTUD", _) => counter(&upper, "C1", inside),
-        (_, Ok(Address::Counter(_))) => counter("CTU", &upper, inside),
-        _ => plain_call(word, inside),
-    }
-}
-
-/// `AND( I0.1`: a bracket with its first contact, which a later line closes.
-fn opened(word: &str, rest: &str, inside: &str) -> Option<Meant> {
-    let joins = match expression::tokens(word).as_slice() {
-        [Token::And] => "ALD",
-        [Token::Or] => "OLD",
-        _ => return None,
-    };
-    (!inside.is_empty() && !rest.contains(')')).then(|| {
-        told(format!(
-            "AWL has no brackets: what is inside begins with `LD {inside}`, and `{joins}` is where \
-             the bracket is closed"
-        ))
-    })
-}
-
-/// The value of a parameter in `IN := I0.0, PT := 20`.
-fn argument(inside: &str, names: &[&str]) -> Option<String> {
-    inside.split(',').find_map(|argument| {
-        let (name, value) = argument.split_once(":=")?;
-        let is = names.iter().any(|known| known.eq_ignore_ascii_case(name.trim()));
-        is.then(|| operand(value.trim()).unwrap_or_else(|| value.trim().to_owned()))
-    })
-}
-
-/// The inputs of a bistable block.
-fn set_and_reset(inside: &str) -> Option<String> {
-    let set = argument(inside, &["S", "S1", "SET", "SET1"])?;
-    let reset = argument(inside, &["R", "R1", "RESET", "RESET1"])?;
-    Some(format!(
-        "a bit is set and reset by two rungs, of which the later one wins: `LD {set}`, `S Q0.0, \
-         1`, then `LD {reset}`, `R Q0.0, 1`"
-    ))
-}
-
-fn timer(mnemonic: &str, named: Option<Address>, inside: &str) -> Meant {
-    let op = match mnemonic {
-        "TOF" => Op::Tof,
-        "TONR" => Op::Tonr,
-        _ => Op::Ton,
-    };
-    let wanted = match named {
-        Some(Address::Timer(number)) => Some(number),
-        _ => None,
-    };
-    let usual = wanted.unwrap_or(if op == Op::Tonr { 5 } else { 37 });
-    let input = argument(inside, &["IN"]).unwrap_or_else(|| "I0.0".to_owned());
-    let preset = argument(inside, &["PT"]);
-    let plain = preset.as_deref().and_then(|text| text.parse::<u16>().ok());
-    let (timer, counts) = match plain {
-        Some(counts) => (usual, counts),
-        None => preset
-            .and_then(|text| counts::of(op, wanted, operands::milliseconds(&text)?))
-            .unwrap_or((usual, 20)),
-    };
-    told(format!(
-        "AWL has no brackets, and the input of a timer is the contact before it: `LD {input}`, \
-         `{mnemonic} T{timer}, {counts}`; `LD T{timer}` is its output"
-    ))
-}
-
-fn counter(mnemonic: &str, name: &str, inside: &str) -> Meant {
-    let input = |names: &[&str], otherwise: &str| {
-        argument(inside, names).unwrap_or_else(|| otherwise.to_owned())
-    };
-    let up = input(&["CU"], "I0.0");
-    let down = input(&["CD"], if mnemonic == "CTUD" { "I0.1" } else { "I0.0" });
-    let preset = input(&["PV"], "10");
-    let loads = match mnemonic {
-        "CTD" => format!("`LD {down}` counts, `LD {}` loads", input(&["LD", "LOAD"], "I0.1")),
-        "CTUD" => format!(
-            "`LD {up}` counts up, `LD {down}` down, `LD {}` resets",
-            input(&["R", "RESET"], "I0.2")
-        ),
-        _ => format!("`LD {up}` counts, `LD {}` resets", input(&["R", "RESET"], "I0.1")),
-    };
-    told(format!(
-        "AWL has no brackets, and the inputs of a counter are the contacts before it: {loads}, \
-         `{mnemonic} {name}, {preset}`"
-    ))
-}
-
-/// An instruction or routine whose operands are in brackets.
-fn plain_call(word: &str, inside: &str) -> Meant {
-    const NO_BRACKETS: &str = "operands follow after a blank, without brackets";
-    let is_plain = !inside.is_empty() && !inside.contains([':', '(', ')']);
-    if let Some(code) = expression::contacts_of(&word.to_uppercase(), inside) {
-        return told(listed(&code));
-    }
-    if let Some(Meaning::Instruction(entry, _)) = mnemonics::meaning(word) {
-        let instead = is_plain.then(|| format!("{} {inside}", word.to_uppercase()));
-        return Meant {
-            instead: instead.map(Instead::Line),
-            help: vec![NO_BRACKETS.to_owned()],
-            stand_in: Some(entry.mnemonic().to_owned()),
-        };
-    }
-    match find(word) {
-        Some(row) => {
-            let mut meant = row.meant(inside);
-            if !matches!(row.here, Here::Nothing | Here::Block) {
-                meant.help.push(NO_BRACKETS.to_owned());
-            }
-            meant
-        }
-        // An instance of a block, by the names of its parameters.
-        None if argument(inside, &["CLK"]).is_some() => told(format!(
-            "an edge is `EU` after the contact: `LD {}`, `EU`; `ED` is the falling one",
-            argument(inside, &["CLK"]).unwrap_or_default()
-        )),
-        None if set_and_reset(inside).is_some() => told(set_and_reset(inside).unwrap_or_default()),
-        None if argument(inside, &["PT"]).is_some() => timer("TON", None, inside),
-        None if argument(inside, &["PV"]).is_some() => {
-            let counter_of = if argument(inside, &["CU"]).is_some() { "CTU" } else { "CTD" };
-            counter(counter_of, "C1", inside)
-        }
-        None => told(
-            "a subroutine is called by `CALL SBR0`, and its parameters follow: `CALL SBR0, 5, VW0`",
-        ),
-    }
 }

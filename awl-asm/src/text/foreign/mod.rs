@@ -7,6 +7,7 @@ mod apart;
 mod bits;
 mod boxes;
 mod brackets;
+mod calls;
 mod conditional;
 mod controllers;
 mod counts;

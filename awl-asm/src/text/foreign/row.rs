@@ -15,6 +15,11 @@ pub(crate) struct Meant {
     pub(crate) stand_in: Option<String>,
 }
 
+/// Help alone, where no suggestion means the same.
+pub(super) fn told(help: impl Into<String>) -> Meant {
+    Meant { help: vec![help.into()], ..Meant::default() }
+}
+
 /// What a suggestion replaces.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Instead {
