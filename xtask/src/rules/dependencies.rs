@@ -13,6 +13,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("diagnostics", &[]),
     ("awl-asm", &["plc-isa", "diagnostics"]),
     ("st", &["diagnostics", "awl-asm"]),
+    ("fb", &["diagnostics"]),
     ("project", &["diagnostics", "awl-asm", "st"]),
     ("analysis", &["plc-isa", "diagnostics", "awl-asm", "awl-sim"]),
     ("simavr", &[]),
