@@ -1,17 +1,23 @@
 //! What must be true of every block, whatever is made of it: names are names, there once, and
-//! known where they are used. What ST texts mean is not asked here.
+//! known where they are used, conditions say when, and the chart comes to rest. What ST texts mean
+//! is not asked here.
 
 use std::collections::HashMap;
 
+use crate::condition::{Wrong, condition};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Block, Event, Text, Transition, Variable};
+use crate::places::Places;
+use crate::rest::without_rest;
 
-/// Checks a block.
-pub fn check(block: &Block) -> Vec<Diagnostic> {
+/// Checks a block that was read from a file with this text.
+pub fn check(block: &Block, file: &str) -> Vec<Diagnostic> {
     let mut checker = Checker { diagnostics: Vec::new() };
     checker.name(&block.name);
     checker.interface(block);
     checker.chart(block);
+    block.transitions.iter().for_each(|one| checker.condition(block, one, file));
+    checker.rest(block);
     checker.algorithms(block);
     checker.diagnostics
 }
@@ -149,6 +155,49 @@ impl Checker {
             let help = "the first state is the initial one; the others need a transition";
             self.error(Code::Unused, &state.name, message, help);
         }
+    }
+
+    fn condition(&mut self, block: &Block, transition: &Transition, file: &str) {
+        let Err(wrong) = condition(block, transition) else { return };
+        let text = &transition.condition;
+        let events = || block.event_inputs.iter().map(|event| event.name.text.as_str());
+        let (at, message, help) = match wrong {
+            Wrong::Empty => (None, "there is no condition".to_owned(), "1 is always true"),
+            Wrong::Open => {
+                let message = format!("{}: `]` is missing at the end", text.text);
+                (None, message, "an event with a guard is written EVENT[guard]")
+            }
+            Wrong::NoEvent(at) => {
+                let name = at.text(&text.text);
+                let message = format!("{name}: there is no event or variable of this name");
+                let span = Places::of(text, file).span(at);
+                let mut error = Diagnostic::new(Code::UnknownName, span, message);
+                let variables = block.variables().map(|one| one.name.text.as_str());
+                error.suggestion = nearest(name, events().chain(variables)).map(str::to_owned);
+                return self.diagnostics.push(error);
+            }
+            Wrong::Second(at) => {
+                let message = format!("{}: a second event", at.text(&text.text));
+                (Some(at), message, "one event arrives at a time: both together never do")
+            }
+            Wrong::Inside(at) => {
+                let message = format!("{}: an event inside of a guard", at.text(&text.text));
+                let help = "write EVENT[guard], and a transition for each event";
+                (Some(at), message, help)
+            }
+        };
+        let span = at.map_or(text.span, |at| Places::of(text, file).span(at));
+        self.diagnostics.push(Diagnostic::new(Code::Condition, span, message).help(help));
+    }
+
+    fn rest(&mut self, block: &Block) {
+        let states = without_rest(block);
+        let Some(first) = states.first().and_then(|at| block.states.get(*at)) else { return };
+        let names = states.iter().filter_map(|at| block.states.get(*at));
+        let names: Vec<&str> = names.map(|state| state.name.text.as_str()).collect();
+        let message = format!("the chart never comes to rest in {}", names.join(", "));
+        let help = "a transition that needs no event clears at once: give one of them an event";
+        self.error(Code::NeverRests, &first.name, message, help);
     }
 
     fn algorithms(&mut self, block: &Block) {

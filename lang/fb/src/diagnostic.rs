@@ -11,6 +11,8 @@ diagnostics::codes! {
     UnknownName = "E0403";
     BadName = "E0404";
     DataType = "E0405";
+    Condition = "E0406";
+    NeverRests = "E0407";
     Ignored = "W0400";
     Unused = "W0401";
 }

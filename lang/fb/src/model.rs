@@ -91,18 +91,32 @@ pub struct Event {
 }
 
 /// A variable.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Variable {
     /// Its name.
     pub name: Text,
     /// Its type.
     pub of_type: DataType,
+    /// Where the type was read.
+    pub type_span: Span,
     /// How many elements it has, if it is an array.
     pub size: Option<u32>,
     /// Its initial value, as written in ST.
     pub initial: Option<Text>,
     /// What it is.
     pub comment: String,
+}
+
+impl PartialEq for Variable {
+    /// Wherever their types are.
+    fn eq(&self, other: &Variable) -> bool {
+        let Variable { name, of_type, type_span: _, size, initial, comment } = self;
+        *name == other.name
+            && *of_type == other.of_type
+            && *size == other.size
+            && *initial == other.initial
+            && *comment == other.comment
+    }
 }
 
 /// A place in the drawing; 100 is some five letters.

@@ -7,6 +7,7 @@ use crate::check::check;
 use crate::data_type::DataType;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Action, Algorithm, Block, Event, Place, State, Text, Transition, Variable};
+use crate::places::{operator, with_known_references};
 
 /// More elements than any block has: a bound on what a foreign file costs.
 const ELEMENTS_MAX: u32 = 200_000;
@@ -25,7 +26,8 @@ pub fn read(source: &Source) -> Read {
     let mut reader = Reader { diagnostics: Vec::new() };
     let options =
         ParsingOptions { allow_dtd: true, nodes_limit: ELEMENTS_MAX, ..ParsingOptions::default() };
-    let block = match Document::parse_with_options(&source.text, options) {
+    let text = with_known_references(&source.text);
+    let block = match Document::parse_with_options(&text, options) {
         Ok(document) => reader.root(document.root_element()),
         Err(error) => {
             reader.broken(&source.text, &error);
@@ -33,7 +35,7 @@ pub fn read(source: &Source) -> Read {
         }
     };
     if let Some(block) = &block {
-        reader.diagnostics.extend(check(block));
+        reader.diagnostics.extend(check(block, &source.text));
     }
     reader.diagnostics.sort_by_key(|one| one.span);
     let is_good = !reader.has_errors();
@@ -235,7 +237,7 @@ impl Reader {
             .map(|one| Text { text: one.value().trim().to_owned(), span: span_of(&one) });
         // Its name is known all the same; no block is made of a file with errors.
         let of_type = of_type.unwrap_or(DataType::Bool);
-        Variable { name, of_type, size, initial, comment: comment(node) }
+        Variable { name, of_type, type_span: written.span, size, initial, comment: comment(node) }
     }
 
     fn size(&mut self, node: Node) -> Option<u32> {
@@ -273,7 +275,7 @@ impl Reader {
                 "ECTransition" => block.transitions.push(Transition {
                     source: self.needed(child, "Source"),
                     destination: self.needed(child, "Destination"),
-                    condition: self.needed(child, "Condition"),
+                    condition: understood(self.needed(child, "Condition")),
                     comment: comment(child),
                     place: self.place(child),
                 }),
@@ -328,8 +330,22 @@ impl Reader {
                 }
             }
         }
-        Some(Algorithm { name, comment, text: text.unwrap_or_default() })
+        Some(Algorithm { name, comment, text: understood(text.unwrap_or_default()) })
     }
+}
+
+/// A text as Structured Text writes it, also where somebody has written references twice.
+fn understood(text: Text) -> Text {
+    let names = [("&ge;", ">="), ("&le;", "<="), ("&lt;", "<"), ("&gt;", ">"), ("&amp;", "&")];
+    let mut understood = String::new();
+    for character in text.text.chars() {
+        match operator(character) {
+            Some(operator) => understood.push_str(operator),
+            None => understood.push(character),
+        }
+    }
+    let understood = names.iter().fold(understood, |text, (name, sign)| text.replace(name, sign));
+    Text { text: understood, ..text }
 }
 
 /// The text of an algorithm: an attribute, or in newer files the element's own text.
