@@ -12,8 +12,14 @@ fn examples() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples")
 }
 
+/// A program by its name in the examples: without an ending it is AWL.
+fn path_of(name: &str) -> PathBuf {
+    let path = examples().join(name);
+    if path.extension().is_some() { path } else { path.with_extension("awl") }
+}
+
 fn open(stem: &str) -> Opened {
-    let path = examples().join(stem).with_extension("awl");
+    let path = path_of(stem);
     let opened =
         open_machine(&path, &[], Target::Host).unwrap_or_else(|error| panic!("{stem}:\n{error}"));
     assert!(opened.warnings.is_empty(), "{stem}: {:?}", opened.warnings);
@@ -22,7 +28,7 @@ fn open(stem: &str) -> Opened {
 
 fn run_scenario(stem: &str, scan_ms: Option<u64>) -> Outcome {
     let Opened { mut machine, symbols, scan_ms: period_ms, .. } = open(stem);
-    let path = examples().join(stem).with_extension("scn");
+    let path = path_of(stem).with_extension("scn");
     let text = fs::read_to_string(&path).unwrap();
     let mut has_operand = |operand| machine.read(operand).map(|_| ());
     let context = Context { symbols: &symbols, plant: None, has_operand: &mut has_operand };
@@ -46,21 +52,24 @@ fn run_plant(stem: &str, plant: &str, length_ms: u64, scan_ms: u64) -> Report {
 
 #[test]
 fn every_example_does_what_its_scenario_expects() {
-    let mut count = 0;
-    for entry in fs::read_dir(examples()).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_none_or(|extension| extension != "awl") {
-            continue;
-        }
-        count += 1;
-        let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
+    let names = [in_folder("", "awl"), in_folder("fbt", "fbt")];
+    assert_eq!([names[0].len(), names[1].len()], [14, 2]);
+    for stem in names.concat() {
         let outcome = run_scenario(&stem, None);
         assert!(outcome.failures.is_empty(), "{stem}: {:#?}", outcome.failures);
         assert_eq!(outcome.fault, None, "{stem}");
         assert_eq!((outcome.unreached_expectations, outcome.unreached_settings), (0, 0), "{stem}");
         assert!(outcome.met >= 20, "{stem} expects only {} values", outcome.met);
     }
-    assert_eq!(count, 14);
+}
+
+/// The programs in a folder of the examples that are of a language.
+fn in_folder(folder: &str, ending: &str) -> Vec<String> {
+    let entries = fs::read_dir(examples().join(folder)).unwrap().map(|entry| entry.unwrap().path());
+    let programs = entries.filter(|path| path.extension().is_some_and(|found| found == ending));
+    let name =
+        |path: PathBuf| Path::new(folder).join(path.file_name().unwrap()).display().to_string();
+    programs.map(name).collect()
 }
 
 #[test]

@@ -99,7 +99,7 @@ pub enum ParityName {
 /// What is to be done.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Makes AWL or an image of the files of a program: AWL, Structured Text
+    /// Makes AWL or an image of the files of a program: AWL, Structured Text, blocks of IEC 61499
     Build(Build),
     /// Writes a program to the board, and asks the board then whether it is in force
     Flash(Flash),
@@ -206,7 +206,7 @@ pub enum Ask {
 /// Arguments of `build`.
 #[derive(Debug, Args)]
 pub struct Build {
-    /// AWL (.awl) and Structured Text (.st)
+    /// AWL (.awl), Structured Text (.st), a block of IEC 61499 (.fbt)
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// .awl for the text, .bin or .hex for the image; without it the text to standard output

@@ -1,6 +1,6 @@
 //! What the condition of a transition says: which event, and which guard. Files write `CU`,
-//! `CU[CV < 65535]`, `[guard]`, `1`, and as expressions `CU AND guard`, `START AND CU` with the name
-//! of the state that is left. What a guard means is Structured Text's business.
+//! `CU[CV < 65535]`, `[guard]`, `1`, and as expressions `CU AND guard`, `START AND CU` with the
+//! name of the state that is left. What a guard means is Structured Text's business.
 
 use diagnostics::Span;
 use st::parser::parse_expression;

@@ -3,8 +3,8 @@
 use crate::condition::{Condition, condition};
 use crate::model::Block;
 
-/// The states of a chart that is never at rest once it is in one of them: each has a transition that
-/// always clears, and none that clears without an event leads out of them.
+/// The states of a chart that is never at rest once it is in one of them: each has a transition
+/// that always clears, and none that clears without an event leads out of them.
 pub(crate) fn without_rest(block: &Block) -> Vec<usize> {
     let all: Vec<Option<Vec<usize>>> =
         (0..block.states.len()).map(|state| at_once(block, state)).collect();

@@ -6,7 +6,7 @@ use fb::parsed::{Parsed, parse};
 use fb::{Block, Interpreter, xml};
 
 const HYSTERESIS: &str = include_str!("blocks/hysteresis.fbt");
-const RAMP: &str = include_str!("blocks/ramp.fbt");
+const RAMP: &str = include_str!("../../../examples/fbt/ramp.fbt");
 
 fn read(text: &str) -> (Block, Parsed) {
     let source = Source::new("block.fbt", text).expect("a short text");
@@ -133,7 +133,8 @@ fn an_event_is_seen_in_the_first_round_alone() {
 fn outputs_are_as_they_were_when_their_event_was_sent() {
     let text = small(
         "<ECState Name='S'/><ECState Name='T'><ECAction Algorithm='Up' Output='X'/>
-        <ECAction Algorithm='Up'/><ECAction Output='Y'/><ECAction Algorithm='Up' Output='Y'/></ECState>
+        <ECAction Algorithm='Up'/><ECAction Output='Y'/>
+        <ECAction Algorithm='Up' Output='Y'/></ECState>
         <ECTransition Source='S' Destination='T' Condition='A'/>
         <ECTransition Source='T' Destination='S' Condition='B'/>",
         "<Algorithm Name='Up'><ST Text='out := out + 1;'/></Algorithm>",

@@ -1,4 +1,5 @@
-//! Cuts the text into tokens. Settings (`//# ...`), pragmas and comments are kept aside. It knows characters, not the language.
+//! Cuts the text into tokens. Settings (`//# ...`), pragmas and comments are kept aside. It knows
+//! characters, not the language.
 
 use diagnostics::Span;
 

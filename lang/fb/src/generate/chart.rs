@@ -35,6 +35,9 @@ impl Generator<'_> {
     fn choose_by_transition(&mut self) {
         let block = self.block;
         let parsed = self.parsed;
+        if parsed.transitions.iter().all(|one| one.event.is_none()) {
+            return;
+        }
         self.out.line(block.name.span, &format!("CASE {} OF", self.names.state));
         for (at, state) in block.states.iter().enumerate() {
             let named = parsed.transitions.iter().zip(&block.transitions);
@@ -130,9 +133,11 @@ impl Generator<'_> {
         self.out.line(place, "// Transitions and actions, until no transition clears.");
         self.out.line(place, &format!("WHILE {event} >= 0 DO"));
         self.out.line(place, &format!("    {next} := -1;"));
-        self.out.line(place, &format!("    CASE {state} OF"));
-        (0..self.block.states.len()).for_each(|at| self.transitions(at));
-        self.out.line(place, "    END_CASE;");
+        if !self.parsed.transitions.is_empty() {
+            self.out.line(place, &format!("    CASE {state} OF"));
+            (0..self.block.states.len()).for_each(|at| self.transitions(at));
+            self.out.line(place, "    END_CASE;");
+        }
         self.out.line(place, &format!("    IF {next} < 0 THEN EXIT; END_IF;"));
         self.out.line(place, &format!("    {event} := 0;"));
         self.out.line(place, &format!("    {state} := {next};"));

@@ -57,7 +57,8 @@ pub fn translate(block: &Block, source: &Source, form: Form) -> Translation {
         &mut file,
         &mut |name| {
             name.span = out.place(name.span);
-            if let Some(event) = name.text.strip_suffix(COUNT.0) {
+            let is_own = block.variables().any(|one| one.name.names(&name.text));
+            if let Some(event) = name.text.strip_suffix(COUNT.0).filter(|_| !is_own) {
                 name.text = format!("{event}{}", COUNT.1);
             }
         },
