@@ -43,11 +43,12 @@ fn a_block_beside_structured_text_is_a_function_block() {
     let input = Operand::parse("I0.0", &[]).expect("an input");
     opened.machine.write(input, 1).expect("an input");
     opened.machine.scan(10);
+    assert_eq!(value(&mut opened, "Main.Slope.INITO"), 1);
+    opened.machine.scan(20);
     assert_eq!(value(&mut opened, "Main.Slope.T"), 10);
     assert_eq!(value(&mut opened, "Main.Slope.CNF"), 1);
     assert_eq!(value(&mut opened, "Main.Slope.INITO"), 0, "an event out is there for one call");
-    assert_eq!(value(&mut opened, "Main.Slope.REQ"), 0, "an event in is taken");
-    for scan in 2..=60 {
+    for scan in 3..=61 {
         opened.machine.scan(scan * 10);
     }
     assert_eq!(value(&mut opened, "Main.Slope.T"), 600);

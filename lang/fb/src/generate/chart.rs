@@ -56,9 +56,8 @@ impl Generator<'_> {
                 self.out.begin(*place);
                 self.out.more(*place, &format!("    {word} {}", event.name.text));
                 if transition.guard_text.is_some() {
-                    self.out.more(*place, " AND (");
+                    self.out.more(*place, " AND ");
                     self.guard(transition, *place, Some(event));
-                    self.out.more(*place, ")");
                 }
                 self.out.more(*place, &format!(" THEN {} := {};\n", self.names.event, index + 1));
             }
@@ -67,25 +66,25 @@ impl Generator<'_> {
         self.out.line(block.name.span, "END_CASE;");
     }
 
-    /// A guard; `event`: as it is with the inputs that an event brings.
+    /// A guard in brackets; `event`: as it is with the inputs that an event brings.
     fn guard(&mut self, transition: &Transition, place: Span, event: Option<&Event>) {
         let Some(text) = &transition.guard_text else { return };
         let written = self.block.transitions.iter().find(|one| one.condition.span == place);
-        let whole = written.map(|one| &one.condition);
-        let places = whole.map(|condition| (condition.text.find(text.as_str()), condition));
+        let condition = written.map(|one| &one.condition);
+        let start = condition.and_then(|condition| condition.text.find(text.as_str()));
+        let places = match condition.zip(start) {
+            Some((condition, start)) => Places::of(condition, self.file).from(start),
+            None => Places::whole(place),
+        };
         let names = &self.names;
         let renamed = |word: &str| {
             let is_brought =
                 event.is_some_and(|event| event.with.iter().any(|one| one.names(word)));
             names.copy(word).filter(|_| !is_brought).map(str::to_owned)
         };
-        match places {
-            Some((Some(start), condition)) => {
-                let places = Places::of(condition, self.file).from(start);
-                self.out.copy(text, &places, &renamed);
-            }
-            _ => self.out.copy(text, &Places::whole(place), &renamed),
-        }
+        self.out.more(places.span(Span::new(0, 1)), "(");
+        self.out.copy(text, &places, &renamed);
+        self.out.more(places.span(Span::new(text.len() - 1, text.len())), ")");
     }
 
     /// Copies the inputs that the event has with it.
@@ -107,7 +106,7 @@ impl Generator<'_> {
         }
     }
 
-    /// Events are there for one execution.
+    /// Of a program events are there for one execution, and those that are lost are counted.
     fn take_events(&mut self) {
         let block = self.block;
         if self.has_lost() {
@@ -120,8 +119,11 @@ impl Generator<'_> {
                 self.out.line(place, "END_IF;");
             }
         }
-        for event in &block.event_inputs {
-            self.out.line(event.name.span, &format!("{} := FALSE;", event.name.text));
+        // Inputs of a FUNCTION_BLOCK are its caller's.
+        if self.form == Form::Program {
+            for event in &block.event_inputs {
+                self.out.line(event.name.span, &format!("{} := FALSE;", event.name.text));
+            }
         }
     }
 
@@ -177,9 +179,8 @@ impl Generator<'_> {
                 self.out.more(place, &format!("{} = {}", self.names.event, event + 1));
             }
             if transition.guard_text.is_some() {
-                self.out.more(place, if transition.event.is_some() { " AND (" } else { "(" });
+                self.out.more(place, if transition.event.is_some() { " AND " } else { "" });
                 self.guard(transition, place, None);
-                self.out.more(place, ")");
             }
             self.out.more(place, &format!(" THEN {enter}\n"));
         }
