@@ -13,6 +13,8 @@ pub enum Code {
     Awl(awl_asm::diagnostic::Code),
     /// Of Structured Text.
     St(st::Code),
+    /// Of charts.
+    Chart(chart::Code),
     /// Of function blocks of IEC 61499.
     Block(fb::Code),
 }
@@ -23,6 +25,7 @@ impl Code {
         match self {
             Code::Awl(code) => code.text(),
             Code::St(code) => code.text(),
+            Code::Chart(code) => code.text(),
             Code::Block(code) => code.text(),
         }
     }
@@ -31,7 +34,8 @@ impl Code {
     pub fn all() -> impl Iterator<Item = Code> {
         let awl = awl_asm::diagnostic::Code::ALL.iter().copied().map(Code::Awl);
         let st = st::Code::ALL.iter().copied().map(Code::St);
-        awl.chain(st).chain(fb::Code::ALL.iter().copied().map(Code::Block))
+        let charts = chart::Code::ALL.iter().copied().map(Code::Chart);
+        awl.chain(st).chain(charts).chain(fb::Code::ALL.iter().copied().map(Code::Block))
     }
 }
 
@@ -48,6 +52,7 @@ impl diagnostics::Code for Code {
         Some(match self {
             Code::Awl(code) => code.page(),
             Code::St(code) => code.page(),
+            Code::Chart(code) => code.page(),
             Code::Block(code) => code.page(),
         })
     }
@@ -83,6 +88,12 @@ pub(crate) fn from_awl(one: awl_asm::diagnostic::Diagnostic) -> Diagnostic {
 /// One of Structured Text.
 pub(crate) fn from_st(one: st::Diagnostic) -> Diagnostic {
     let code = Code::St(one.code);
+    with_code(one, code)
+}
+
+/// One of a chart.
+pub(crate) fn from_chart(one: chart::Diagnostic) -> Diagnostic {
+    let code = Code::Chart(one.code);
     with_code(one, code)
 }
 

@@ -20,6 +20,8 @@ pub enum Language {
     Awl,
     /// Structured Text.
     StructuredText,
+    /// Charts, as text.
+    Chart,
     /// A function block of IEC 61499, as XML.
     Block,
 }
@@ -30,6 +32,7 @@ impl Language {
         let ending = Path::new(name).extension().and_then(|ending| ending.to_str());
         match ending.map(str::to_lowercase).as_deref() {
             Some("st") => Language::StructuredText,
+            Some("sfc") => Language::Chart,
             Some("fbt") => Language::Block,
             _ => Language::Awl,
         }

@@ -54,9 +54,14 @@ pub fn translate(
 ) -> Compiled {
     let (program, found) = check::check(sources, files, around);
     diagnostics.extend(found);
+    let has_errors = diagnostics.iter().any(|(_, one)| one.severity() == Severity::Error);
+    let mut awl = None;
+    if !has_errors {
+        let (text, notes) = code::generate(&program, sources, around);
+        awl = Some(text);
+        diagnostics.extend(notes);
+    }
     diagnostics.sort_by_key(|(file, one)| (*file, one.span));
     diagnostics.dedup_by(|a, b| a.0 == b.0 && a.1.span == b.1.span && a.1.message == b.1.message);
-    let has_errors = diagnostics.iter().any(|(_, one)| one.severity() == Severity::Error);
-    let awl = (!has_errors).then(|| code::generate(&program, sources, around));
     Compiled { awl, diagnostics, program }
 }

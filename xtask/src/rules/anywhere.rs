@@ -8,6 +8,7 @@ const LIBRARIES: [&str; 13] = [
     "plc/link/src/",
     "diagnostics/src/",
     "awl-asm/src/",
+    "lang/chart/src/",
     "lang/st/src/",
     "lang/fb/src/",
     "lang/project/src/",

@@ -86,6 +86,11 @@ pub fn parse(source: &Source) -> (File, Vec<Diagnostic>) {
     let mut parser = Parser::new(&source.text, tokens);
     let mut file = parser.file();
     file.settings = settings;
+    for span in std::mem::take(&mut parser.coarse) {
+        let message = "`{coarse}` is not at the declaration of a timer";
+        let found = Diagnostic::new(Code::Coarse, span, message);
+        parser.report(found.help("such as `{coarse} Delay : TON;`"));
+    }
     (file, parser.diagnostics)
 }
 
@@ -109,11 +114,18 @@ pub fn parse_statements(text: &str, part: Span) -> (Vec<Statement>, Vec<Diagnost
     (statements, parser.diagnostics)
 }
 
+/// Whether a pragma permits a timer of the controller.
+fn is_coarse(pragma: &str) -> bool {
+    pragma.trim_matches(['{', '}']).trim().eq_ignore_ascii_case("coarse")
+}
+
 struct Parser<'t> {
     text: &'t str,
     tokens: Vec<Token>,
     at: usize,
     depth: u32,
+    /// The pragmas `{coarse}` that belong to no declaration yet.
+    coarse: Vec<Span>,
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -124,8 +136,9 @@ type Outcome<T> = Result<T, Failed>;
 
 impl<'t> Parser<'t> {
     fn new(text: &'t str, tokens: Tokens) -> Parser<'t> {
-        let Tokens { tokens, diagnostics, .. } = tokens;
-        Parser { text, tokens, at: 0, depth: 0, diagnostics }
+        let Tokens { tokens, mut pragmas, diagnostics, .. } = tokens;
+        pragmas.retain(|span| is_coarse(span.text(text)));
+        Parser { text, tokens, at: 0, depth: 0, coarse: pragmas, diagnostics }
     }
 
     fn token(&self) -> Token {
@@ -239,8 +252,11 @@ impl<'t> Parser<'t> {
 
     /// Reports that a word or sign is missing at the end of what was read.
     fn missing(&mut self, what: &str, opened: Option<(Span, &str)>) {
-        let end = self.previous().end as usize;
-        let start = self.previous().start as usize;
+        self.missing_after(self.previous(), what, opened);
+    }
+
+    fn missing_after(&mut self, before: Span, what: &str, opened: Option<(Span, &str)>) {
+        let (start, end) = (before.start as usize, before.end as usize);
         let before = self.text.get(start..end).and_then(|text| text.char_indices().last());
         let last = start + before.map_or(0, |(at, _)| at);
         let span = Span::new(last, end);
