@@ -108,3 +108,12 @@ fn a_chart_without_rest_is_a_fault_at_the_block() {
     let fault = opened.machine.fault().expect("the watchdog").to_string();
     assert!(fault.contains("restless.fbt:"), "{fault}");
 }
+
+#[test]
+fn the_examples_get_no_warning() {
+    let tank = include_str!("../../../examples/fbt/tank.fbt");
+    for text in [RAMP, tank] {
+        let opened = open(&file("block.fbt", text), &[]).expect("a program");
+        assert!(opened.warnings.is_empty(), "{:?}", opened.warnings[0].diagnostics);
+    }
+}
