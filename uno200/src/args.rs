@@ -101,7 +101,7 @@ pub enum ParityName {
 /// What is to be done.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Makes AWL or an image of the files of a program: AWL, Structured Text
+    /// Makes AWL or an image of the files of a program: AWL, Structured Text, blocks of IEC 61499
     Build(Build),
     /// Converts a chart into Structured Text for a target, or tells what is in it
     Convert(Convert),
@@ -214,7 +214,7 @@ pub enum Ask {
 /// Arguments of `build`.
 #[derive(Debug, Args)]
 pub struct Build {
-    /// AWL (.awl) and Structured Text (.st)
+    /// AWL (.awl), Structured Text (.st), a block of IEC 61499 (.fbt)
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// .awl for the text, .bin or .hex for the image; without it the text to standard output

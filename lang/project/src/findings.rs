@@ -15,6 +15,8 @@ pub enum Code {
     St(st::Code),
     /// Of charts.
     Chart(chart::Code),
+    /// Of function blocks of IEC 61499.
+    Block(fb::Code),
 }
 
 impl Code {
@@ -24,6 +26,7 @@ impl Code {
             Code::Awl(code) => code.text(),
             Code::St(code) => code.text(),
             Code::Chart(code) => code.text(),
+            Code::Block(code) => code.text(),
         }
     }
 
@@ -31,7 +34,8 @@ impl Code {
     pub fn all() -> impl Iterator<Item = Code> {
         let awl = awl_asm::diagnostic::Code::ALL.iter().copied().map(Code::Awl);
         let st = st::Code::ALL.iter().copied().map(Code::St);
-        awl.chain(st).chain(chart::Code::ALL.iter().copied().map(Code::Chart))
+        let charts = chart::Code::ALL.iter().copied().map(Code::Chart);
+        awl.chain(st).chain(charts).chain(fb::Code::ALL.iter().copied().map(Code::Block))
     }
 }
 
@@ -49,6 +53,7 @@ impl diagnostics::Code for Code {
             Code::Awl(code) => code.page(),
             Code::St(code) => code.page(),
             Code::Chart(code) => code.page(),
+            Code::Block(code) => code.page(),
         })
     }
 }
@@ -89,5 +94,11 @@ pub(crate) fn from_st(one: st::Diagnostic) -> Diagnostic {
 /// One of a chart.
 pub(crate) fn from_chart(one: chart::Diagnostic) -> Diagnostic {
     let code = Code::Chart(one.code);
+    with_code(one, code)
+}
+
+/// One of a function block of IEC 61499.
+pub(crate) fn from_block(one: fb::Diagnostic) -> Diagnostic {
+    let code = Code::Block(one.code);
     with_code(one, code)
 }

@@ -22,6 +22,8 @@ pub enum Language {
     StructuredText,
     /// Charts, as text.
     Chart,
+    /// A function block of IEC 61499, as XML.
+    Block,
 }
 
 impl Language {
@@ -31,6 +33,7 @@ impl Language {
         match ending.map(str::to_lowercase).as_deref() {
             Some("st") => Language::StructuredText,
             Some("sfc") => Language::Chart,
+            Some("fbt") => Language::Block,
             _ => Language::Awl,
         }
     }
@@ -57,7 +60,7 @@ pub fn join(sources: Vec<Source>) -> Result<Joined, Vec<Findings>> {
     }
     let (awl, texts): (Vec<Source>, Vec<Source>) = sources.into_iter().partition(is_awl);
     let around = join::around(&awl);
-    let read::Read { files, of_st, mut others } = read::read(&texts);
+    let read::Read { files, of_st, mut others } = read::read(&texts, awl.is_empty());
     let compiled = st::translate(&texts, &files, of_st, &around);
     let name = awl.iter().chain(&texts).next().map_or("program", |source| source.name.as_str());
     let name = name.to_owned();

@@ -10,6 +10,7 @@ const LIBRARIES: [&str; 13] = [
     "awl-asm/src/",
     "lang/chart/src/",
     "lang/st/src/",
+    "lang/fb/src/",
     "lang/project/src/",
     "analysis/src/",
     "ide/core/src/",
