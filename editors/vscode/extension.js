@@ -11,11 +11,12 @@ exports.activate = async () => {
   client = new LanguageClient("uno200", "uno200", { run: server, debug: server }, {
     documentSelector: [
       { language: "awl" },
+      { language: "st" },
       { language: "uno200-scenario" },
       // Of a table that belongs to no program the server says nothing.
       { scheme: "file", pattern: "**/*.csv" },
     ],
-    synchronize: { fileEvents: workspace.createFileSystemWatcher("**/*.{awl,scn,csv,txt}") },
+    synchronize: { fileEvents: workspace.createFileSystemWatcher("**/*.{awl,st,scn,csv,txt}") },
   });
   await client.start();
 };

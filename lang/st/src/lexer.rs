@@ -1,5 +1,5 @@
-//! Cuts the text into tokens. Comments and pragmas are passed over; settings (`//# ...`) are kept
-//! aside. It knows characters, not the language.
+//! Cuts the text into tokens. Comments, pragmas and settings (`//# ...`) are kept aside. It knows
+//! characters, not the language.
 
 use diagnostics::Span;
 
@@ -43,6 +43,8 @@ pub(crate) struct Tokens {
     pub(crate) tokens: Vec<Token>,
     /// The lines `//# ...`.
     pub(crate) settings: Vec<Span>,
+    /// Comments and pragmas; settings are among them.
+    pub(crate) comments: Vec<Span>,
     pub(crate) diagnostics: Vec<Diagnostic>,
 }
 
@@ -54,19 +56,27 @@ const SIGNS: [&str; 23] = [
 
 /// Cuts a text.
 pub(crate) fn cut(text: &str) -> Tokens {
-    let mut lexer = Lexer { text, at: 0, settings: Vec::new(), diagnostics: Vec::new() };
+    let mut lexer =
+        Lexer { text, at: 0, settings: Vec::new(), comments: Vec::new(), diagnostics: Vec::new() };
     let mut tokens = Vec::new();
     while let Some(token) = lexer.next() {
         tokens.push(token);
     }
     tokens.push(Token { kind: Kind::End, span: Span::new(text.len(), text.len()) });
-    Tokens { tokens, settings: lexer.settings, diagnostics: lexer.diagnostics }
+    let Lexer { settings, comments, diagnostics, .. } = lexer;
+    Tokens { tokens, settings, comments, diagnostics }
+}
+
+/// Whether what is no token says something.
+fn is_comment(text: &str) -> bool {
+    ["//", "(*", "/*", "{"].iter().any(|start| text.starts_with(start))
 }
 
 struct Lexer<'t> {
     text: &'t str,
     at: usize,
     settings: Vec<Span>,
+    comments: Vec<Span>,
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -83,8 +93,12 @@ impl<'t> Lexer<'t> {
         loop {
             let start = self.at;
             let first = self.rest().chars().next()?;
-            if let Some(kind) = self.token(first) {
-                return Some(Token { kind, span: Span::new(start, self.at) });
+            let kind = self.token(first);
+            let span = Span::new(start, self.at);
+            match kind {
+                Some(kind) => return Some(Token { kind, span }),
+                None if is_comment(span.text(self.text)) => self.comments.push(span),
+                None => {}
             }
         }
     }

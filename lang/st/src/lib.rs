@@ -8,11 +8,14 @@
 mod around;
 mod check;
 mod code;
+pub mod cursor;
 pub mod diagnostic;
 mod fold;
 mod lexer;
 pub mod model;
+pub mod names;
 pub mod parser;
+pub mod standard;
 pub mod tree;
 
 use diagnostics::{Severity, Source};
@@ -20,6 +23,7 @@ use diagnostics::{Severity, Source};
 pub use around::{Around, Routine, RoutineParameter};
 pub use diagnostic::{Code, Diagnostic};
 pub use model::Program;
+pub use names::{Name, Named};
 
 /// What becomes of a program.
 #[derive(Debug)]
@@ -30,6 +34,8 @@ pub struct Compiled {
     pub diagnostics: Vec<(usize, Diagnostic)>,
     /// The checked program.
     pub program: Program,
+    /// The names in the texts, by file and place.
+    pub names: Vec<Name>,
 }
 
 /// Translates the texts of a program.
@@ -41,11 +47,12 @@ pub fn compile(sources: &[Source], around: &Around) -> Compiled {
         diagnostics.extend(found.into_iter().map(|one| (number, one)));
         files.push(file);
     }
-    let (program, found) = check::check(sources, &files, around);
+    let check::Checked { program, diagnostics: found, names } =
+        check::check(sources, &files, around);
     diagnostics.extend(found);
     diagnostics.sort_by_key(|(file, one)| (*file, one.span));
     diagnostics.dedup_by(|a, b| a.0 == b.0 && a.1.span == b.1.span && a.1.message == b.1.message);
     let has_errors = diagnostics.iter().any(|(_, one)| one.severity() == Severity::Error);
     let awl = (!has_errors).then(|| code::generate(&program, sources, around));
-    Compiled { awl, diagnostics, program }
+    Compiled { awl, diagnostics, program, names }
 }

@@ -14,7 +14,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("awl-asm", &["plc-isa", "diagnostics"]),
     ("st", &["diagnostics", "awl-asm"]),
     ("project", &["diagnostics", "awl-asm", "st"]),
-    ("analysis", &["plc-isa", "diagnostics", "awl-asm", "awl-sim"]),
+    ("analysis", &["plc-isa", "diagnostics", "awl-asm", "st", "project", "awl-sim"]),
     ("simavr", &[]),
     ("awl-sim", &["plc-isa", "plc-vm", "plc-link", "diagnostics", "awl-asm", "project", "simavr"]),
     ("virtual-uno", &["simavr"]),

@@ -9,6 +9,7 @@ use crate::fold;
 use crate::model::{
     BinaryOperator, ELEMENTARY, Expression, ExpressionKind, Root, Step, Type, Value,
 };
+use crate::names::Named;
 use crate::tree::{self, UnaryOperator};
 
 pub(super) fn invalid(span: Span) -> Expression {
@@ -156,7 +157,7 @@ impl Checker<'_> {
     }
 
     fn typed(&mut self, name: &str, value: &tree::Expression, span: Span) -> Expression {
-        let kind = self.named(name, span);
+        let kind = self.named(name, beginning(span, name));
         match kind {
             Type::Invalid => invalid(span),
             Type::Bool | Type::Time => {
@@ -168,7 +169,7 @@ impl Checker<'_> {
     }
 
     fn member_of(&mut self, kind: &str, name: &tree::Name, span: Span) -> Expression {
-        let of_type = self.named(kind, span);
+        let of_type = self.named(kind, beginning(span, kind));
         if of_type == Type::Invalid {
             return invalid(span);
         }
@@ -177,13 +178,21 @@ impl Checker<'_> {
             _ => Vec::new(),
         };
         match values.iter().find(|(text, _)| upper(text) == upper(&name.text)) {
-            Some((_, number)) => known(Value::Int(*number), of_type, span),
+            Some((_, number)) => {
+                self.note_value(&of_type, name);
+                known(Value::Int(*number), of_type, span)
+            }
             None => {
                 let message = format!("{}: {of_type} has no such value", name.text);
                 self.error(Code::UnknownName, span, message);
                 invalid(span)
             }
         }
+    }
+
+    fn note_value(&mut self, kind: &Type, name: &tree::Name) {
+        let of = Named::Value(upper(&kind.to_string()), upper(&name.text));
+        self.note(name.span, of, false);
     }
 
     fn read(
@@ -197,6 +206,7 @@ impl Checker<'_> {
             && self.variable(&name.text).is_none()
             && let Some((kind, value)) = self.enumeration_value(&name.text, wanted)
         {
+            self.note_value(&kind, name);
             return known(value, kind, span);
         }
         let Some(place) = self.place(name, selectors, span) else { return invalid(span) };
@@ -445,6 +455,11 @@ impl Checker<'_> {
         self.report(found);
         false
     }
+}
+
+/// The type's name, with which a literal begins.
+fn beginning(span: Span, name: &str) -> Span {
+    Span { end: span.start + name.len() as u32, ..span }
 }
 
 /// The type of two operands that takes the other one.

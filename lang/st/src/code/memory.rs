@@ -20,7 +20,7 @@ pub(super) fn storage(kind: &Type, is_short: bool) -> Storage {
 }
 
 /// A name that cannot be taken for an address or a constant.
-pub(super) fn safe_name(name: &str) -> String {
+pub(crate) fn safe_name(name: &str) -> String {
     let is_constant = ["ON", "OFF", "TRUE", "FALSE"].contains(&name.to_uppercase().as_str());
     match Address::parse(name).is_ok() || is_constant {
         true => format!("{name}_"),

@@ -18,6 +18,7 @@ use diagnostics::{Source, Span};
 
 use crate::around::Around;
 use crate::model::{Program, SectionKind, Type, UnitKind};
+pub(crate) use memory::safe_name;
 use timers::Short;
 use writer::Writer;
 

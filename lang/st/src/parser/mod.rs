@@ -300,7 +300,7 @@ impl<'t> Parser<'t> {
 }
 
 /// Whether a word names nothing.
-pub(crate) fn is_keyword(word: &str) -> bool {
+pub fn is_keyword(word: &str) -> bool {
     KEYWORDS.iter().any(|keyword| keyword.eq_ignore_ascii_case(word))
 }
 
