@@ -198,6 +198,11 @@ fn structured_text_of_two_files() {
     assert_eq!(help["signatures"][0]["parameters"][0]["label"], json!([6, 13]));
     let edit = editor.at("textDocument/rename", "main.st", 2, 6).unwrap();
     assert_eq!(edit["documentChanges"].as_array().unwrap().len(), 2);
+    let uri = editor.uri("main.st");
+    let params = json!({ "textDocument": { "uri": uri }, "options": { "tabSize": 4, "insertSpaces": true } });
+    let edits = editor.ask("textDocument/formatting", params).unwrap();
+    let laid = edits[0]["newText"].as_str().unwrap();
+    assert!(laid.starts_with("PROGRAM Main\nVAR\n    n : INT;\nEND_VAR\n"), "{laid}");
     let items = editor.at("textDocument/completion", "main.st", 2, 0).unwrap();
     let items = items.as_array().unwrap();
     let one = |label: &str| items.iter().find(|item| item["label"] == label).unwrap().clone();

@@ -166,30 +166,41 @@ fn copy(from: &Path, to: &Path) -> Result<()> {
     Ok(())
 }
 
+/// The names of the programs in a folder, without their ending.
+fn programs(folder: &Path, ending: &str) -> Result<Vec<String>> {
+    let mut names = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if let (Some(stem), true) = (path.file_stem(), path.extension() == Some(ending.as_ref())) {
+            names.push(stem.to_string_lossy().into_owned());
+        }
+    }
+    Ok(names)
+}
+
 /// The examples as projects, and the list of them.
 fn examples(to: &Path) -> Result<()> {
     let from = root().join("examples");
     let mut names = Vec::new();
-    for entry in fs::read_dir(&from)? {
-        let path = entry?.path();
-        let (Some(stem), true) = (path.file_stem(), path.extension() == Some("awl".as_ref()))
-        else {
-            continue;
-        };
-        names.push(stem.to_string_lossy().into_owned());
+    for (folder, ending, mark) in [(from.clone(), "awl", ""), (from.join("st"), "st", "-st")] {
+        for stem in programs(&folder, ending)? {
+            let file = |folder: &Path, ending: &str| {
+                let file = format!("{stem}.{ending}");
+                let text = fs::read_to_string(folder.join(&file)).ok()?;
+                Some(json!({ "name": file, "text": text }))
+            };
+            // What an example does in AWL it does in Structured Text, too.
+            let scenario = file(&folder, "scn").or_else(|| file(&from, "scn"));
+            let files: Vec<_> = file(&folder, ending).into_iter().chain(scenario).collect();
+            let plant = PLANTS.iter().find(|(of, _)| *of == stem).map(|(_, plant)| plant);
+            let main = format!("{stem}.{ending}");
+            let project = json!({ "files": files, "main": main, "plant": plant });
+            let name = format!("{stem}{mark}");
+            fs::write(to.join(&name).with_extension("json"), project.to_string())?;
+            names.push(name);
+        }
     }
     names.sort();
-    for name in &names {
-        let file = |ending: &str| {
-            let file = format!("{name}.{ending}");
-            let text = fs::read_to_string(from.join(&file)).ok()?;
-            Some(json!({ "name": file, "text": text }))
-        };
-        let files: Vec<_> = ["awl", "scn"].iter().filter_map(|ending| file(ending)).collect();
-        let plant = PLANTS.iter().find(|(of, _)| of == name).map(|(_, plant)| plant);
-        let project = json!({ "files": files, "main": format!("{name}.awl"), "plant": plant });
-        fs::write(to.join(name).with_extension("json"), project.to_string())?;
-    }
     fs::write(to.join("list.json"), json!(names).to_string())?;
     Ok(())
 }

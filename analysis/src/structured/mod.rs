@@ -9,6 +9,7 @@ mod words;
 
 use awl_asm::Address;
 use diagnostics::{Source, Span};
+use st::format::format;
 use st::names::{Named, global_in_awl, is_same};
 use st::parser::{is_keyword, parse};
 use st::tree::UnitKind;
@@ -63,8 +64,11 @@ impl Text for StructuredText {
         outline::of(view.source)
     }
 
-    fn formatted(&self, _: View<'_>) -> Result<String, Refusal> {
-        Err(Refusal("Structured Text has no canonical layout".to_owned()))
+    fn formatted(&self, view: View<'_>) -> Result<String, Refusal> {
+        format(view.source).map_err(|errors| {
+            let first = errors.first().map(|error| error.message.as_str()).unwrap_or_default();
+            Refusal(format!("the text has errors of form: {first}"))
+        })
     }
 
     fn written(&self, name: &str) -> String {

@@ -24,6 +24,19 @@ impl Code {
         }
     }
 
+    /// The code of this text, in any letter case.
+    pub fn find(text: &str) -> Option<Code> {
+        Code::all().find(|code| code.text().eq_ignore_ascii_case(text))
+    }
+
+    /// The page that explains it, in Markdown.
+    pub fn page(self) -> &'static str {
+        match self {
+            Code::Awl(code) => code.page(),
+            Code::St(code) => code.page(),
+        }
+    }
+
     /// All codes.
     pub fn all() -> impl Iterator<Item = Code> {
         let awl = awl_asm::diagnostic::Code::ALL.iter().copied().map(Code::Awl);
@@ -41,10 +54,7 @@ impl diagnostics::Code for Code {
     }
 
     fn page(self) -> Option<&'static str> {
-        Some(match self {
-            Code::Awl(code) => code.page(),
-            Code::St(code) => code.page(),
-        })
+        Some(Code::page(self))
     }
 }
 

@@ -114,6 +114,16 @@ pub fn join(sources: Vec<Source>) -> Result<Joined, Vec<Findings>> {
     }
 }
 
+/// A text in the canonical layout of its language; or its errors of form.
+pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
+    match Language::of(&source.name) {
+        Language::Awl => awl_asm::format::format(source)
+            .map_err(|errors| errors.into_iter().map(findings::from_awl).collect()),
+        Language::StructuredText => st::format::format(source)
+            .map_err(|errors| errors.into_iter().map(findings::from_st).collect()),
+    }
+}
+
 /// Whether there are errors.
 pub fn has_errors(findings: &[Findings]) -> bool {
     let mut all = findings.iter().flat_map(|findings| &findings.diagnostics);

@@ -3,7 +3,7 @@
 //! no files, and never runs a program.
 //!
 //! The passes, each of which uses the ones before it only: `lexer`, `parser` ([`tree`]), `check`
-//! ([`model`]), `code`.
+//! ([`model`]), `code`. Beside them: `format`, which lays a text out, and `cursor`, for editors.
 
 mod around;
 mod check;
@@ -11,6 +11,7 @@ mod code;
 pub mod cursor;
 pub mod diagnostic;
 mod fold;
+pub mod format;
 mod lexer;
 pub mod model;
 pub mod names;

@@ -21,7 +21,10 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("client", &["plc-isa", "plc-vm", "plc-link", "awl-asm"]),
     ("flash", &["plc-isa"]),
     ("uno200", &["plc-isa", "diagnostics", "awl-asm", "awl-sim", "analysis", "client", "project"]),
-    ("ide-core", &["plc-isa", "diagnostics", "awl-asm", "awl-sim", "analysis", "client", "flash"]),
+    (
+        "ide-core",
+        &["plc-isa", "diagnostics", "awl-asm", "project", "awl-sim", "analysis", "client", "flash"],
+    ),
     (
         "tests",
         &[
@@ -37,7 +40,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     ("wasm-smoke", &["plc-isa", "awl-asm", "awl-sim", "analysis", "client", "flash"]),
-    ("xtask", &["plc-isa", "plc-vm", "awl-asm", "awl-sim", "uno200"]),
+    ("xtask", &["plc-isa", "plc-vm", "awl-asm", "st", "awl-sim", "uno200"]),
     ("bind", &[]),
 ];
 

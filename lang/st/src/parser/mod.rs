@@ -16,7 +16,7 @@ use crate::tree::{File, Name};
 const DEPTH_MAX: u32 = 60;
 
 /// Words that name nothing.
-pub(crate) const KEYWORDS: [&str; 60] = [
+pub const KEYWORDS: [&str; 60] = [
     "PROGRAM",
     "END_PROGRAM",
     "FUNCTION",
@@ -78,6 +78,9 @@ pub(crate) const KEYWORDS: [&str; 60] = [
     "GOTO",
     "END_ELSIF",
 ];
+
+/// Those of them that are operators.
+pub const OPERATOR_WORDS: [&str; 5] = ["AND", "OR", "XOR", "NOT", "MOD"];
 
 /// Reads a text.
 pub fn parse(source: &Source) -> (File, Vec<Diagnostic>) {
