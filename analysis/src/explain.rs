@@ -14,7 +14,7 @@ use crate::model::Model;
 use crate::structured;
 use crate::subject::{Mention, Subject};
 
-pub(crate) use address::{bits as system_bits, words as address_words};
+pub(crate) use address::{bits as system_bits, points as board_points, words as address_words};
 
 /// What is known of the thing that a word stands for.
 pub(crate) fn explain(mention: &Mention, model: Option<&Model>) -> String {

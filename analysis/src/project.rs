@@ -1,6 +1,6 @@
 //! The texts of a project, which of them make a program, and the questions about them.
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;
 
@@ -37,7 +37,9 @@ use crate::symbols::Symbols;
 #[derive(Debug, Default)]
 pub struct Project {
     texts: BTreeMap<String, Entry>,
-    /// The programs that were asked about since a text has changed, by the names of their texts.
+    /// Which texts are programs, once it was asked since a text has changed.
+    programs: OnceCell<Vec<Vec<String>>>,
+    /// The programs that were asked about since then, by the names of their texts.
     models: RefCell<HashMap<Vec<String>, Option<Rc<Model>>>>,
 }
 
@@ -76,7 +78,7 @@ impl Project {
         let source = Source::new(name, text)?;
         let is_library = language == Language::StructuredText && is_library(&source);
         self.texts.insert(name.to_owned(), Entry { language, source, is_library });
-        self.models.get_mut().clear();
+        self.changed();
         Ok(())
     }
 
@@ -91,6 +93,12 @@ impl Project {
     /// Takes a text away.
     pub fn remove(&mut self, name: &str) {
         self.texts.remove(name);
+        self.changed();
+    }
+
+    /// What was found out about the texts before is not true any more.
+    fn changed(&mut self) {
+        self.programs.take();
         self.models.get_mut().clear();
     }
 
@@ -353,11 +361,7 @@ impl Project {
     /// The programs that a text belongs to.
     fn programs_of(&self, name: &str) -> Vec<Vec<String>> {
         let Some(entry) = self.texts.get(name) else { return Vec::new() };
-        let known = self.texts.iter().map(|(name, entry)| {
-            let Entry { language, ref source, is_library } = *entry;
-            (name.as_str(), Known { language, text: &source.text, is_library })
-        });
-        let mut all = programs(&known.collect());
+        let mut all = self.programs().to_vec();
         match entry.language {
             Language::Awl | Language::StructuredText => {
                 all.retain(|program| program.iter().any(|file| file == name));
@@ -378,6 +382,17 @@ impl Project {
             }
         }
         all
+    }
+
+    /// The programs of the project.
+    fn programs(&self) -> &[Vec<String>] {
+        self.programs.get_or_init(|| {
+            let known = self.texts.iter().map(|(name, entry)| {
+                let Entry { language, ref source, is_library } = *entry;
+                (name.as_str(), Known { language, text: &source.text, is_library })
+            });
+            programs(&known.collect())
+        })
     }
 
     /// The files of a scenario's program.

@@ -393,7 +393,8 @@ fn outlines() {
 fn beside_a_main_program_in_awl() {
     let mut project = Project::new();
     let awl = "//# symbol Go I0.1\nORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD Go\n\
-        CALL Plant\nCALL Fill, Speed\nEND_ORGANIZATION_BLOCK\nSUBROUTINE_BLOCK Fill:SBR0\nVAR_INPUT\nLevel : INT;\nEND_VAR\nBEGIN\nLD SM0.0\n\
+        CALL Plant\nCALL Fill, Speed\nEND_ORGANIZATION_BLOCK\nSUBROUTINE_BLOCK Fill:SBR0\n\
+        VAR_INPUT\nLevel : INT;\nEND_VAR\nBEGIN\nLD SM0.0\n\
         MOVW #Level, MW0\nEND_SUBROUTINE_BLOCK\n";
     let st = "VAR_GLOBAL Speed : INT; END_VAR\nPROGRAM Plant\nSpeed := 3;\nFill(Speed);\n\
         END_PROGRAM\n";

@@ -199,7 +199,8 @@ fn structured_text_of_two_files() {
     let edit = editor.at("textDocument/rename", "main.st", 2, 6).unwrap();
     assert_eq!(edit["documentChanges"].as_array().unwrap().len(), 2);
     let uri = editor.uri("main.st");
-    let params = json!({ "textDocument": { "uri": uri }, "options": { "tabSize": 4, "insertSpaces": true } });
+    let options = json!({ "tabSize": 4, "insertSpaces": true });
+    let params = json!({ "textDocument": { "uri": uri }, "options": options });
     let edits = editor.ask("textDocument/formatting", params).unwrap();
     let laid = edits[0]["newText"].as_str().unwrap();
     assert!(laid.starts_with("PROGRAM Main\nVAR\n    n : INT;\nEND_VAR\n"), "{laid}");
@@ -212,10 +213,9 @@ fn structured_text_of_two_files() {
 
 #[test]
 fn templates_have_holes_where_the_editor_knows_them() {
-    let mut editor = Editor::with(
-        json!({ "textDocument": { "completion": { "completionItem": { "snippetSupport": true } } } }),
-        &[],
-    );
+    let item = json!({ "snippetSupport": true });
+    let mut editor =
+        Editor::with(json!({ "textDocument": { "completion": { "completionItem": item } } }), &[]);
     editor.open("main.st", "PROGRAM Main\n\nEND_PROGRAM\n");
     let items = editor.at("textDocument/completion", "main.st", 1, 0).unwrap();
     let item = items.as_array().unwrap().iter().find(|item| item["label"] == "IF").unwrap().clone();

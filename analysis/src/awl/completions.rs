@@ -11,11 +11,12 @@ use awl_asm::parser::with_sign;
 use awl_asm::select::{taken, takes};
 use awl_asm::symbols::written;
 use diagnostics::Span;
-use plc_isa::{AnalogInput, Area, INSTRUCTIONS, Instruction, Op, Profile, Written};
+use plc_isa::{INSTRUCTIONS, Instruction, Op, Profile, Written};
 
 use crate::answer::{Completion, CompletionKind};
 use crate::explain::{
-    address_words, instruction, operand_names, short, symbol_line, system_bits, value_words,
+    address_words, board_points, instruction, operand_names, short, symbol_line, system_bits,
+    value_words,
 };
 use crate::language::View;
 use crate::model::Model;
@@ -213,22 +214,11 @@ fn unit_at(program: &Program, offset: u32) -> Option<&Unit> {
 /// What the program names, the points of its board, and what the system has.
 fn addresses(model: &Model) -> Vec<Address> {
     let used = model.assembly.usage.accesses.keys().copied();
-    let points = points(model.assembly.program.profile);
+    let points = board_points(model.assembly.program.profile);
     let accumulators = (0..4).map(Address::Accumulator);
     let mut seen = BTreeSet::new();
     let all = used.chain(points).chain(system_bits()).chain(accumulators);
     all.filter(|address| seen.insert(*address)).collect()
-}
-
-/// The inputs and outputs of a board.
-pub(crate) fn points(board: &Profile) -> Vec<Address> {
-    let bits = |area, count| (0..count).map(move |bit| Address::Bit { area, byte: 0, bit });
-    let analog = (0..board.analog_inputs)
-        .flat_map(|at| [AnalogInput::Scaled(at), AnalogInput::Raw(at)].map(Address::Analog));
-    bits(Area::I, board.digital_inputs)
-        .chain(bits(Area::Q, board.digital_outputs))
-        .chain(analog)
-        .collect()
 }
 
 // ---- `//#` lines and declarations

@@ -16,8 +16,6 @@ use crate::language::{Text, View, word_around};
 use crate::structured;
 use crate::subject::Mention;
 
-pub(crate) use completions::points;
-
 /// AWL as the assembler reads it.
 pub(crate) struct Awl;
 

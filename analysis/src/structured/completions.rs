@@ -11,8 +11,7 @@ use super::explain::explain;
 use super::signature::{Called, called, of_unit};
 use super::words::{self, Word, standard_words, type_words};
 use crate::answer::{Completion, CompletionKind};
-use crate::awl::points;
-use crate::explain::address_words;
+use crate::explain::{address_words, board_points};
 use crate::language::View;
 use crate::model::Model;
 
@@ -258,7 +257,7 @@ impl Place<'_> {
 
     /// The points of the board.
     fn addresses(&self) -> Vec<Completion> {
-        let points = points(self.model.assembly.program.profile);
+        let points = board_points(self.model.assembly.program.profile);
         let one = |address: Address| {
             self.one(format!("%{address}"), CompletionKind::Address, address_words(address))
         };
