@@ -2,7 +2,7 @@
 //! tables of the language. They know words, not meanings.
 
 use serde_json::{Value, json};
-use st::model::ELEMENTARY;
+use st::model::{ELEMENTARY, UnitKind};
 use st::parser::{KEYWORDS, OPERATOR_WORDS};
 use st::standard::FUNCTIONS;
 
@@ -63,7 +63,8 @@ fn functions() -> Vec<String> {
 
 fn blocks() -> Vec<String> {
     let standard = st::compile(&[], &st::Around::default()).program;
-    standard.units.into_iter().map(|unit| unit.name).collect()
+    let blocks = standard.units.into_iter().filter(|unit| unit.kind == UnitKind::Block);
+    blocks.map(|unit| unit.name).collect()
 }
 
 /// The patterns in their order: of two that match at the same place the first one counts.

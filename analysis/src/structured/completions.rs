@@ -149,7 +149,9 @@ impl Place<'_> {
     fn values(&self) -> Vec<Completion> {
         let mut all: Vec<Completion> = self.variables().into_iter().map(|(_, one)| one).collect();
         all.extend(self.enumerations());
-        let own = self.program.units.iter().filter(|unit| unit.kind == UnitKind::Function);
+        // Those of the library have rows of their own below.
+        let units = self.program.units.iter().filter(|unit| unit.file.is_some());
+        let own = units.filter(|unit| unit.kind == UnitKind::Function);
         all.extend(own.map(|unit| {
             let result = unit.variables.last().map(|one| one.of_type.to_string());
             let doc = explain(&Named::Unit(unit.name.to_uppercase()), None, self.model);

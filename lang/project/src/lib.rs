@@ -3,6 +3,7 @@
 
 mod findings;
 mod join;
+mod read;
 
 use std::path::Path;
 
@@ -20,15 +21,18 @@ pub enum Language {
     Awl,
     /// Structured Text.
     StructuredText,
+    /// Charts, as text.
+    Chart,
 }
 
 impl Language {
     /// That of a file.
     pub fn of(name: &str) -> Language {
-        let ending = Path::new(name).extension();
-        match ending.is_some_and(|ending| ending.eq_ignore_ascii_case("st")) {
-            true => Language::StructuredText,
-            false => Language::Awl,
+        let ending = Path::new(name).extension().and_then(|ending| ending.to_str());
+        match ending.map(str::to_lowercase).as_deref() {
+            Some("st") => Language::StructuredText,
+            Some("sfc") => Language::Chart,
+            _ => Language::Awl,
         }
     }
 }
@@ -63,6 +67,9 @@ pub struct StructuredText {
     pub files: Vec<usize>,
     /// The subroutines in AWL that it can call.
     pub routines: Vec<st::Routine>,
+    /// What is wrong with texts of other languages that become Structured Text, by their numbers
+    /// among the files.
+    pub others: Vec<(usize, Diagnostic)>,
     /// What the compiler found out.
     pub compiled: st::Compiled,
 }
@@ -84,27 +91,30 @@ pub fn together(sources: &[Source]) -> Result<Together, SourceError> {
     let (awl, texts): (Vec<_>, Vec<_>) = numbered.partition(|(_, source)| is_awl(source));
     let around = join::around(&awl);
     let (files, texts): (Vec<usize>, Vec<Source>) = texts.into_iter().unzip();
-    let compiled = st::compile(&texts, &around);
+    let read::Read { files: trees, of_st, others } = read::read(&texts);
+    let compiled = st::translate(&texts, &trees, of_st, &around);
     let generated = compiled.awl.as_deref().unwrap_or_default();
     let first = awl.first().map(|(_, source)| source).or(texts.first());
     let name = first.map_or_else(String::new, |source| source.name.clone());
     let (text, parts) = join::text(&awl, generated);
-    let st = Some(StructuredText { files, routines: around.routines, compiled });
+    let st = Some(StructuredText { files, routines: around.routines, others, compiled });
     Ok(Together { awl: Source::new(name, text)?, parts, st })
 }
 
 /// Makes one AWL text of the texts of a program. What is wrong with them comes all at once.
 pub fn join(sources: Vec<Source>) -> Result<Joined, Vec<Findings>> {
     let Together { awl, st, .. } = together(&sources).map_err(|_| Vec::new())?;
-    let Some(StructuredText { files, compiled, .. }) = st else {
+    let Some(StructuredText { files, compiled, mut others, .. }) = st else {
         return Ok(Joined { awl, is_generated: false, findings: Vec::new() });
     };
     let texts = files.iter().filter_map(|&file| sources.get(file).cloned());
     let mut findings: Vec<Findings> =
         texts.map(|source| Findings { source, diagnostics: Vec::new() }).collect();
-    for (file, one) in compiled.diagnostics {
+    others.extend(compiled.diagnostics.into_iter().map(|(at, one)| (at, findings::from_st(one))));
+    others.sort_by_key(|(_, one)| one.span);
+    for (file, one) in others {
         if let Some(findings) = findings.get_mut(file) {
-            findings.diagnostics.push(findings::from_st(one));
+            findings.diagnostics.push(one);
         }
     }
     findings.retain(|one| !one.diagnostics.is_empty());
@@ -119,7 +129,7 @@ pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
     match Language::of(&source.name) {
         Language::Awl => awl_asm::format::format(source)
             .map_err(|errors| errors.into_iter().map(findings::from_awl).collect()),
-        Language::StructuredText => st::format::format(source)
+        Language::StructuredText | Language::Chart => st::format::format(source)
             .map_err(|errors| errors.into_iter().map(findings::from_st).collect()),
     }
 }

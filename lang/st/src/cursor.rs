@@ -3,6 +3,7 @@
 
 use diagnostics::Span;
 
+use crate::diagnostic::Diagnostic;
 use crate::lexer::{Kind, Token, cut};
 use crate::parser::is_keyword;
 
@@ -82,12 +83,15 @@ pub fn at(text: &str, offset: usize) -> At {
     let cut = cut(before);
     let mut tokens = cut.tokens;
     tokens.pop();
-    let is_in_comment = cut.comments.last().is_some_and(|last| {
-        let comment = last.text(before);
-        let is_open = comment.starts_with("//")
-            || cut.diagnostics.iter().any(|one| one.span.start == last.start);
-        last.end as usize == before.len() && is_open
-    });
+    // A comment to the end of the line, or what is begun and not closed.
+    let is_last =
+        |span: &&Span| span.end as usize == before.len() && span.text(before).starts_with("//");
+    let is_open = |one: &Diagnostic| {
+        let start = before.get(one.span.start as usize..).unwrap_or("");
+        ["(*", "/*", "{"].iter().any(|sign| start.starts_with(sign))
+    };
+    let is_in_comment = cut.comments.iter().chain(&cut.settings).any(|span| is_last(&span))
+        || cut.diagnostics.iter().any(is_open);
     // The word that is being typed comes last; what it will be is not known.
     let typed = tokens.last().filter(|last| last.span.end as usize == before.len());
     let (word, is_word) = match typed {

@@ -1,4 +1,4 @@
-//! Cuts the text into tokens. Comments, pragmas and settings (`//# ...`) are kept aside. It knows
+//! Cuts the text into tokens. Settings (`//# ...`), pragmas and comments are kept aside. It knows
 //! characters, not the language.
 
 use diagnostics::Span;
@@ -39,13 +39,17 @@ pub struct Token {
 
 /// The tokens of a text; the last one is [`Kind::End`].
 #[derive(Debug)]
-pub(crate) struct Tokens {
-    pub(crate) tokens: Vec<Token>,
+pub struct Tokens {
+    /// In their order.
+    pub tokens: Vec<Token>,
     /// The lines `//# ...`.
-    pub(crate) settings: Vec<Span>,
-    /// Comments and pragmas; settings are among them.
-    pub(crate) comments: Vec<Span>,
-    pub(crate) diagnostics: Vec<Diagnostic>,
+    pub settings: Vec<Span>,
+    /// Pragmas, `{...}`, with their brackets.
+    pub pragmas: Vec<Span>,
+    /// Comments, with what begins and ends them.
+    pub comments: Vec<Span>,
+    /// What is wrong.
+    pub diagnostics: Vec<Diagnostic>,
 }
 
 /// Longest first.
@@ -55,27 +59,35 @@ const SIGNS: [&str; 23] = [
 ];
 
 /// Cuts a text.
-pub(crate) fn cut(text: &str) -> Tokens {
-    let mut lexer =
-        Lexer { text, at: 0, settings: Vec::new(), comments: Vec::new(), diagnostics: Vec::new() };
+pub fn cut(text: &str) -> Tokens {
+    cut_part(text, Span::new(0, text.len()))
+}
+
+/// Cuts a stretch of a text. Places are those in the whole text.
+pub(crate) fn cut_part(text: &str, part: Span) -> Tokens {
+    let text = text.get(..part.end as usize).unwrap_or(text);
+    let mut lexer = Lexer {
+        text,
+        at: part.start as usize,
+        settings: Vec::new(),
+        pragmas: Vec::new(),
+        comments: Vec::new(),
+        diagnostics: Vec::new(),
+    };
     let mut tokens = Vec::new();
     while let Some(token) = lexer.next() {
         tokens.push(token);
     }
     tokens.push(Token { kind: Kind::End, span: Span::new(text.len(), text.len()) });
-    let Lexer { settings, comments, diagnostics, .. } = lexer;
-    Tokens { tokens, settings, comments, diagnostics }
-}
-
-/// Whether what is no token says something.
-fn is_comment(text: &str) -> bool {
-    ["//", "(*", "/*", "{"].iter().any(|start| text.starts_with(start))
+    let Lexer { settings, pragmas, comments, diagnostics, .. } = lexer;
+    Tokens { tokens, settings, pragmas, comments, diagnostics }
 }
 
 struct Lexer<'t> {
     text: &'t str,
     at: usize,
     settings: Vec<Span>,
+    pragmas: Vec<Span>,
     comments: Vec<Span>,
     diagnostics: Vec<Diagnostic>,
 }
@@ -93,12 +105,8 @@ impl<'t> Lexer<'t> {
         loop {
             let start = self.at;
             let first = self.rest().chars().next()?;
-            let kind = self.token(first);
-            let span = Span::new(start, self.at);
-            match kind {
-                Some(kind) => return Some(Token { kind, span }),
-                None if is_comment(span.text(self.text)) => self.comments.push(span),
-                None => {}
+            if let Some(kind) = self.token(first) {
+                return Some(Token { kind, span: Span::new(start, self.at) });
             }
         }
     }
@@ -143,6 +151,8 @@ impl<'t> Lexer<'t> {
         let span = Span::new(start, self.at);
         if span.text(self.text).starts_with("//#") {
             self.settings.push(span);
+        } else {
+            self.comments.push(span);
         }
     }
 
@@ -170,6 +180,7 @@ impl<'t> Lexer<'t> {
             }
             self.at += 2;
             if open.is_empty() {
+                self.comments.push(Span::new(start, self.at));
                 return;
             }
         }
@@ -185,6 +196,7 @@ impl<'t> Lexer<'t> {
                 self.error(Span::new(start, start + 1), "the pragma is not closed: `}` is missing");
             }
         }
+        self.pragmas.push(Span::new(start, self.at));
         rest.starts_with("{every scan}").then_some(Kind::EveryScan)
     }
 

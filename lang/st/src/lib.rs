@@ -12,7 +12,7 @@ pub mod cursor;
 pub mod diagnostic;
 mod fold;
 pub mod format;
-mod lexer;
+pub mod lexer;
 pub mod model;
 pub mod names;
 pub mod parser;
@@ -48,12 +48,28 @@ pub fn compile(sources: &[Source], around: &Around) -> Compiled {
         diagnostics.extend(found.into_iter().map(|one| (number, one)));
         files.push(file);
     }
+    translate(sources, &files, diagnostics, around)
+}
+
+/// Translates a program whose texts are read already: a front end of another language begins here.
+/// `diagnostics` is what was found in the texts so far.
+pub fn translate(
+    sources: &[Source],
+    files: &[tree::File],
+    mut diagnostics: Vec<(usize, Diagnostic)>,
+    around: &Around,
+) -> Compiled {
     let check::Checked { program, diagnostics: found, names } =
-        check::check(sources, &files, around);
+        check::check(sources, files, around);
     diagnostics.extend(found);
+    let has_errors = diagnostics.iter().any(|(_, one)| one.severity() == Severity::Error);
+    let mut awl = None;
+    if !has_errors {
+        let (text, notes) = code::generate(&program, sources, around);
+        awl = Some(text);
+        diagnostics.extend(notes);
+    }
     diagnostics.sort_by_key(|(file, one)| (*file, one.span));
     diagnostics.dedup_by(|a, b| a.0 == b.0 && a.1.span == b.1.span && a.1.message == b.1.message);
-    let has_errors = diagnostics.iter().any(|(_, one)| one.severity() == Severity::Error);
-    let awl = (!has_errors).then(|| code::generate(&program, sources, around));
     Compiled { awl, diagnostics, program, names }
 }

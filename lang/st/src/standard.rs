@@ -46,10 +46,15 @@ pub const FUNCTIONS: &[Standard] = rows! {
     ABS &[("IN", NUMBER)], AS_IN, "The value without its sign", "ABS(-5)";
     SQRT REAL, "REAL", "The square root; of a number below 0 that number", "SQRT(2.0)";
     LN REAL, "REAL", "The natural logarithm; of 0 and below the number itself", "LN(2.0)";
+    LOG REAL, "REAL", "The logarithm to the base of 10; of 0 and below the number itself", "LOG(2.0)";
     EXP REAL, "REAL", "e to the power of IN", "EXP(1.0)";
+    EXPT &[("IN1", "REAL"), ("IN2", NUMBER)], "REAL", "IN1 to the power of IN2, as `**`", "EXPT(2.0, 3)";
     SIN REAL, "REAL", "The sine of an angle in radians", "SIN(1.0)";
     COS REAL, "REAL", "The cosine of an angle in radians", "COS(1.0)";
     TAN REAL, "REAL", "The tangent of an angle in radians", "TAN(1.0)";
+    ASIN REAL, "REAL", "The angle in radians with this sine", "ASIN(0.5)";
+    ACOS REAL, "REAL", "The angle in radians with this cosine", "ACOS(0.5)";
+    ATAN REAL, "REAL", "The angle in radians with this tangent", "ATAN(0.5)";
     TRUNC REAL, "DINT", "The number without what is after its point", "TRUNC(2.7)";
     MIN TWO_NUMBERS, COMMON, "The lowest of its arguments, two or more", "MIN(3, 5)";
     MAX TWO_NUMBERS, COMMON, "The highest of its arguments, two or more", "MAX(3, 5)";

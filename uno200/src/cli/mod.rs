@@ -3,6 +3,7 @@
 mod build;
 mod context;
 mod control;
+mod convert;
 mod explain;
 mod flash;
 mod force;
@@ -58,6 +59,7 @@ fn run(arguments: Arguments) -> Result<u8> {
     let is_good = match command {
         Command::Build(arguments) if arguments.fmt => layout::layout(&arguments),
         Command::Build(arguments) => build::build(&arguments),
+        Command::Convert(arguments) => convert::convert(&arguments),
         Command::Explain { code } => explain::explain(&code).map(|()| true),
         Command::Flash(arguments) => {
             let program = files.open(&arguments.files)?;

@@ -5,7 +5,7 @@ use awl_asm::Address;
 use super::Checker;
 use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{SectionKind, Type, Unit, UnitKind, Variable};
+use crate::model::{Coarse, SectionKind, Type, Unit, UnitKind, Variable};
 use crate::names::Named;
 use crate::tree;
 
@@ -97,7 +97,7 @@ impl<'a> Checker<'a> {
             let message = format!("{}: the result of a function has an elementary type", of_type);
             self.error(Code::NotThere, text.span, message);
         }
-        let initial = of_type.initial();
+        let initial = self.initial(None, text, &of_type);
         self.add(Variable {
             name: unit.name.text.clone(),
             span: unit.name.span,
@@ -130,16 +130,14 @@ impl<'a> Checker<'a> {
                 continue;
             }
             let of_type = self.type_of(&declared.of_type, &enumeration_name(declared));
-            let initial = match &declared.initial {
-                Some(text) => self.initial_value(text, &of_type),
-                None => of_type.initial(),
-            };
+            let initial = self.initial(declared.initial.as_ref(), &declared.of_type, &of_type);
             self.check_section(section, declared, &of_type);
             let at = declared.at.as_ref().and_then(|at| self.address(at, &of_type));
             for name in &declared.names {
                 if self.is_taken(name) {
                     continue;
                 }
+                self.coarse(declared, &of_type);
                 self.add(Variable {
                     name: name.text.clone(),
                     span: name.span,
@@ -153,6 +151,26 @@ impl<'a> Checker<'a> {
                 });
             }
         }
+    }
+
+    /// A variable of these that is added next need not be exact.
+    fn coarse(&mut self, declared: &tree::Declaration, of_type: &Type) {
+        let (Some(span), Some(file)) = (declared.coarse, self.file) else { return };
+        let is_timer = match of_type {
+            Type::Block(number, name) => {
+                let unit = self.program.units.get(*number);
+                unit.is_some_and(|unit| unit.file.is_none()) && ["TON", "TOF"].contains(&&**name)
+            }
+            _ => false,
+        };
+        if !is_timer {
+            let message = format!("`{{coarse}}` changes nothing: no timer can be a {of_type}");
+            let found = Diagnostic::new(Code::Coarse, span, message);
+            self.report(found.help("TON and TOF can be timers of the controller"));
+            return;
+        }
+        let variable = self.unit.map_or(self.program.globals.len(), |_| self.locals().len());
+        self.program.coarse.push(Coarse { unit: self.unit, variable, file, span });
     }
 
     fn is_taken(&mut self, name: &tree::Name) -> bool {
@@ -234,11 +252,13 @@ impl<'a> Checker<'a> {
             self.report(found.help("such as %I0.0, %QB0, %MW3, %VD10, %AIW0"));
             return None;
         };
-        let wanted = match of_type {
+        let wanted = match of_type.base() {
             Type::Bool => "a bit such as %M0.0",
-            Type::Byte => "a byte such as %MB0",
-            Type::Word | Type::Int | Type::Enumeration(_) => "a word such as %MW0",
-            Type::Dword | Type::Dint | Type::Real | Type::Time => "a double word such as %MD0",
+            Type::Byte | Type::Sint | Type::Usint => "a byte such as %MB0",
+            Type::Word | Type::Int | Type::Uint | Type::Enumeration(_) => "a word such as %MW0",
+            Type::Dword | Type::Dint | Type::Udint | Type::Real | Type::Time => {
+                "a double word such as %MD0"
+            }
             Type::Invalid => return None,
             _ => {
                 self.error(Code::NotThere, at.span, format!("{of_type}: not at an address yet"));
@@ -247,13 +267,13 @@ impl<'a> Checker<'a> {
         };
         let fits = match address {
             Address::Bit { .. } => *of_type == Type::Bool,
-            Address::Byte { .. } => *of_type == Type::Byte,
+            Address::Byte { .. } => wanted.starts_with("a byte"),
             Address::Word { .. } | Address::Analog(_) | Address::AnalogOutput(_) => {
                 wanted.starts_with("a word")
             }
             Address::Double { .. } | Address::HighSpeedCounter(_) => wanted.starts_with("a double"),
             Address::Timer(_) | Address::Counter(_) => {
-                matches!(of_type, Type::Bool | Type::Int | Type::Word)
+                matches!(of_type.base(), Type::Bool | Type::Int | Type::Uint | Type::Word)
             }
             _ => false,
         };

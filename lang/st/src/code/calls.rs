@@ -1,5 +1,7 @@
 //! Calls: functions as subroutines, function blocks written out, subroutines in AWL.
 
+use super::hardware::Device;
+use super::logic::Logic;
 use super::timers::Owner;
 use super::writer::Storage;
 use super::{Frame, Generator, Names};
@@ -59,6 +61,13 @@ impl Generator<'_> {
         let program = self.program;
         let Some(unit) = program.units.get(call.block) else { return };
         let frame = self.instance(&call.instance, call.block);
+        if let Names::Static(name) = &frame.names
+            && let Some(device) = self.devices.get(name).cloned()
+        {
+            let name = name.clone();
+            self.device_call(&name, &device, call);
+            return;
+        }
         for (at, value) in &call.inputs {
             self.pass(&frame, *at, value);
         }
@@ -73,6 +82,28 @@ impl Generator<'_> {
         self.frame = around;
         for (at, place) in call.in_outs.iter().chain(&call.outputs) {
             self.take(&frame, *at, place);
+        }
+    }
+
+    /// A call of an instance that is a timer or counter of the controller.
+    fn device_call(&mut self, name: &str, device: &Device, call: &BlockCall) {
+        // A preset is a constant; what else there is are conditions, the counter's reset last.
+        let conditions: Vec<Logic> = call
+            .inputs
+            .iter()
+            .filter(|(_, value)| value.of_type == Type::Bool)
+            .map(|(_, value)| self.lower(value))
+            .collect();
+        for logic in &conditions {
+            self.writer.forget();
+            self.load(logic);
+        }
+        self.writer.boxed_here(device.mnemonic, &format!("{name}, {}", device.preset));
+        self.writer.forget();
+        for (_, place) in &call.outputs {
+            let root = Root::Address(name.to_owned());
+            let value = Place { root, steps: Vec::new(), of_type: place.of_type.clone() };
+            self.store(place, &read(&value));
         }
     }
 
@@ -169,6 +200,9 @@ impl Generator<'_> {
 
     /// What an instance and those in it do at the start of the scan.
     fn ticks(&mut self, block: usize, name: &str, owner: (Owner, usize)) {
+        if self.devices.contains_key(name) {
+            return;
+        }
         let program = self.program;
         let Some(unit) = program.units.get(block) else { return };
         let short = self.short.get(&owner).copied();
@@ -196,5 +230,6 @@ impl Generator<'_> {
 /// What is in a place.
 fn read(place: &Place) -> Expression {
     let kind = ExpressionKind::Read(place.clone());
-    Expression { kind, of_type: place.of_type.clone(), span: diagnostics::Span::default() }
+    let of_type = place.of_type.base().clone();
+    Expression { kind, of_type, span: diagnostics::Span::default() }
 }

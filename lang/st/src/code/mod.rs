@@ -1,8 +1,11 @@
 //! From a checked program to AWL that a person can read.
 
+mod arithmetic;
 mod calls;
+mod compare;
 mod control;
 mod convert;
+mod hardware;
 mod logic;
 mod memory;
 mod places;
@@ -17,7 +20,9 @@ use std::collections::HashSet;
 use diagnostics::{Source, Span};
 
 use crate::around::Around;
-use crate::model::{Program, SectionKind, Type, UnitKind};
+use crate::diagnostic::Diagnostic;
+use crate::model::{Element, ExpressionKind, Program, SectionKind, Type, UnitKind};
+use hardware::Devices;
 pub(crate) use memory::safe_name;
 use timers::Short;
 use writer::Writer;
@@ -52,6 +57,8 @@ struct Generator<'a> {
     program: &'a Program,
     sources: &'a [Source],
     short: Short,
+    /// Instances that are timers and counters of the controller.
+    devices: Devices,
     /// Names that stand for addresses.
     located: HashSet<String>,
     writer: Writer,
@@ -60,8 +67,13 @@ struct Generator<'a> {
     is_tick: bool,
 }
 
-/// Writes a checked program.
-pub(crate) fn generate(program: &Program, sources: &[Source], around: &Around) -> String {
+/// Writes a checked program. Beside it what its author should know of timers, with the number of
+/// the file.
+pub(crate) fn generate(
+    program: &Program,
+    sources: &[Source],
+    around: &Around,
+) -> (String, Vec<(usize, Diagnostic)>) {
     let frame = Frame {
         unit: 0,
         names: Names::Local,
@@ -71,10 +83,12 @@ pub(crate) fn generate(program: &Program, sources: &[Source], around: &Around) -
         end: None,
         loops: Vec::new(),
     };
+    let (devices, notes) = hardware::devices(program, around);
     let mut generator = Generator {
         program,
         sources,
         short: timers::short_timers(program),
+        devices,
         located: located(program),
         writer: Writer::default(),
         frame,
@@ -88,13 +102,32 @@ pub(crate) fn generate(program: &Program, sources: &[Source], around: &Around) -
     } else {
         lines.extend(generator.main());
     }
-    for number in 0..program.units.len() {
-        if program.units.get(number).is_some_and(|unit| unit.kind == UnitKind::Function) {
+    let called = called(program);
+    for (number, unit) in program.units.iter().enumerate() {
+        let is_needed = unit.file.is_some() || called.contains(&number);
+        if unit.kind == UnitKind::Function && is_needed {
             lines.extend(generator.function(number, routine));
             routine += 1;
         }
     }
-    lines.join("\n") + "\n"
+    (lines.join("\n") + "\n", notes)
+}
+
+/// The functions that are called by what is in the files, and by those.
+fn called(program: &Program) -> HashSet<usize> {
+    let mut found = HashSet::new();
+    let is_written = |unit: &&crate::model::Unit| unit.file.is_some();
+    let mut open: Vec<&crate::model::Unit> = program.units.iter().filter(is_written).collect();
+    while let Some(unit) = open.pop() {
+        crate::check::each_expression(&unit.body, &mut |expression| {
+            if let ExpressionKind::Call(number, _) = expression.kind
+                && found.insert(number)
+            {
+                open.extend(program.units.get(number));
+            }
+        });
+    }
+    found
 }
 
 fn located(program: &Program) -> HashSet<String> {
@@ -248,8 +281,18 @@ impl Generator<'_> {
 
     /// What follows in the AWL text belongs to a statement, if that is of a file.
     fn begin(&mut self, span: Span) {
+        if span == Span::default() {
+            return;
+        }
         if let Some(source) = self.frame.file.and_then(|file| self.sources.get(file)) {
             self.writer.statement(source, span);
+        }
+    }
+
+    /// What follows in the AWL text belongs to an element of a drawing.
+    fn begin_element(&mut self, element: &Element) {
+        if let Some(source) = self.frame.file.and_then(|file| self.sources.get(file)) {
+            self.writer.element(&source.name, element);
         }
     }
 }
@@ -258,8 +301,7 @@ impl Generator<'_> {
 fn local_type(kind: &Type) -> String {
     match kind {
         Type::Time => "DINT".to_owned(),
-        Type::Enumeration(_) => "INT".to_owned(),
-        _ => kind.to_string(),
+        _ => memory::type_name(kind),
     }
 }
 

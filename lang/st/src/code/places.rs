@@ -47,6 +47,12 @@ impl Generator<'_> {
         let (mut bounds, mut indexes) = (Vec::new(), Vec::new());
         for step in &place.steps {
             match (step, kind.clone()) {
+                // A timer's Q is its bit, a counter's Q its bit and CV its word, by one name.
+                (Step::Member(at), Type::Block(number, _)) if self.devices.contains_key(&text) => {
+                    let unit = self.program.units.get(number);
+                    let Some(member) = unit.and_then(|unit| unit.variables.get(*at)) else { break };
+                    kind = member.of_type.clone();
+                }
                 (Step::Member(at), Type::Struct(found)) => {
                     let Some(member) = found.members.get(*at) else { break };
                     text = format!("{text}.{}", member.name);

@@ -64,7 +64,8 @@ fn is_timer(program: &Program, block: usize) -> bool {
     unit.is_some_and(|unit| unit.file.is_none() && !unit.every_scan.is_empty())
 }
 
-fn each(statements: &[Statement], found: &mut dyn FnMut(&Statement)) {
+/// Each statement, those in others too.
+pub(super) fn each<'s>(statements: &'s [Statement], found: &mut dyn FnMut(&'s Statement)) {
     for statement in statements {
         found(statement);
         match &statement.kind {

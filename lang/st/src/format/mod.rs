@@ -62,8 +62,12 @@ impl Piece {
 fn pieces(text: &str) -> Vec<Piece> {
     let cut = cut(text);
     let tokens = cut.tokens.into_iter().filter(|token| token.kind != Kind::End);
-    let comments = cut.comments.into_iter().map(Piece::Comment);
-    let mut all: Vec<Piece> = tokens.map(Piece::Token).chain(comments).collect();
+    // This pragma is a token.
+    let is_token = |span: &Span| span.text(text).starts_with("{every scan}");
+    let pragmas = cut.pragmas.iter().copied().filter(|span| !is_token(span));
+    let asides = cut.settings.iter().chain(&cut.comments).copied().chain(pragmas);
+    let asides = asides.map(Piece::Comment);
+    let mut all: Vec<Piece> = tokens.map(Piece::Token).chain(asides).collect();
     all.sort_by_key(|piece| piece.span());
     all
 }

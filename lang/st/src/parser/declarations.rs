@@ -1,5 +1,7 @@
 //! Units, sections of variables, types.
 
+use diagnostics::Span;
+
 use super::expressions::joined;
 use super::{Failed, Outcome, Parser};
 use crate::diagnostic::{Code, Diagnostic};
@@ -176,7 +178,9 @@ impl Parser<'_> {
         }
         if self.token().kind == Kind::Word && super::is_keyword(self.word_at(0)) {
             let ends = ["END_VAR", "END_STRUCT"];
-            if matches!(self.ahead(1).kind, Kind::Sign(":" | ",")) && !self.is_one_of(&ends) {
+            let is_declared = matches!(self.ahead(1).kind, Kind::Sign(":" | ","))
+                || self.word_at(1).eq_ignore_ascii_case("AT");
+            if is_declared && !self.is_one_of(&ends) {
                 let word = self.word_at(0).to_owned();
                 let message = format!("{word}: is a word of the language and names no variable");
                 self.report(Diagnostic::new(Code::Declaration, self.token().span, message));
@@ -189,6 +193,7 @@ impl Parser<'_> {
     }
 
     fn declaration(&mut self) -> Outcome<Declaration> {
+        let before = self.previous().end;
         let mut names = vec![self.name("a name")?];
         while self.take_sign(",") {
             names.push(self.name("a name")?);
@@ -204,7 +209,14 @@ impl Parser<'_> {
         self.need_sign(":")?;
         let of_type = self.type_text();
         let initial = self.initial_value()?;
-        Ok(Declaration { names, at, of_type, initial })
+        let coarse = self.coarse_within(before, self.token().span.start);
+        Ok(Declaration { names, at, of_type, initial, coarse })
+    }
+
+    /// The pragma `{coarse}` between two places in the text, which is taken.
+    fn coarse_within(&mut self, start: u32, end: u32) -> Option<Span> {
+        let found = self.coarse.iter().position(|one| start <= one.start && one.end <= end)?;
+        Some(self.coarse.remove(found))
     }
 
     fn initial_value(&mut self) -> Outcome<Option<crate::tree::Expression>> {
@@ -273,7 +285,8 @@ impl Parser<'_> {
         }
         if self.is_word("STRUCT") {
             let opened = self.step().span;
-            let members = self.declarations();
+            let mut members = self.declarations();
+            self.coarse.extend(members.iter_mut().filter_map(|member| member.coarse.take()));
             if !self.take_word("END_STRUCT") {
                 self.missing("END_STRUCT", Some((opened, "for this one")));
             }
@@ -283,13 +296,20 @@ impl Parser<'_> {
             return self.enumeration();
         }
         let name = self.name("a type")?;
-        if self.is_sign("(") || self.is_sign("[") {
+        if name.text.to_ascii_uppercase().ends_with("STRING") {
             let close = if self.is_sign("(") { ")" } else { "]" };
-            let is_text = name.text.to_ascii_uppercase().ends_with("STRING");
-            while !self.is_at_end() && !self.is_sign(";") && !self.take_sign(close) {
+            let has_length = self.is_sign("(") || self.is_sign("[");
+            while has_length && !self.is_at_end() && !self.is_sign(";") && !self.take_sign(close) {
                 self.step();
             }
-            return Ok(if is_text { TypeTextKind::Text } else { TypeTextKind::Range });
+            return Ok(TypeTextKind::Text);
+        }
+        if self.take_sign("(") {
+            let low = self.expression()?;
+            self.need_sign("..")?;
+            let high = self.expression()?;
+            self.need_sign(")")?;
+            return Ok(TypeTextKind::Range(name.text, Box::new((low, high))));
         }
         Ok(TypeTextKind::Named(name.text))
     }
