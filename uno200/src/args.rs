@@ -245,7 +245,7 @@ pub struct Build {
 /// Arguments of `convert`.
 #[derive(Debug, Args)]
 pub struct Convert {
-    /// A chart of SFCEdit (.xml)
+    /// A chart of SFCEdit (.xml); of one as text (.sfc) the summary
     #[arg(value_name = "IN")]
     pub input: PathBuf,
     /// Where the result goes; without it to standard output

@@ -81,6 +81,7 @@ pub(super) fn section(kind: SectionKind, names: Vec<(Name, &str)>) -> Section {
         names: vec![name],
         at: None,
         initial: None,
+        coarse: None,
     };
     let declarations = names.into_iter().map(declaration).collect();
     Section { kind, is_constant: false, is_retained: false, declarations }

@@ -83,7 +83,11 @@ impl Walk<'_> {
                     }
                 }
             }
-            StatementKind::Exit | StatementKind::Continue | StatementKind::Return => {}
+            StatementKind::AddElapsed(place) => self.writes(place),
+            StatementKind::Element(_)
+            | StatementKind::Exit
+            | StatementKind::Continue
+            | StatementKind::Return => {}
         }
     }
 

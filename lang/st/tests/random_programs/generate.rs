@@ -138,12 +138,15 @@ impl Generator {
     fn block(&mut self) -> String {
         self.in_block = true;
         let mut text = String::from(
-            "FUNCTION_BLOCK Block\nVAR_INPUT p : BOOL; a : INT; END_VAR\nVAR_OUTPUT q : BOOL; \
-             b : INT; END_VAR\nVAR_IN_OUT c : INT; END_VAR\nVAR d : DINT; delay : TON; \
+            "FUNCTION_BLOCK Block\nVAR_INPUT p : BOOL; a : INT; row : Row; END_VAR\n\
+             VAR_OUTPUT q : BOOL; b : INT; twin : Pair; END_VAR\n\
+             VAR_IN_OUT c : INT; both : Pair; END_VAR\nVAR d : DINT; delay : TON; \
              END_VAR\n",
         );
         for _ in 0..self.rng.usize(1..5) {
-            text += &match self.rng.u8(..5) {
+            text += &match self.rng.u8(..7) {
+                5 => format!("both.x := {};\n", self.whole("INT")),
+                6 => self.pick(&["twin := both;\n", "twin.z := a;\n"]).to_owned(),
                 0 => format!("b := {};\n", self.whole("INT")),
                 1 => format!("q := {};\n", self.condition()),
                 2 => format!("IF {} THEN c := {}; END_IF;\n", self.condition(), self.whole("INT")),
@@ -168,7 +171,7 @@ impl Generator {
         }
         if self.in_block {
             return match kind {
-                "INT" => self.pick(&["a", "b", "c", "gi"]),
+                "INT" => self.pick(&["a", "b", "c", "gi", "both.x", "row[b]", "twin.z"]),
                 _ => self.pick(&["d", "gd"]),
             }
             .to_owned();
@@ -375,8 +378,17 @@ impl Generator {
             3 => format!("ton2(IN := {condition}, PT := gt, Q => q);\n"),
             4 => format!("count1(CU := {condition}, R := gq, PV := gi, CV => b);\n"),
             5 => format!("edge1(CLK := {condition}, Q => p);\n"),
-            6 => format!("one(p := {condition}, a := {}, c := a, b => b);\n", self.whole("INT")),
-            _ => format!("two({condition}, {}, c := list[2]);\n", self.whole("INT")),
+            6 => {
+                let whole = self.whole("INT");
+                format!(
+                    "one(p := {condition}, a := {whole}, row := row2, c := a, both := pair, \
+                     b => b, twin => pairs[gi]);\n"
+                )
+            }
+            _ => {
+                let whole = self.whole("INT");
+                format!("two({condition}, {whole}, c := list[2], both := twin2);\n")
+            }
         }
     }
 
