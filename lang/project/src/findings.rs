@@ -37,6 +37,7 @@ impl Code {
         match self {
             Code::Awl(code) => code.page(),
             Code::St(code) => code.page(),
+            Code::Chart(code) => code.page(),
         }
     }
 
