@@ -15,7 +15,7 @@ pub(crate) fn explain(named: &Named, address: Option<Address>, model: &Model) ->
     let mut text = match named {
         Named::Global(name) => {
             let is_it = |one: &&Variable| {
-                is_same(&one.name, name) || is_same(&st::names::global_in_awl(&one.name), name)
+                is_same(&one.name, name) || is_same(&st::names::safe_name(&one.name), name)
             };
             let variable = program.globals.iter().find(is_it)?;
             return Some(of_global(variable, address, model));

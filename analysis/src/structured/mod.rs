@@ -10,7 +10,7 @@ mod words;
 use awl_asm::Address;
 use diagnostics::{Source, Span};
 use st::format::format;
-use st::names::{Named, global_in_awl, is_same};
+use st::names::{Named, is_same, safe_name};
 use st::parser::{is_keyword, parse};
 use st::tree::UnitKind;
 
@@ -93,7 +93,7 @@ fn mention(span: Span, named: &Named, model: &Model) -> Mention {
     };
     let (subject, address) = match named {
         Named::Global(name) => {
-            let name = global_in_awl(name).to_lowercase();
+            let name = safe_name(name).to_lowercase();
             let address = symbol(&name);
             (Subject::Symbol(name), address)
         }

@@ -3,9 +3,9 @@
 
 use std::ops::Range;
 
+use awl_asm::Address;
 use diagnostics::Span;
 
-use crate::code::safe_name;
 use crate::model::{Program, Type, Unit, UnitKind, Variable};
 
 /// What a name stands for. Names are in capitals: letter case says nothing.
@@ -129,9 +129,13 @@ impl Program {
     }
 }
 
-/// The name of a global variable in AWL.
-pub fn global_in_awl(name: &str) -> String {
-    safe_name(name)
+/// A name in AWL: one that cannot be taken for an address or a constant.
+pub fn safe_name(name: &str) -> String {
+    let is_constant = ["ON", "OFF", "TRUE", "FALSE"].contains(&name.to_uppercase().as_str());
+    match Address::parse(name).is_ok() || is_constant {
+        true => format!("{name}_"),
+        false => name.to_owned(),
+    }
 }
 
 /// What is in an array; of anything else itself.

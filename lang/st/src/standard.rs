@@ -46,9 +46,11 @@ pub const FUNCTIONS: &[Standard] = rows! {
     ABS &[("IN", NUMBER)], AS_IN, "The value without its sign", "ABS(-5)";
     SQRT REAL, "REAL", "The square root; of a number below 0 that number", "SQRT(2.0)";
     LN REAL, "REAL", "The natural logarithm; of 0 and below the number itself", "LN(2.0)";
-    LOG REAL, "REAL", "The logarithm to the base of 10; of 0 and below the number itself", "LOG(2.0)";
+    LOG REAL, "REAL", "The logarithm to the base of 10; of 0 and below the number itself",
+        "LOG(2.0)";
     EXP REAL, "REAL", "e to the power of IN", "EXP(1.0)";
-    EXPT &[("IN1", "REAL"), ("IN2", NUMBER)], "REAL", "IN1 to the power of IN2, as `**`", "EXPT(2.0, 3)";
+    EXPT &[("IN1", "REAL"), ("IN2", NUMBER)], "REAL", "IN1 to the power of IN2, as `**`",
+        "EXPT(2.0, 3)";
     SIN REAL, "REAL", "The sine of an angle in radians", "SIN(1.0)";
     COS REAL, "REAL", "The cosine of an angle in radians", "COS(1.0)";
     TAN REAL, "REAL", "The tangent of an angle in radians", "TAN(1.0)";
