@@ -15,6 +15,8 @@ const EXAMPLES: &str = "\
 Examples:
   uno200 flash lamp.awl --with-firmware
   uno200 build lamp.st -o lamp.awl
+  uno200 build --fmt lamp.st -o lamp.st
+  uno200 explain E0205
   uno200 status
   uno200 watch I0.0 MW3 T37.cv --every 100ms
   uno200 --tcp 127.0.0.1:1502 set MW3=5 Q0.0=1
@@ -105,6 +107,12 @@ pub enum Command {
     Build(Build),
     /// Converts a chart into Structured Text for a target, or tells what is in it
     Convert(Convert),
+    /// Explains the code of an error or warning
+    Explain {
+        /// As it is printed, such as E0205
+        #[arg(value_name = "CODE")]
+        code: String,
+    },
     /// Writes a program to the board, and asks the board then whether it is in force
     Flash(Flash),
     /// Shows the program with power flow and values beside every line
@@ -223,9 +231,13 @@ pub struct Build {
     /// As machine code
     #[arg(long)]
     pub native: bool,
-    /// Writes nothing
+    /// Writes nothing; with --fmt tells whether the text is in canonical layout
     #[arg(long)]
     pub check: bool,
+    /// Writes the text in canonical layout instead, to standard output without -o, which may be
+    /// the file itself
+    #[arg(long, conflicts_with = "native")]
+    pub fmt: bool,
     /// Replaces an AWL file that is there
     #[arg(long)]
     pub overwrite: bool,

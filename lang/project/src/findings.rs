@@ -30,6 +30,20 @@ impl Code {
         }
     }
 
+    /// The code of this text, in any letter case.
+    pub fn find(text: &str) -> Option<Code> {
+        Code::all().find(|code| code.text().eq_ignore_ascii_case(text))
+    }
+
+    /// The page that explains it, in Markdown.
+    pub fn page(self) -> &'static str {
+        match self {
+            Code::Awl(code) => code.page(),
+            Code::St(code) => code.page(),
+            Code::Chart(code) => code.page(),
+        }
+    }
+
     /// All codes.
     pub fn all() -> impl Iterator<Item = Code> {
         let awl = awl_asm::diagnostic::Code::ALL.iter().copied().map(Code::Awl);
@@ -49,12 +63,16 @@ impl diagnostics::Code for Code {
     }
 
     fn page(self) -> Option<&'static str> {
+<<<<<<< HEAD
         Some(match self {
             Code::Awl(code) => code.page(),
             Code::St(code) => code.page(),
             Code::Chart(code) => code.page(),
             Code::Block(code) => code.page(),
         })
+=======
+        Some(Code::page(self))
+>>>>>>> 617b3bc602f4f365dbd5cf40cd0eb60b797553e9
     }
 }
 

@@ -16,7 +16,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("chart", &["diagnostics", "awl-asm", "st"]),
     ("fb", &["diagnostics", "st"]),
     ("project", &["diagnostics", "awl-asm", "st", "chart", "fb"]),
-    ("analysis", &["plc-isa", "diagnostics", "awl-asm", "awl-sim"]),
+    ("analysis", &["plc-isa", "diagnostics", "awl-asm", "st", "project", "awl-sim"]),
     ("simavr", &[]),
     ("awl-sim", &["plc-isa", "plc-vm", "plc-link", "diagnostics", "awl-asm", "project", "simavr"]),
     ("virtual-uno", &["simavr"]),
@@ -37,7 +37,10 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "ide-site",
         ],
     ),
-    ("ide-core", &["plc-isa", "diagnostics", "awl-asm", "awl-sim", "analysis", "client", "flash"]),
+    (
+        "ide-core",
+        &["plc-isa", "diagnostics", "awl-asm", "project", "awl-sim", "analysis", "client", "flash"],
+    ),
     (
         "tests",
         &[
@@ -53,7 +56,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     ("wasm-smoke", &["plc-isa", "awl-asm", "awl-sim", "analysis", "client", "flash"]),
-    ("xtask", &["plc-isa", "plc-vm", "awl-asm", "awl-sim", "uno200", "ide-site"]),
+    ("xtask", &["plc-isa", "plc-vm", "awl-asm", "st", "awl-sim", "uno200", "ide-site"]),
     ("bind", &[]),
 ];
 
