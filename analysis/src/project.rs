@@ -168,7 +168,8 @@ impl Project {
         let programs = self.programs_of(name);
         for program in programs.iter().map(Some).chain(programs.is_empty().then_some(None)) {
             let model = program.and_then(|program| self.model(program));
-            let view = View { source, model: model.as_deref(), missing: &missing };
+            let other = |name: &str| self.source(name).map(|source| source.text.as_str());
+            let view = View { source, model: model.as_deref(), other: &other, missing: &missing };
             let found = text_of(*language).problems(view);
             all.extend(found.into_iter().filter(|one| !all.contains(one)).collect::<Vec<_>>());
         }
@@ -391,7 +392,7 @@ impl Project {
                     let file = source.and_then(|source| plant_file_of(&source.text));
                     file.is_some_and(|file| joined(scenario, file) == name)
                 });
-                scenarios.flat_map(|scenario| self.programs_of(scenario)).collect()
+                all = scenarios.flat_map(|scenario| self.programs_of(scenario)).collect();
             }
             Language::Symbols => {
                 all.retain(|program| program.iter().any(|file| is_table_of(name, file)));

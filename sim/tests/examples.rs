@@ -77,7 +77,8 @@ fn every_example_does_what_its_scenario_expects() {
 fn in_folder(folder: &str) -> Vec<String> {
     let entries = fs::read_dir(examples().join(folder)).unwrap().map(|entry| entry.unwrap().path());
     let scenarios = entries.filter(|path| path.extension().is_some_and(|found| found == "scn"));
-    let name = |path: PathBuf| Path::new(folder).join(path.file_stem().unwrap()).display().to_string();
+    let name =
+        |path: PathBuf| Path::new(folder).join(path.file_stem().unwrap()).display().to_string();
     scenarios.map(name).collect()
 }
 

@@ -36,14 +36,14 @@ pub(super) fn at(view: View<'_>, offset: usize) -> Vec<Completion> {
     }
 }
 
-struct Place<'p> {
-    view: View<'p>,
-    model: &'p Model,
-    program: &'p Program,
+struct Place<'v, 'p> {
+    view: View<'v>,
+    model: &'v Model,
+    program: &'v Program,
     at: &'p At,
 }
 
-impl Place<'_> {
+impl Place<'_, '_> {
     fn one(
         &self,
         label: impl Into<String>,

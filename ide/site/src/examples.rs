@@ -1,7 +1,5 @@
 //! The examples as projects of the page, and the list of them.
 
-use std::path::Path;
-
 use serde_json::json;
 
 use crate::exercises::exercises;
@@ -58,13 +56,14 @@ fn project(folder: &str, stem: &str, ending: &str) -> String {
     }
     // The shorter ones first: the program and the scenario that is called like it.
     own.sort_by_key(|(path, _)| (path.len(), *path));
-    let name = |path: &&str| Path::new(path).file_name().unwrap_or_default().to_string_lossy();
-    let file = |(path, bytes): &&(&str, &[u8])| {
+    let name = |path: &'static str| path.rsplit('/').next().unwrap_or(path);
+    let file = |one: &&'static (&'static str, &'static [u8])| {
+        let (path, bytes) = *one;
         json!({ "name": name(path), "text": String::from_utf8_lossy(bytes) })
     };
     let files: Vec<_> = own.iter().map(file).collect();
     let described = format!("{stem}.plant");
-    let has_plant = own.iter().any(|(path, _)| name(path) == described.as_str());
+    let has_plant = own.iter().any(|(path, _)| name(path) == described);
     let plant = plant_of(stem).or_else(|| has_plant.then_some(described.as_str()));
     json!({ "files": files, "main": format!("{stem}.{ending}"), "plant": plant }).to_string()
 }

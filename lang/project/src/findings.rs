@@ -41,6 +41,7 @@ impl Code {
             Code::Awl(code) => code.page(),
             Code::St(code) => code.page(),
             Code::Chart(code) => code.page(),
+            Code::Block(code) => code.page(),
         }
     }
 
@@ -63,16 +64,7 @@ impl diagnostics::Code for Code {
     }
 
     fn page(self) -> Option<&'static str> {
-<<<<<<< HEAD
-        Some(match self {
-            Code::Awl(code) => code.page(),
-            Code::St(code) => code.page(),
-            Code::Chart(code) => code.page(),
-            Code::Block(code) => code.page(),
-        })
-=======
         Some(Code::page(self))
->>>>>>> 617b3bc602f4f365dbd5cf40cd0eb60b797553e9
     }
 }
 

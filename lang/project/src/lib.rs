@@ -93,14 +93,8 @@ pub fn together(sources: &[Source]) -> Result<Together, SourceError> {
     let numbered = sources.iter().cloned().enumerate();
     let (awl, texts): (Vec<_>, Vec<_>) = numbered.partition(|(_, source)| is_awl(source));
     let around = join::around(&awl);
-<<<<<<< HEAD
-    let read::Read { files, of_st, mut others } = read::read(&texts, awl.is_empty());
-    let compiled = st::translate(&texts, &files, of_st, &around);
-    let name = awl.iter().chain(&texts).next().map_or("program", |source| source.name.as_str());
-    let name = name.to_owned();
-=======
     let (files, texts): (Vec<usize>, Vec<Source>) = texts.into_iter().unzip();
-    let read::Read { files: trees, of_st, others } = read::read(&texts);
+    let read::Read { files: trees, of_st, others } = read::read(&texts, awl.is_empty());
     let compiled = st::translate(&texts, &trees, of_st, &around);
     let generated = compiled.awl.as_deref().unwrap_or_default();
     let first = awl.first().map(|(_, source)| source).or(texts.first());
@@ -117,7 +111,6 @@ pub fn join(sources: Vec<Source>) -> Result<Joined, Vec<Findings>> {
         return Ok(Joined { awl, is_generated: false, findings: Vec::new() });
     };
     let texts = files.iter().filter_map(|&file| sources.get(file).cloned());
->>>>>>> 617b3bc602f4f365dbd5cf40cd0eb60b797553e9
     let mut findings: Vec<Findings> =
         texts.map(|source| Findings { source, diagnostics: Vec::new() }).collect();
     others.extend(compiled.diagnostics.into_iter().map(|(at, one)| (at, findings::from_st(one))));
@@ -139,9 +132,28 @@ pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
     match Language::of(&source.name) {
         Language::Awl => awl_asm::format::format(source)
             .map_err(|errors| errors.into_iter().map(findings::from_awl).collect()),
-        Language::StructuredText | Language::Chart => st::format::format(source)
+        Language::StructuredText => st::format::format(source)
             .map_err(|errors| errors.into_iter().map(findings::from_st).collect()),
+        Language::Chart => {
+            let chart::text::Reading { document, diagnostics, .. } = chart::text::read(source);
+            let errors = errors_of(diagnostics, findings::from_chart);
+            if errors.is_empty() { Ok(chart::text::write(&document)) } else { Err(errors) }
+        }
+        Language::Block => {
+            let fb::xml::Read { block, diagnostics } = fb::xml::read(source);
+            let errors = errors_of(diagnostics, findings::from_block);
+            block.map(|block| fb::xml::write(&block)).ok_or(errors)
+        }
     }
+}
+
+/// The errors among what was found, without the warnings.
+fn errors_of<C: diagnostics::Code>(
+    found: Vec<diagnostics::Diagnostic<C>>,
+    of_all: fn(diagnostics::Diagnostic<C>) -> Diagnostic,
+) -> Vec<Diagnostic> {
+    let errors = found.into_iter().filter(|one| one.severity() == Severity::Error);
+    errors.map(of_all).collect()
 }
 
 /// Whether there are errors.

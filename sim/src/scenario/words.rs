@@ -51,7 +51,7 @@ pub const STATEMENTS: [Word; 10] = [
 ];
 
 /// What can follow the time of an `at`, beside values that are set.
-pub const AFTER_TIME: [Word; 6] = [
+pub const AFTER_TIME: [Word; 7] = [
     row("expect", "expect Q0.1 = 0, MW3 = 200..210", "What must be true at that time."),
     row(
         "within",

@@ -149,10 +149,7 @@ impl Documents {
             None => false,
             Some(Language::Symbols) => self.project.is_table(&name),
             Some(
-                Language::Awl
-                | Language::StructuredText
-                | Language::Scenario
-                | Language::Plant,
+                Language::Awl | Language::StructuredText | Language::Scenario | Language::Plant,
             ) => true,
         };
         let is_file =

@@ -2,7 +2,7 @@
 //! threads, clocks or environment, and no random numbers that the operating system seeds.
 
 /// Where such libraries are.
-const LIBRARIES: [&str; 13] = [
+const LIBRARIES: &[&str] = &[
     "plc/isa/src/",
     "plc/vm/src/",
     "plc/link/src/",

@@ -16,7 +16,7 @@ use crate::problem::Problem;
 
 const EVERY_FORM: &str = "write every 2s I0.0 = 1 from 1s to 9s";
 /// What can follow a time beside an assignment.
-const WORDS_AFTER_TIME: [&str; 6] = names(&AFTER_TIME);
+const WORDS_AFTER_TIME: [&str; 7] = names(&AFTER_TIME);
 /// Most characters of a string.
 const TEXT_MAX: usize = 254;
 
