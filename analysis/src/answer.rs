@@ -112,6 +112,47 @@ pub struct Completion {
     pub doc: String,
     /// What is typed already, and what comes in its place.
     pub edit: Edit,
+    /// Where something is to be written in that, in bytes, in order; after the last one it goes on.
+    pub holes: Vec<usize>,
+}
+
+impl Completion {
+    /// One that writes its label.
+    pub(crate) fn new(
+        label: impl Into<String>,
+        kind: CompletionKind,
+        detail: impl Into<String>,
+        span: Span,
+    ) -> Completion {
+        let label = label.into();
+        let edit = Edit { span, text: label.clone() };
+        let (detail, doc, holes) = (detail.into(), String::new(), Vec::new());
+        Completion { label, kind, detail, doc, edit, holes }
+    }
+
+    /// The same, but it writes a text in which each `|` is a hole.
+    pub(crate) fn writes(mut self, template: &str) -> Completion {
+        let pieces: Vec<&str> = template.split('|').collect();
+        self.edit.text = pieces.concat();
+        let lengths = pieces.iter().map(|piece| piece.len());
+        let ends = lengths.scan(0, |end, len| {
+            *end += len;
+            Some(*end)
+        });
+        self.holes = ends.take(pieces.len() - 1).collect();
+        self
+    }
+}
+
+/// What a call takes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Signature {
+    /// All of it: `TON(IN : BOOL, PT : TIME)`.
+    pub label: String,
+    /// Where its parameters are in that, in bytes.
+    pub parameters: Vec<(usize, usize)>,
+    /// The number of the one that is being written, if it is known.
+    pub active: Option<usize>,
 }
 
 /// What a completion is.

@@ -8,11 +8,13 @@ use awl_asm::ast::{Statement, Symbol, UnitId, Value, Variable};
 use awl_asm::declared::Declared;
 use awl_asm::manual;
 use plc_isa::{Instruction, MODULE_NAMES, Op, PowerFlow};
+use st::Named;
 
-use crate::language::Model;
+use crate::model::Model;
+use crate::structured;
 use crate::subject::{Mention, Subject};
 
-pub(crate) use address::{bits as system_bits, words as address_words};
+pub(crate) use address::{bits as system_bits, points as board_points, words as address_words};
 
 /// What is known of the thing that a word stands for.
 pub(crate) fn explain(mention: &Mention, model: Option<&Model>) -> String {
@@ -25,6 +27,7 @@ pub(crate) fn explain(mention: &Mention, model: Option<&Model>) -> String {
         Subject::Label(_, number) => format!("**{number}**: a label, where `JMP {number}` goes"),
         Subject::Word(text) => text.clone(),
         Subject::File(name) => format!("The program {name}"),
+        Subject::Structured(named) => structured(named, mention.address, model),
     }
 }
 
@@ -108,6 +111,10 @@ pub(crate) fn value_words(value: &Value) -> String {
 }
 
 fn of_symbol(name: &str, address: Option<Address>, model: Option<&Model>) -> String {
+    let global = Named::Global(name.to_uppercase());
+    if let Some(text) = model.and_then(|model| structured::explain(&global, address, model)) {
+        return text;
+    }
     let Some((model, symbol)) = model.and_then(|model| Some((model, model.symbol(name)?))) else {
         return format!("**{name}**: a symbol");
     };
@@ -124,6 +131,10 @@ fn of_symbol(name: &str, address: Option<Address>, model: Option<&Model>) -> Str
         text += &format!("\n\n{}", symbol.comment);
     }
     text
+}
+
+fn structured(named: &Named, address: Option<Address>, model: Option<&Model>) -> String {
+    model.and_then(|model| structured::explain(named, address, model)).unwrap_or_default()
 }
 
 fn declared_words(declared: &Declared) -> String {

@@ -1,11 +1,10 @@
 //! What a language says about its texts: one implementation of [`Text`] each. How texts belong
 //! together, and what is made of the answers, is said elsewhere.
 
-use awl_asm::assemble::Assembly;
-use awl_asm::ast::Symbol;
 use diagnostics::{Source, Span};
 
-use crate::answer::{Completion, Outline, Problem, Refusal, floor};
+use crate::answer::{Completion, Outline, Problem, Refusal, Signature, floor};
+use crate::model::Model;
 use crate::subject::Mention;
 
 /// The languages of a project.
@@ -13,6 +12,8 @@ use crate::subject::Mention;
 pub enum Language {
     /// A program in AWL.
     Awl,
+    /// A program in Structured Text.
+    StructuredText,
     /// A scenario of the simulator.
     Scenario,
     /// A symbol table.
@@ -22,31 +23,23 @@ pub enum Language {
 }
 
 impl Language {
-    /// The language of a text of this name, by its ending: `.awl`, `.scn`, `.plant`; `.csv` and
+    /// The language of a text of this name, by its ending: `.awl`, `.st`, `.scn`, `.plant`; `.csv` and
     /// `.txt` are symbol tables.
     pub fn of_name(name: &str) -> Option<Language> {
         let (_, ending) = name.rsplit_once('.')?;
         match ending.to_ascii_lowercase().as_str() {
             "awl" => Some(Language::Awl),
+            "st" => Some(Language::StructuredText),
             "scn" => Some(Language::Scenario),
             "plant" => Some(Language::Plant),
             "csv" | "txt" => Some(Language::Symbols),
             _ => None,
         }
     }
-}
 
-/// A program with the tables that belong to it.
-#[derive(Debug)]
-pub(crate) struct Model {
-    /// What the assembler made of it.
-    pub assembly: Assembly,
-}
-
-impl Model {
-    /// A symbol by its name in lower case.
-    pub(crate) fn symbol(&self, name: &str) -> Option<&Symbol> {
-        self.assembly.program.symbols.iter().find(|symbol| symbol.name.to_lowercase() == name)
+    /// Whether its texts are programs, or parts of one.
+    pub fn is_program(self) -> bool {
+        matches!(self, Language::Awl | Language::StructuredText)
     }
 }
 
@@ -59,12 +52,25 @@ pub(crate) struct View<'p> {
     pub model: Option<&'p Model>,
     /// The text of another file of the project.
     pub other: &'p dyn Fn(&str) -> Option<&'p str>,
+    /// The files that it names as its program and that the project lacks.
+    pub missing: &'p [String],
 }
 
 impl<'p> View<'p> {
     /// All of the text.
     pub(crate) fn text(self) -> &'p str {
         &self.source.text
+    }
+
+    /// The number of its file in the program.
+    pub(crate) fn file(self) -> Option<usize> {
+        self.model?.file(&self.source.name)
+    }
+
+    /// The stretch of it that a stretch of the program's AWL text is.
+    pub(crate) fn span_here(self, span: Span) -> Option<Span> {
+        let (file, span) = self.model?.in_file(span)?;
+        (Some(file) == self.file()).then_some(span)
     }
 }
 
@@ -82,6 +88,11 @@ pub(crate) trait Text {
     /// What can be written at an offset. Not all of it fits what is typed: that is the editor's
     /// business.
     fn completions(&self, view: View<'_>, offset: usize) -> Vec<Completion>;
+
+    /// What the call around an offset takes.
+    fn signature(&self, _: View<'_>, _: usize) -> Option<Signature> {
+        None
+    }
 
     /// Its parts.
     fn outline(&self, view: View<'_>) -> Vec<Outline>;

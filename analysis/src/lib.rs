@@ -11,17 +11,20 @@ mod awl;
 mod explain;
 pub mod ladder;
 mod language;
+mod model;
 mod names;
 mod plant;
+mod programs;
 mod project;
 mod rename;
 mod scenario;
+mod structured;
 mod subject;
 mod symbols;
 
 pub use answer::{
     Completion, CompletionKind, Edit, FileEdit, Fix, Hover, Location, Outline, OutlineKind,
-    Problem, Refusal,
+    Problem, Refusal, Signature,
 };
 pub use language::Language;
 pub use project::Project;

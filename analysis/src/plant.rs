@@ -80,5 +80,6 @@ fn word_of(word: &str, form: &str, doc: &str, span: Span) -> Completion {
         detail: form.to_owned(),
         doc: doc.to_owned(),
         edit: Edit { span, text: word.to_owned() },
+        holes: Vec::new(),
     }
 }

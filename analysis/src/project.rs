@@ -1,42 +1,56 @@
 //! The texts of a project, which of them make a program, and the questions about them.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::cell::{OnceCell, RefCell};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::rc::Rc;
 
-use awl_asm::assemble::assemble;
 use awl_asm::symbols::load;
-use awl_sim::scenario::{plant_file_of, program_of};
+use awl_sim::scenario::plant_file_of;
 use diagnostics::source::SourceError;
 use diagnostics::{Source, Span};
 
 use crate::answer::{
-    Completion, Edit, FileEdit, Hover, Location, Outline, Problem, Refusal, floor,
+    Completion, Edit, FileEdit, Hover, Location, Outline, Problem, Refusal, Signature, floor,
 };
 use crate::awl::Awl;
 use crate::explain::explain;
 use crate::ladder::{Drawing, drawing_at};
-use crate::language::{Language, Model, Text, View};
+use crate::language::{Language, Text, View};
+use crate::model::Model;
 use crate::names::{is_table_of, joined, split};
 use crate::plant::Plant;
+use crate::programs::{Known, files_of_scenario, programs};
 use crate::rename;
 use crate::scenario::Scenario;
+use crate::structured::{StructuredText, check_free, is_library};
 use crate::subject::{Mention, Subject};
 use crate::symbols::Symbols;
 
 /// A set of named texts. Names are paths with `/`, from wherever they are counted.
 ///
-/// A scenario belongs to the program that its line `program FILE` names, otherwise to the one of
-/// the same folder with the same name (`motor.fast.scn` to `motor.awl`, as in `awl-sim test`); a
-/// symbol table to the one with the same name, a table `symbols.csv` or `symbols.txt` to all
-/// programs of its folder.
+/// The files that a scenario names in its line `program A, B` are one program. Every other file in
+/// AWL or Structured Text is a program by itself; files in Structured Text without a PROGRAM belong
+/// to each program in Structured Text of their folder.
+///
+/// A scenario belongs to the program that its line `program` names, otherwise to the one of the
+/// same folder with the same name (`motor.fast.scn` to `motor.awl`, else `motor.st`, as in `awl-sim
+/// test`); a symbol table to the one with the same name, a table `symbols.csv` or `symbols.txt` to
+/// all programs of its folder.
 #[derive(Debug, Default)]
 pub struct Project {
     texts: BTreeMap<String, Entry>,
+    /// Which texts are programs, once it was asked since a text has changed.
+    programs: OnceCell<Vec<Vec<String>>>,
+    /// The programs that were asked about since then, by the names of their texts.
+    models: RefCell<HashMap<Vec<String>, Option<Rc<Model>>>>,
 }
 
 #[derive(Debug)]
 struct Entry {
     language: Language,
     source: Source,
+    /// Whether it is Structured Text without a PROGRAM.
+    is_library: bool,
 }
 
 /// The words of a text for one thing.
@@ -64,7 +78,9 @@ impl Project {
         text: impl Into<String>,
     ) -> Result<(), SourceError> {
         let source = Source::new(name, text)?;
-        self.texts.insert(name.to_owned(), Entry { language, source });
+        let is_library = language == Language::StructuredText && is_library(&source);
+        self.texts.insert(name.to_owned(), Entry { language, source, is_library });
+        self.changed();
         Ok(())
     }
 
@@ -79,6 +95,13 @@ impl Project {
     /// Takes a text away.
     pub fn remove(&mut self, name: &str) {
         self.texts.remove(name);
+        self.changed();
+    }
+
+    /// What was found out about the texts before is not true any more.
+    fn changed(&mut self) {
+        self.programs.take();
+        self.models.get_mut().clear();
     }
 
     /// The text of this name.
@@ -100,23 +123,29 @@ impl Project {
     pub fn is_table(&self, name: &str) -> bool {
         self.texts
             .iter()
-            .any(|(other, entry)| entry.language == Language::Awl && is_table_of(name, other))
+            .any(|(other, entry)| entry.language.is_program() && is_table_of(name, other))
     }
 
-    /// The program that a scenario names, whether the project has it or not.
-    pub fn named_program(&self, name: &str) -> Option<String> {
-        let entry = self.texts.get(name).filter(|entry| entry.language == Language::Scenario)?;
-        program_of(&entry.source.text).first().map(|file| joined(name, file))
+    /// The files that a scenario names as its program, whether the project has them or not.
+    pub fn named_program(&self, name: &str) -> Vec<String> {
+        let entry = self.texts.get(name).filter(|entry| entry.language == Language::Scenario);
+        entry.map_or_else(Vec::new, |entry| files_of_scenario(name, &entry.source.text))
+    }
+
+    /// The texts of the program that a text is or belongs to, the main one first.
+    pub fn program(&self, name: &str) -> Vec<String> {
+        self.programs_of(name).into_iter().next().unwrap_or_default()
     }
 
     /// The names of the texts that belong together with this one, itself included, in order: what
     /// is true of one of them may change with another.
     pub fn related(&self, name: &str) -> Vec<String> {
         let mut programs = self.programs_of(name);
-        // A table that is shared brings the other programs along.
-        let tables: Vec<&str> =
-            programs.iter().flat_map(|program| self.tables_of(program)).collect();
+        // A table or file that is shared brings the other programs along.
+        let files: Vec<String> = programs.iter().flatten().cloned().collect();
+        let tables: Vec<&str> = files.iter().flat_map(|file| self.tables_of(file)).collect();
         programs.extend(tables.into_iter().flat_map(|table| self.programs_of(table)));
+        programs.extend(files.iter().flat_map(|file| self.programs_of(file)));
         let is_related =
             |other: &str| self.programs_of(other).iter().any(|program| programs.contains(program));
         self.names()
@@ -125,15 +154,26 @@ impl Project {
             .collect()
     }
 
-    /// What is wrong with a text. Of a table that belongs to no program nothing is said: it may be
-    /// anything.
+    /// What is wrong with a text, in whichever of its programs. Of a table that belongs to no
+    /// program nothing is said: it may be anything.
     pub fn problems(&self, name: &str) -> Vec<Problem> {
         let is_nobodys =
             self.language(name) == Some(Language::Symbols) && self.programs_of(name).is_empty();
         if is_nobodys {
             return Vec::new();
         }
-        self.ask(name, |language, view| language.problems(view)).unwrap_or_default()
+        let Some(Entry { language, source, .. }) = self.texts.get(name) else { return Vec::new() };
+        let missing = self.missing(name);
+        let mut all: Vec<Problem> = Vec::new();
+        let programs = self.programs_of(name);
+        for program in programs.iter().map(Some).chain(programs.is_empty().then_some(None)) {
+            let model = program.and_then(|program| self.model(program));
+            let other = |name: &str| self.source(name).map(|source| source.text.as_str());
+            let view = View { source, model: model.as_deref(), other: &other, missing: &missing };
+            let found = text_of(*language).problems(view);
+            all.extend(found.into_iter().filter(|one| !all.contains(one)).collect::<Vec<_>>());
+        }
+        all
     }
 
     /// What can be written at an offset.
@@ -146,7 +186,7 @@ impl Project {
     pub fn hover(&self, name: &str, offset: usize) -> Option<Hover> {
         let mention = self.mention_at(name, offset)?;
         let model = self.model_of(name);
-        let mut text = explain(&mention, model.as_ref());
+        let mut text = explain(&mention, model.as_deref());
         text += &self.uses(&mention.subject, name);
         (!text.is_empty()).then_some(Hover { span: mention.span, text })
     }
@@ -176,6 +216,11 @@ impl Project {
         let mention = self.mention_at(name, offset);
         let found = mention.ok_or_else(|| Refusal("there is no name here".to_owned()))?;
         rename::check_subject(&found.subject)?;
+        let is_standard = matches!(found.subject, Subject::Structured(_))
+            && !self.mentions_of(&found.subject, name).iter().any(|(_, one)| one.declares);
+        if is_standard {
+            return Err(Refusal("this is a name of the standard".to_owned()));
+        }
         Ok(found.span)
     }
 
@@ -192,6 +237,9 @@ impl Project {
         rename::check_name(&subject, new_name)?;
         let others = self.all_mentions(name);
         rename::check_free(&subject, new_name, others.iter().map(|(_, mention)| mention))?;
+        if let Some(model) = self.model_of(name) {
+            check_free(&subject, new_name, &model)?;
+        }
         let old = self.source(name).map_or("", |source| span.text(&source.text));
         let mut edits = Vec::new();
         for (file, mention) in self.mentions_of(&subject, name) {
@@ -209,6 +257,11 @@ impl Project {
         Ok(edits)
     }
 
+    /// What the call around an offset takes; `None` where there is none.
+    pub fn signature(&self, name: &str, offset: usize) -> Option<Signature> {
+        self.ask(name, |language, view| language.signature(view, floor(offset, view.text())))?
+    }
+
     /// The parts of a text.
     pub fn outline(&self, name: &str) -> Vec<Outline> {
         self.ask(name, |language, view| language.outline(view)).unwrap_or_default()
@@ -217,7 +270,11 @@ impl Project {
     /// The network at an offset of a program as a ladder; `None` where there is none.
     pub fn ladder(&self, name: &str, offset: usize) -> Option<Drawing> {
         let entry = self.texts.get(name).filter(|entry| entry.language == Language::Awl)?;
-        let model = self.model_of(name)?;
+        // A drawing has the lines of its file alone.
+        let model = match self.program(name).len() {
+            1 => self.model_of(name)?,
+            _ => Rc::new(self.model_of_files(&[name.to_owned()])?),
+        };
         drawing_at(&entry.source, &model.assembly, offset)
     }
 
@@ -241,10 +298,10 @@ impl Project {
 
     /// Asks a text's language about it.
     fn ask<T>(&self, name: &str, question: impl FnOnce(&dyn Text, View<'_>) -> T) -> Option<T> {
-        let Entry { language, source } = self.texts.get(name)?;
-        let model = self.model_of(name);
+        let Entry { language, source, .. } = self.texts.get(name)?;
+        let (model, missing) = (self.model_of(name), self.missing(name));
         let other = |name: &str| self.source(name).map(|source| source.text.as_str());
-        let view = View { source, model: model.as_ref(), other: &other };
+        let view = View { source, model: model.as_deref(), other: &other, missing: &missing };
         Some(question(text_of(*language), view))
     }
 
@@ -271,14 +328,17 @@ impl Project {
         self.related(name).into_iter().flat_map(mentions).collect()
     }
 
-    /// The words for a thing. What belongs to a unit is in one text alone.
+    /// The words for a thing. What belongs to a unit in AWL is in its program alone.
     fn mentions_of(&self, subject: &Subject, name: &str) -> Found {
         let mut found = self.all_mentions(name);
         let is_local = matches!(
             subject,
             Subject::Local(..) | Subject::Label(..) | Subject::Unit(_) | Subject::Instruction(_)
         );
-        found.retain(|(file, mention)| mention.is_about(subject) && (!is_local || file == name));
+        let program = self.program(name);
+        found.retain(|(file, mention)| {
+            mention.is_about(subject) && (!is_local || program.contains(file))
+        });
         found
     }
 
@@ -307,22 +367,24 @@ impl Project {
         if lines.is_empty() { String::new() } else { format!("\n\nUsed:\n\n{}", lines.join("\n")) }
     }
 
-    /// The programs that a text belongs to; a program to itself.
-    fn programs_of(&self, name: &str) -> Vec<&str> {
+    /// The programs that a text belongs to.
+    fn programs_of(&self, name: &str) -> Vec<Vec<String>> {
         let Some(entry) = self.texts.get(name) else { return Vec::new() };
-        let programs = || {
-            self.texts.iter().filter(|(_, entry)| entry.language == Language::Awl).map(|(n, _)| n)
-        };
+        let mut all = self.programs().to_vec();
         match entry.language {
-            Language::Awl => {
-                programs().filter(|other| *other == name).map(String::as_str).collect()
+            Language::Awl | Language::StructuredText => {
+                all.retain(|program| program.iter().any(|file| file == name));
             }
             Language::Scenario => {
-                let wanted = program_of_scenario(name, &entry.source.text, &|other| {
-                    self.language(other) == Some(Language::Awl)
+                let wanted = self.program_of_scenario(name, &entry.source.text);
+                all.retain(|program| match wanted.as_slice() {
+                    [] => false,
+                    // A file that is in several programs is meant by itself.
+                    [file] => program.contains(file),
+                    files => program == files,
                 });
-                let is_wanted = |other: &&String| wanted.as_deref() == Some(other.as_str());
-                programs().filter(is_wanted).map(String::as_str).collect()
+                all.sort_by_key(|program| program.first() != wanted.first());
+                all.truncate(1);
             }
             Language::Plant => {
                 let scenarios = self.names().filter(|scenario| {
@@ -330,13 +392,51 @@ impl Project {
                     let file = source.and_then(|source| plant_file_of(&source.text));
                     file.is_some_and(|file| joined(scenario, file) == name)
                 });
-                scenarios.flat_map(|scenario| self.programs_of(scenario)).collect()
+                all = scenarios.flat_map(|scenario| self.programs_of(scenario)).collect();
             }
             Language::Symbols => {
-                let is_its = |program: &&String| is_table_of(name, program);
-                programs().filter(is_its).map(String::as_str).collect()
+                all.retain(|program| program.iter().any(|file| is_table_of(name, file)));
             }
         }
+        all
+    }
+
+    /// The programs of the project.
+    fn programs(&self) -> &[Vec<String>] {
+        self.programs.get_or_init(|| {
+            let known = self.texts.iter().map(|(name, entry)| {
+                let Entry { language, ref source, is_library } = *entry;
+                (name.as_str(), Known { language, text: &source.text, is_library })
+            });
+            programs(&known.collect())
+        })
+    }
+
+    /// The files of a scenario's program.
+    fn program_of_scenario(&self, name: &str, text: &str) -> Vec<String> {
+        let named = files_of_scenario(name, text);
+        if !named.is_empty() {
+            return named;
+        }
+        let (folder, file) = split(name);
+        let mut stem = file;
+        while let Some((shorter, _)) = stem.rsplit_once('.') {
+            stem = shorter;
+            let programs = ["awl", "st"].map(|ending| format!("{folder}{stem}.{ending}"));
+            let is_there =
+                |file: &String| self.language(file).is_some_and(|language| language.is_program());
+            if let Some(program) = programs.into_iter().find(is_there) {
+                return vec![program];
+            }
+        }
+        Vec::new()
+    }
+
+    /// The files that a scenario names and the project lacks.
+    fn missing(&self, name: &str) -> Vec<String> {
+        let mut named = self.named_program(name);
+        named.retain(|file| !self.texts.contains_key(file));
+        named
     }
 
     fn tables_of(&self, program: &str) -> impl Iterator<Item = &str> {
@@ -345,12 +445,27 @@ impl Project {
         tables.filter(move |table| is_table_of(table, program)).collect::<BTreeSet<_>>().into_iter()
     }
 
-    /// The program that a text is or belongs to, assembled with its tables.
-    fn model_of(&self, name: &str) -> Option<Model> {
-        let program = *self.programs_of(name).first()?;
-        let symbols = self.tables(program).flat_map(|table| load(table).0).collect();
-        let assembly = assemble(self.source(program)?, symbols);
-        Some(Model { assembly })
+    /// The program that a text is or belongs to; of several the first.
+    fn model_of(&self, name: &str) -> Option<Rc<Model>> {
+        self.model(self.programs_of(name).first()?)
+    }
+
+    /// A program, assembled with its tables.
+    fn model(&self, program: &[String]) -> Option<Rc<Model>> {
+        if let Some(model) = self.models.borrow().get(program) {
+            return model.clone();
+        }
+        let model = self.model_of_files(program).map(Rc::new);
+        self.models.borrow_mut().insert(program.to_vec(), model.clone());
+        model
+    }
+
+    fn model_of_files(&self, program: &[String]) -> Option<Model> {
+        let tables: BTreeSet<&str> = program.iter().flat_map(|file| self.tables_of(file)).collect();
+        let tables = tables.into_iter().filter_map(|table| self.source(table));
+        let symbols = tables.flat_map(|table| load(table).0).collect();
+        let sources: Option<_> = program.iter().map(|file| self.source(file).cloned()).collect();
+        Model::of(sources?, symbols)
     }
 }
 
@@ -358,6 +473,7 @@ impl Project {
 fn text_of(language: Language) -> &'static dyn Text {
     match language {
         Language::Awl => &Awl,
+        Language::StructuredText => &StructuredText,
         Language::Scenario => &Scenario,
         Language::Symbols => &Symbols,
         Language::Plant => &Plant,
@@ -366,25 +482,4 @@ fn text_of(language: Language) -> &'static dyn Text {
 
 fn locations(found: Found) -> Vec<Location> {
     found.into_iter().map(|(file, mention)| Location { file, span: mention.span }).collect()
-}
-
-/// The program of a scenario with this text.
-fn program_of_scenario(
-    name: &str,
-    text: &str,
-    is_program: &dyn Fn(&str) -> bool,
-) -> Option<String> {
-    if let Some(file) = program_of(text).first() {
-        return Some(joined(name, file));
-    }
-    let (folder, file) = split(name);
-    let mut stem = file;
-    while let Some((shorter, _)) = stem.rsplit_once('.') {
-        stem = shorter;
-        let program = format!("{folder}{stem}.awl");
-        if is_program(&program) {
-            return Some(program);
-        }
-    }
-    None
 }

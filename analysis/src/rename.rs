@@ -6,6 +6,7 @@ use diagnostics::Span;
 
 use crate::answer::Refusal;
 use crate::language::Text;
+use crate::structured;
 use crate::subject::{Mention, Subject};
 
 fn refused<T>(words: impl Into<String>) -> Result<T, Refusal> {
@@ -16,6 +17,7 @@ fn refused<T>(words: impl Into<String>) -> Result<T, Refusal> {
 pub(crate) fn check_subject(subject: &Subject) -> Result<(), Refusal> {
     match subject {
         Subject::Symbol(_) | Subject::Local(..) | Subject::Label(..) | Subject::Unit(_) => Ok(()),
+        Subject::Structured(named) => structured::check_subject(named),
         Subject::Address(address) => {
             refused(format!("{address} is an address; a symbol for it has a name to change"))
         }
@@ -40,6 +42,7 @@ pub(crate) fn check_name(subject: &Subject, name: &str) -> Result<(), Refusal> {
             Some(why) => refused(format!("{name}: {why}")),
             None => Ok(()),
         },
+        Subject::Structured(_) => structured::check_name(name),
         _ => check_symbol(name, Span::default()).or_else(|error| refused(error.message.clone())),
     }
 }

@@ -14,10 +14,11 @@ use awl_sim::scenario::{
 };
 use diagnostics::{Diagnostic, Span};
 
-use crate::answer::{Completion, CompletionKind, Edit, Outline, Problem, Refusal};
+use crate::answer::{Completion, CompletionKind, Outline, Problem, Refusal};
 use crate::explain::{address_words, symbol_line, value_words};
 use crate::language::{Text, View, word_around};
 use crate::names::joined;
+use crate::structured;
 use crate::subject::{Mention, Subject};
 
 /// Scenarios of the simulator.
@@ -26,8 +27,10 @@ pub(crate) struct Scenario;
 impl Text for Scenario {
     fn problems(&self, view: View<'_>) -> Vec<Problem> {
         // Without its program no symbol is known: that says more than each of them.
-        if view.model.is_none() {
-            return vec![without_program(view)];
+        let Some(model) = view.model else { return vec![without_program(view)] };
+        // Nor are there any while the program has errors that keep it from becoming AWL.
+        if model.is_without_awl() {
+            return Vec::new();
         }
         let mut problems = reading(view).problems;
         let no_plant = plant(view).err();
@@ -41,8 +44,8 @@ impl Text for Scenario {
         let text = view.text();
         let spans = reading(view).operands.into_iter();
         let spans = spans.map(|span| Span::new(span.start, span.end.min(text.len())));
-        let mentions = spans.filter_map(|span| mention(view, span));
-        mentions.chain(program(view)).chain(plant_file(view)).collect()
+        let mentions = spans.flat_map(|span| mentions(view, span));
+        mentions.chain(programs(view)).chain(plant_file(view)).collect()
     }
 
     fn word_at(&self, view: View<'_>, offset: usize) -> Option<Mention> {
@@ -73,13 +76,16 @@ impl Text for Scenario {
 }
 
 fn without_program(view: View<'_>) -> Problem {
-    let span = program(view).map_or(Span::default(), |mention| mention.span);
+    let named = programs(view).into_iter().find(
+        |mention| matches!(&mention.subject, Subject::File(name) if view.missing.contains(name)),
+    );
+    let span = named.map_or(Span::default(), |mention| mention.span);
     let what = match span.text(view.text()) {
         "" => "the program of this scenario",
         file => file,
     };
     let diagnostic = Diagnostic::new((), span, format!("{what} is not in the project"))
-        .help("a line `program FILE` names it, or it has the same name and ends in .awl");
+        .help("a line `program FILE` names it, or it has the same name and ends in .awl or .st");
     Problem::of(diagnostic, view.text())
 }
 
@@ -99,6 +105,16 @@ fn reading(view: View<'_>) -> Reading {
     let context =
         Context { symbols: symbols(view), plant: plant.as_ref(), has_operand: &mut has_operand };
     read(&view.source.name, view.text(), context)
+}
+
+/// The names of an operand: of Structured Text each part of `Main.Delay.ET`.
+fn mentions(view: View<'_>, span: Span) -> Vec<Mention> {
+    let written = span.text(view.text());
+    let bare = written.trim_matches('"');
+    let start = span.start as usize + usize::from(written.starts_with('"'));
+    let parts =
+        view.model.map(|model| structured::mentions_in(bare, start, model)).unwrap_or_default();
+    if parts.is_empty() { mention(view, span).into_iter().collect() } else { parts }
 }
 
 /// An operand, without `.cv` and its like.
@@ -146,10 +162,10 @@ fn plant_file(view: View<'_>) -> Option<Mention> {
     file_mention(view, plant_file_of(view.text())?)
 }
 
-/// The file of the line `program`.
-fn program(view: View<'_>) -> Option<Mention> {
-    let file = program_of(view.text()).into_iter().find(|file| !file.is_empty())?;
-    file_mention(view, file)
+/// The files of the line `program`.
+fn programs(view: View<'_>) -> Vec<Mention> {
+    let files = program_of(view.text()).into_iter().filter(|file| !file.is_empty());
+    files.filter_map(|file| file_mention(view, file)).collect()
 }
 
 /// A part of the text that names a file.
@@ -195,23 +211,14 @@ fn completions(view: View<'_>, offset: usize) -> Vec<Completion> {
 
 fn words_of(table: &[Word], span: Span) -> Vec<Completion> {
     let rows = table.iter().map(|row| Completion {
-        label: row.word.to_owned(),
-        kind: CompletionKind::Keyword,
-        detail: row.example.to_owned(),
         doc: row.doc.to_owned(),
-        edit: Edit { span, text: row.word.to_owned() },
+        ..Completion::new(row.word, CompletionKind::Keyword, row.example, span)
     });
     rows.collect()
 }
 
 fn value(label: &str, detail: &str, span: Span) -> Completion {
-    Completion {
-        label: label.to_owned(),
-        kind: CompletionKind::Value,
-        detail: detail.to_owned(),
-        doc: String::new(),
-        edit: Edit { span, text: label.to_owned() },
-    }
+    Completion::new(label, CompletionKind::Value, detail, span)
 }
 
 /// The symbols of the program for addresses, and the addresses that it names.

@@ -5,6 +5,7 @@ use awl_asm::Address;
 use awl_asm::ast::UnitId;
 use diagnostics::Span;
 use plc_isa::Op;
+use st::Named;
 
 /// What a word stands for.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,6 +26,9 @@ pub(crate) enum Subject {
     Word(String),
     /// Another text of the project: its name.
     File(String),
+    /// Something of Structured Text that AWL has no name for: a unit, a variable of one, a type.
+    /// What is global or has an address is that.
+    Structured(Named),
 }
 
 /// A word of a text with what it stands for.

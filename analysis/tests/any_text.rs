@@ -5,6 +5,7 @@ use diagnostics::Span;
 
 const STATION: &str = include_str!("../../examples/station1.awl");
 const SCENARIO: &str = include_str!("../../examples/station1.scn");
+const STRUCTURED: &str = include_str!("../../lang/st/tests/all.st");
 
 /// Asks everything at an offset, and looks at the spans of the answers.
 fn ask(project: &Project, name: &str, offset: usize) {
@@ -14,6 +15,12 @@ fn ask(project: &Project, name: &str, offset: usize) {
     };
     for completion in project.completions(name, offset) {
         check(completion.edit.span);
+        assert!(completion.holes.iter().all(|&at| completion.edit.text.is_char_boundary(at)));
+    }
+    if let Some(signature) = project.signature(name, offset) {
+        let parts = signature.parameters.iter();
+        assert!(parts.clone().all(|&(start, end)| signature.label.get(start..end).is_some()));
+        assert!(signature.active.is_none_or(|active| active < parts.len()));
     }
     if let Some(hover) = project.hover(name, offset) {
         check(hover.span);
@@ -44,9 +51,12 @@ fn ask_whole(project: &Project, name: &str) {
 
 #[test]
 fn every_prefix_of_a_program_and_of_a_scenario() {
-    for (name, whole, other) in
-        [("a.awl", STATION, ("a.scn", SCENARIO)), ("a.scn", SCENARIO, ("a.awl", STATION))]
-    {
+    let texts = [
+        ("a.awl", STATION, ("a.scn", SCENARIO)),
+        ("a.scn", SCENARIO, ("a.awl", STATION)),
+        ("a.st", STRUCTURED, ("a.scn", "at 1s expect Main.Delay.Q = 1, Lamp = 1\nrun 2s\n")),
+    ];
+    for (name, whole, other) in texts {
         let mut project = Project::new();
         project.set(other.0, other.1).unwrap();
         for (at, _) in whole.char_indices() {
@@ -110,18 +120,86 @@ fn random_texts() {
         "16#FF",
         "\t",
     ];
+    try_pieces(&PIECES, &["a.awl", "a.scn", "a.csv"]);
+}
+
+#[test]
+fn random_structured_texts() {
+    const PIECES: [&str; 56] = [
+        "PROGRAM",
+        "PROGRAM a",
+        "END_PROGRAM",
+        "FUNCTION f : INT",
+        "END_FUNCTION",
+        "FUNCTION_BLOCK B",
+        "END_FUNCTION_BLOCK",
+        "VAR",
+        "VAR_INPUT",
+        "VAR_GLOBAL",
+        "END_VAR",
+        "TYPE",
+        "END_TYPE",
+        "STRUCT",
+        "END_STRUCT",
+        "T : (x, y);",
+        "a : INT;",
+        "b : TON;",
+        "c : B;",
+        "t : ARRAY[1..3] OF T;",
+        "a AT %I0.0 : BOOL;",
+        "IF",
+        "THEN",
+        "ELSE",
+        "END_IF",
+        "CASE a OF",
+        "1:",
+        "END_CASE",
+        "FOR a := 1 TO 3 DO",
+        "END_FOR",
+        "a := ",
+        "b(IN := ",
+        "b.",
+        "c.b.Q",
+        "t[a].",
+        "f(",
+        ")",
+        "(",
+        "[",
+        "]",
+        ",",
+        ";",
+        ":",
+        "=>",
+        "T#1s",
+        "16#FF",
+        "x",
+        "ä",
+        "€",
+        "(*",
+        "*)",
+        "//",
+        "{",
+        "'",
+        "%",
+        ".",
+    ];
+    try_pieces(&PIECES, &["a.st", "b.st", "a.scn"]);
+}
+
+/// Asks about texts of random pieces.
+fn try_pieces(pieces: &[&str], names: &[&str]) {
     let mut random = fastrand::Rng::with_seed(7);
     for _ in 0..400 {
         let mut text = String::new();
         for _ in 0..random.usize(0..30) {
-            text += PIECES[random.usize(0..PIECES.len())];
+            text += pieces[random.usize(0..pieces.len())];
             text += ["", " ", "\n"][random.usize(0..3)];
         }
         let mut project = Project::new();
-        for name in ["a.awl", "a.scn", "a.csv"] {
+        for &name in names {
             project.set(name, text.clone()).unwrap();
         }
-        for name in ["a.awl", "a.scn", "a.csv"] {
+        for &name in names {
             ask_whole(&project, name);
             for _ in 0..4 {
                 // Inside of characters and after the end, too.

@@ -294,3 +294,51 @@ fn layout() {
     assert!(project.format("p/x.awl").is_err());
     assert!(project.format("p/motor.fast.scn").is_err());
 }
+
+/// A program of two files, which its scenario names together.
+fn two_files() -> Project {
+    let (main, routine) = BLOCKS.split_once("SUBROUTINE_BLOCK").unwrap();
+    let mut project = Project::new();
+    project.set("p/main.awl", format!("//# var Height INT\n{main}")).unwrap();
+    let routine = routine.replace("MW0", "Height");
+    project.set("p/routine.awl", format!("// below\nSUBROUTINE_BLOCK{routine}")).unwrap();
+    let scenario = "program main.awl, routine.awl\nat 5ms expect Height = 0\nrun 10ms\n";
+    project.set("p/both.scn", scenario).unwrap();
+    project
+}
+
+#[test]
+fn several_files_are_checked_together() {
+    let mut project = two_files();
+    for file in ["p/main.awl", "p/routine.awl", "p/both.scn"] {
+        assert_eq!(project.problems(file), [], "{file}");
+    }
+    let all = ["p/both.scn", "p/main.awl", "p/routine.awl"];
+    assert_eq!(project.related("p/routine.awl"), all);
+    let fill = project.definition("p/main.awl", at(&project, "p/main.awl", "CALL Fi|ll"));
+    assert_eq!(shown(&project, &fill), ["p/routine.awl:2:18 Fill"]);
+    let hover = project.hover("p/main.awl", at(&project, "p/main.awl", "CALL Fi|ll")).unwrap();
+    assert!(hover.text.contains("IN Level: INT how full"), "{}", hover.text);
+    let edits = project.rename("p/routine.awl", at(&project, "p/routine.awl", "#Le|vel"), "Rise");
+    assert_eq!(edits.unwrap().len(), 2);
+    let edits = project.rename("p/both.scn", at(&project, "p/both.scn", "Hei|ght"), "Rise");
+    let files: Vec<String> = edits.unwrap().into_iter().map(|one| one.file).collect();
+    assert_eq!(files, ["p/both.scn", "p/main.awl", "p/routine.awl"]);
+    let outline = project.outline("p/routine.awl");
+    assert_eq!(outline.iter().map(|part| part.name.as_str()).collect::<Vec<_>>(), ["Fill"]);
+    // What is wrong is told in its file, at its place there.
+    let text = project.source("p/routine.awl").unwrap().text.replace("#Level", "#Lever");
+    project.set("p/routine.awl", text.clone()).unwrap();
+    let problems = project.problems("p/routine.awl");
+    assert_eq!(problems.len(), 1, "{problems:?}");
+    assert_eq!(problems[0].span.text(&text), "#Lever");
+    assert_eq!(project.problems("p/main.awl"), []);
+    let offset = text.find("#Lever").unwrap() + 2;
+    let completions = project.completions("p/routine.awl", offset);
+    assert!(labels(&completions).contains(&"#Level"));
+    // A file that is not there is told.
+    project.remove("p/routine.awl");
+    let problems = project.problems("p/both.scn");
+    assert_eq!(problems.len(), 1);
+    assert!(problems[0].message.starts_with("routine.awl is not in the project"));
+}

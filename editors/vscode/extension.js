@@ -11,12 +11,15 @@ exports.activate = async () => {
   client = new LanguageClient("uno200", "uno200", { run: server, debug: server }, {
     documentSelector: [
       { language: "awl" },
+      { language: "st" },
       { language: "uno200-scenario" },
       { language: "uno200-plant" },
       // Of a table that belongs to no program the server says nothing.
       { scheme: "file", pattern: "**/*.csv" },
     ],
-    synchronize: { fileEvents: workspace.createFileSystemWatcher("**/*.{awl,scn,plant,csv,txt}") },
+    synchronize: {
+      fileEvents: workspace.createFileSystemWatcher("**/*.{awl,st,scn,plant,csv,txt}"),
+    },
   });
   await client.start();
 };

@@ -8,6 +8,7 @@
 //! at 500ms  expect Q0.1 = 0, MW3 = 200..210, VD8 = 1.5..1.6
 //! at +100ms within 2s expect Q0.2 = TRUE
 //! at 1min   pulse I0.0 1000Hz for 2s
+//! at 1min2s event Vote           # a bit that is 1 for one scan
 //! at 1min5s clock 2026-11-21 15:00:00
 //! every 2s  I0.3 = 1 from 1s to 9s
 //! never     Q0.0 = 1 and Q0.1 = 1
@@ -123,6 +124,8 @@ pub struct Setting {
     pub operand: Operand,
     /// The value, in the operand's range, words signed; of a real its bits.
     pub value: i32,
+    /// Whether it is there for one scan, and 0 after it.
+    pub for_scan: bool,
 }
 
 impl Setting {

@@ -13,8 +13,15 @@ fn examples() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples")
 }
 
+/// The program that a scenario is for: what is after a point in its name says what it is about.
+fn program_of(stem: &str) -> PathBuf {
+    let name = stem.split('.').next().unwrap_or(stem);
+    let path = |ending: &str| examples().join(format!("{name}.{ending}"));
+    if path("awl").is_file() { path("awl") } else { path("fbt") }
+}
+
 fn open(stem: &str) -> Opened {
-    let path = examples().join(stem).with_extension("awl");
+    let path = program_of(stem);
     let opened =
         open_machine(&path, &[], Target::Host).unwrap_or_else(|error| panic!("{stem}:\n{error}"));
     assert!(opened.warnings.is_empty(), "{stem}: {:?}", opened.warnings);
@@ -51,12 +58,8 @@ fn run_plant(stem: &str, plant: &str, length_ms: u64, scan_ms: u64) -> Report {
 #[test]
 fn every_example_does_what_its_scenario_expects() {
     let mut count = 0;
-    for entry in fs::read_dir(examples()).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_none_or(|extension| extension != "scn") {
-            continue;
-        }
-        let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
+    let stems = [in_folder(""), in_folder("fbt")].concat();
+    for stem in stems {
         let outcome = run_scenario(&stem, None);
         assert!(outcome.failures.is_empty(), "{stem}: {:#?}", outcome.failures);
         assert_eq!(outcome.fault, None, "{stem}");
@@ -67,7 +70,16 @@ fn every_example_does_what_its_scenario_expects() {
             assert!(outcome.met >= 20, "{stem} expects only {} values", outcome.met);
         }
     }
-    assert_eq!(count, 15);
+    assert_eq!(count, 17);
+}
+
+/// The scenarios in a folder of the examples.
+fn in_folder(folder: &str) -> Vec<String> {
+    let entries = fs::read_dir(examples().join(folder)).unwrap().map(|entry| entry.unwrap().path());
+    let scenarios = entries.filter(|path| path.extension().is_some_and(|found| found == "scn"));
+    let name =
+        |path: PathBuf| Path::new(folder).join(path.file_stem().unwrap()).display().to_string();
+    scenarios.map(name).collect()
 }
 
 #[test]

@@ -15,6 +15,8 @@ const EXAMPLES: &str = "\
 Examples:
   uno200 flash lamp.awl --with-firmware
   uno200 build lamp.st -o lamp.awl
+  uno200 build --fmt lamp.st -o lamp.st
+  uno200 explain E0205
   uno200 status
   uno200 watch I0.0 MW3 T37.cv --every 100ms
   uno200 --tcp 127.0.0.1:1502 set MW3=5 Q0.0=1
@@ -101,10 +103,16 @@ pub enum ParityName {
 /// What is to be done.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Makes AWL or an image of the files of a program: AWL, Structured Text
+    /// Makes AWL or an image of the files of a program: AWL, Structured Text, blocks of IEC 61499
     Build(Build),
     /// Converts a chart into Structured Text for a target, or tells what is in it
     Convert(Convert),
+    /// Explains the code of an error or warning
+    Explain {
+        /// As it is printed, such as E0205
+        #[arg(value_name = "CODE")]
+        code: String,
+    },
     /// Writes a program to the board, and asks the board then whether it is in force
     Flash(Flash),
     /// Shows the program with power flow and values beside every line
@@ -214,7 +222,7 @@ pub enum Ask {
 /// Arguments of `build`.
 #[derive(Debug, Args)]
 pub struct Build {
-    /// AWL (.awl) and Structured Text (.st)
+    /// AWL (.awl), Structured Text (.st), a block of IEC 61499 (.fbt)
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// .awl for the text, .bin or .hex for the image; without it the text to standard output
@@ -223,9 +231,13 @@ pub struct Build {
     /// As machine code
     #[arg(long)]
     pub native: bool,
-    /// Writes nothing
+    /// Writes nothing; with --fmt tells whether the text is in canonical layout
     #[arg(long)]
     pub check: bool,
+    /// Writes the text in canonical layout instead, to standard output without -o, which may be
+    /// the file itself
+    #[arg(long, conflicts_with = "native")]
+    pub fmt: bool,
     /// Replaces an AWL file that is there
     #[arg(long)]
     pub overwrite: bool,

@@ -18,6 +18,11 @@ struct Editor {
 impl Editor {
     /// An editor that has a folder with these files.
     fn new(files: &[(&str, &str)]) -> Editor {
+        Editor::with(json!({}), files)
+    }
+
+    /// The same for one that can more.
+    fn with(capabilities: Value, files: &[(&str, &str)]) -> Editor {
         let folder = tempfile::tempdir().unwrap();
         for (name, text) in files {
             fs::write(folder.path().join(name), text).unwrap();
@@ -25,7 +30,7 @@ impl Editor {
         let (connection, other) = Connection::memory();
         let server = thread::spawn(move || uno200::lsp::serve(&other).unwrap());
         let mut editor = Editor { connection, server: Some(server), folder, next_id: 0 };
-        editor.ask("initialize", json!({ "capabilities": {} })).unwrap();
+        editor.ask("initialize", json!({ "capabilities": capabilities })).unwrap();
         editor.tell("initialized", json!({}));
         editor
     }
@@ -79,7 +84,7 @@ impl Editor {
         let params = json!({
             "textDocument": { "uri": self.uri(name) },
             "position": { "line": line, "character": column },
-            "context": { "includeDeclaration": false, "triggerKind": 1 },
+            "context": { "includeDeclaration": false, "triggerKind": 1, "isRetrigger": false },
             "newName": "Go",
         });
         self.ask(method, params)
@@ -176,4 +181,44 @@ fn parts_and_completions() {
     let item = items.as_array().unwrap().iter().find(|item| item["label"] == "MOVW").unwrap();
     assert_eq!(item["textEdit"]["range"]["start"], json!({ "line": 5, "character": 0 }));
     assert!(item["documentation"]["value"].as_str().unwrap().contains("Operands"), "{item}");
+}
+
+#[test]
+fn structured_text_of_two_files() {
+    let blocks =
+        "FUNCTION Twice : INT\nVAR_INPUT x : INT; END_VAR\nTwice := x * 2;\nEND_FUNCTION\n";
+    let main = "PROGRAM Main\nVAR n : INT; END_VAR\nn := Twice(n);\nEND_PROGRAM\n";
+    let mut editor = Editor::new(&[("blocks.st", blocks)]);
+    editor.open("main.st", main);
+    assert_eq!(editor.problems(), ("main.st".to_owned(), vec![]), "the other file is read");
+    let found = editor.at("textDocument/definition", "main.st", 2, 6).unwrap();
+    assert_eq!(found[0]["uri"], editor.uri("blocks.st"));
+    let help = editor.at("textDocument/signatureHelp", "main.st", 2, 11).unwrap();
+    assert_eq!(help["signatures"][0]["label"], "Twice(x : INT) : INT");
+    assert_eq!(help["signatures"][0]["parameters"][0]["label"], json!([6, 13]));
+    let edit = editor.at("textDocument/rename", "main.st", 2, 6).unwrap();
+    assert_eq!(edit["documentChanges"].as_array().unwrap().len(), 2);
+    let uri = editor.uri("main.st");
+    let options = json!({ "tabSize": 4, "insertSpaces": true });
+    let params = json!({ "textDocument": { "uri": uri }, "options": options });
+    let edits = editor.ask("textDocument/formatting", params).unwrap();
+    let laid = edits[0]["newText"].as_str().unwrap();
+    assert!(laid.starts_with("PROGRAM Main\nVAR\n    n : INT;\nEND_VAR\n"), "{laid}");
+    let items = editor.at("textDocument/completion", "main.st", 2, 0).unwrap();
+    let items = items.as_array().unwrap();
+    let one = |label: &str| items.iter().find(|item| item["label"] == label).unwrap().clone();
+    assert_eq!(one("IF")["textEdit"]["newText"], "IF  THEN\n    \nEND_IF;", "no holes are known");
+    assert_eq!(one("n")["detail"], "INT");
+}
+
+#[test]
+fn templates_have_holes_where_the_editor_knows_them() {
+    let item = json!({ "snippetSupport": true });
+    let mut editor =
+        Editor::with(json!({ "textDocument": { "completion": { "completionItem": item } } }), &[]);
+    editor.open("main.st", "PROGRAM Main\n\nEND_PROGRAM\n");
+    let items = editor.at("textDocument/completion", "main.st", 1, 0).unwrap();
+    let item = items.as_array().unwrap().iter().find(|item| item["label"] == "IF").unwrap().clone();
+    assert_eq!(item["textEdit"]["newText"], "IF $1 THEN\n    $2\nEND_IF;$0");
+    assert_eq!((&item["insertTextFormat"], &item["filterText"]), (&json!(2), &json!("IF")));
 }

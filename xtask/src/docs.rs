@@ -1,5 +1,5 @@
-//! Generated files: docs/instructions.md and the grammar for editors from the instruction table,
-//! and the README's diagram from the demo.
+//! Generated files: docs/instructions.md and the grammars for editors from the tables of the
+//! languages, the words that the IDE's page colours, and the README's diagram from the demo.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -11,7 +11,7 @@ use awl_asm::refused::REFUSED;
 use plc_isa::{Group, INSTRUCTIONS, Instruction, PowerFlow};
 
 use crate::process::root;
-use crate::{demo, grammar};
+use crate::{demo, grammar, structured_grammar};
 
 /// Writes the generated files, or only compares them.
 pub fn run(check: bool) -> Result<()> {
@@ -20,6 +20,11 @@ pub fn run(check: bool) -> Result<()> {
     for file in ["editors/awl.tmLanguage.json", "editors/vscode/awl.tmLanguage.json"] {
         generated(file, grammar::text().as_bytes(), check)?;
     }
+    for file in ["editors/st.tmLanguage.json", "editors/vscode/st.tmLanguage.json"] {
+        generated(file, structured_grammar::text().as_bytes(), check)?;
+    }
+    let words = "ide/page/src/editor/structured_words.ts";
+    generated(words, structured_grammar::words().as_bytes(), check)?;
     generated("docs/station1.svg", &demo::diagram()?, check)
 }
 

@@ -18,6 +18,7 @@ mod process;
 mod rules;
 mod same_names;
 mod size;
+mod structured_grammar;
 mod test;
 mod wasm;
 

@@ -11,13 +11,15 @@ use awl_asm::parser::with_sign;
 use awl_asm::select::{taken, takes};
 use awl_asm::symbols::written;
 use diagnostics::Span;
-use plc_isa::{AnalogInput, Area, INSTRUCTIONS, Instruction, Op, Profile, Written};
+use plc_isa::{INSTRUCTIONS, Instruction, Op, Profile, Written};
 
-use crate::answer::{Completion, CompletionKind, Edit};
+use crate::answer::{Completion, CompletionKind};
 use crate::explain::{
-    address_words, instruction, operand_names, short, symbol_line, system_bits, value_words,
+    address_words, board_points, instruction, operand_names, short, symbol_line, system_bits,
+    value_words,
 };
-use crate::language::{Model, View};
+use crate::language::View;
+use crate::model::Model;
 
 /// What can be written at an offset.
 pub(super) fn at(view: View<'_>, offset: usize) -> Vec<Completion> {
@@ -25,23 +27,16 @@ pub(super) fn at(view: View<'_>, offset: usize) -> Vec<Completion> {
     let text = view.text();
     match cursor::at(text, offset) {
         Cursor::First(span) => first_words(span),
-        Cursor::Operand { entry, index, span } => operands(text, model, entry, index, span),
+        Cursor::Operand { entry, index, span } => {
+            let file = view.file().unwrap_or_default();
+            let at = model.offset_in_all(file, offset).unwrap_or_default() as u32;
+            operands(text, model, entry, index, span, at)
+        }
         Cursor::Directive(span) => directives(span),
         Cursor::Setting(word, rest) => settings(word.text(text), rest, text),
         Cursor::Declaration => types(Span::new(offset, offset), text),
         Cursor::Other => Vec::new(),
     }
-}
-
-fn completion(
-    label: impl Into<String>,
-    kind: CompletionKind,
-    detail: impl Into<String>,
-    span: Span,
-) -> Completion {
-    let label = label.into();
-    let edit = Edit { span, text: label.clone() };
-    Completion { label, kind, detail: detail.into(), doc: String::new(), edit }
 }
 
 // ---- the beginning of a line
@@ -54,13 +49,13 @@ fn first_words(span: Span) -> Vec<Completion> {
             for label in labels(row, mnemonic) {
                 if seen.insert(label.clone()) {
                     let detail = format!("{} - {}", operand_names(row), short(row.op));
-                    let one = completion(label, CompletionKind::Instruction, detail, span);
+                    let one = Completion::new(label, CompletionKind::Instruction, detail, span);
                     all.push(Completion { doc: instruction(row), ..one });
                 }
             }
         }
     }
-    all.extend(keywords().map(|word| completion(word, CompletionKind::Keyword, "", span)));
+    all.extend(keywords().map(|word| Completion::new(word, CompletionKind::Keyword, "", span)));
     all
 }
 
@@ -74,27 +69,29 @@ fn labels(row: &Instruction, mnemonic: &str) -> Vec<String> {
 
 // ---- operands
 
-/// What fits an operand of an instruction: names first, then addresses.
+/// What fits an operand of an instruction: names first, then addresses. `at` is where in the text
+/// of all files it is.
 fn operands(
     text: &str,
     model: &Model,
     entry: &'static Instruction,
     index: usize,
     span: Span,
+    at: u32,
 ) -> Vec<Completion> {
     let program = &model.assembly.program;
     let typed = span.text(text);
     let sign = typed.chars().next().filter(|sign| ['*', '&'].contains(sign));
     let span = Span { start: span.start + sign.map_or(0, |_| 1), ..span };
-    let place = Place { program, entry, index, sign, span };
+    let unit = unit_at(program, at);
+    let place = Place { program, entry, index, sign, span, unit };
     let mut all = Vec::new();
-    let unit = unit_at(program, span.start);
     if let Some(unit) = unit {
         all.extend(unit.variables.iter().filter(|one| place.takes_address(one.address)).map(
             |one| {
                 let detail = format!("{} {}", one.section.name(), one.kind.name());
                 let label = format!("#{}", one.name);
-                completion(label, CompletionKind::Variable, detail, place.span)
+                Completion::new(label, CompletionKind::Variable, detail, place.span)
             },
         ));
     }
@@ -104,7 +101,7 @@ fn operands(
     let addresses = addresses(model).into_iter().filter(|address| place.takes_address(*address));
     all.extend(addresses.map(|address| {
         let detail = address_words(address);
-        completion(address.to_string(), CompletionKind::Address, detail, place.span)
+        Completion::new(address.to_string(), CompletionKind::Address, detail, place.span)
     }));
     let forms = taken(entry, index, program.profile).join(", or ");
     for one in &mut all {
@@ -125,6 +122,8 @@ struct Place<'p> {
     /// `*` or `&`, written before it.
     sign: Option<char>,
     span: Span,
+    /// The unit around it.
+    unit: Option<&'p Unit>,
 }
 
 impl Place<'_> {
@@ -153,7 +152,7 @@ impl Place<'_> {
                 comment => format!("{}, {comment}", value_words(&symbol.value)),
             };
             let label = written(&symbol.name);
-            let one = completion(label, CompletionKind::Symbol, detail, self.span);
+            let one = Completion::new(label, CompletionKind::Symbol, detail, self.span);
             Completion { doc: format!("{}\n\n", symbol_line(symbol)), ..one }
         })
     }
@@ -175,7 +174,7 @@ impl Place<'_> {
         fitting
             .map(|unit| {
                 let detail = format!("{} {}", unit.id, unit.title);
-                completion(label(unit), CompletionKind::Routine, detail.trim_end(), self.span)
+                Completion::new(label(unit), CompletionKind::Routine, detail.trim_end(), self.span)
             })
             .collect()
     }
@@ -188,7 +187,7 @@ impl Place<'_> {
         }
         let mut is_inside = true;
         let mut numbers = BTreeSet::new();
-        let unit = unit_at(self.program, self.span.start).map(|unit| unit.id);
+        let unit = self.unit.map(|unit| unit.id);
         for statement in &self.program.statements {
             match statement {
                 Statement::Unit(head) => is_inside = Some(head.id) == unit,
@@ -202,7 +201,7 @@ impl Place<'_> {
             }
         }
         let label = |number: i64| {
-            completion(number.to_string(), CompletionKind::Label, "a label", self.span)
+            Completion::new(number.to_string(), CompletionKind::Label, "a label", self.span)
         };
         numbers.into_iter().map(label).collect()
     }
@@ -215,21 +214,11 @@ fn unit_at(program: &Program, offset: u32) -> Option<&Unit> {
 /// What the program names, the points of its board, and what the system has.
 fn addresses(model: &Model) -> Vec<Address> {
     let used = model.assembly.usage.accesses.keys().copied();
-    let points = points(model.assembly.program.profile);
+    let points = board_points(model.assembly.program.profile);
     let accumulators = (0..4).map(Address::Accumulator);
     let mut seen = BTreeSet::new();
     let all = used.chain(points).chain(system_bits()).chain(accumulators);
     all.filter(|address| seen.insert(*address)).collect()
-}
-
-fn points(board: &Profile) -> Vec<Address> {
-    let bits = |area, count| (0..count).map(move |bit| Address::Bit { area, byte: 0, bit });
-    let analog = (0..board.analog_inputs)
-        .flat_map(|at| [AnalogInput::Scaled(at), AnalogInput::Raw(at)].map(Address::Analog));
-    bits(Area::I, board.digital_inputs)
-        .chain(bits(Area::Q, board.digital_outputs))
-        .chain(analog)
-        .collect()
 }
 
 // ---- `//#` lines and declarations
@@ -237,7 +226,7 @@ fn points(board: &Profile) -> Vec<Address> {
 fn directives(span: Span) -> Vec<Completion> {
     let rows = DIRECTIVES.iter().map(|row| Completion {
         doc: format!("{}\n\n`//# {}`", row.doc, row.example),
-        ..completion(row.word, CompletionKind::Keyword, row.example, span)
+        ..Completion::new(row.word, CompletionKind::Keyword, row.example, span)
     });
     rows.collect()
 }
@@ -246,7 +235,7 @@ fn directives(span: Span) -> Vec<Completion> {
 fn settings(word: &str, rest: Span, text: &str) -> Vec<Completion> {
     let span = last_word(rest, text);
     let values = |values: &[&str]| {
-        let one = |value: &&str| completion(*value, CompletionKind::Value, "", span);
+        let one = |value: &&str| Completion::new(*value, CompletionKind::Value, "", span);
         values.iter().map(one).collect()
     };
     match word.to_ascii_lowercase().as_str() {
@@ -267,7 +256,7 @@ fn types(place: Span, text: &str) -> Vec<Completion> {
     let line = Span::new(line_start.map_or(0, |at| at + 1), place.end as usize);
     let span = last_word(line, text);
     let all = Type::NAMES.iter();
-    all.map(|(name, _)| completion(*name, CompletionKind::Value, "a type", span)).collect()
+    all.map(|(name, _)| Completion::new(*name, CompletionKind::Value, "a type", span)).collect()
 }
 
 /// The word that the span ends in; empty after a blank or sign.

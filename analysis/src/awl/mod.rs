@@ -13,6 +13,7 @@ use awl_asm::symbols;
 
 use crate::answer::{Completion, Outline, Problem, Refusal};
 use crate::language::{Text, View, word_around};
+use crate::structured;
 use crate::subject::Mention;
 
 /// AWL as the assembler reads it.
@@ -20,12 +21,14 @@ pub(crate) struct Awl;
 
 impl Text for Awl {
     fn problems(&self, view: View<'_>) -> Vec<Problem> {
-        let diagnostics = view.model.map_or(&[][..], |model| &model.assembly.diagnostics);
-        diagnostics.iter().map(|one| Problem::of(one.clone(), view.text())).collect()
+        view.model.map_or_else(Vec::new, |model| model.problems(&view.source.name))
     }
 
     fn mentions(&self, view: View<'_>) -> Vec<Mention> {
-        view.model.map_or_else(Vec::new, |model| mentions::of(view.text(), &model.assembly))
+        let Some(model) = view.model else { return Vec::new() };
+        let all = mentions::of(&model.awl().text, &model.assembly).into_iter();
+        let here = all.filter_map(|one| Some(Mention { span: view.span_here(one.span)?, ..one }));
+        here.flat_map(|one| structured::of_awl(view.text(), one, model)).collect()
     }
 
     fn word_at(&self, view: View<'_>, offset: usize) -> Option<Mention> {
@@ -51,7 +54,8 @@ impl Text for Awl {
     }
 
     fn outline(&self, view: View<'_>) -> Vec<Outline> {
-        view.model.map_or_else(Vec::new, |model| outline::of(view.text(), &model.assembly.program))
+        let Some(model) = view.model else { return Vec::new() };
+        outline::here(view, outline::of(&model.awl().text, &model.assembly.program))
     }
 
     fn formatted(&self, view: View<'_>) -> Result<String, Refusal> {

@@ -5,6 +5,7 @@ use diagnostics::Span;
 use plc_isa::Op;
 
 use crate::answer::{Outline, OutlineKind};
+use crate::language::View;
 
 /// The parts of a program in their order. Each ends where the next of its kind begins.
 pub(super) fn of(text: &str, program: &Program) -> Vec<Outline> {
@@ -19,6 +20,19 @@ pub(super) fn of(text: &str, program: &Program) -> Vec<Outline> {
     }
     open.close_unit(open.end);
     open.done
+}
+
+/// The parts of a program that are in one of its texts, with their places there.
+pub(super) fn here(view: View<'_>, parts: Vec<Outline>) -> Vec<Outline> {
+    let one = |part: Outline| {
+        let children = here(view, part.children);
+        match (view.span_here(part.span), view.span_here(part.name_span)) {
+            (Some(span), Some(name_span)) => vec![Outline { span, name_span, children, ..part }],
+            // The main program around a text without blocks is in no text.
+            _ => children,
+        }
+    };
+    parts.into_iter().flat_map(one).collect()
 }
 
 /// The parts that are not at their end.

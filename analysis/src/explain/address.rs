@@ -1,7 +1,7 @@
 //! What an address is, in words: area, size, pin, and what the system has there.
 
 use awl_asm::Address;
-use plc_isa::{AnalogInput, Area, TimerFamily, UNO, timer_family, timer_resolution};
+use plc_isa::{AnalogInput, Area, Profile, TimerFamily, UNO, timer_family, timer_resolution};
 
 /// What the system keeps in bits of special memory (docs/s7-200.md 3.1).
 const BITS: &[(u16, u8, &str)] = &[
@@ -119,4 +119,15 @@ fn area_words(area: Area) -> &'static str {
         Area::C => "the counters",
         Area::L => "local memory",
     }
+}
+
+/// The inputs and outputs of a board.
+pub(crate) fn points(board: &Profile) -> Vec<Address> {
+    let bits = |area, count| (0..count).map(move |bit| Address::Bit { area, byte: 0, bit });
+    let analog = (0..board.analog_inputs)
+        .flat_map(|at| [AnalogInput::Scaled(at), AnalogInput::Raw(at)].map(Address::Analog));
+    bits(Area::I, board.digital_inputs)
+        .chain(bits(Area::Q, board.digital_outputs))
+        .chain(analog)
+        .collect()
 }

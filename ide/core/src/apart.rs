@@ -3,7 +3,7 @@
 
 use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
-use awl_sim::open::{Opened, open};
+use awl_sim::open::{Opened, open_files};
 use awl_sim::plant::PlantSpec;
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
@@ -45,7 +45,7 @@ pub fn simulate(files: &Files, wanted: &Wanted<'_>) -> Result<Recording, String>
 }
 
 fn opened(files: &Files) -> Result<Opened<Host>, String> {
-    open(&files.program, &files.tables).map_err(|error| error.to_string())
+    open_files(&files.program, &files.tables, None).map_err(|error| error.to_string())
 }
 
 fn recording(outcome: &Outcome) -> Result<Recording, String> {

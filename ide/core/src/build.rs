@@ -8,46 +8,56 @@ use client::Program;
 use client::line::Framing;
 use client::program::{ProgramError, symbols_of};
 use plc_isa::{LineSettings, Settings, UNO};
+use project::join;
 
 use crate::editor::Editor;
-use crate::protocol::Summary;
+use crate::protocol::{Problem, Summary};
 
 /// Cycles of the Uno in a microsecond.
 const CYCLES_PER_US: f64 = 16.0;
 
 /// A program of the project with its tables, as files.
 pub struct Files {
-    /// The program.
-    pub program: File,
+    /// The program, its main file first.
+    pub program: Vec<File>,
     /// Its symbol tables.
     pub tables: Vec<File>,
 }
 
 /// The files of the program that is run.
 pub fn files(editor: &Editor) -> Result<Files, String> {
-    let name = editor.main().ok_or("the project has no program: make a file that ends in .awl")?;
-    Ok(files_of(editor, name))
+    Ok(files_of(editor, main(editor)?))
 }
 
-/// The files of a program.
+fn main(editor: &Editor) -> Result<&str, String> {
+    editor.main().ok_or_else(|| {
+        "the project has no program: make a file that ends in .awl or .st".to_owned()
+    })
+}
+
+/// The files of the program that a file belongs to.
 pub fn files_of(editor: &Editor, name: &str) -> Files {
     let file =
         |name: &str, text: &str| File { name: name.to_owned(), bytes: text.as_bytes().to_vec() };
-    let tables = editor.tables(name);
+    let names = editor.files_of(name);
+    let program = names.iter().map(|name| file(name, editor.text(name).unwrap_or_default()));
+    let tables = editor.tables(&names);
     Files {
-        program: file(name, editor.text(name).unwrap_or_default()),
+        program: program.collect(),
         tables: tables.iter().map(|table| file(&table.name, &table.text)).collect(),
     }
 }
 
 /// The program, assembled.
 pub fn program(editor: &Editor) -> Result<Program, String> {
-    let Files { program, .. } = files(editor)?;
-    let tables = editor.tables(&program.name).into_iter().map(symbols_of);
+    let name = main(editor)?;
+    let names = editor.files_of(name);
+    let tables = editor.tables(&names).into_iter().map(symbols_of);
     let symbols: Result<Vec<_>, ProgramError> = tables.collect();
     let symbols = symbols.map_err(|error| error.to_string())?.into_iter().flatten().collect();
-    Program::of_bytes(&program.name, &program.bytes, symbols)
-        .map_err(|_| errors(editor, &program.name))
+    let sources = names.iter().filter_map(|name| editor.source(name).cloned()).collect();
+    let joined = join(sources).map_err(|_| errors(editor, &names))?;
+    Program::assembled(joined.awl, symbols).map_err(|_| errors(editor, &names))
 }
 
 /// The program as a board takes it: what the board has no room or no hardware for is an error.
@@ -75,10 +85,11 @@ pub fn flash(program: &Program) -> Result<Vec<u8>, String> {
 }
 
 /// That there are errors, and how many.
-fn errors(editor: &Editor, name: &str) -> String {
+fn errors(editor: &Editor, names: &[String]) -> String {
     let problems = editor.problems();
-    let count = problems.iter().filter(|problem| problem.is_error && problem.file == name).count();
-    match count {
+    let is_here = |problem: &&Problem| problem.is_error && names.contains(&problem.file);
+    let name = names.first().map_or("", String::as_str);
+    match problems.iter().filter(is_here).count() {
         0 => format!("a symbol table of {name} has errors"),
         1 => format!("{name} has an error"),
         count => format!("{name} has {count} errors"),

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use analysis::ladder::Drawing;
-use analysis::{CompletionKind, Location, OutlineKind, Project};
+use analysis::{CompletionKind, Language, Location, OutlineKind, Project};
 use awl_sim::plant::{PlantSpec, SpecErrors, parse_spec_with};
 use awl_sim::scenario::plant_of;
 use diagnostics::{Severity, Source, Span};
@@ -63,14 +63,20 @@ impl Editor {
     /// The program: the one that was chosen, otherwise the first.
     pub fn main(&self) -> Option<&str> {
         let chosen = self.main.as_deref().filter(|name| self.texts.contains_key(*name));
-        let mut programs = self.texts.keys().map(String::as_str).filter(|name| is_program(name));
-        chosen.or_else(|| programs.next())
+        let programs = self.texts.keys().map(String::as_str).filter(|name| is_program(name));
+        // The first that is no part of another's program.
+        let is_main = |name: &&str| self.files_of(name).first().is_some_and(|main| main == name);
+        chosen.or_else(|| programs.clone().find(is_main)).or_else(|| programs.clone().next())
+    }
+
+    /// The files of the program that a file is or belongs to, the main one first.
+    pub fn files_of(&self, name: &str) -> Vec<String> {
+        self.project.program(name)
     }
 
     /// The program of a scenario: the one that it belongs to, otherwise the one that is run.
     pub fn program_of(&self, scenario: &str) -> Option<String> {
-        let related = self.project.related(scenario);
-        let own = related.into_iter().find(|name| is_program(name));
+        let own = self.files_of(scenario).into_iter().next();
         own.or_else(|| self.main().map(str::to_owned))
     }
 
@@ -104,9 +110,18 @@ impl Editor {
         plant_of(name, text, &mut read).map_err(|error| error.to_string())
     }
 
-    /// The symbol tables of a program.
-    pub fn tables(&self, program: &str) -> Vec<Source> {
-        self.project.tables(program).cloned().collect()
+    /// The text of a file.
+    pub fn source(&self, name: &str) -> Option<&Source> {
+        self.project.source(name)
+    }
+
+    /// The symbol tables of a program's files.
+    pub fn tables(&self, files: &[String]) -> Vec<Source> {
+        let mut tables: Vec<Source> =
+            files.iter().flat_map(|file| self.project.tables(file)).cloned().collect();
+        tables.sort_by(|one, other| one.name.cmp(&other.name));
+        tables.dedup_by(|one, other| one.name == other.name);
+        tables
     }
 
     /// What is wrong in all files.
@@ -145,6 +160,7 @@ impl Editor {
             kind: kind(found.kind).to_owned(),
             detail: found.detail,
             info: found.doc,
+            holes: found.holes.iter().map(|&at| to_page(&found.edit.text, at)).collect(),
             insert: found.edit.text,
             from: self.place(name, found.edit.span).from,
         };
@@ -245,7 +261,7 @@ impl Editor {
 
 /// Whether a file of this name is a program.
 fn is_program(name: &str) -> bool {
-    name.rsplit_once('.').is_some_and(|(_, ending)| ending.eq_ignore_ascii_case("awl"))
+    Language::of_name(name).is_some_and(Language::is_program)
 }
 
 fn kind(kind: CompletionKind) -> &'static str {

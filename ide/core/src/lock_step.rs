@@ -3,7 +3,7 @@
 
 use awl_sim::machine::Machine;
 use awl_sim::machine::emulated::{Chip, Emulated};
-use awl_sim::open::open;
+use awl_sim::open::open_files;
 use awl_sim::plant::PlantSpec;
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
@@ -32,7 +32,8 @@ pub struct Comparison<'a> {
 /// first difference.
 pub fn compare(comparison: Comparison<'_>, chip: impl Chip) -> Result<(u64, usize), String> {
     let Comparison { files, flash, scenario, described, for_ms, plant } = comparison;
-    let opened = || open(&files.program, &files.tables).map_err(|error| error.to_string());
+    let opened =
+        || open_files(&files.program, &files.tables, None).map_err(|error| error.to_string());
     let about = opened()?;
     let mut host = opened()?.machine;
     let mut has_operand = |operand| host.read(operand).map(drop);

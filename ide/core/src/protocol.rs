@@ -286,6 +286,8 @@ pub struct Completion {
     pub info: String,
     /// What comes in the place of `from` to the cursor.
     pub insert: String,
+    /// Where something is to be written in that, in the page's offsets.
+    pub holes: Vec<u32>,
     /// Where the text begins that it replaces; that ends at the cursor.
     pub from: u32,
 }

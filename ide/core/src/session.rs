@@ -5,11 +5,12 @@ mod plants;
 mod reach;
 mod status;
 
-use awl_asm::diagnostic::Code;
+use analysis::Language;
 use awl_sim::operand::Operand;
 use awl_sim::plant::file;
 use client::line::Framing;
 use client::show::state::{Agreement, Link, Order};
+use project::Code;
 use serde::Serialize;
 
 use crate::apart::{self, Wanted};
@@ -363,6 +364,7 @@ impl Session {
             }
             LookWish::View { from, to } => {
                 self.view = (from, to);
+                let (from, to) = self.lines();
                 if let Some(plc) = &mut self.plc {
                     plc.view(from, to);
                 }
@@ -373,6 +375,15 @@ impl Session {
             }
         }
         Ok(())
+    }
+
+    /// The lines that can be seen and that are those of the program; `(0, 0)` where there are
+    /// none. What became AWL of other texts has no lines that its author sees.
+    fn lines(&self) -> (u32, u32) {
+        let main = self.editor.main().unwrap_or_default();
+        let has_lines =
+            Language::of_name(main) == Some(Language::Awl) && self.editor.files_of(main).len() == 1;
+        if has_lines { self.view } else { (0, 0) }
     }
 
     fn connected(&mut self) -> Result<&mut Plc, String> {
@@ -438,7 +449,8 @@ impl Session {
     /// A PLC is at the other end of the line: it is asked from now on for what is to be seen.
     fn attach(&mut self, mut plc: Plc) {
         plc.watch(&self.watched);
-        plc.view(self.view.0, self.view.1);
+        let (from, to) = self.lines();
+        plc.view(from, to);
         self.plc = Some(plc);
         self.scope.restart();
         // Signals of the last program may not be in this one.

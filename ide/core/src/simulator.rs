@@ -8,7 +8,7 @@ use std::time::Duration;
 use awl_asm::ast::Symbol;
 use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
-use awl_sim::open::{Opened, open};
+use awl_sim::open::{Opened, open_files};
 use awl_sim::operand::Operand;
 use awl_sim::plant::{Plant, PlantSpec};
 use awl_sim::run::Course;
@@ -84,7 +84,8 @@ pub struct Simulator {
 impl Simulator {
     /// A PLC that is switched on with this program.
     pub fn new(files: &Files, bench: &Bench) -> Result<Simulator, String> {
-        let opened = open(&files.program, &files.tables).map_err(|error| error.to_string())?;
+        let opened =
+            open_files(&files.program, &files.tables, None).map_err(|error| error.to_string())?;
         let Opened { machine, symbols, scan_ms, .. } = opened;
         let scan_ms = scan_ms.unwrap_or(SCAN_MS);
         let course = Course::new(&Scenario::default(), bench.new_plant()?, scan_ms);

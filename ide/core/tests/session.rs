@@ -366,3 +366,48 @@ fn power_flow_in_a_ladder_is_that_of_the_program() {
     page.pass(500);
     assert_eq!(elements(&page), [true, true, false, true, false].map(Some));
 }
+
+#[test]
+fn structured_text_of_two_files() {
+    let mut page = Page::default();
+    let blocks = "FUNCTION Next : INT\nVAR_INPUT\n    x : INT;\nEND_VAR\nNext := x + 1;\n\
+        END_FUNCTION\n";
+    let main = "PROGRAM Main\nVAR\n    n : INT;\nEND_VAR\nn := Next(n);\n\nEND_PROGRAM\n";
+    let scenario = "at 5ms expect Main.n = 5\nat 5ms expect Main.n = 4\nrun 10ms\n";
+    let files = [("blocks.st", blocks), ("main.st", main), ("main.scn", scenario)]
+        .map(|(name, text)| File { name: name.to_owned(), text: text.to_owned() });
+    page.wish(Wish::Project(ProjectWish::Open { files: files.to_vec(), main: None }));
+    assert_eq!(page.problems(), []);
+    // What can be written has holes.
+    let at = main.find("\n\nEND").unwrap() as u32 + 1;
+    let file = "main.st".to_owned();
+    let found: Vec<ide_core::protocol::Completion> =
+        page.answer(Wish::Text(TextWish::Complete { file: file.clone(), at }));
+    let one = found.iter().find(|one| one.label == "IF").unwrap();
+    assert_eq!((one.insert.as_str(), &one.holes[..]), ("IF  THEN\n    \nEND_IF;", &[3, 13][..]));
+    let edits: ide_core::protocol::Edits =
+        page.answer(Wish::Text(TextWish::Format { file: file.clone() }));
+    assert_eq!(edits.len(), 0, "it has its layout");
+    let code: String = page.answer(Wish::Text(TextWish::Explain { code: "E0205".to_owned() }));
+    assert!(code.starts_with("# E0205"));
+    // Both files run; the lines of AWL that they became are shown beside no other text.
+    page.wish(look(&["Main.n"]));
+    page.wish(Wish::Look(LookWish::View { from: 1, to: 7 }));
+    page.target(TargetWish::Run);
+    page.pass(300);
+    assert_eq!(page.status().mode, "RUN");
+    assert!(page.watched()[0].number.is_some_and(|n| n > 100.0), "{:?}", page.watched());
+    let lines = |event: &Event| match event {
+        Event::Live { lines } => Some(lines.len()),
+        _ => None,
+    };
+    assert_eq!(page.last(lines).unwrap_or(0), 0);
+    let result: TestResult =
+        page.answer(Wish::Apart(ApartWish::Test { file: "main.scn".to_owned() }));
+    assert_eq!(result.failures.len(), 1, "{result:?}");
+    // An error in one file keeps the program from running.
+    let text = blocks.replace("x + 1", "y + 1");
+    page.wish(Wish::Project(ProjectWish::Edit { file: "blocks.st".to_owned(), text }));
+    assert_eq!(page.problems()[0].file, "blocks.st");
+    assert_eq!(page.refusal(Wish::Target(TargetWish::Download)), "main.st has an error");
+}

@@ -140,7 +140,9 @@ export class Ide {
     const text = this.files.get(wish.file).slice(0, wish.at);
     const word = /[\w]*$/.exec(text)[0];
     const from = wish.at - word.length;
-    const one = (label, kind, detail, info) => ({ label, kind, detail, info, from });
+    const one = (label, kind, detail, info) => {
+      return { label, kind, detail, info, insert: label, holes: [], from };
+    };
     this.reply(wish, [
       one(
         "TON",

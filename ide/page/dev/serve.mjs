@@ -18,24 +18,41 @@ const POLICY =
 const EXAMPLES = at("../../../examples/");
 const PLANTS = { station1: "station1", tank: "tank" };
 
+/** The examples in Structured Text have a mark at their names. */
+const ST = /-st$/;
+
 async function example(name) {
-  const files = (await readdir(EXAMPLES)).filter((file) => file.replace(/\.\w+$/, "") === name);
-  const read = async (file) => ({ name: file, text: await readFile(EXAMPLES + file, "utf8") });
-  const described = files.find((file) => file === `${name}.plant`);
-  const plant = PLANTS[name] ?? described ?? null;
-  const content = { files: await Promise.all(files), main: `${name}.awl`, plant };
-  content.files = await Promise.all(files.map(read));
-  return JSON.stringify({ ...content, view: plant ? "plant" : "problems" });
+  const stem = name.replace(ST, "");
+  const ending = ST.test(name) ? "st" : "awl";
+  const program = ST.test(name) ? `st/${stem}.st` : `${stem}.awl`;
+  const described = `${stem}.plant`;
+  const all = await readdir(EXAMPLES);
+  const beside = all.filter((file) => file === `${stem}.scn` || file === described);
+  const read = async (path) => ({
+    name: path.split("/").pop(),
+    text: await readFile(EXAMPLES + path, "utf8"),
+  });
+  const files = await Promise.all([program, ...beside].map(read));
+  const plant = PLANTS[stem] ?? (all.includes(described) ? described : null);
+  return JSON.stringify({
+    files,
+    main: `${stem}.${ending}`,
+    plant,
+    view: plant ? "plant" : "problems",
+  });
 }
 
 async function exampleNames() {
-  const names = (await readdir(EXAMPLES)).filter((file) => file.endsWith(".awl"));
-  return JSON.stringify(names.map((name) => name.replace(".awl", "")));
+  const named = async (folder, ending, mark) =>
+    (await readdir(EXAMPLES + folder))
+      .filter((file) => file.endsWith(ending))
+      .map((file) => file.replace(ending, mark));
+  return JSON.stringify([...(await named("", ".awl", "")), ...(await named("st", ".st", "-st"))]);
 }
 
 async function answer(path) {
   if (path === "/version/examples/list.json") return exampleNames();
-  const name = /^\/version\/examples\/(\w+)\.json$/.exec(path)?.[1];
+  const name = /^\/version\/examples\/([\w-]+)\.json$/.exec(path)?.[1];
   if (name) return example(name);
   const file = path === "/" ? "/index.html" : path;
   if (/^\/version\/ide_core/.test(file)) {

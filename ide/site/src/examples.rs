@@ -1,7 +1,5 @@
 //! The examples as projects of the page, and the list of them.
 
-use std::path::Path;
-
 use serde_json::json;
 
 use crate::exercises::exercises;
@@ -21,30 +19,51 @@ pub fn plant_of(name: &str) -> Option<&'static str> {
 
 /// Each project as JSON with its name, and `list` with the names.
 pub fn projects() -> Vec<(String, String)> {
-    let programs = EXAMPLES.iter().filter_map(|(path, _)| path.strip_suffix(".awl"));
-    let names: Vec<&str> =
-        programs.filter(|name| Path::new(name).parent() == Some("".as_ref())).collect();
+    let mut projects = [of_language("", "awl", ""), of_language("st/", "st", "-st")].concat();
+    projects.sort();
+    let names: Vec<&str> = projects.iter().map(|(name, _)| name.as_str()).collect();
     let list = ("list".to_owned(), json!(names).to_string());
     let text = |(path, bytes): &(&str, &[u8])| {
         ((*path).to_owned(), String::from_utf8_lossy(bytes).into_owned())
     };
     let texts: Vec<_> = EXAMPLES.iter().map(text).collect();
     let exercises = exercises(&texts).into_iter().map(|(name, value)| (name, value.to_string()));
-    let projects = names.iter().map(|name| ((*name).to_owned(), project(name)));
-    projects.chain([list]).chain(exercises).collect()
+    projects.into_iter().chain([list]).chain(exercises).collect()
 }
 
-fn project(name: &str) -> String {
-    let is_its = |path: &str| {
-        path.strip_prefix(name).is_some_and(|rest| rest.starts_with('.') && !rest.contains('/'))
+/// The examples in a folder; a mark at their names says in which language they are.
+fn of_language(folder: &str, ending: &str, mark: &str) -> Vec<(String, String)> {
+    let stem = |path: &'static str| {
+        let (stem, found) = path.strip_prefix(folder)?.rsplit_once('.')?;
+        (found == ending && !stem.contains('/')).then_some(stem)
     };
-    let mut own: Vec<_> = EXAMPLES.iter().filter(|(path, _)| is_its(path)).collect();
+    let stems = EXAMPLES.iter().filter_map(|(path, _)| stem(path));
+    stems.map(|stem| (format!("{stem}{mark}"), project(folder, stem, ending))).collect()
+}
+
+fn project(folder: &str, stem: &str, ending: &str) -> String {
+    let beside = |folder: &str| {
+        let is_its = |path: &str| {
+            let rest = path.strip_prefix(folder).and_then(|path| path.strip_prefix(stem));
+            rest.is_some_and(|rest| rest.starts_with('.') && !rest.contains('/'))
+        };
+        EXAMPLES.iter().filter(|(path, _)| is_its(path)).collect::<Vec<_>>()
+    };
+    let mut own = beside(folder);
+    // What an example does in AWL it does in another language, too.
+    if own.len() == 1 && !folder.is_empty() {
+        own.extend(beside("").into_iter().filter(|(path, _)| !path.ends_with(".awl")));
+    }
     // The shorter ones first: the program and the scenario that is called like it.
     own.sort_by_key(|(path, _)| (path.len(), *path));
-    let file = |(path, bytes): &&(&str, &[u8])| json!({ "name": path, "text": String::from_utf8_lossy(bytes) });
+    let name = |path: &'static str| path.rsplit('/').next().unwrap_or(path);
+    let file = |one: &&'static (&'static str, &'static [u8])| {
+        let (path, bytes) = *one;
+        json!({ "name": name(path), "text": String::from_utf8_lossy(bytes) })
+    };
     let files: Vec<_> = own.iter().map(file).collect();
-    let described = format!("{name}.plant");
-    let has_plant = own.iter().any(|(path, _)| *path == described);
-    let plant = plant_of(name).or_else(|| has_plant.then_some(described.as_str()));
-    json!({ "files": files, "main": format!("{name}.awl"), "plant": plant }).to_string()
+    let described = format!("{stem}.plant");
+    let has_plant = own.iter().any(|(path, _)| name(path) == described);
+    let plant = plant_of(stem).or_else(|| has_plant.then_some(described.as_str()));
+    json!({ "files": files, "main": format!("{stem}.{ending}"), "plant": plant }).to_string()
 }

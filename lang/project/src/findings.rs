@@ -15,6 +15,8 @@ pub enum Code {
     St(st::Code),
     /// Of charts.
     Chart(chart::Code),
+    /// Of function blocks of IEC 61499.
+    Block(fb::Code),
 }
 
 impl Code {
@@ -24,6 +26,22 @@ impl Code {
             Code::Awl(code) => code.text(),
             Code::St(code) => code.text(),
             Code::Chart(code) => code.text(),
+            Code::Block(code) => code.text(),
+        }
+    }
+
+    /// The code of this text, in any letter case.
+    pub fn find(text: &str) -> Option<Code> {
+        Code::all().find(|code| code.text().eq_ignore_ascii_case(text))
+    }
+
+    /// The page that explains it, in Markdown.
+    pub fn page(self) -> &'static str {
+        match self {
+            Code::Awl(code) => code.page(),
+            Code::St(code) => code.page(),
+            Code::Chart(code) => code.page(),
+            Code::Block(code) => code.page(),
         }
     }
 
@@ -31,7 +49,8 @@ impl Code {
     pub fn all() -> impl Iterator<Item = Code> {
         let awl = awl_asm::diagnostic::Code::ALL.iter().copied().map(Code::Awl);
         let st = st::Code::ALL.iter().copied().map(Code::St);
-        awl.chain(st).chain(chart::Code::ALL.iter().copied().map(Code::Chart))
+        let charts = chart::Code::ALL.iter().copied().map(Code::Chart);
+        awl.chain(st).chain(charts).chain(fb::Code::ALL.iter().copied().map(Code::Block))
     }
 }
 
@@ -45,11 +64,7 @@ impl diagnostics::Code for Code {
     }
 
     fn page(self) -> Option<&'static str> {
-        Some(match self {
-            Code::Awl(code) => code.page(),
-            Code::St(code) => code.page(),
-            Code::Chart(code) => code.page(),
-        })
+        Some(Code::page(self))
     }
 }
 
@@ -89,5 +104,11 @@ pub(crate) fn from_st(one: st::Diagnostic) -> Diagnostic {
 /// One of a chart.
 pub(crate) fn from_chart(one: chart::Diagnostic) -> Diagnostic {
     let code = Code::Chart(one.code);
+    with_code(one, code)
+}
+
+/// One of a function block of IEC 61499.
+pub(crate) fn from_block(one: fb::Diagnostic) -> Diagnostic {
+    let code = Code::Block(one.code);
     with_code(one, code)
 }

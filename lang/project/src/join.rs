@@ -3,13 +3,14 @@
 use awl_asm::ast::{Section, Type as AwlType, UnitKind};
 use awl_asm::parser::parse;
 use awl_asm::source::Source;
+use diagnostics::Span;
 use st::model::Type;
 use st::{Around, Routine, RoutineParameter};
 
 /// What the AWL texts of a program offer to Structured Text.
-pub(crate) fn around(awl: &[Source]) -> Around {
+pub(crate) fn around(awl: &[(usize, Source)]) -> Around {
     let mut around = Around { has_main: !awl.is_empty(), ..Around::default() };
-    for source in awl {
+    for (_, source) in awl {
         // What is wrong in it the assembler tells later.
         let (program, _) = parse(source, Vec::new());
         for (_, unit) in program.units() {
@@ -48,14 +49,23 @@ fn type_of(kind: AwlType) -> Option<Type> {
     })
 }
 
-/// All texts as one. Lines of AWL say where they come from.
-pub(crate) fn text(awl: &[Source], generated: &str) -> String {
-    if awl.is_empty() {
-        return generated.to_owned();
-    }
+/// A stretch of a file that the text of all files has as it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Part {
+    /// The number of the file.
+    pub file: usize,
+    /// Where it is in it.
+    pub span: Span,
+    /// Where it begins in the text of all.
+    pub at: u32,
+}
+
+/// All texts as one, and what of them is in it. Lines of AWL say where they come from.
+pub(crate) fn text(awl: &[(usize, Source)], generated: &str) -> (String, Vec<Part>) {
+    let mut parts = Vec::new();
     let mut text = String::new();
     // Declarations of the generated part come first: they are visible everywhere in any case.
-    for source in awl {
+    for (file, source) in awl {
         let has_blocks = source.text.lines().any(|line| {
             let word = line.trim_start().to_ascii_uppercase();
             word.starts_with("ORGANIZATION_BLOCK") || word.starts_with("SUBROUTINE_BLOCK")
@@ -63,10 +73,13 @@ pub(crate) fn text(awl: &[Source], generated: &str) -> String {
         if !has_blocks {
             text += "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\n";
         }
-        for (number, line) in (1..).zip(source.text.lines()) {
+        for number in 1..=source.line_count() {
+            let span = source.line_span(number);
+            let line = span.text(&source.text);
             if !line.trim().is_empty() && !line.trim_start().starts_with("//") {
                 text += &format!("//# source {}:{number}\n", source.name);
             }
+            parts.push(Part { file: *file, span, at: text.len() as u32 });
             text += line;
             text.push('\n');
         }
@@ -75,5 +88,5 @@ pub(crate) fn text(awl: &[Source], generated: &str) -> String {
             text += "END_ORGANIZATION_BLOCK\n";
         }
     }
-    text + generated
+    (text + generated, parts)
 }

@@ -8,10 +8,11 @@ mod read;
 use std::path::Path;
 
 use awl_asm::diagnostic::Code as AwlCode;
-use awl_asm::source::Source;
-use diagnostics::Severity;
+use awl_asm::source::{Source, SourceError};
+use diagnostics::{Severity, Span};
 
 pub use findings::{Code, Diagnostic, Findings};
+pub use join::Part;
 
 /// The language of a file, by the ending of its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,6 +23,8 @@ pub enum Language {
     StructuredText,
     /// Charts, as text.
     Chart,
+    /// A function block of IEC 61499, as XML.
+    Block,
 }
 
 impl Language {
@@ -31,6 +34,7 @@ impl Language {
         match ending.map(str::to_lowercase).as_deref() {
             Some("st") => Language::StructuredText,
             Some("sfc") => Language::Chart,
+            Some("fbt") => Language::Block,
             _ => Language::Awl,
         }
     }
@@ -47,22 +51,68 @@ pub struct Joined {
     pub findings: Vec<Findings>,
 }
 
-/// Makes one AWL text of the texts of a program. What is wrong with them comes all at once.
-pub fn join(sources: Vec<Source>) -> Result<Joined, Vec<Findings>> {
+/// The texts of a program together, with errors or without: for those who look at texts that are
+/// being written.
+#[derive(Debug)]
+pub struct Together {
+    /// The AWL text. With errors in Structured Text that of the files in AWL alone.
+    pub awl: Source,
+    /// The stretches of the files that it has as they are, in its order.
+    pub parts: Vec<Part>,
+    /// What Structured Text there is, if there is any.
+    pub st: Option<StructuredText>,
+}
+
+/// The Structured Text of a program.
+#[derive(Debug)]
+pub struct StructuredText {
+    /// The numbers of its files among all, by the numbers that it has for them.
+    pub files: Vec<usize>,
+    /// The subroutines in AWL that it can call.
+    pub routines: Vec<st::Routine>,
+    /// What is wrong with texts of other languages that become Structured Text, by their numbers
+    /// among the files.
+    pub others: Vec<(usize, Diagnostic)>,
+    /// What the compiler found out.
+    pub compiled: st::Compiled,
+}
+
+/// Puts the texts of a program together. It fails above four gigabytes alone.
+pub fn together(sources: &[Source]) -> Result<Together, SourceError> {
     let is_awl = |source: &Source| Language::of(&source.name) == Language::Awl;
     if sources.iter().all(is_awl) {
-        // It fails above four gigabytes alone.
-        let awl = Source::joined(sources).map_err(|_| Vec::new())?;
-        return Ok(Joined { awl, is_generated: false, findings: Vec::new() });
+        let awl = Source::joined(sources.to_vec())?;
+        let files = (0..).zip(awl.files());
+        let part = |(file, (_, at)): (usize, (&str, Span))| {
+            let len = sources.get(file).map_or(0, |source| source.text.len());
+            Part { file, span: Span::new(0, len), at: at.start }
+        };
+        let parts = files.map(part).collect();
+        return Ok(Together { awl, parts, st: None });
     }
-    let (awl, texts): (Vec<Source>, Vec<Source>) = sources.into_iter().partition(is_awl);
+    let numbered = sources.iter().cloned().enumerate();
+    let (awl, texts): (Vec<_>, Vec<_>) = numbered.partition(|(_, source)| is_awl(source));
     let around = join::around(&awl);
-    let read::Read { files, of_st, mut others } = read::read(&texts);
-    let compiled = st::translate(&texts, &files, of_st, &around);
-    let name = awl.iter().chain(&texts).next().map_or("program", |source| source.name.as_str());
-    let name = name.to_owned();
+    let (files, texts): (Vec<usize>, Vec<Source>) = texts.into_iter().unzip();
+    let read::Read { files: trees, of_st, others } = read::read(&texts, awl.is_empty());
+    let compiled = st::translate(&texts, &trees, of_st, &around);
+    let generated = compiled.awl.as_deref().unwrap_or_default();
+    let first = awl.first().map(|(_, source)| source).or(texts.first());
+    let name = first.map_or_else(String::new, |source| source.name.clone());
+    let (text, parts) = join::text(&awl, generated);
+    let st = Some(StructuredText { files, routines: around.routines, others, compiled });
+    Ok(Together { awl: Source::new(name, text)?, parts, st })
+}
+
+/// Makes one AWL text of the texts of a program. What is wrong with them comes all at once.
+pub fn join(sources: Vec<Source>) -> Result<Joined, Vec<Findings>> {
+    let Together { awl, st, .. } = together(&sources).map_err(|_| Vec::new())?;
+    let Some(StructuredText { files, compiled, mut others, .. }) = st else {
+        return Ok(Joined { awl, is_generated: false, findings: Vec::new() });
+    };
+    let texts = files.iter().filter_map(|&file| sources.get(file).cloned());
     let mut findings: Vec<Findings> =
-        texts.into_iter().map(|source| Findings { source, diagnostics: Vec::new() }).collect();
+        texts.map(|source| Findings { source, diagnostics: Vec::new() }).collect();
     others.extend(compiled.diagnostics.into_iter().map(|(at, one)| (at, findings::from_st(one))));
     others.sort_by_key(|(_, one)| one.span);
     for (file, one) in others {
@@ -71,13 +121,39 @@ pub fn join(sources: Vec<Source>) -> Result<Joined, Vec<Findings>> {
         }
     }
     findings.retain(|one| !one.diagnostics.is_empty());
-    let is_bad = has_errors(&findings);
-    let Some(generated) = compiled.awl.filter(|_| !is_bad) else { return Err(findings) };
-    let text = join::text(&awl, &generated);
-    match Source::new(name, text) {
-        Ok(awl) => Ok(Joined { awl, is_generated: true, findings }),
-        Err(_) => Err(findings),
+    match compiled.awl.is_some() && !has_errors(&findings) {
+        true => Ok(Joined { awl, is_generated: true, findings }),
+        false => Err(findings),
     }
+}
+
+/// A text in the canonical layout of its language; or its errors of form.
+pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
+    match Language::of(&source.name) {
+        Language::Awl => awl_asm::format::format(source)
+            .map_err(|errors| errors.into_iter().map(findings::from_awl).collect()),
+        Language::StructuredText => st::format::format(source)
+            .map_err(|errors| errors.into_iter().map(findings::from_st).collect()),
+        Language::Chart => {
+            let chart::text::Reading { document, diagnostics, .. } = chart::text::read(source);
+            let errors = errors_of(diagnostics, findings::from_chart);
+            if errors.is_empty() { Ok(chart::text::write(&document)) } else { Err(errors) }
+        }
+        Language::Block => {
+            let fb::xml::Read { block, diagnostics } = fb::xml::read(source);
+            let errors = errors_of(diagnostics, findings::from_block);
+            block.map(|block| fb::xml::write(&block)).ok_or(errors)
+        }
+    }
+}
+
+/// The errors among what was found, without the warnings.
+fn errors_of<C: diagnostics::Code>(
+    found: Vec<diagnostics::Diagnostic<C>>,
+    of_all: fn(diagnostics::Diagnostic<C>) -> Diagnostic,
+) -> Vec<Diagnostic> {
+    let errors = found.into_iter().filter(|one| one.severity() == Severity::Error);
+    errors.map(of_all).collect()
 }
 
 /// Whether there are errors.

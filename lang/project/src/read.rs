@@ -3,10 +3,11 @@
 use std::collections::HashSet;
 
 use awl_asm::source::Source;
+use fb::generate::{Form, Translation};
 use st::tree::File;
 
 use crate::Language;
-use crate::findings::{Diagnostic, from_chart};
+use crate::findings::{Diagnostic, from_block, from_chart};
 
 /// What was read.
 pub(crate) struct Read {
@@ -18,14 +19,24 @@ pub(crate) struct Read {
     pub(crate) others: Vec<(usize, Diagnostic)>,
 }
 
-/// Reads texts. Charts come last: they see what the others declare for all.
-pub(crate) fn read(texts: &[Source]) -> Read {
+/// Reads texts. Charts come last: they see what the others declare for all. `is_all`: the program
+/// has no other texts; a block that is alone is a program.
+pub(crate) fn read(texts: &[Source], is_all: bool) -> Read {
+    let form = if is_all && texts.len() == 1 { Form::Program } else { Form::FunctionBlock };
     let mut read = Read { files: Vec::new(), of_st: Vec::new(), others: Vec::new() };
     let mut known = HashSet::new();
     for (at, text) in texts.iter().enumerate() {
-        if Language::of(&text.name) == Language::Chart {
-            read.files.push(File::default());
-            continue;
+        match Language::of(&text.name) {
+            Language::Chart => {
+                read.files.push(File::default());
+                continue;
+            }
+            Language::Block => {
+                let file = read.block(at, text, form);
+                read.files.push(file);
+                continue;
+            }
+            _ => {}
         }
         let (file, found) = st::parser::parse(text);
         read.of_st.extend(found.into_iter().map(|one| (at, one)));
@@ -42,4 +53,16 @@ pub(crate) fn read(texts: &[Source]) -> Read {
         }
     }
     read
+}
+
+impl Read {
+    /// A function block of IEC 61499; an empty text where it has errors.
+    fn block(&mut self, at: usize, text: &Source, form: Form) -> File {
+        let fb::xml::Read { block, diagnostics } = fb::xml::read(text);
+        self.others.extend(diagnostics.into_iter().map(|one| (at, from_block(one))));
+        let Some(block) = block else { return File::default() };
+        let Translation { file, diagnostics } = fb::generate::translate(&block, text, form);
+        self.of_st.extend(diagnostics.into_iter().map(|one| (at, one)));
+        file
+    }
 }

@@ -3,16 +3,20 @@
 //! no files, and never runs a program.
 //!
 //! The passes, each of which uses the ones before it only: `lexer`, `parser` ([`tree`]), `check`
-//! ([`model`]), `code`.
+//! ([`model`]), `code`. Beside them: `format`, which lays a text out, and `cursor`, for editors.
 
 mod around;
 mod check;
 mod code;
+pub mod cursor;
 pub mod diagnostic;
 mod fold;
+pub mod format;
 pub mod lexer;
 pub mod model;
+pub mod names;
 pub mod parser;
+pub mod standard;
 pub mod tree;
 
 use diagnostics::{Severity, Source};
@@ -20,6 +24,7 @@ use diagnostics::{Severity, Source};
 pub use around::{Around, Routine, RoutineParameter};
 pub use diagnostic::{Code, Diagnostic};
 pub use model::Program;
+pub use names::{Name, Named};
 
 /// What becomes of a program.
 #[derive(Debug)]
@@ -30,6 +35,8 @@ pub struct Compiled {
     pub diagnostics: Vec<(usize, Diagnostic)>,
     /// The checked program.
     pub program: Program,
+    /// The names in the texts, by file and place.
+    pub names: Vec<Name>,
 }
 
 /// Translates the texts of a program.
@@ -52,7 +59,8 @@ pub fn translate(
     mut diagnostics: Vec<(usize, Diagnostic)>,
     around: &Around,
 ) -> Compiled {
-    let (program, found) = check::check(sources, files, around);
+    let check::Checked { program, diagnostics: found, names } =
+        check::check(sources, files, around);
     diagnostics.extend(found);
     let has_errors = diagnostics.iter().any(|(_, one)| one.severity() == Severity::Error);
     let mut awl = None;
@@ -63,5 +71,5 @@ pub fn translate(
     }
     diagnostics.sort_by_key(|(file, one)| (*file, one.span));
     diagnostics.dedup_by(|a, b| a.0 == b.0 && a.1.span == b.1.span && a.1.message == b.1.message);
-    Compiled { awl, diagnostics, program }
+    Compiled { awl, diagnostics, program, names }
 }

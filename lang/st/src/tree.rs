@@ -42,6 +42,8 @@ pub struct Unit {
     pub kind: UnitKind,
     /// Its name.
     pub name: Name,
+    /// All of it.
+    pub span: Span,
     /// Its variables.
     pub sections: Vec<Section>,
     /// What is executed at the start of each scan, for each instance (standard blocks only).
@@ -102,6 +104,8 @@ pub struct Declaration {
 pub struct TypeDeclaration {
     /// Its name.
     pub name: Name,
+    /// All of it.
+    pub span: Span,
     /// What it stands for.
     pub of_type: TypeText,
     /// The initial value of its variables.

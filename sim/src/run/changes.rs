@@ -5,6 +5,7 @@ use std::collections::BinaryHeap;
 
 use crate::action::Action;
 use crate::machine::{Machine, MachineError};
+use crate::operand::Operand;
 use crate::scenario::{Scenario, Setting};
 
 /// The changes, and how far they are done.
@@ -13,6 +14,8 @@ pub(super) struct Changes {
     settings: Vec<Setting>,
     /// When which setting is due, the next one first; at the same time in the order of the file.
     due: BinaryHeap<Reverse<(u64, usize)>>,
+    /// What the last scan saw for the only time.
+    events: Vec<Operand>,
     actions: Vec<Action>,
     begun: usize,
 }
@@ -25,7 +28,7 @@ impl Changes {
         let mut actions = scenario.actions.clone();
         // Stable: what is at the same time stays in the order of the file.
         actions.sort_by_key(Action::at_ms);
-        Changes { scan_ms, settings, due, actions, begun: 0 }
+        Changes { scan_ms, settings, due, events: Vec::new(), actions, begun: 0 }
     }
 
     /// Everything that the scan which starts at `now_ms` is to see.
@@ -34,12 +37,18 @@ impl Changes {
         now_ms: u64,
         machine: &mut (impl Machine + ?Sized),
     ) -> Result<(), MachineError> {
+        for event in std::mem::take(&mut self.events) {
+            machine.write(event, 0)?;
+        }
         while let Some(&Reverse((at_ms, index))) = self.due.peek()
             && at_ms <= now_ms
         {
             self.due.pop();
             let setting = &self.settings[index];
             machine.write(setting.operand, setting.value)?;
+            if setting.for_scan {
+                self.events.push(setting.operand);
+            }
             let next_ms = setting.repeat.and_then(|repeat| repeat.next_ms(at_ms));
             self.due.extend(next_ms.map(|next_ms| Reverse((next_ms, index))));
         }

@@ -436,3 +436,11 @@ fn a_tolerance_begins_late_and_grows() {
         ]
     );
 }
+
+#[test]
+fn an_event_is_there_for_one_scan() {
+    let text = "at 10ms event I0.0\nat 20ms expect Q0.0 = 1, MW2 = 10\nat 30ms expect Q0.0 = 0\n\
+                at 40ms event I0.0\nat 50ms event I0.0\nat 50ms expect Q0.0 = 1\n\
+                at 60ms expect Q0.0 = 1\nat 70ms expect Q0.0 = 0, I0.0 = 0";
+    assert_eq!(failures(text, 10), [""; 0]);
+}

@@ -243,6 +243,7 @@ impl<'a> Parser<'a, '_> {
                 self.handle(after_word, at_ms);
             }
             // With a sign behind it, it is a symbol.
+            "event" if !after_word.text.starts_with('=') => self.events(after_word, at_ms),
             "within" if !after_word.text.starts_with('=') => self.within(after_word, moment),
             _ => self.assignments(rest, Times { at_ms, repeat: None }),
         }

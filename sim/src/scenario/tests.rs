@@ -573,3 +573,16 @@ fn no_text_makes_it_panic() {
     }
     assert!((10_000..20_000).contains(&failed), "{failed}");
 }
+
+#[test]
+fn an_event_is_a_bit() {
+    let scenario = parse("at 5ms event Start, M0.3\nat 6ms event = 1").unwrap_err();
+    assert_eq!(scenario.list.len(), 1, "with a sign behind it, it is a symbol");
+    let scenario = parse("at 5ms event Start, M0.3").unwrap();
+    let settings = scenario.settings.iter();
+    let settings: Vec<_> =
+        settings.map(|set| (set.operand.to_string(), set.value, set.for_scan)).collect();
+    assert_eq!(settings, [("I0.0".to_string(), 1, true), ("M0.3".to_string(), 1, true)]);
+    assert_eq!(errors("at 5ms event MW3"), ["1:14 MW3: an event is a bit"]);
+    assert_eq!(errors("at 5ms event"), ["1:13 an operand is missing"]);
+}

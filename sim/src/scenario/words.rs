@@ -51,7 +51,7 @@ pub const STATEMENTS: [Word; 10] = [
 ];
 
 /// What can follow the time of an `at`, beside values that are set.
-pub const AFTER_TIME: [Word; 6] = [
+pub const AFTER_TIME: [Word; 7] = [
     row("expect", "expect Q0.1 = 0, MW3 = 200..210", "What must be true at that time."),
     row(
         "within",
@@ -60,6 +60,7 @@ pub const AFTER_TIME: [Word; 6] = [
     ),
     row("pulse", "pulse I0.0 1000Hz for 2s", "Pulses at an input, or at the two of an encoder."),
     row("clock", "clock 2026-11-21 15:00:00", "Sets the clock of the PLC."),
+    row("event", "event M0.0", "A bit that is 1 for one scan; several are separated by commas."),
     row("receive", "receive \"text\"", "What comes on the serial line."),
     row("plant", "plant PistonStuck = 1", "Sets something in the plant: a button, a fault."),
 ];

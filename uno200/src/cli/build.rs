@@ -1,10 +1,9 @@
 //! `build`: from the files of a program, in any language, to AWL or an image. Nothing is written
 //! where there are errors.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, Result};
+use anyhow::Result;
 use awl_asm::assemble::{Assembly, assemble};
 use awl_asm::files::{ending, ensure_distinct, ensure_no_source, read_source, write_whole};
 use awl_asm::for_tools::for_tools;
@@ -15,6 +14,7 @@ use awl_asm::source::Source;
 use project::{Findings, Joined, from_awl, has_errors, join};
 
 use super::args::Build;
+use super::output::print;
 
 /// Returns whether the program is good.
 pub(super) fn build(arguments: &Build) -> Result<bool> {
@@ -91,12 +91,7 @@ fn write(
     image: &[u8],
 ) -> Result<()> {
     let Some(output) = &arguments.output else {
-        return match std::io::stdout().write_all(awl.text.as_bytes()) {
-            Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-                Err(error).context("cannot write to stdout")
-            }
-            _ => Ok(()),
-        };
+        return print(awl.text.as_bytes());
     };
     match kind {
         Kind::Awl => write_whole(output, awl.text.as_bytes()),

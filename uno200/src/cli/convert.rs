@@ -28,7 +28,15 @@ pub(super) fn convert(arguments: &Convert) -> Result<bool> {
     match arguments.input.extension().and_then(|one| one.to_str()).map(str::to_lowercase).as_deref()
     {
         Some("xml") => from_chart(arguments),
-        _ => bail!("{}: charts of SFCEdit (.xml) are converted", arguments.input.display()),
+        Some("sfc") if arguments.summary => summary_of_text(arguments),
+        Some("sfc") => bail!(
+            "{}: `uno200 build` makes AWL of it; `convert --summary` counts what is in it",
+            arguments.input.display()
+        ),
+        _ => bail!(
+            "{}: charts are converted: those of SFCEdit (.xml), and of .sfc there is a --summary",
+            arguments.input.display()
+        ),
     }
 }
 

@@ -4,8 +4,11 @@ mod build;
 mod context;
 mod control;
 mod convert;
+mod explain;
 mod flash;
 mod force;
+mod layout;
+mod output;
 mod program;
 mod retained;
 mod shell;
@@ -54,8 +57,10 @@ fn run(arguments: Arguments) -> Result<u8> {
     let files = Files { symbols, data };
     let base = if hex { Base::Hexadecimal } else { Base::Decimal };
     let is_good = match command {
+        Command::Build(arguments) if arguments.fmt => layout::layout(&arguments),
         Command::Build(arguments) => build::build(&arguments),
         Command::Convert(arguments) => convert::convert(&arguments),
+        Command::Explain { code } => explain::explain(&code).map(|()| true),
         Command::Flash(arguments) => {
             let program = files.open(&arguments.files)?;
             flash::flash(target(connection, Some(&program)), program, &arguments)

@@ -2,14 +2,16 @@
 
 use analysis::{
     Completion, CompletionKind, Edit, FileEdit, Hover, Location, Outline, OutlineKind, Problem,
+    Signature,
 };
 use awl_asm::diagnostic::Severity;
 use awl_asm::source::Source;
 use lsp_types::{
     CodeAction, CodeActionKind, CompletionItem, CompletionItemKind, CompletionTextEdit, Diagnostic,
     DiagnosticRelatedInformation, DiagnosticSeverity, DocumentChanges, DocumentSymbol,
-    Documentation, HoverContents, MarkupContent, MarkupKind, NumberOrString, OneOf,
-    OptionalVersionedTextDocumentIdentifier, Position, PublishDiagnosticsParams, Range, SymbolKind,
+    Documentation, HoverContents, InsertTextFormat, MarkupContent, MarkupKind, NumberOrString,
+    OneOf, OptionalVersionedTextDocumentIdentifier, ParameterInformation, ParameterLabel, Position,
+    PublishDiagnosticsParams, Range, SignatureHelp, SignatureInformation, SymbolKind,
     TextDocumentEdit, TextEdit, WorkspaceEdit,
 };
 
@@ -154,8 +156,47 @@ pub(super) fn hover(source: &Source, hover: Hover) -> lsp_types::Hover {
     lsp_types::Hover { contents: HoverContents::Markup(markdown(hover.text)), range }
 }
 
-/// `place` keeps them in their order.
-pub(super) fn completion(source: &Source, place: usize, one: Completion) -> CompletionItem {
+/// What a call takes.
+pub(super) fn signature(one: &Signature) -> SignatureHelp {
+    let units = |at: usize| one.label.get(..at).unwrap_or("").encode_utf16().count() as u32;
+    let parameters = one.parameters.iter().map(|&(start, end)| ParameterInformation {
+        label: ParameterLabel::LabelOffsets([units(start), units(end)]),
+        documentation: None,
+    });
+    let active_parameter = one.active.map(|number| number as u32);
+    let signature = SignatureInformation {
+        label: one.label.clone(),
+        documentation: None,
+        parameters: Some(parameters.collect()),
+        active_parameter,
+    };
+    SignatureHelp { signatures: vec![signature], active_signature: Some(0), active_parameter }
+}
+
+/// A text with holes as editors write it: `$1` for the first, `$0` where it goes on.
+fn snippet(text: &str, holes: &[usize]) -> String {
+    let mut snippet = String::new();
+    let mut start = 0;
+    let ends = holes.iter().copied().chain([text.len()]);
+    for (number, end) in (1..).zip(ends) {
+        let piece = text.get(start..end).unwrap_or("");
+        snippet += &piece.replace('\\', "\\\\").replace('$', "\\$").replace('}', "\\}");
+        snippet += &match end == text.len() && number > holes.len() {
+            true => "$0".to_owned(),
+            false => format!("${number}"),
+        };
+        start = end;
+    }
+    snippet
+}
+
+/// `place` keeps them in their order; `has_snippets`: the editor knows holes.
+pub(super) fn completion(
+    source: &Source,
+    place: usize,
+    has_snippets: bool,
+    one: Completion,
+) -> CompletionItem {
     let kind = match one.kind {
         CompletionKind::Instruction => CompletionItemKind::FUNCTION,
         CompletionKind::Keyword => CompletionItemKind::KEYWORD,
@@ -167,9 +208,18 @@ pub(super) fn completion(source: &Source, place: usize, one: Completion) -> Comp
         CompletionKind::Value => CompletionItemKind::VALUE,
     };
     let doc = Some(one.doc).filter(|doc| !doc.is_empty());
+    let is_snippet = has_snippets && !one.holes.is_empty();
+    let mut edit = text_edit(source, &one.edit);
+    // What is typed is the beginning of the label, where a template says more.
+    let typed = if one.holes.is_empty() { &one.edit.text } else { &one.label };
+    let filter_text = Some(typed.clone());
+    if is_snippet {
+        edit.new_text = snippet(&one.edit.text, &one.holes);
+    }
     CompletionItem {
-        filter_text: Some(one.edit.text.clone()),
-        text_edit: Some(CompletionTextEdit::Edit(text_edit(source, &one.edit))),
+        filter_text,
+        insert_text_format: is_snippet.then_some(InsertTextFormat::SNIPPET),
+        text_edit: Some(CompletionTextEdit::Edit(edit)),
         label: one.label,
         kind: Some(kind),
         detail: Some(one.detail),
@@ -203,6 +253,13 @@ pub(super) fn symbol(source: &Source, part: &Outline) -> DocumentSymbol {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn holes_have_numbers() {
+        assert_eq!(snippet("IF  THEN\nEND_IF;", &[3, 9]), "IF $1 THEN\n$2END_IF;$0");
+        assert_eq!(snippet("F()", &[2]), "F($1)$0");
+        assert_eq!(snippet("$a} ", &[4]), "\\$a\\} $1$0");
+    }
 
     #[test]
     fn columns_count_units_of_utf_16() {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use analysis::{Language, Project};
 use awl_asm::files::read_source;
@@ -24,6 +24,8 @@ const ENTRIES_MAX: usize = 5_000;
 #[derive(Default)]
 pub(super) struct Documents {
     pub(super) project: Project,
+    /// Whether the editor knows texts with holes.
+    pub(super) has_snippets: bool,
     open: BTreeMap<String, Open>,
 }
 
@@ -35,8 +37,13 @@ struct Open {
 }
 
 impl Documents {
-    /// Takes the texts in, which are in the editor's folders.
-    pub(super) fn add_folders(&mut self, params: &InitializeParams) {
+    /// What the editor is, and the texts in its folders.
+    pub(super) fn initialize(&mut self, params: &InitializeParams) {
+        let about = params.capabilities.text_document.as_ref();
+        let item = about
+            .and_then(|about| about.completion.as_ref())
+            .and_then(|completion| completion.completion_item.as_ref());
+        self.has_snippets = item.is_some_and(|item| item.snippet_support == Some(true));
         let folders = params.workspace_folders.iter().flatten().map(|folder| &folder.uri);
         let mut left = ENTRIES_MAX;
         for folder in folders {
@@ -105,7 +112,7 @@ impl Documents {
     /// Takes in what belongs to a text: the files of its folder, and of that of its program.
     fn add_beside(&mut self, name: &str) {
         let named = self.project.named_program(name);
-        for name in [Some(name.to_owned()), named].into_iter().flatten() {
+        for name in [vec![name.to_owned()], named].concat() {
             if let Some(folder) = path_of(&name).parent() {
                 self.add_folder(folder, 0, &mut ENTRIES_MAX.clone());
             }
@@ -119,7 +126,11 @@ impl Documents {
         let entries = fs::read_dir(folder).into_iter().flatten().flatten();
         let mut paths: Vec<_> = entries.map(|entry| entry.path()).take(*left).collect();
         *left -= paths.len();
-        paths.sort_by_key(|path| (path.extension().is_none_or(|it| it != "awl"), path.clone()));
+        let is_program = |path: &PathBuf| {
+            let language = path.to_str().and_then(Language::of_name);
+            language.is_some_and(Language::is_program)
+        };
+        paths.sort_by_key(|path| (!is_program(path), path.clone()));
         for path in paths {
             if path.is_dir() && depth > 0 && !is_left_out(&path) {
                 self.add_folder(&path, depth - 1, left);
@@ -137,7 +148,9 @@ impl Documents {
         let is_wanted = match Language::of_name(&name) {
             None => false,
             Some(Language::Symbols) => self.project.is_table(&name),
-            Some(Language::Awl | Language::Scenario | Language::Plant) => true,
+            Some(
+                Language::Awl | Language::StructuredText | Language::Scenario | Language::Plant,
+            ) => true,
         };
         let is_file =
             fs::metadata(path).is_ok_and(|about| about.is_file() && about.len() <= FILE_LEN_MAX);
@@ -160,6 +173,7 @@ fn is_left_out(folder: &Path) -> bool {
 fn language_of(id: &str) -> Option<Language> {
     match id {
         "awl" => Some(Language::Awl),
+        "st" | "structured-text" | "iecst" => Some(Language::StructuredText),
         "uno200-scenario" | "scn" => Some(Language::Scenario),
         "uno200-symbols" => Some(Language::Symbols),
         "uno200-plant" | "plant" => Some(Language::Plant),

@@ -15,8 +15,9 @@ use lsp_types::notification::{
 use lsp_types::{
     CodeActionKind, CodeActionOptions, CodeActionProviderCapability, CompletionOptions,
     HoverProviderCapability, InitializeParams, OneOf, PublishDiagnosticsParams, RenameOptions,
-    SaveOptions, ServerCapabilities, TextDocumentSyncCapability, TextDocumentSyncKind,
-    TextDocumentSyncOptions, TextDocumentSyncSaveOptions, WorkDoneProgressOptions,
+    SaveOptions, ServerCapabilities, SignatureHelpOptions, TextDocumentSyncCapability,
+    TextDocumentSyncKind, TextDocumentSyncOptions, TextDocumentSyncSaveOptions,
+    WorkDoneProgressOptions,
 };
 use serde::de::DeserializeOwned;
 
@@ -36,7 +37,7 @@ pub fn serve(connection: &Connection) -> Result<()> {
     let capabilities = serde_json::to_value(capabilities())?;
     let asked = connection.initialize(capabilities)?;
     let mut server = Server { connection, documents: Documents::default() };
-    server.documents.add_folders(&serde_json::from_value::<InitializeParams>(asked)?);
+    server.documents.initialize(&serde_json::from_value::<InitializeParams>(asked)?);
     for message in &connection.receiver {
         match message {
             Message::Request(request) if connection.handle_shutdown(&request)? => break,
@@ -58,8 +59,14 @@ fn capabilities() -> ServerCapabilities {
             ..TextDocumentSyncOptions::default()
         })),
         completion_provider: Some(CompletionOptions {
-            trigger_characters: Some([" ", "#", "*", "&"].map(str::to_owned).to_vec()),
+            trigger_characters: Some(
+                [" ", "#", "*", "&", ".", "(", "%"].map(str::to_owned).to_vec(),
+            ),
             ..CompletionOptions::default()
+        }),
+        signature_help_provider: Some(SignatureHelpOptions {
+            trigger_characters: Some(["(", ","].map(str::to_owned).to_vec()),
+            ..SignatureHelpOptions::default()
         }),
         hover_provider: Some(HoverProviderCapability::Simple(true)),
         definition_provider: Some(OneOf::Left(true)),

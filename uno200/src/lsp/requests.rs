@@ -3,14 +3,14 @@
 use analysis::Problem;
 use lsp_types::request::{
     CodeActionRequest, Completion, DocumentSymbolRequest, Formatting, GotoDefinition, HoverRequest,
-    PrepareRenameRequest, References, Rename, Request,
+    PrepareRenameRequest, References, Rename, Request, SignatureHelpRequest,
 };
 use lsp_types::{
     CodeActionOrCommand, CodeActionParams, CodeActionResponse, CompletionParams,
     CompletionResponse, DocumentFormattingParams, DocumentSymbolParams, DocumentSymbolResponse,
     GotoDefinitionParams, GotoDefinitionResponse, Hover, HoverParams, Location,
-    PrepareRenameResponse, ReferenceParams, RenameParams, TextDocumentPositionParams, TextEdit,
-    WorkspaceEdit,
+    PrepareRenameResponse, ReferenceParams, RenameParams, SignatureHelp, SignatureHelpParams,
+    TextDocumentPositionParams, TextEdit, WorkspaceEdit,
 };
 use serde_json::Value;
 
@@ -26,6 +26,7 @@ pub(super) fn answer(documents: &Documents, method: &str, params: Value) -> Opti
     Some(match method {
         Completion::METHOD => asked::<Completion>(documents, params, completion),
         HoverRequest::METHOD => asked::<HoverRequest>(documents, params, hover),
+        SignatureHelpRequest::METHOD => asked::<SignatureHelpRequest>(documents, params, signature),
         GotoDefinition::METHOD => asked::<GotoDefinition>(documents, params, definition),
         References::METHOD => asked::<References>(documents, params, references),
         PrepareRenameRequest::METHOD => {
@@ -65,7 +66,8 @@ fn completion(
     let (name, offset) = place(documents, &params.text_document_position);
     let Some(source) = documents.project.source(&name) else { return Ok(None) };
     let all = documents.project.completions(&name, offset).into_iter().enumerate();
-    let items = all.map(|(place, one)| convert::completion(source, place, one));
+    let has_snippets = documents.has_snippets;
+    let items = all.map(|(place, one)| convert::completion(source, place, has_snippets, one));
     Ok(Some(CompletionResponse::Array(items.collect())))
 }
 
@@ -73,6 +75,14 @@ fn hover(documents: &Documents, params: HoverParams) -> Result<Option<Hover>, St
     let (name, offset) = place(documents, &params.text_document_position_params);
     let hover = documents.project.hover(&name, offset);
     Ok(documents.project.source(&name).zip(hover).map(|(source, it)| convert::hover(source, it)))
+}
+
+fn signature(
+    documents: &Documents,
+    params: SignatureHelpParams,
+) -> Result<Option<SignatureHelp>, String> {
+    let (name, offset) = place(documents, &params.text_document_position_params);
+    Ok(documents.project.signature(&name, offset).as_ref().map(convert::signature))
 }
 
 fn definition(

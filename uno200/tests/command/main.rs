@@ -2,6 +2,7 @@
 //! TCP and after a serial port.
 
 mod bridge;
+mod layout;
 mod plc;
 mod scenarios;
 #[cfg(unix)]

@@ -2,7 +2,7 @@
 //! threads, clocks or environment, and no random numbers that the operating system seeds.
 
 /// Where such libraries are.
-const LIBRARIES: [&str; 13] = [
+const LIBRARIES: &[&str] = &[
     "plc/isa/src/",
     "plc/vm/src/",
     "plc/link/src/",
@@ -10,6 +10,7 @@ const LIBRARIES: [&str; 13] = [
     "awl-asm/src/",
     "lang/chart/src/",
     "lang/st/src/",
+    "lang/fb/src/",
     "lang/project/src/",
     "analysis/src/",
     "ide/core/src/",

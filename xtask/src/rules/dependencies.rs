@@ -14,8 +14,9 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("awl-asm", &["plc-isa", "diagnostics"]),
     ("st", &["diagnostics", "awl-asm"]),
     ("chart", &["diagnostics", "awl-asm", "st"]),
-    ("project", &["diagnostics", "awl-asm", "st", "chart"]),
-    ("analysis", &["plc-isa", "diagnostics", "awl-asm", "awl-sim"]),
+    ("fb", &["diagnostics", "st"]),
+    ("project", &["diagnostics", "awl-asm", "st", "chart", "fb"]),
+    ("analysis", &["plc-isa", "diagnostics", "awl-asm", "st", "project", "awl-sim"]),
     ("simavr", &[]),
     ("awl-sim", &["plc-isa", "plc-vm", "plc-link", "diagnostics", "awl-asm", "project", "simavr"]),
     ("virtual-uno", &["simavr"]),
@@ -36,7 +37,10 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "ide-site",
         ],
     ),
-    ("ide-core", &["plc-isa", "diagnostics", "awl-asm", "awl-sim", "analysis", "client", "flash"]),
+    (
+        "ide-core",
+        &["plc-isa", "diagnostics", "awl-asm", "project", "awl-sim", "analysis", "client", "flash"],
+    ),
     (
         "tests",
         &[
@@ -52,7 +56,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     ("wasm-smoke", &["plc-isa", "awl-asm", "awl-sim", "analysis", "client", "flash"]),
-    ("xtask", &["plc-isa", "plc-vm", "awl-asm", "awl-sim", "uno200", "ide-site"]),
+    ("xtask", &["plc-isa", "plc-vm", "awl-asm", "st", "awl-sim", "uno200", "ide-site"]),
     ("bind", &[]),
 ];
 

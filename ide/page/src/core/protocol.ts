@@ -33,6 +33,9 @@ export interface Completion {
   kind: string;
   detail: string;
   info: string;
+  /** What is written, and where something is to be written in that. */
+  insert: string;
+  holes: number[];
   from: number;
 }
 

@@ -1,6 +1,7 @@
 // What the core knows about a place in a text: completion, hover.
 import {
   autocompletion,
+  snippet,
   type Completion as Entry,
   type CompletionContext,
   type CompletionResult,
@@ -17,14 +18,24 @@ const PICTURES: Record<string, string> = {
   symbol: "variable",
   address: "constant",
   directive: "namespace",
+  routine: "function",
   keyword: "type",
 };
 
+/** A text with holes as the editor writes it; after the last one it goes on. */
+function withHoles(text: string, holes: number[]): string {
+  const ends = [...holes, text.length];
+  const starts = [0, ...holes];
+  return ends.map((end, at) => `${text.slice(starts[at], end)}\${}`).join("");
+}
+
 function entry(completion: Completion): Entry {
-  const { label, detail, info, kind } = completion;
+  const { label, detail, info, kind, insert, holes } = completion;
   const type = PICTURES[kind];
+  const apply = holes.length > 0 ? snippet(withHoles(insert, holes)) : insert;
   return {
     label,
+    apply,
     ...(detail ? { detail } : {}),
     ...(info ? { info: () => markdown(info) } : {}),
     ...(type ? { type } : {}),
@@ -34,7 +45,7 @@ function entry(completion: Completion): Entry {
 /** Completion and hover for a file. */
 export function assist(core: Core, file: string): Extension {
   const complete = async (context: CompletionContext): Promise<CompletionResult | null> => {
-    if (!context.explicit && !context.matchBefore(/[\w#*.]$/)) return null;
+    if (!context.explicit && !context.matchBefore(/[\w#*.%(]$/)) return null;
     const found = await core.ask({ do: "complete", file, at: context.pos }).catch(() => []);
     const from = found[0]?.from;
     if (from === undefined) return null;

@@ -2,6 +2,7 @@
 import { StreamLanguage, type StringStream } from "@codemirror/language";
 import type { Extension } from "@codemirror/state";
 import { MNEMONICS } from "./mnemonics";
+import { structuredText } from "./structured";
 
 const BLOCKS = new Set(
   (
@@ -109,6 +110,7 @@ const scenarioLanguage = StreamLanguage.define<object>({
 /** The colours for a file of this name. */
 export function colours(file: string): Extension {
   if (/\.awl$/i.test(file)) return awlLanguage;
+  if (/\.st$/i.test(file)) return structuredText;
   if (/\.scn$/i.test(file)) return scenarioLanguage;
   return [];
 }

@@ -99,10 +99,16 @@ export class Project {
   main(): string | null {
     if (this.chosen !== null && this.texts.has(this.chosen)) return this.chosen;
     for (const ending of PROGRAMS) {
-      const name = this.names().find((name) => name.toLowerCase().endsWith(ending));
-      if (name !== undefined) return name;
+      const names = this.names().filter((name) => name.toLowerCase().endsWith(ending));
+      // Blocks and functions alone are a part of another file's program.
+      const main = names.find((name) => ending !== ".st" || this.hasProgram(name)) ?? names[0];
+      if (main !== undefined) return main;
     }
     return null;
+  }
+
+  private hasProgram(name: string): boolean {
+    return /^\s*PROGRAM\s/im.test(this.texts.get(name) ?? "");
   }
 
   choose(main: string): void {

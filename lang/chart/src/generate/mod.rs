@@ -108,6 +108,7 @@ fn unit_of<'f>(
         file.units.push(Unit {
             kind: UnitKind::Program,
             name: Name { text: chart.name.clone(), span: region.first() },
+            span: region.span,
             sections: Vec::new(),
             every_scan: Vec::new(),
             body: Vec::new(),

@@ -6,6 +6,7 @@ use super::Checker;
 use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{BlockCall, Place, RoutineArgument, SectionKind, StatementKind, Type, UnitKind};
+use crate::names::Named;
 use crate::tree::{self, Argument, Name};
 
 impl Checker<'_> {
@@ -45,6 +46,7 @@ impl Checker<'_> {
         let routines = &self.around.routines;
         if let Some(routine) = routines.iter().find(|one| upper(&one.name) == upper(&name.text)) {
             let routine = routine.clone();
+            self.note(name.span, Named::Routine(upper(&routine.name)), false);
             return self.routine(&routine, arguments, span);
         }
         let unit = self.unit_names.get(&upper(&name.text));
@@ -103,6 +105,9 @@ impl Checker<'_> {
                 self.no_parameter(&unit, argument);
                 continue;
             };
+            if let (Some(name), Some(variable)) = (&argument.name, unit.variables.get(at)) {
+                self.note(name.span, Named::of_unit(&unit, variable), false);
+            }
             self.argument(&unit, at, argument, &mut call);
         }
         for (at, variable) in unit.variables.iter().enumerate() {

@@ -4,6 +4,7 @@ use super::Checker;
 use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{ExpressionKind, Type, Value};
+use crate::names::Named;
 use crate::tree;
 
 impl Checker<'_> {
@@ -77,6 +78,8 @@ impl Checker<'_> {
                         continue;
                     };
                     let Some(member) = kind.members.get(at) else { continue };
+                    let of = Named::Member(upper(&kind.name), upper(&member.name));
+                    self.note(name.span, of, false);
                     let Some(slot) = values.get(at).cloned() else { continue };
                     let found = self.initial_value(value, &member.of_type, slot);
                     if let Some(slot) = values.get_mut(at) {

@@ -6,6 +6,7 @@ use super::Checker;
 use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Coarse, SectionKind, Type, Unit, UnitKind, Variable};
+use crate::names::Named;
 use crate::tree;
 
 impl<'a> Checker<'a> {
@@ -19,6 +20,7 @@ impl<'a> Checker<'a> {
                     tree::UnitKind::Function(_) => UnitKind::Function,
                     tree::UnitKind::Block => UnitKind::Block,
                 };
+                self.note(unit.name.span, Named::Unit(name.clone()), true);
                 let is_new = !self.unit_names.contains_key(&name);
                 // A block of one's own takes the place of a standard one.
                 if is_new {
@@ -110,6 +112,11 @@ impl<'a> Checker<'a> {
     }
 
     fn add(&mut self, variable: Variable) {
+        let named = match self.unit() {
+            Some(unit) => Named::of_unit(unit, &variable),
+            None => Named::Global(upper(&variable.name)),
+        };
+        self.note(variable.span, named, true);
         match self.unit.and_then(|at| self.program.units.get_mut(at)) {
             Some(unit) => unit.variables.push(variable),
             None => self.program.globals.push(variable),
@@ -218,7 +225,11 @@ impl<'a> Checker<'a> {
         for name in &declared.names {
             let found =
                 self.program.globals.iter().find(|one| upper(&one.name) == upper(&name.text));
-            match found.map(|one| (one.of_type.clone(), one.span)) {
+            let found = found.map(|one| (one.of_type.clone(), one.span));
+            if found.is_some() {
+                self.note(name.span, Named::Global(upper(&name.text)), false);
+            }
+            match found {
                 None => {
                     let message =
                         format!("{}: there is no global variable of this name", name.text);
@@ -272,6 +283,7 @@ impl<'a> Checker<'a> {
             self.error(Code::WrongType, at.span, message);
             return None;
         }
+        self.note(at.span, Named::Address(text.clone()), false);
         Some(text)
     }
 }

@@ -10,6 +10,7 @@ use crate::model::{
     BinaryOperator, ELEMENTARY, Expression, ExpressionKind, Function, Range, Root, Step, Type,
     Value,
 };
+use crate::names::Named;
 use crate::tree::{self, UnaryOperator};
 
 pub(super) fn invalid(span: Span) -> Expression {
@@ -213,7 +214,7 @@ impl Checker<'_> {
     }
 
     fn typed(&mut self, name: &str, value: &tree::Expression, span: Span) -> Expression {
-        let kind = self.named(name, span);
+        let kind = self.named(name, beginning(span, name));
         match kind {
             Type::Invalid => invalid(span),
             Type::Bool | Type::Time => {
@@ -225,7 +226,7 @@ impl Checker<'_> {
     }
 
     fn member_of(&mut self, kind: &str, name: &tree::Name, span: Span) -> Expression {
-        let of_type = self.named(kind, span);
+        let of_type = self.named(kind, beginning(span, kind));
         if of_type == Type::Invalid {
             return invalid(span);
         }
@@ -234,13 +235,21 @@ impl Checker<'_> {
             _ => Vec::new(),
         };
         match values.iter().find(|(text, _)| upper(text) == upper(&name.text)) {
-            Some((_, number)) => known(Value::Int(*number), of_type, span),
+            Some((_, number)) => {
+                self.note_value(&of_type, name);
+                known(Value::Int(*number), of_type, span)
+            }
             None => {
                 let message = format!("{}: {of_type} has no such value", name.text);
                 self.error(Code::UnknownName, span, message);
                 invalid(span)
             }
         }
+    }
+
+    fn note_value(&mut self, kind: &Type, name: &tree::Name) {
+        let of = Named::Value(upper(&kind.to_string()), upper(&name.text));
+        self.note(name.span, of, false);
     }
 
     fn read(
@@ -254,6 +263,7 @@ impl Checker<'_> {
             && self.variable(&name.text).is_none()
             && let Some((kind, value)) = self.enumeration_value(&name.text, wanted)
         {
+            self.note_value(&kind, name);
             return known(value, kind, span);
         }
         let Some(place) = self.place(name, selectors, span) else { return invalid(span) };
@@ -344,6 +354,11 @@ impl Checker<'_> {
         };
         Expression { kind: found, of_type: kind, span }
     }
+}
+
+/// The type's name, with which a literal begins.
+fn beginning(span: Span, name: &str) -> Span {
+    Span { end: span.start + name.len() as u32, ..span }
 }
 
 /// Whether a type has a number.

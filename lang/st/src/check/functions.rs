@@ -11,6 +11,7 @@ use crate::model::{
     BinaryOperator, ELEMENTARY, Expression, ExpressionKind, Function, SectionKind, Type, UnitKind,
     Value,
 };
+use crate::names::Named;
 use crate::tree::{Argument, Name};
 
 /// Functions that are an operator between all their arguments.
@@ -69,6 +70,7 @@ impl Checker<'_> {
         if let Some(number) = own {
             let kind = self.program.units.get(number).map(|unit| unit.kind);
             if kind == Some(UnitKind::Function) {
+                self.note(name.span, Named::Unit(text), false);
                 return self.own_function(number, arguments, span);
             }
         }
@@ -126,6 +128,9 @@ impl Checker<'_> {
                         self.error(Code::Arguments, name.span, message);
                         continue;
                     };
+                    if let Some(input) = inputs.get(slot) {
+                        self.note(name.span, Named::of_unit(&unit, input), false);
+                    }
                     slot
                 }
             };

@@ -25,15 +25,19 @@ pub(crate) use recursion::{each_assignment, each_expression, inside};
 use crate::around::Around;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Program, Type, Unit, UnitKind, Value, Variable};
+use crate::names::{Name, Named};
 use crate::parser;
 use crate::tree;
 
+/// What the checker finds out.
+pub(crate) struct Checked {
+    pub(crate) program: Program,
+    pub(crate) diagnostics: Vec<(usize, Diagnostic)>,
+    pub(crate) names: Vec<Name>,
+}
+
 /// Checks the files of a program.
-pub(crate) fn check(
-    sources: &[Source],
-    files: &[tree::File],
-    around: &Around,
-) -> (Program, Vec<(usize, Diagnostic)>) {
+pub(crate) fn check(sources: &[Source], files: &[tree::File], around: &Around) -> Checked {
     let library = LIBRARY.get_or_init(library);
     let mut checker = Checker {
         around,
@@ -43,6 +47,7 @@ pub(crate) fn check(
         type_texts: HashMap::new(),
         unit_names: HashMap::new(),
         diagnostics: Vec::new(),
+        names: Vec::new(),
         file: None,
         unit: None,
         loops: Vec::new(),
@@ -61,8 +66,11 @@ pub(crate) fn check(
     checker.recursion();
     checker.written_in_two_programs();
     checker.read_before_written();
-    let Checker { program, diagnostics, .. } = checker;
-    (program, diagnostics)
+    let Checker { program, diagnostics, mut names, .. } = checker;
+    names.sort_by_key(|name| (name.file, name.span, !name.declares));
+    // Some expressions are looked at twice.
+    names.dedup_by_key(|name| (name.file, name.span));
+    Checked { program, diagnostics, names }
 }
 
 /// The tree of [`library`], read once.
@@ -87,6 +95,8 @@ pub(crate) struct Checker<'a> {
     /// Units by name, upper case.
     unit_names: HashMap<String, usize>,
     diagnostics: Vec<(usize, Diagnostic)>,
+    /// The names that were found.
+    names: Vec<Name>,
     /// The file that is being checked; `None`: the standard blocks.
     file: Option<usize>,
     /// The unit that is being checked.
@@ -101,6 +111,13 @@ impl Checker<'_> {
             self.diagnostics.push((file, diagnostic));
         } else {
             debug_assert!(false, "the standard blocks: {}", diagnostic.message);
+        }
+    }
+
+    /// Notes what a name stands for.
+    pub(crate) fn note(&mut self, span: Span, of: Named, declares: bool) {
+        if let Some(file) = self.file {
+            self.names.push(Name { file, span, of, declares });
         }
     }
 

@@ -5,32 +5,8 @@ use awl_asm::suggest::nearest;
 use super::Checker;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{ELEMENTARY, Root, Type, UnitKind, Value};
+use crate::standard::{FUNCTIONS, conversions};
 use crate::tree::Name;
-
-/// Functions by name that `functions` knows, for suggestions.
-const FUNCTIONS: [&str; 21] = [
-    "ABS",
-    "SQRT",
-    "LN",
-    "EXP",
-    "SIN",
-    "COS",
-    "TAN",
-    "MIN",
-    "MAX",
-    "LIMIT",
-    "SEL",
-    "MUX",
-    "SHL",
-    "SHR",
-    "ROL",
-    "ROR",
-    "TRUNC",
-    "INT_TO_REAL",
-    "REAL_TO_INT",
-    "INT_TO_DINT",
-    "DINT_TO_INT",
-];
 
 pub(crate) fn upper(text: &str) -> String {
     text.to_uppercase()
@@ -78,8 +54,11 @@ impl Checker<'_> {
             Type::Enumeration(kind) => Some(kind.values.iter().map(|(name, _)| name.as_str())),
             _ => None,
         });
+        let conversions: Vec<String> = conversions().collect();
+        let functions = FUNCTIONS.iter().map(|one| one.name);
+        let functions = functions.chain(conversions.iter().map(String::as_str));
         let mut names: Vec<&str> = match what {
-            "function" => units.chain(FUNCTIONS).collect(),
+            "function" => units.chain(functions).collect(),
             _ => variables.chain(enumerations.flatten()).collect(),
         };
         names.sort_unstable();

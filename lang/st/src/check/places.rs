@@ -10,6 +10,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{
     Expression, ExpressionKind, Place, Root, SectionKind, Step, Type, Value, Variable,
 };
+use crate::names::Named;
 use crate::tree::{self, Name, Selector};
 
 impl Checker<'_> {
@@ -24,6 +25,7 @@ impl Checker<'_> {
             self.unknown_name(name, "variable");
             return None;
         };
+        self.note_variable(&root, name.span);
         let mut steps = Vec::new();
         for selector in selectors {
             let step = match selector {
@@ -34,6 +36,22 @@ impl Checker<'_> {
             steps.push(step.0);
         }
         (kind != Type::Invalid).then_some(Place { root, steps, of_type: kind })
+    }
+
+    fn note_variable(&mut self, root: &Root, span: Span) {
+        let named = match root {
+            Root::Local(at) => {
+                let unit = self.unit();
+                unit.and_then(|unit| Some(Named::of_unit(unit, unit.variables.get(*at)?)))
+            }
+            Root::Global(at) => {
+                self.program.globals.get(*at).map(|one| Named::Global(upper(&one.name)))
+            }
+            Root::Address(_) => None,
+        };
+        if let Some(named) = named {
+            self.note(span, named, false);
+        }
     }
 
     fn member(&mut self, kind: &Type, name: &Name) -> Option<(Step, Type)> {
@@ -59,7 +77,11 @@ impl Checker<'_> {
             Type::Invalid => return None,
             _ => (None, Vec::new()),
         };
-        if let Some((at, kind)) = found {
+        if let Some((at, found)) = found {
+            if let Some((named, _)) = self.program.member(kind, &name.text) {
+                self.note(name.span, named, false);
+            }
+            let kind = found;
             return Some((Step::Member(at), kind));
         }
         let message = match names.is_empty() {

@@ -10,6 +10,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{
     Array, ELEMENTARY, Enumeration, Member, Range, Structure, Type, UnitKind, Value,
 };
+use crate::names::Named;
 use crate::tree::{Declaration, Expression, File, Name, TypeText, TypeTextKind};
 
 /// Bytes of V memory.
@@ -32,6 +33,7 @@ impl<'a> Checker<'a> {
                     self.twice(&declared.name, None);
                     continue;
                 }
+                self.note(declared.name.span, Named::Type(name.clone()), true);
                 self.type_texts.insert(name, (number, declared));
             }
         }
@@ -42,8 +44,9 @@ impl<'a> Checker<'a> {
         let mut names: Vec<String> = self.type_texts.keys().cloned().collect();
         names.sort();
         for name in names {
-            let at = self.type_texts.get(&name).map(|(_, declared)| declared.name.span);
-            self.named(&name, at.unwrap_or_default());
+            let Some(&(file, declared)) = self.type_texts.get(&name) else { continue };
+            self.file = file;
+            self.named(&name, declared.name.span);
         }
     }
 
@@ -66,8 +69,13 @@ impl<'a> Checker<'a> {
         if let Some(&number) = self.unit_names.get(&wanted) {
             let unit = self.program.units.get(number);
             if let Some(unit) = unit.filter(|unit| unit.kind == UnitKind::Block) {
-                return Type::Block(number, unit.name.clone());
+                let kind = Type::Block(number, unit.name.clone());
+                self.note(span, Named::Unit(wanted), false);
+                return kind;
             }
+        }
+        if self.type_texts.contains_key(&wanted) {
+            self.note(span, Named::Type(wanted.clone()), false);
         }
         match self.types.get(&wanted) {
             Some(Some(known)) => return known.clone(),
@@ -194,10 +202,10 @@ impl<'a> Checker<'a> {
         Some(value)
     }
 
-    fn structure(&mut self, declarations: &[Declaration], name: &str) -> Type {
+    fn structure(&mut self, declarations: &[Declaration], of: &str) -> Type {
         let mut members: Vec<Member> = Vec::new();
         for declared in declarations {
-            let of_type = self.type_of(&declared.of_type, name);
+            let of_type = self.type_of(&declared.of_type, of);
             if let Type::Block(..) = of_type {
                 let message = "a structure holds no function blocks";
                 self.error(Code::NotThere, declared.of_type.span, message);
@@ -210,13 +218,14 @@ impl<'a> Checker<'a> {
                     continue;
                 }
                 let (of_type, initial) = (of_type.clone(), initial.clone());
+                self.note(name.span, Named::Member(upper(of), upper(&name.text)), true);
                 members.push(Member { name: name.text.clone(), of_type, initial });
             }
         }
-        Type::Struct(Arc::new(Structure { name: name.to_owned(), members }))
+        Type::Struct(Arc::new(Structure { name: of.to_owned(), members }))
     }
 
-    fn enumeration(&mut self, values: &[(Name, Option<Expression>)], name: &str) -> Type {
+    fn enumeration(&mut self, values: &[(Name, Option<Expression>)], of: &str) -> Type {
         let mut numbered: Vec<(String, i64)> = Vec::new();
         let mut next = 0;
         for (name, value) in values {
@@ -231,9 +240,10 @@ impl<'a> Checker<'a> {
                 self.error(Code::BadConstant, name.span, message);
                 next = 0;
             }
+            self.note(name.span, Named::Value(upper(of), upper(&name.text)), true);
             numbered.push((name.text.clone(), next));
             next += 1;
         }
-        Type::Enumeration(Arc::new(Enumeration { name: name.to_owned(), values: numbered }))
+        Type::Enumeration(Arc::new(Enumeration { name: of.to_owned(), values: numbered }))
     }
 }

@@ -193,7 +193,7 @@ impl Generator<'_> {
         self.writer.section("Timers that run go on");
         for (at, variable) in program.globals.iter().enumerate() {
             if let Type::Block(number, _) = variable.of_type {
-                let name = super::memory::safe_name(&variable.name);
+                let name = crate::names::safe_name(&variable.name);
                 self.ticks(number, &name, (Owner::Global, at));
             }
         }

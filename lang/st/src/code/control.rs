@@ -52,6 +52,10 @@ impl Generator<'_> {
     }
 
     fn arms(&mut self, arms: &[Arm], otherwise: &[Statement]) {
+        // CASE without a label.
+        if arms.is_empty() {
+            return self.body(otherwise);
+        }
         let bodies: Vec<&[Statement]> =
             arms.iter().map(|(_, body)| *body).chain([otherwise]).collect();
         let is_plain = arms.iter().skip(1).all(|(choice, _)| match choice {

@@ -5,7 +5,6 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 
 use diagnostics::Span;
 
-use super::memory::safe_name;
 use super::timers::{Owner, each};
 use crate::around::Around;
 use crate::check::{each_assignment, each_expression};
@@ -14,6 +13,7 @@ use crate::model::{
     BinaryOperator, BlockCall, Expression, ExpressionKind, Place, Program, Root, RoutineArgument,
     Statement, StatementKind, Step, Type, UnitKind, Value,
 };
+use crate::names::safe_name;
 
 /// A timer or counter of the controller.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,11 +1,10 @@
 //! Variables in AWL: how each is called and stored, and the lines that declare them.
 
-use awl_asm::Address;
-
 use super::Generator;
 use super::timers::Owner;
 use super::writer::Storage;
 use crate::model::{SectionKind, Type, UnitKind, Value, Variable};
+use crate::names::safe_name;
 
 /// How a value of an elementary type is stored; `is_short`: a TIME is a word.
 pub(super) fn storage(kind: &Type, is_short: bool) -> Storage {
@@ -28,15 +27,6 @@ pub(super) fn type_name(kind: &Type) -> String {
         Type::Udint => "DWORD".to_owned(),
         Type::Enumeration(_) => "INT".to_owned(),
         _ => kind.to_string(),
-    }
-}
-
-/// A name that cannot be taken for an address or a constant.
-pub(super) fn safe_name(name: &str) -> String {
-    let is_constant = ["ON", "OFF", "TRUE", "FALSE"].contains(&name.to_uppercase().as_str());
-    match Address::parse(name).is_ok() || is_constant {
-        true => format!("{name}_"),
-        false => name.to_owned(),
     }
 }
 

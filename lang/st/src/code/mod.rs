@@ -137,7 +137,7 @@ fn located(program: &Program) -> HashSet<String> {
     let all = globals.chain(locals).filter(|(_, one)| one.at.is_some());
     let name = |(unit, one): (Option<&str>, &crate::model::Variable)| match unit {
         Some(unit) => format!("{unit}.{}", one.name),
-        None => memory::safe_name(&one.name),
+        None => crate::names::safe_name(&one.name),
     };
     all.map(name).collect()
 }
@@ -256,7 +256,7 @@ impl Generator<'_> {
                         || is_wanted == SectionKind::Var && one.section == SectionKind::Temp
                 })
                 .map(|one| {
-                    format!("{}:{};", memory::safe_name(&one.name), local_type(&one.of_type))
+                    format!("{}:{};", crate::names::safe_name(&one.name), local_type(&one.of_type))
                 })
                 .collect();
             if !list.is_empty() {

@@ -1,10 +1,11 @@
 //! Places in AWL: names of variables, elements by index, pointers.
 
-use super::memory::{safe_name, storage};
+use super::memory::storage;
 use super::timers::Owner;
 use super::writer::Storage;
 use super::{Frame, Generator, Names};
 use crate::model::{Expression, ExpressionKind, Place, Root, Step, Type, Value};
+use crate::names::safe_name;
 
 /// Where a value is.
 #[derive(Debug, Clone)]

@@ -94,7 +94,8 @@ impl Parser<'_> {
             }
         }
         self.take_sign(";");
-        Ok(Unit { kind, name, sections, every_scan, body })
+        let span = joined(opened, self.previous());
+        Ok(Unit { kind, name, span, sections, every_scan, body })
     }
 
     /// The statements of a unit, words in them that end nothing reported.
@@ -267,7 +268,8 @@ impl Parser<'_> {
         self.need_sign(":")?;
         let of_type = self.type_text();
         let initial = self.initial_value()?;
-        Ok(TypeDeclaration { name, of_type, initial })
+        let span = joined(name.span, self.previous());
+        Ok(TypeDeclaration { name, span, of_type, initial })
     }
 
     /// A type. What cannot be read is reported.

@@ -16,7 +16,7 @@ use crate::tree::{Expression, File, Name, Statement};
 const DEPTH_MAX: u32 = 60;
 
 /// Words that name nothing.
-pub(crate) const KEYWORDS: [&str; 60] = [
+pub const KEYWORDS: [&str; 60] = [
     "PROGRAM",
     "END_PROGRAM",
     "FUNCTION",
@@ -78,6 +78,9 @@ pub(crate) const KEYWORDS: [&str; 60] = [
     "GOTO",
     "END_ELSIF",
 ];
+
+/// Those of them that are operators.
+pub const OPERATOR_WORDS: [&str; 5] = ["AND", "OR", "XOR", "NOT", "MOD"];
 
 /// Reads a text.
 pub fn parse(source: &Source) -> (File, Vec<Diagnostic>) {
@@ -340,7 +343,7 @@ impl<'t> Parser<'t> {
 }
 
 /// Whether a word names nothing.
-pub(crate) fn is_keyword(word: &str) -> bool {
+pub fn is_keyword(word: &str) -> bool {
     KEYWORDS.iter().any(|keyword| keyword.eq_ignore_ascii_case(word))
 }
 

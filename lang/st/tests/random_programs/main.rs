@@ -132,3 +132,16 @@ fn compiled_programs_do_what_the_evaluator_says() {
         panic!("{} programs differ, such as\n{shortest}", different.len());
     }
 }
+
+#[test]
+fn the_layout_changes_no_word() {
+    let laid = |text: &str| {
+        st::format::format(&Source::new("r.st", text).expect("a short text")).expect("no errors")
+    };
+    for seed in 0..300 {
+        let text = Generator::program(seed);
+        let once = laid(&text);
+        assert_eq!(st::format::essence(&once), st::format::essence(&text), "seed {seed}");
+        assert_eq!(laid(&once), once, "seed {seed}");
+    }
+}

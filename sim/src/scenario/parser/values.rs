@@ -10,13 +10,13 @@ use super::super::words::{AFTER_TIME, names};
 use super::super::{Asked, Repeat, Setting};
 use super::sign::sign;
 use super::{LIST_FORM, Parser, Times};
-use crate::operand::Operand;
+use crate::operand::{Operand, Width};
 use crate::piece::Piece;
 use crate::problem::Problem;
 
 const EVERY_FORM: &str = "write every 2s I0.0 = 1 from 1s to 9s";
 /// What can follow a time beside an assignment.
-const WORDS_AFTER_TIME: [&str; 6] = names(&AFTER_TIME);
+const WORDS_AFTER_TIME: [&str; 7] = names(&AFTER_TIME);
 /// Most characters of a string.
 const TEXT_MAX: usize = 254;
 
@@ -95,7 +95,25 @@ impl<'a> Parser<'a, '_> {
         let Times { at_ms, repeat } = times;
         self.ask(name, Asked::Set(operand));
         self.setting_spans.push(name.span());
-        self.scenario.settings.push(Setting { at_ms, repeat, operand, value });
+        let for_scan = false;
+        self.scenario.settings.push(Setting { at_ms, repeat, operand, value, for_scan });
+    }
+
+    /// `event Vote, Reset`: bits that are 1 for one scan.
+    pub(super) fn events(&mut self, list: Piece<'a>, at_ms: u64) {
+        for name in list.split(',') {
+            let Some(operand) = self.operand(name) else { continue };
+            if operand.width() != Width::Bit {
+                let problem =
+                    Problem::new(name.span(), format!("{}: an event is a bit", name.text));
+                self.problems.push(problem.help("values are set by =, as in at 2s MW3 = 5"));
+                continue;
+            }
+            self.ask(name, Asked::Set(operand));
+            self.setting_spans.push(name.span());
+            let (repeat, value, for_scan) = (None, 1, true);
+            self.scenario.settings.push(Setting { at_ms, repeat, operand, value, for_scan });
+        }
     }
 
     /// What is no comparison of a list: perhaps a word that was misspelt.

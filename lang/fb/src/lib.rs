@@ -1,0 +1,20 @@
+//! Basic function blocks of IEC 61499: read, checked, written. What a block means is in
+//! docs/iec61499.md. This library opens no files and reads no clock.
+
+pub mod check;
+pub mod condition;
+pub mod data_type;
+pub mod diagnostic;
+pub mod generate;
+pub mod interpreter;
+pub mod model;
+pub mod parsed;
+mod places;
+mod rest;
+mod syntax;
+pub mod xml;
+
+pub use data_type::DataType;
+pub use diagnostic::{Code, Diagnostic};
+pub use interpreter::Interpreter;
+pub use model::Block;

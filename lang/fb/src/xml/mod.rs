@@ -1,0 +1,7 @@
+//! Blocks as XML files (`.fbt`): reading and writing. What a block means is not asked here.
+
+mod read;
+mod write;
+
+pub use read::{Read, read};
+pub use write::write;
