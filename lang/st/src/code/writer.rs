@@ -72,6 +72,8 @@ pub(super) struct Writer {
     has_power: bool,
     /// The bit that the top of the stack is equal to.
     top: Option<String>,
+    /// FOR that have no NEXT yet.
+    pub(super) open_loops: usize,
     /// Inside the body of a condition: instructions hang on its power flow.
     pub(super) is_guarded: bool,
     /// Lines after which nothing was put out that could be jumped over.
@@ -216,6 +218,12 @@ impl Writer {
     /// The place of a label.
     pub(super) fn label(&mut self, label: u16) {
         self.line("LBL", &label.to_string());
+        self.forget();
+    }
+
+    /// The end of a loop. The top of the stack is 1 after it.
+    pub(super) fn next(&mut self) {
+        self.line("NEXT", "");
         self.forget();
     }
 
