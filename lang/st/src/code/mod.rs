@@ -1,5 +1,6 @@
 //! From a checked program to AWL that a person can read.
 
+mod blocks;
 mod calls;
 mod control;
 mod convert;
@@ -13,7 +14,7 @@ mod timers;
 mod values;
 mod writer;
 
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 
 use diagnostics::{Source, Span};
 
@@ -56,6 +57,8 @@ struct Generator<'a> {
     short: Short,
     /// Instances that are timers and counters of the controller.
     devices: Devices,
+    /// Blocks that are subroutines.
+    as_routines: BTreeSet<usize>,
     /// Names that stand for addresses.
     located: HashSet<String>,
     writer: Writer,
@@ -71,6 +74,40 @@ pub(crate) fn generate(
     sources: &[Source],
     around: &Around,
 ) -> (String, Vec<(usize, Diagnostic)>) {
+    let (devices, notes) = hardware::devices(program, around);
+    let write = |as_routines: &BTreeSet<usize>| {
+        written(program, sources, around, devices.clone(), as_routines.clone())
+    };
+    let mut chosen = BTreeSet::new();
+    let mut awl = write(&chosen);
+    // Beside AWL the text cannot be assembled alone, so nobody knows how long it becomes.
+    let candidates = if around.has_main { Vec::new() } else { blocks::candidates(program) };
+    let mut size = if candidates.is_empty() { None } else { bytes_of(&awl) };
+    for number in candidates {
+        chosen.insert(number);
+        let other = write(&chosen);
+        match (bytes_of(&other), size) {
+            (Some(fewer), Some(most)) if fewer < most => (awl, size) = (other, Some(fewer)),
+            _ => drop(chosen.remove(&number)),
+        }
+    }
+    (awl, notes)
+}
+
+/// Bytes of the image of a program that has no errors.
+fn bytes_of(awl: &str) -> Option<usize> {
+    let source = Source::new("program.awl", awl).ok()?;
+    awl_asm::assemble::assemble(&source, Vec::new()).image.map(|image| image.len())
+}
+
+/// The text with these blocks as subroutines, all others written out.
+fn written(
+    program: &Program,
+    sources: &[Source],
+    around: &Around,
+    devices: Devices,
+    as_routines: BTreeSet<usize>,
+) -> String {
     let frame = Frame {
         unit: 0,
         names: Names::Local,
@@ -80,12 +117,12 @@ pub(crate) fn generate(
         end: None,
         loops: Vec::new(),
     };
-    let (devices, notes) = hardware::devices(program, around);
     let mut generator = Generator {
         program,
         sources,
         short: timers::short_timers(program),
         devices,
+        as_routines,
         located: located(program),
         writer: Writer::default(),
         frame,
@@ -105,7 +142,11 @@ pub(crate) fn generate(
             routine += 1;
         }
     }
-    (lines.join("\n") + "\n", notes)
+    for number in generator.as_routines.clone() {
+        lines.extend(generator.block_routine(number, routine));
+        routine += 1;
+    }
+    lines.join("\n") + "\n"
 }
 
 fn located(program: &Program) -> HashSet<String> {

@@ -47,7 +47,8 @@ impl Generator {
         }
         text += "gt : TIME := T#35ms;\nEND_VAR\n";
         text += &self.function();
-        text += &self.block();
+        text += &self.block("Block", true);
+        text += &self.block("Plain", false);
         text += "PROGRAM Main\nVAR\n";
         for (kind, names) in VARIABLES {
             let own: Vec<&str> =
@@ -60,7 +61,7 @@ impl Generator {
         text += "s : State;\nton1 : TON; tof1 : TOF; tp1 : TP; ton2 : TON; count1 : CTU;\n";
         text += "{coarse} slow1, fast1 : TON;\nslow2, fast2 : TOF {coarse};\n";
         text += "first AT %SM0.1 : BOOL; count2 : CTU;\n";
-        text += "edge1 : R_TRIG;\none, two : Block;\nEND_VAR\n";
+        text += "edge1 : R_TRIG;\none, two : Block; three, four : Plain;\nEND_VAR\n";
         text += &self.devices();
         let count = self.rng.usize(3..10);
         text += &self.statements(count);
@@ -74,6 +75,10 @@ impl Generator {
             text += &format!("{name}(IN := {}, PT := T#{preset}ms);\n", self.condition());
         }
         let (up, reset) = (self.condition(), self.condition());
+        for name in ["three", "four", "three"] {
+            let (p, a) = (self.condition(), self.whole("INT"));
+            text += &format!("{name}(p := {p}, a := {a}, c := c, b => b);\n");
+        }
         text + &format!("count2(CU := {up}, R := {reset} OR first, PV := 3);\n")
     }
 
@@ -95,11 +100,13 @@ impl Generator {
         text + "Compute := Compute + c;\nEND_FUNCTION\n"
     }
 
-    fn block(&mut self) -> String {
+    /// A function block; without a timer in it, it can be a subroutine.
+    fn block(&mut self, name: &str, has_timer: bool) -> String {
         self.in_block = true;
-        let mut text = String::from(
-            "FUNCTION_BLOCK Block\nVAR_INPUT p : BOOL; a : INT; END_VAR\nVAR_OUTPUT q : BOOL; \
-             b : INT; END_VAR\nVAR_IN_OUT c : INT; END_VAR\nVAR d : DINT; delay : TON; \
+        let timer = if has_timer { "delay : TON; " } else { "" };
+        let mut text = format!(
+            "FUNCTION_BLOCK {name}\nVAR_INPUT p : BOOL; a : INT; END_VAR\nVAR_OUTPUT q : BOOL; \
+             b : INT; END_VAR\nVAR_IN_OUT c : INT; END_VAR\nVAR d : DINT; {timer}\
              END_VAR\n",
         );
         for _ in 0..self.rng.usize(1..5) {
@@ -108,6 +115,7 @@ impl Generator {
                 1 => format!("q := {};\n", self.condition()),
                 2 => format!("IF {} THEN c := {}; END_IF;\n", self.condition(), self.whole("INT")),
                 3 => format!("d := {};\n", self.whole("DINT")),
+                _ if !has_timer => format!("b := b + {};\n", self.whole("INT")),
                 _ => format!("delay(IN := {}, PT := T#40ms); q := delay.Q;\n", self.condition()),
             };
         }
@@ -290,7 +298,7 @@ impl Generator {
 
     fn call(&mut self) -> String {
         let condition = self.condition();
-        match self.rng.u8(..8) {
+        match self.rng.u8(..9) {
             0 => format!("ton1(IN := {condition}, PT := T#30ms);\n"),
             1 => format!("tof1(IN := {condition}, PT := T#1s20ms);\n"),
             2 => format!("tp1(IN := {condition}, PT := T#25ms);\n"),
@@ -298,6 +306,7 @@ impl Generator {
             4 => format!("count1(CU := {condition}, R := gq, PV := gi, CV => b);\n"),
             5 => format!("edge1(CLK := {condition}, Q => p);\n"),
             6 => format!("one(p := {condition}, a := {}, c := a, b => b);\n", self.whole("INT")),
+            7 => format!("four(c := b, p := {condition}, q => r);\n"),
             _ => format!("two({condition}, {}, c := list[2]);\n", self.whole("INT")),
         }
     }
