@@ -7,6 +7,7 @@ pub mod diagnostic;
 pub mod origins;
 pub mod render;
 pub mod source;
+pub mod xml;
 
 pub use diagnostic::{Code, Diagnostic, Severity};
 pub use source::{At, Place, Source, Span};

@@ -6,6 +6,8 @@ use std::time::Duration;
 
 use awl_asm::report::Messages;
 use awl_sim::suite::Reports;
+use chart::set_reset::Target;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use plc_isa::LineSettings;
 
@@ -101,6 +103,8 @@ pub enum ParityName {
 pub enum Command {
     /// Makes AWL or an image of the files of a program: AWL, Structured Text
     Build(Build),
+    /// Converts a chart into Structured Text for a target, or tells what is in it
+    Convert(Convert),
     /// Writes a program to the board, and asks the board then whether it is in force
     Flash(Flash),
     /// Shows the program with power flow and values beside every line
@@ -224,6 +228,43 @@ pub struct Build {
     /// How errors and warnings are written
     #[command(flatten)]
     pub messages: Messages,
+}
+
+/// Arguments of `convert`.
+#[derive(Debug, Args)]
+pub struct Convert {
+    /// A chart of SFCEdit (.xml)
+    #[arg(value_name = "IN")]
+    pub input: PathBuf,
+    /// Where the result goes; without it to standard output
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+    /// For whom Structured Text is written [default: uno200]
+    #[arg(long, value_name = "TARGET", value_parser = target())]
+    pub target: Option<Target>,
+    /// Kinds and types of variables: rows `name,kind,type`. What is not in it is guessed from its use
+    #[arg(long, value_name = "F.csv")]
+    pub variables: Option<PathBuf>,
+    /// Prints the equations of the steps
+    #[arg(long)]
+    pub table: bool,
+    /// Prints how many steps, actions and transitions there are, and converts nothing
+    #[arg(long, conflicts_with_all = ["output", "table", "target"])]
+    pub summary: bool,
+    /// Replaces a text that is there
+    #[arg(long)]
+    pub overwrite: bool,
+    /// How errors and warnings are written
+    #[command(flatten)]
+    pub messages: Messages,
+}
+
+/// A target by its name.
+fn target() -> impl TypedValueParser<Value = Target> {
+    PossibleValuesParser::new(Target::ALL.map(|(name, _)| name)).map(|name| {
+        let found = Target::ALL.iter().find(|(known, _)| *known == name);
+        found.map_or(Target::Uno200, |(_, target)| *target)
+    })
 }
 
 /// Arguments of `flash`.

@@ -11,12 +11,13 @@ use crate::{avr, packages};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 /// The libraries that run anywhere, and what uses them all.
-const LIBRARIES: [&str; 11] = [
+const LIBRARIES: [&str; 12] = [
     "plc-isa",
     "plc-vm",
     "plc-link",
     "awl-asm",
     "st",
+    "chart",
     "project",
     "awl-sim",
     "analysis",

@@ -13,6 +13,8 @@ pub enum Code {
     Awl(awl_asm::diagnostic::Code),
     /// Of Structured Text.
     St(st::Code),
+    /// Of charts.
+    Chart(chart::Code),
 }
 
 impl Code {
@@ -21,13 +23,15 @@ impl Code {
         match self {
             Code::Awl(code) => code.text(),
             Code::St(code) => code.text(),
+            Code::Chart(code) => code.text(),
         }
     }
 
     /// All codes.
     pub fn all() -> impl Iterator<Item = Code> {
         let awl = awl_asm::diagnostic::Code::ALL.iter().copied().map(Code::Awl);
-        awl.chain(st::Code::ALL.iter().copied().map(Code::St))
+        let st = st::Code::ALL.iter().copied().map(Code::St);
+        awl.chain(st).chain(chart::Code::ALL.iter().copied().map(Code::Chart))
     }
 }
 
@@ -44,6 +48,7 @@ impl diagnostics::Code for Code {
         Some(match self {
             Code::Awl(code) => code.page(),
             Code::St(code) => code.page(),
+            Code::Chart(code) => code.page(),
         })
     }
 }
@@ -78,5 +83,11 @@ pub(crate) fn from_awl(one: awl_asm::diagnostic::Diagnostic) -> Diagnostic {
 /// One of Structured Text.
 pub(crate) fn from_st(one: st::Diagnostic) -> Diagnostic {
     let code = Code::St(one.code);
+    with_code(one, code)
+}
+
+/// One of a chart.
+pub(crate) fn from_chart(one: chart::Diagnostic) -> Diagnostic {
+    let code = Code::Chart(one.code);
     with_code(one, code)
 }

@@ -3,6 +3,7 @@
 
 mod findings;
 mod join;
+mod read;
 
 use std::path::Path;
 
@@ -19,15 +20,18 @@ pub enum Language {
     Awl,
     /// Structured Text.
     StructuredText,
+    /// Charts, as text.
+    Chart,
 }
 
 impl Language {
     /// That of a file.
     pub fn of(name: &str) -> Language {
-        let ending = Path::new(name).extension();
-        match ending.is_some_and(|ending| ending.eq_ignore_ascii_case("st")) {
-            true => Language::StructuredText,
-            false => Language::Awl,
+        let ending = Path::new(name).extension().and_then(|ending| ending.to_str());
+        match ending.map(str::to_lowercase).as_deref() {
+            Some("st") => Language::StructuredText,
+            Some("sfc") => Language::Chart,
+            _ => Language::Awl,
         }
     }
 }
@@ -53,14 +57,17 @@ pub fn join(sources: Vec<Source>) -> Result<Joined, Vec<Findings>> {
     }
     let (awl, texts): (Vec<Source>, Vec<Source>) = sources.into_iter().partition(is_awl);
     let around = join::around(&awl);
-    let compiled = st::compile(&texts, &around);
+    let read::Read { files, of_st, mut others } = read::read(&texts);
+    let compiled = st::translate(&texts, &files, of_st, &around);
     let name = awl.iter().chain(&texts).next().map_or("program", |source| source.name.as_str());
     let name = name.to_owned();
     let mut findings: Vec<Findings> =
         texts.into_iter().map(|source| Findings { source, diagnostics: Vec::new() }).collect();
-    for (file, one) in compiled.diagnostics {
+    others.extend(compiled.diagnostics.into_iter().map(|(at, one)| (at, findings::from_st(one))));
+    others.sort_by_key(|(_, one)| one.span);
+    for (file, one) in others {
         if let Some(findings) = findings.get_mut(file) {
-            findings.diagnostics.push(findings::from_st(one));
+            findings.diagnostics.push(one);
         }
     }
     findings.retain(|one| !one.diagnostics.is_empty());

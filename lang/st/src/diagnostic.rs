@@ -25,5 +25,6 @@ diagnostics::codes! {
     NarrowProduct = "W0200";
     NeverReached = "W0201";
     WrittenTwice = "W0202";
+    ReadUnwritten = "W0203";
     Coarse = "W0210";
 }

@@ -61,6 +61,18 @@ fn real(operator: BinaryOperator, a: f32, b: f32) -> Value {
     Value::Real(if executed.is_finite() { executed } else { a })
 }
 
+/// `base ** exponent` where the exponent is a whole number up to 64; the base where there is no
+/// result.
+pub(crate) fn power(base: f32, exponent: f32) -> Option<f32> {
+    let count = exponent.abs();
+    if count.fract() != 0.0 || count > 64.0 {
+        return None;
+    }
+    let product = (0..count as u32).fold(1.0, |product, _| product * f64::from(base));
+    let result = (if exponent < 0.0 { 1.0 / product } else { product }) as f32;
+    Some(if result.is_finite() { result } else { base })
+}
+
 /// The opposite number; the same where there is none.
 pub(crate) fn negate(kind: &Type, value: &Value) -> Value {
     match value {
@@ -104,13 +116,8 @@ fn nearest(to: &Type, value: i64) -> Value {
 
 /// The low bits of a number, read as one of the target.
 fn bits(to: &Type, value: i64) -> Value {
-    Value::Int(match to {
-        Type::Byte => value & 0xFF,
-        Type::Word => value & 0xFFFF,
-        Type::Int => i64::from(value as i16),
-        Type::Dword => value & 0xFFFF_FFFF,
-        _ => i64::from(value as i32),
-    })
+    let (low, high) = to.range().unwrap_or((i64::MIN / 2, i64::MAX / 2));
+    Value::Int((value - low).rem_euclid(high - low + 1) + low)
 }
 
 /// A standard function of known values; `None` of those that are left to the program.

@@ -1,5 +1,5 @@
-//! Cuts the text into tokens. Comments and pragmas are passed over; settings (`//# ...`) and
-//! `{coarse}` are kept aside. It knows characters, not the language.
+//! Cuts the text into tokens. Settings (`//# ...`), pragmas and comments are kept aside. It knows
+//! characters, not the language.
 
 use diagnostics::Span;
 
@@ -39,13 +39,17 @@ pub struct Token {
 
 /// The tokens of a text; the last one is [`Kind::End`].
 #[derive(Debug)]
-pub(crate) struct Tokens {
-    pub(crate) tokens: Vec<Token>,
+pub struct Tokens {
+    /// In their order.
+    pub tokens: Vec<Token>,
     /// The lines `//# ...`.
-    pub(crate) settings: Vec<Span>,
-    /// The pragmas `{coarse}`.
-    pub(crate) coarse: Vec<Span>,
-    pub(crate) diagnostics: Vec<Diagnostic>,
+    pub settings: Vec<Span>,
+    /// Pragmas, `{...}`, with their brackets.
+    pub pragmas: Vec<Span>,
+    /// Comments, with what begins and ends them.
+    pub comments: Vec<Span>,
+    /// What is wrong.
+    pub diagnostics: Vec<Diagnostic>,
 }
 
 /// Longest first.
@@ -55,23 +59,36 @@ const SIGNS: [&str; 23] = [
 ];
 
 /// Cuts a text.
-pub(crate) fn cut(text: &str) -> Tokens {
-    let mut lexer =
-        Lexer { text, at: 0, settings: Vec::new(), coarse: Vec::new(), diagnostics: Vec::new() };
+pub fn cut(text: &str) -> Tokens {
+    cut_part(text, Span::new(0, text.len()))
+}
+
+/// Cuts a stretch of a text. Places are those in the whole text.
+pub(crate) fn cut_part(text: &str, part: Span) -> Tokens {
+    let text = text.get(..part.end as usize).unwrap_or(text);
+    let mut lexer = Lexer {
+        text,
+        at: part.start as usize,
+        settings: Vec::new(),
+        pragmas: Vec::new(),
+        comments: Vec::new(),
+        diagnostics: Vec::new(),
+    };
     let mut tokens = Vec::new();
     while let Some(token) = lexer.next() {
         tokens.push(token);
     }
     tokens.push(Token { kind: Kind::End, span: Span::new(text.len(), text.len()) });
-    let Lexer { settings, coarse, diagnostics, .. } = lexer;
-    Tokens { tokens, settings, coarse, diagnostics }
+    let Lexer { settings, pragmas, comments, diagnostics, .. } = lexer;
+    Tokens { tokens, settings, pragmas, comments, diagnostics }
 }
 
 struct Lexer<'t> {
     text: &'t str,
     at: usize,
     settings: Vec<Span>,
-    coarse: Vec<Span>,
+    pragmas: Vec<Span>,
+    comments: Vec<Span>,
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -134,6 +151,8 @@ impl<'t> Lexer<'t> {
         let span = Span::new(start, self.at);
         if span.text(self.text).starts_with("//#") {
             self.settings.push(span);
+        } else {
+            self.comments.push(span);
         }
     }
 
@@ -161,6 +180,7 @@ impl<'t> Lexer<'t> {
             }
             self.at += 2;
             if open.is_empty() {
+                self.comments.push(Span::new(start, self.at));
                 return;
             }
         }
@@ -176,11 +196,7 @@ impl<'t> Lexer<'t> {
                 self.error(Span::new(start, start + 1), "the pragma is not closed: `}` is missing");
             }
         }
-        let span = Span::new(start, self.at);
-        let inside = span.text(self.text).trim_matches(['{', '}']).trim();
-        if inside.eq_ignore_ascii_case("coarse") {
-            self.coarse.push(span);
-        }
+        self.pragmas.push(Span::new(start, self.at));
         rest.starts_with("{every scan}").then_some(Kind::EveryScan)
     }
 

@@ -10,7 +10,7 @@ mod check;
 mod code;
 pub mod diagnostic;
 mod fold;
-mod lexer;
+pub mod lexer;
 pub mod model;
 pub mod parser;
 pub mod tree;
@@ -41,7 +41,18 @@ pub fn compile(sources: &[Source], around: &Around) -> Compiled {
         diagnostics.extend(found.into_iter().map(|one| (number, one)));
         files.push(file);
     }
-    let (program, found) = check::check(sources, &files, around);
+    translate(sources, &files, diagnostics, around)
+}
+
+/// Translates a program whose texts are read already: a front end of another language begins here.
+/// `diagnostics` is what was found in the texts so far.
+pub fn translate(
+    sources: &[Source],
+    files: &[tree::File],
+    mut diagnostics: Vec<(usize, Diagnostic)>,
+    around: &Around,
+) -> Compiled {
+    let (program, found) = check::check(sources, files, around);
     diagnostics.extend(found);
     let has_errors = diagnostics.iter().any(|(_, one)| one.severity() == Severity::Error);
     let mut awl = None;

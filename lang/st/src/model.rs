@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use diagnostics::Span;
 
-pub use crate::tree::{BinaryOperator, SectionKind};
+pub use crate::tree::{BinaryOperator, Element, SectionKind};
 
 /// A type.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,16 +18,26 @@ pub enum Type {
     Word,
     /// 32 bits.
     Dword,
+    /// -128 to 127.
+    Sint,
+    /// 0 to 255.
+    Usint,
     /// -32768 to 32767.
     Int,
+    /// 0 to 65535.
+    Uint,
     /// -2147483648 to 2147483647.
     Dint,
+    /// 0 to 4294967295.
+    Udint,
     /// An IEEE 754 single.
     Real,
     /// Milliseconds, as DINT.
     Time,
     /// One of several names, stored as INT.
     Enumeration(Arc<Enumeration>),
+    /// Part of the whole numbers of a type. Places alone have it: a value is of the type itself.
+    Range(Arc<Range>),
     /// Elements of one type.
     Array(Arc<Array>),
     /// Members.
@@ -47,13 +57,33 @@ pub struct Enumeration {
     pub values: Vec<(String, i64)>,
 }
 
-/// An array type.
+/// Part of the whole numbers of a type.
 #[derive(Debug, PartialEq)]
+pub struct Range {
+    /// The type.
+    pub of: Type,
+    /// The lowest value.
+    pub low: i64,
+    /// The highest value.
+    pub high: i64,
+}
+
+/// An array type.
+#[derive(Debug)]
 pub struct Array {
     /// Lowest and highest index of each dimension.
     pub bounds: Vec<(i64, i64)>,
     /// The type of the elements.
     pub of: Type,
+    /// The initial value of each.
+    pub initial: Value,
+}
+
+impl PartialEq for Array {
+    /// Initial values make no other type.
+    fn eq(&self, other: &Self) -> bool {
+        self.bounds == other.bounds && self.of == other.of
+    }
 }
 
 /// A structure type.
@@ -90,13 +120,17 @@ pub enum Value {
 }
 
 /// The elementary types by their names.
-pub const ELEMENTARY: [(&str, Type); 8] = [
+pub const ELEMENTARY: [(&str, Type); 12] = [
     ("BOOL", Type::Bool),
     ("BYTE", Type::Byte),
     ("WORD", Type::Word),
     ("DWORD", Type::Dword),
+    ("SINT", Type::Sint),
+    ("USINT", Type::Usint),
     ("INT", Type::Int),
+    ("UINT", Type::Uint),
     ("DINT", Type::Dint),
+    ("UDINT", Type::Udint),
     ("REAL", Type::Real),
     ("TIME", Type::Time),
 ];
@@ -107,6 +141,7 @@ impl fmt::Display for Type {
             Type::Enumeration(kind) => f.write_str(&kind.name),
             Type::Struct(kind) => f.write_str(&kind.name),
             Type::Block(_, name) => f.write_str(name),
+            Type::Range(range) => write!(f, "{}({}..{})", range.of, range.low, range.high),
             Type::Array(array) => {
                 f.write_str("ARRAY[")?;
                 for (number, (low, high)) in array.bounds.iter().enumerate() {
@@ -124,25 +159,40 @@ impl fmt::Display for Type {
 }
 
 impl Type {
+    /// The type of the values: of a part of a type's numbers that type.
+    pub fn base(&self) -> &Type {
+        match self {
+            Type::Range(range) => &range.of,
+            _ => self,
+        }
+    }
+
     /// The lowest and highest value of a type with whole numbers; of bit strings without sign.
     pub fn range(&self) -> Option<(i64, i64)> {
         match self {
             Type::Bool => Some((0, 1)),
-            Type::Byte => Some((0, 0xFF)),
-            Type::Word => Some((0, 0xFFFF)),
-            Type::Dword => Some((0, 0xFFFF_FFFF)),
+            Type::Byte | Type::Usint => Some((0, 0xFF)),
+            Type::Word | Type::Uint => Some((0, 0xFFFF)),
+            Type::Dword | Type::Udint => Some((0, 0xFFFF_FFFF)),
+            Type::Sint => Some((i8::MIN.into(), i8::MAX.into())),
             Type::Int => Some((i16::MIN.into(), i16::MAX.into())),
             Type::Dint | Type::Time => Some((i32::MIN.into(), i32::MAX.into())),
+            Type::Range(range) => Some((range.low, range.high)),
             _ => None,
         }
     }
 
-    /// INT, DINT.
+    /// SINT, USINT, INT, UINT, DINT, UDINT.
     pub fn is_whole(&self) -> bool {
-        matches!(self, Type::Int | Type::Dint)
+        matches!(self, Type::Sint | Type::Int | Type::Dint) || self.is_unsigned()
     }
 
-    /// INT, DINT, REAL.
+    /// USINT, UINT, UDINT.
+    pub fn is_unsigned(&self) -> bool {
+        matches!(self, Type::Usint | Type::Uint | Type::Udint)
+    }
+
+    /// Whole numbers and REAL.
     pub fn is_number(&self) -> bool {
         self.is_whole() || *self == Type::Real
     }
@@ -159,21 +209,33 @@ impl Type {
 
     /// Whether every value of `self` is one of `wider`, or is taken for it.
     pub fn widens_to(&self, wider: &Type) -> bool {
-        matches!(
-            (self, wider),
-            (Type::Int, Type::Dint | Type::Real)
-                | (Type::Byte, Type::Word | Type::Dword)
-                | (Type::Word, Type::Dword)
-        )
+        if self == wider {
+            return false;
+        }
+        match (self.is_whole(), self.is_bits()) {
+            (true, _) if *wider == Type::Real => !matches!(self, Type::Dint | Type::Udint),
+            (true, _) => wider.is_whole() && self.is_within(wider),
+            (_, true) => wider.is_bits() && self.is_within(wider),
+            _ => false,
+        }
+    }
+
+    /// Whether another type has all of its numbers.
+    pub fn is_within(&self, other: &Type) -> bool {
+        match (self.range(), other.range()) {
+            (Some((low, high)), Some((least, most))) => least <= low && high <= most,
+            _ => false,
+        }
     }
 
     /// Bytes of an element of an array of this type.
     pub fn bytes(&self) -> i64 {
         match self {
-            Type::Bool | Type::Byte => 1,
-            Type::Word | Type::Int | Type::Enumeration(_) => 2,
+            Type::Bool | Type::Byte | Type::Sint | Type::Usint => 1,
+            Type::Word | Type::Int | Type::Uint | Type::Enumeration(_) => 2,
             Type::Array(array) => (array.count() as i64).saturating_mul(array.of.bytes()),
             Type::Struct(kind) => kind.members.iter().map(|one| one.of_type.bytes()).sum(),
+            Type::Range(range) => range.of.bytes(),
             _ => 4,
         }
     }
@@ -184,7 +246,8 @@ impl Type {
             Type::Bool => Value::Bool(false),
             Type::Real => Value::Real(0.0),
             Type::Enumeration(kind) => Value::Int(kind.values.first().map_or(0, |(_, n)| *n)),
-            Type::Array(array) => Value::List(vec![array.of.initial(); array.count()]),
+            Type::Range(range) => Value::Int(range.low),
+            Type::Array(array) => Value::List(vec![array.initial.clone(); array.count()]),
             Type::Struct(kind) => {
                 Value::List(kind.members.iter().map(|member| member.initial.clone()).collect())
             }
@@ -398,6 +461,10 @@ pub enum StatementKind {
     Continue,
     /// RETURN
     Return,
+    /// What follows belongs to an element of a drawing.
+    Element(Element),
+    /// Adds the milliseconds since the start of the scan before.
+    AddElapsed(Place),
     /// A call of an instance.
     Call(Box<BlockCall>),
     /// A call of a subroutine in AWL.

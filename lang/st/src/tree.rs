@@ -124,8 +124,8 @@ pub enum TypeTextKind {
     Named(String),
     /// `STRING[20]`
     Text,
-    /// `INT (0..10)`
-    Range,
+    /// `INT (0..10)`: the type, the lowest and the highest value.
+    Range(String, Box<(Expression, Expression)>),
     /// `ARRAY[1..3] OF T`
     Array(Vec<(Expression, Expression)>, Box<TypeText>),
     /// `STRUCT ... END_STRUCT`
@@ -168,6 +168,21 @@ pub enum StatementKind {
     Continue,
     /// RETURN
     Return,
+    /// What follows and has no place of its own belongs to an element of a drawing. No text says
+    /// so: front ends of other languages do.
+    Element(Element),
+    /// Adds the milliseconds since the start of the scan before to an INT, which ends at its
+    /// highest number, or a TIME. It is the last statement of its body. No text says so.
+    AddElapsed(Expression),
+}
+
+/// An element of a drawing, such as a step.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Element {
+    /// Its name, which messages tell.
+    pub name: String,
+    /// What is said about it in the AWL.
+    pub title: String,
 }
 
 /// `1, 3..5: ...`

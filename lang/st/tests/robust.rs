@@ -1,5 +1,5 @@
 //! Broken texts: every prefix of programs and random changes of them end with diagnostics, never
-//! with a panic.
+//! with a panic. `ST_MUTATIONS` sets how many changes are tried, `ST_SEED` which.
 
 use diagnostics::Source;
 use st::{Around, Code, compile};
@@ -30,11 +30,11 @@ fn prefixes() {
 
 #[test]
 fn mutations() {
-    let mut random = fastrand::Rng::with_seed(7);
+    let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse().ok());
+    let mut random = fastrand::Rng::with_seed(number("ST_SEED").unwrap_or(7));
     let texts = texts();
     let words: Vec<&str> = texts.iter().flat_map(|text| text.split_whitespace()).collect();
-    let count = std::env::var("ST_MUTATIONS").ok().and_then(|n| n.parse().ok()).unwrap_or(20_000);
-    for _ in 0..count {
+    for _ in 0..number("ST_MUTATIONS").unwrap_or(10_000) {
         let text = &texts[random.usize(..texts.len())];
         let mut pieces: Vec<&str> = text.split_inclusive([' ', '\n', ';', '(', ')']).collect();
         for _ in 0..random.usize(1..4) {

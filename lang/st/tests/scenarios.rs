@@ -1,5 +1,6 @@
-//! Examples and cases in Structured Text with their scenarios: what these expect is there. An
-//! example that exists in AWL, too, has to do what the scenario of that one says.
+//! Examples and cases in Structured Text, and examples as charts, with their scenarios: what these
+//! expect is there. An example that exists in AWL, too, has to do what the scenario of that one
+//! says.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -35,10 +36,13 @@ fn failures(program: &Path, scenario: &Path) -> Vec<String> {
     failed.chain(fault).collect()
 }
 
+fn is_program(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending == "st" || ending == "sfc")
+}
+
 fn programs(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).expect("a folder").flatten().map(|entry| entry.path());
-    let mut found: Vec<PathBuf> =
-        entries.filter(|path| path.extension().is_some_and(|ending| ending == "st")).collect();
+    let mut found: Vec<PathBuf> = entries.filter(|path| is_program(path)).collect();
     found.sort();
     found
 }
@@ -50,6 +54,7 @@ fn programs_do_what_their_scenarios_expect() {
     for (folder, of_awl) in [
         ("../../examples/st", "../../examples"),
         ("../../examples/st/tutorial", "../../examples/tutorial"),
+        ("../../examples/sfc", "../../examples"),
         ("tests/cases", "tests/cases"),
     ] {
         for program in programs(&here.join(folder)) {

@@ -9,7 +9,7 @@ use anyhow::{Context, Result, bail, ensure};
 use awl_asm::files::read_source;
 
 /// Endings of programs; the first one there is counts.
-const PROGRAM_ENDINGS: [&str; 3] = ["awl", "st", "bin"];
+const PROGRAM_ENDINGS: [&str; 4] = ["awl", "st", "sfc", "bin"];
 
 /// The scenarios at these paths, each once. What does not exist is given back as it is: it is a
 /// test that fails.

@@ -3,6 +3,7 @@
 mod build;
 mod context;
 mod control;
+mod convert;
 mod flash;
 mod force;
 mod program;
@@ -54,6 +55,7 @@ fn run(arguments: Arguments) -> Result<u8> {
     let base = if hex { Base::Hexadecimal } else { Base::Decimal };
     let is_good = match command {
         Command::Build(arguments) => build::build(&arguments),
+        Command::Convert(arguments) => convert::convert(&arguments),
         Command::Flash(arguments) => {
             let program = files.open(&arguments.files)?;
             flash::flash(target(connection, Some(&program)), program, &arguments)

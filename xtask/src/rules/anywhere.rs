@@ -2,12 +2,13 @@
 //! threads, clocks or environment, and no random numbers that the operating system seeds.
 
 /// Where such libraries are.
-const LIBRARIES: [&str; 12] = [
+const LIBRARIES: [&str; 13] = [
     "plc/isa/src/",
     "plc/vm/src/",
     "plc/link/src/",
     "diagnostics/src/",
     "awl-asm/src/",
+    "lang/chart/src/",
     "lang/st/src/",
     "lang/project/src/",
     "analysis/src/",

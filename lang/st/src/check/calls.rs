@@ -182,7 +182,11 @@ impl Checker<'_> {
     }
 
     fn same_type(&mut self, place: &Place, wanted: &Type, span: Span) {
-        if place.of_type != *wanted && place.of_type != Type::Invalid {
+        let is_same = place.of_type.base() == wanted.base();
+        if is_same && wanted.is_within(&place.of_type) || place.of_type == *wanted {
+            return;
+        }
+        if place.of_type != Type::Invalid {
             let message = format!("a {wanted} is needed here, this is a {}", place.of_type);
             self.error(Code::WrongType, span, message);
         }

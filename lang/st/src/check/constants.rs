@@ -36,14 +36,20 @@ impl Checker<'_> {
         }
     }
 
-    /// The initial value of a variable. What is wrong is reported.
-    pub(super) fn initial_value(&mut self, text: &tree::Expression, wanted: &Type) -> Value {
+    /// The initial value of a variable; what is not written is as in `around`. What is wrong is
+    /// reported.
+    pub(super) fn initial_value(
+        &mut self,
+        text: &tree::Expression,
+        wanted: &Type,
+        around: Value,
+    ) -> Value {
         match (&text.kind, wanted) {
             (_, Type::Invalid) => Value::Int(0),
             (tree::ExpressionKind::List(list), Type::Array(array)) => {
                 let mut values = Vec::new();
                 for (count, value) in list {
-                    let one = self.initial_value(value, &array.of);
+                    let one = self.initial_value(value, &array.of, array.initial.clone());
                     let left = array.count().saturating_sub(values.len());
                     if *count < 0 || *count as usize > left {
                         let message = format!("the array has {} elements", array.count());
@@ -52,12 +58,16 @@ impl Checker<'_> {
                     }
                     values.extend(std::iter::repeat_n(one, *count as usize));
                 }
-                values.resize(array.count(), array.of.initial());
+                if let Value::List(all) = around {
+                    values.extend(all.into_iter().skip(values.len()));
+                }
                 Value::List(values)
             }
             (tree::ExpressionKind::Members(members), Type::Struct(kind)) => {
-                let mut values: Vec<Value> =
-                    kind.members.iter().map(|member| member.initial.clone()).collect();
+                let mut values = match around {
+                    Value::List(values) => values,
+                    _ => Vec::new(),
+                };
                 for (name, value) in members {
                     let same =
                         |member: &crate::model::Member| upper(&member.name) == upper(&name.text);
@@ -67,7 +77,8 @@ impl Checker<'_> {
                         continue;
                     };
                     let Some(member) = kind.members.get(at) else { continue };
-                    let found = self.initial_value(value, &member.of_type.clone());
+                    let Some(slot) = values.get(at).cloned() else { continue };
+                    let found = self.initial_value(value, &member.of_type, slot);
                     if let Some(slot) = values.get_mut(at) {
                         *slot = found;
                     }
@@ -78,14 +89,14 @@ impl Checker<'_> {
                 let message = "the values of an array are in brackets";
                 let found = Diagnostic::new(Code::WrongType, text.span, message);
                 self.report(found.help("such as `[1, 2, 3(0)]`"));
-                wanted.initial()
+                around
             }
             (_, Type::Struct(_) | Type::Block(..)) => {
                 let message = "the values of a structure are `(a := 1, b := 2)`";
                 self.error(Code::WrongType, text.span, message);
-                wanted.initial()
+                around
             }
-            _ => self.constant(text, wanted).unwrap_or_else(|| wanted.initial()),
+            _ => self.constant(text, wanted).unwrap_or(around),
         }
     }
 }

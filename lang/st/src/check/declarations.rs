@@ -95,7 +95,7 @@ impl<'a> Checker<'a> {
             let message = format!("{}: the result of a function has an elementary type", of_type);
             self.error(Code::NotThere, text.span, message);
         }
-        let initial = of_type.initial();
+        let initial = self.initial(None, text, &of_type);
         self.add(Variable {
             name: unit.name.text.clone(),
             span: unit.name.span,
@@ -123,10 +123,7 @@ impl<'a> Checker<'a> {
                 continue;
             }
             let of_type = self.type_of(&declared.of_type, &enumeration_name(declared));
-            let initial = match &declared.initial {
-                Some(text) => self.initial_value(text, &of_type),
-                None => of_type.initial(),
-            };
+            let initial = self.initial(declared.initial.as_ref(), &declared.of_type, &of_type);
             self.check_section(section, declared, &of_type);
             let at = declared.at.as_ref().and_then(|at| self.address(at, &of_type));
             for name in &declared.names {
@@ -244,11 +241,13 @@ impl<'a> Checker<'a> {
             self.report(found.help("such as %I0.0, %QB0, %MW3, %VD10, %AIW0"));
             return None;
         };
-        let wanted = match of_type {
+        let wanted = match of_type.base() {
             Type::Bool => "a bit such as %M0.0",
-            Type::Byte => "a byte such as %MB0",
-            Type::Word | Type::Int | Type::Enumeration(_) => "a word such as %MW0",
-            Type::Dword | Type::Dint | Type::Real | Type::Time => "a double word such as %MD0",
+            Type::Byte | Type::Sint | Type::Usint => "a byte such as %MB0",
+            Type::Word | Type::Int | Type::Uint | Type::Enumeration(_) => "a word such as %MW0",
+            Type::Dword | Type::Dint | Type::Udint | Type::Real | Type::Time => {
+                "a double word such as %MD0"
+            }
             Type::Invalid => return None,
             _ => {
                 self.error(Code::NotThere, at.span, format!("{of_type}: not at an address yet"));
@@ -257,13 +256,13 @@ impl<'a> Checker<'a> {
         };
         let fits = match address {
             Address::Bit { .. } => *of_type == Type::Bool,
-            Address::Byte { .. } => *of_type == Type::Byte,
+            Address::Byte { .. } => wanted.starts_with("a byte"),
             Address::Word { .. } | Address::Analog(_) | Address::AnalogOutput(_) => {
                 wanted.starts_with("a word")
             }
             Address::Double { .. } | Address::HighSpeedCounter(_) => wanted.starts_with("a double"),
             Address::Timer(_) | Address::Counter(_) => {
-                matches!(of_type, Type::Bool | Type::Int | Type::Word)
+                matches!(of_type.base(), Type::Bool | Type::Int | Type::Uint | Type::Word)
             }
             _ => false,
         };

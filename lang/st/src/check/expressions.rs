@@ -7,7 +7,8 @@ use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::fold;
 use crate::model::{
-    BinaryOperator, ELEMENTARY, Expression, ExpressionKind, Root, Step, Type, Value,
+    BinaryOperator, ELEMENTARY, Expression, ExpressionKind, Function, Range, Root, Step, Type,
+    Value,
 };
 use crate::tree::{self, UnaryOperator};
 
@@ -21,7 +22,7 @@ pub(super) fn known(value: Value, of_type: Type, span: Span) -> Expression {
 }
 
 /// Whether it is a number that takes the type that is needed.
-fn is_open(text: &tree::Expression) -> bool {
+pub(super) fn is_open(text: &tree::Expression) -> bool {
     match &text.kind {
         tree::ExpressionKind::Integer(_) | tree::ExpressionKind::Real(_) => true,
         tree::ExpressionKind::Unary(UnaryOperator::Minus, inside) => is_open(inside),
@@ -70,18 +71,53 @@ impl Checker<'_> {
 
     /// An expression of a type.
     pub(super) fn value_of(&mut self, text: &tree::Expression, wanted: &Type) -> Expression {
+        let Type::Range(range) = wanted else { return self.plain_value_of(text, wanted) };
+        let found = self.plain_value_of(text, &range.of);
+        match found.kind {
+            _ if found.of_type == Type::Invalid => found,
+            ExpressionKind::Constant(Value::Int(value)) => {
+                if !has(wanted, value) {
+                    let (low, high) = (range.low, range.high);
+                    let message = format!("{value}: this is {low} to {high} only");
+                    self.error(Code::ConstantRange, text.span, message);
+                }
+                found
+            }
+            _ => self.limited(found, range),
+        }
+    }
+
+    /// The nearest value of a part of a type's numbers.
+    fn limited(&mut self, value: Expression, range: &Range) -> Expression {
+        let span = value.span;
+        let bound = |bound: i64| known(Value::Int(bound), range.of.clone(), span);
+        let of_type = range.of.clone();
+        let (least, most) = of_type.range().unwrap_or((range.low, range.high));
+        let mut limited = value;
+        for (is_needed, function, limit) in [
+            (range.low > least, Function::Max, range.low),
+            (range.high < most, Function::Min, range.high),
+        ] {
+            if is_needed {
+                let kind = ExpressionKind::Standard(function, vec![limited, bound(limit)]);
+                limited = Expression { kind, of_type: of_type.clone(), span };
+            }
+        }
+        limited
+    }
+
+    fn plain_value_of(&mut self, text: &tree::Expression, wanted: &Type) -> Expression {
         let found = self.expression(text, Some(wanted));
         let is_product = matches!(
             found.kind,
             ExpressionKind::Binary(BinaryOperator::Multiply | BinaryOperator::Add, ..)
         );
-        if is_product && found.of_type == Type::Int && matches!(wanted, Type::Dint | Type::Real) {
-            let message = "this is computed as INT before it becomes a ".to_owned();
-            let found =
-                Diagnostic::new(Code::NarrowProduct, text.span, message + &wanted.to_string());
-            self.report(
-                found.help(format!("INT_TO_{wanted}(...) of an operand computes it as such")),
-            );
+        let is_narrow = found.of_type.is_whole() && found.of_type.widens_to(wanted);
+        if is_product && is_narrow {
+            let from = &found.of_type;
+            let message = format!("this is computed as {from} before it becomes a {wanted}");
+            let help = format!("{from}_TO_{wanted}(...) of an operand computes it as such");
+            self.report(Diagnostic::new(Code::NarrowProduct, text.span, message).help(help));
         }
         self.coerce(found, wanted)
     }
@@ -107,7 +143,15 @@ impl Checker<'_> {
         if let ExpressionKind::Constant(value) = &found.kind {
             return known(fold::convert(&found.of_type, to, value), to.clone(), span);
         }
-        let kind = ExpressionKind::Convert(Box::new(found));
+        let in_library = match (&found.of_type, to) {
+            (Type::Udint, Type::Real) => self.library("__UDINT_TO_REAL"),
+            (Type::Real, Type::Udint) => self.library("__REAL_TO_UDINT"),
+            _ => None,
+        };
+        let kind = match in_library {
+            Some(number) => ExpressionKind::Call(number, vec![found]),
+            None => ExpressionKind::Convert(Box::new(found)),
+        };
         Expression { kind, of_type: to.clone(), span }
     }
 
@@ -137,22 +181,35 @@ impl Checker<'_> {
             }
             _ => {}
         }
-        let kind = if i16::try_from(value).is_ok() { Type::Int } else { Type::Dint };
+        let kinds = [Type::Int, Type::Dint, Type::Udint];
+        let kind = kinds.into_iter().find(|kind| has(kind, value)).unwrap_or(Type::Dint);
         self.check_range(value, &kind, span);
         known(Value::Int(value), kind, span)
     }
 
     fn check_range(&mut self, value: i64, kind: &Type, span: Span) {
         let Some((low, high)) = kind.range() else { return };
-        if (low..=high).contains(&value) {
+        if has(kind, value) {
             return;
         }
         let message = format!("{kind} cannot take {value}: it has {low} to {high}");
-        let mut found = Diagnostic::new(Code::ConstantRange, span, message);
-        if *kind == Type::Int && i32::try_from(value).is_ok() {
-            found = found.help("DINT can");
-        }
-        self.report(found);
+        let found = Diagnostic::new(Code::ConstantRange, span, message);
+        let others: [&[Type]; 2] = match kind.is_bits() {
+            true => [&[Type::Word, Type::Dword], &[]],
+            false => {
+                [&[Type::Usint, Type::Uint, Type::Udint], &[Type::Sint, Type::Int, Type::Dint]]
+            }
+        };
+        // The shortest without a sign, and the shortest with one.
+        let able: Vec<String> = others
+            .iter()
+            .filter_map(|list| list.iter().find(|one| has(one, value)))
+            .map(Type::to_string)
+            .collect();
+        self.report(match able.is_empty() {
+            true => found,
+            false => found.help(format!("{} can", able.join(" or "))),
+        });
     }
 
     fn typed(&mut self, name: &str, value: &tree::Expression, span: Span) -> Expression {
@@ -206,10 +263,10 @@ impl Checker<'_> {
             self.report(found.help(format!("its outputs are, such as {}.Q", name.text)));
             return invalid(span);
         }
+        let of_type = place.of_type.base().clone();
         if let Some(value) = self.constant_at(&place) {
-            return known(value, place.of_type, span);
+            return known(value, of_type, span);
         }
-        let of_type = place.of_type.clone();
         Expression { kind: ExpressionKind::Read(place), of_type, span }
     }
 
@@ -259,7 +316,7 @@ impl Checker<'_> {
         let inside = self.expression(operand, wanted);
         let kind = inside.of_type.clone();
         let fits = match operator {
-            UnaryOperator::Minus => kind.is_number() || kind == Type::Time,
+            UnaryOperator::Minus => kind.is_number() && !kind.is_unsigned() || kind == Type::Time,
             UnaryOperator::Not => kind == Type::Bool || kind.is_bits(),
         };
         if kind == Type::Invalid {
@@ -267,7 +324,7 @@ impl Checker<'_> {
         }
         if !fits {
             let (what, needed) = match operator {
-                UnaryOperator::Minus => ("-", "a number"),
+                UnaryOperator::Minus => ("-", "a number with a sign"),
                 UnaryOperator::Not => ("NOT", "a BOOL or a bit string"),
             };
             self.error(Code::WrongType, span, format!("{what} needs {needed}, this is a {kind}"));
@@ -287,173 +344,9 @@ impl Checker<'_> {
         };
         Expression { kind: found, of_type: kind, span }
     }
-
-    fn binary(
-        &mut self,
-        operator: BinaryOperator,
-        left: &tree::Expression,
-        right: &tree::Expression,
-        wanted: Option<&Type>,
-        span: Span,
-    ) -> Expression {
-        let wanted = if operator.is_comparison() { None } else { wanted };
-        // A literal takes the type of the other operand.
-        let (left, right) = match (is_open(left), is_open(right)) {
-            (true, false) => {
-                let right = self.expression(right, wanted);
-                let left = self.expression(left, Some(&right.of_type.clone()));
-                (left, right)
-            }
-            (false, true) => {
-                let left = self.expression(left, wanted);
-                let right = self.expression(right, Some(&left.of_type.clone()));
-                (left, right)
-            }
-            (true, true) => {
-                let left = self.expression(left, wanted);
-                let right = self.expression(right, wanted);
-                (left, right)
-            }
-            (false, false) => {
-                let left = self.expression(left, wanted);
-                let hint = Some(left.of_type.clone());
-                let right = self.expression(right, hint.as_ref());
-                (left, right)
-            }
-        };
-        self.combine(operator, left, right, span)
-    }
-
-    /// Two operands that are checked.
-    pub(super) fn combine(
-        &mut self,
-        operator: BinaryOperator,
-        left: Expression,
-        right: Expression,
-        span: Span,
-    ) -> Expression {
-        if left.of_type == Type::Invalid || right.of_type == Type::Invalid {
-            return invalid(span);
-        }
-        if operator == BinaryOperator::Power {
-            let message = "** is not there yet";
-            let found = Diagnostic::new(Code::NotThere, span, message);
-            self.report(found.help("x * x, or EXP(y * LN(x)) for a REAL above 0"));
-            return invalid(span);
-        }
-        let is_scaled_time = left.of_type == Type::Time
-            && matches!(operator, BinaryOperator::Multiply | BinaryOperator::Divide)
-            && right.of_type.is_whole();
-        if is_scaled_time {
-            let right = self.convert_if(right, &Type::Dint);
-            return self.folded(operator, left, right, Type::Time, span);
-        }
-        let Some(common) = common(&left.of_type, &right.of_type) else {
-            self.no_common(operator, &left, &right, span);
-            return invalid(span);
-        };
-        if !self.suits(operator, &common, span) {
-            return invalid(span);
-        }
-        let left = self.convert_if(left, &common);
-        let right = self.convert_if(right, &common);
-        self.zero_divisor(operator, &right);
-        let of_type = if operator.is_comparison() { Type::Bool } else { common };
-        self.folded(operator, left, right, of_type, span)
-    }
-
-    pub(super) fn convert_if(&mut self, found: Expression, to: &Type) -> Expression {
-        if found.of_type == *to { found } else { self.convert(found, to) }
-    }
-
-    fn zero_divisor(&mut self, operator: BinaryOperator, right: &Expression) {
-        let is_division = matches!(operator, BinaryOperator::Divide | BinaryOperator::Modulo);
-        let is_zero = match right.kind {
-            ExpressionKind::Constant(Value::Int(value)) => value == 0,
-            ExpressionKind::Constant(Value::Real(value)) => value == 0.0,
-            _ => false,
-        };
-        if is_division && is_zero {
-            self.error(Code::BadConstant, right.span, "this divides by zero");
-        }
-    }
-
-    fn folded(
-        &mut self,
-        operator: BinaryOperator,
-        left: Expression,
-        right: Expression,
-        of_type: Type,
-        span: Span,
-    ) -> Expression {
-        if let (ExpressionKind::Constant(a), ExpressionKind::Constant(b)) =
-            (&left.kind, &right.kind)
-        {
-            let value = fold::binary(operator, &left.of_type, a, b);
-            return known(value, of_type, span);
-        }
-        let kind = ExpressionKind::Binary(operator, Box::new(left), Box::new(right));
-        Expression { kind, of_type, span }
-    }
-
-    fn no_common(
-        &mut self,
-        operator: BinaryOperator,
-        left: &Expression,
-        right: &Expression,
-        span: Span,
-    ) {
-        let (a, b) = (&left.of_type, &right.of_type);
-        let message = format!("{} has no operands of {a} and {b}", operator.text());
-        let found = Diagnostic::new(Code::WrongType, span, message);
-        let is_plain = |kind: &Type| kind.is_number() || kind.is_bits() || *kind == Type::Time;
-        let help = match is_plain(a) && is_plain(b) {
-            true => format!("convert one of them: {b}_TO_{a}(...) or {a}_TO_{b}(...)"),
-            false => "both operands need the same type".to_owned(),
-        };
-        self.report(found.help(help));
-    }
-
-    /// Whether an operator works on a type.
-    fn suits(&mut self, operator: BinaryOperator, kind: &Type, span: Span) -> bool {
-        use BinaryOperator::*;
-        let is_number = kind.is_number();
-        let (suits, help) = match operator {
-            Add | Subtract => (is_number || *kind == Type::Time, "bits_TO_INT"),
-            Multiply | Divide => (is_number, ""),
-            Modulo => (kind.is_whole(), "MOD needs whole numbers"),
-            And | Or | Xor => (*kind == Type::Bool || kind.is_bits(), "BOOL or bit strings"),
-            Less | Greater | LessOrEqual | GreaterOrEqual => {
-                (is_number || kind.is_bits() || *kind == Type::Time, "")
-            }
-            Equal | NotEqual => (kind.is_elementary(), ""),
-            Power => (false, ""),
-        };
-        if suits {
-            return true;
-        }
-        let message = format!("{} does not work on {kind}", operator.text());
-        let mut found = Diagnostic::new(Code::WrongType, span, message);
-        if kind.is_bits() {
-            let help = format!("bit strings have no arithmetic: {kind}_TO_INT(...) is a number");
-            found = found.help(help);
-        } else if !help.is_empty() && help != "bits_TO_INT" {
-            found = found.help(help);
-        } else if matches!(kind, Type::Struct(_) | Type::Array(_)) {
-            found = found.help("compare their members or elements");
-        }
-        self.report(found);
-        false
-    }
 }
 
-/// The type of two operands that takes the other one.
-fn common(left: &Type, right: &Type) -> Option<Type> {
-    if left == right || left.widens_to(right) {
-        return Some(right.clone());
-    }
-    if right.widens_to(left) {
-        return Some(left.clone());
-    }
-    None
+/// Whether a type has a number.
+fn has(kind: &Type, value: i64) -> bool {
+    kind.range().is_some_and(|(low, high)| (low..=high).contains(&value))
 }

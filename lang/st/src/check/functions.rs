@@ -61,9 +61,12 @@ impl Checker<'_> {
         span: Span,
     ) -> Expression {
         let text = upper(&name.text);
-        // The standard blocks mean the standard functions, whatever is called like them.
-        let own = self.unit_names.get(&text).filter(|_| self.file.is_some());
-        if let Some(&number) = own {
+        // The library means the standard functions, whatever is called like them.
+        let own = match self.file {
+            Some(_) => self.unit_names.get(&text).copied(),
+            None => self.library(&text),
+        };
+        if let Some(number) = own {
             let kind = self.program.units.get(number).map(|unit| unit.kind);
             if kind == Some(UnitKind::Function) {
                 return self.own_function(number, arguments, span);
@@ -111,7 +114,7 @@ impl Checker<'_> {
         let Some(unit) = self.program.units.get(number).cloned() else { return invalid(span) };
         let inputs: Vec<_> =
             unit.variables.iter().filter(|one| one.section == SectionKind::Input).collect();
-        let result = unit.variables.last().map_or(Type::Invalid, |one| one.of_type.clone());
+        let result = unit.variables.last().map_or(Type::Invalid, |one| one.of_type.base().clone());
         let mut given: Vec<Option<Expression>> = vec![None; inputs.len()];
         for (at, argument) in arguments.iter().enumerate() {
             let slot = match &argument.name {
@@ -141,7 +144,7 @@ impl Checker<'_> {
             match value {
                 Some(value) => all.push(value),
                 None if input.has_initial => {
-                    all.push(known(input.initial.clone(), input.of_type.clone(), span));
+                    all.push(known(input.initial.clone(), input.of_type.base().clone(), span));
                 }
                 None => {
                     let message = format!("{}: {} is not given", unit.name, input.name);
@@ -185,11 +188,19 @@ impl Checker<'_> {
                 Some(one) => self.expression(&one.value, wanted),
                 None => invalid(span),
             },
+            "EXPT" if self.has_count(name, count, 2, 2) => {
+                let values: Vec<Expression> = given
+                    .iter()
+                    .map(|one| self.expression(&one.value, Some(&Type::Real)))
+                    .collect();
+                self.chain(BinaryOperator::Power, values, span)
+            }
+            "EXPT" => invalid(span),
             "MIN" | "MAX" | "LIMIT" => self.choice(name, text, &given, wanted, span),
             "SEL" | "MUX" => self.select(name, text, &given, wanted, span),
             "MOVE" => invalid(span),
-            "LOG" | "ASIN" | "ACOS" | "ATAN" | "EXPT" | "LEN" | "LEFT" | "RIGHT" | "MID"
-            | "CONCAT" | "FIND" | "INSERT" | "DELETE" | "REPLACE" => {
+            "LEN" | "LEFT" | "RIGHT" | "MID" | "CONCAT" | "FIND" | "INSERT" | "DELETE"
+            | "REPLACE" => {
                 let message = format!("{text}: this function is not there yet");
                 self.error(Code::NotThere, name.span, message);
                 invalid(span)
@@ -270,6 +281,9 @@ impl Checker<'_> {
             let message = format!("{}: a number is needed, this is a {}", name.text, value.of_type);
             self.error(Code::WrongType, value.span, message);
             return invalid(span);
+        }
+        if function == Function::Abs && value.of_type.is_unsigned() {
+            return value;
         }
         let of_type = match function {
             Function::Trunc => Type::Dint,

@@ -6,13 +6,17 @@ mod constants;
 mod declarations;
 mod expressions;
 mod functions;
+mod loops;
 mod names;
+mod operators;
 mod places;
 mod recursion;
 mod statements;
 mod types;
+mod unwritten;
 
 use std::collections::HashMap;
+use std::sync::OnceLock;
 
 use diagnostics::{Source, Span};
 
@@ -20,7 +24,7 @@ pub(crate) use recursion::{each_assignment, each_expression, inside};
 
 use crate::around::Around;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{Program, Type, Unit, UnitKind, Variable};
+use crate::model::{Program, Type, Unit, UnitKind, Value, Variable};
 use crate::parser;
 use crate::tree;
 
@@ -30,11 +34,12 @@ pub(crate) fn check(
     files: &[tree::File],
     around: &Around,
 ) -> (Program, Vec<(usize, Diagnostic)>) {
-    let library = library();
+    let library = LIBRARY.get_or_init(library);
     let mut checker = Checker {
         around,
         program: Program::default(),
         types: HashMap::new(),
+        type_initials: HashMap::new(),
         type_texts: HashMap::new(),
         unit_names: HashMap::new(),
         diagnostics: Vec::new(),
@@ -47,7 +52,7 @@ pub(crate) fn check(
         checker.program.settings.extend(settings);
     }
     let all: Vec<(Option<usize>, &tree::File)> =
-        (0..).map(Some).zip(files).chain([(None, &library)]).collect();
+        (0..).map(Some).zip(files).chain(library.iter().map(|file| (None, file))).collect();
     checker.collect_types(&all);
     checker.collect_units(&all);
     checker.collect_globals(&all);
@@ -55,15 +60,20 @@ pub(crate) fn check(
     checker.bodies(&all);
     checker.recursion();
     checker.written_in_two_programs();
+    checker.read_before_written();
     let Checker { program, diagnostics, .. } = checker;
     (program, diagnostics)
 }
 
-/// The standard blocks.
-fn library() -> tree::File {
-    let text = include_str!("../blocks.st");
-    let source = Source::new("blocks.st", text).ok();
-    source.map(|source| parser::parse(&source).0).unwrap_or_default()
+/// The tree of [`library`], read once.
+static LIBRARY: OnceLock<[tree::File; 2]> = OnceLock::new();
+
+/// The standard blocks, and functions that no instruction computes.
+fn library() -> [tree::File; 2] {
+    [include_str!("../blocks.st"), include_str!("../functions.st")].map(|text| {
+        let source = Source::new("library.st", text).ok();
+        source.map(|source| parser::parse(&source).0).unwrap_or_default()
+    })
 }
 
 pub(crate) struct Checker<'a> {
@@ -71,6 +81,8 @@ pub(crate) struct Checker<'a> {
     pub(crate) program: Program,
     /// Types by name, upper case; `None` while one is being read.
     types: HashMap<String, Option<Type>>,
+    /// The initial values of variables of these types.
+    type_initials: HashMap<String, Value>,
     type_texts: HashMap<String, (Option<usize>, &'a tree::TypeDeclaration)>,
     /// Units by name, upper case.
     unit_names: HashMap<String, usize>,

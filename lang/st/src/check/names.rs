@@ -73,6 +73,7 @@ impl Checker<'_> {
         let (locals, globals) = (self.locals(), &self.program.globals);
         let variables = locals.iter().chain(globals).map(|variable| variable.name.as_str());
         let units = self.program.units.iter().map(|unit| unit.name.as_str());
+        let units = units.filter(|name| !name.starts_with("__"));
         let enumerations = self.types.values().flatten().filter_map(|kind| match kind {
             Type::Enumeration(kind) => Some(kind.values.iter().map(|(name, _)| name.as_str())),
             _ => None,
@@ -95,23 +96,18 @@ impl Checker<'_> {
 
     /// What is wrong with the name of a type.
     pub(super) fn unknown_type(&mut self, name: &str, span: diagnostics::Span) {
-        let not_yet = ["SINT", "USINT", "UINT", "UDINT", "STRING", "CHAR"];
+        let not_yet = ["STRING", "CHAR"];
         let never = ["LINT", "ULINT", "LREAL", "LWORD", "DATE", "TOD", "DT", "LTIME", "WSTRING"];
         let wanted = upper(name);
         if not_yet.contains(&wanted.as_str()) {
             let message = format!("{wanted}: this type is not there yet");
-            let instead = match wanted.as_str() {
-                "SINT" | "USINT" => "INT has all of its values",
-                "UINT" => "DINT has all of its values, INT those up to 32767",
-                "UDINT" => "DINT has its values up to 2147483647",
-                _ => "texts cannot be handled yet",
-            };
-            self.report(Diagnostic::new(Code::NotThere, span, message).help(instead));
+            let help = "texts cannot be handled yet";
+            self.report(Diagnostic::new(Code::NotThere, span, message).help(help));
             return;
         }
         if never.contains(&wanted.as_str()) {
             let message = format!("{wanted}: an S7-200 has no such type");
-            let help = "it has 32 bits at most: DINT, REAL, DWORD, TIME";
+            let help = "it has 32 bits at most: DINT, UDINT, REAL, DWORD, TIME";
             self.report(Diagnostic::new(Code::NotThere, span, message).help(help));
             return;
         }

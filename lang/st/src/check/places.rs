@@ -107,7 +107,8 @@ impl Checker<'_> {
         let index = self.expression(text, Some(&Type::Int));
         let index = match index.of_type {
             Type::Int | Type::Invalid => index,
-            Type::Dint => self.convert(index, &Type::Int),
+            // What an INT does not have is outside of every array: the nearest one is the same.
+            ref kind if kind.is_whole() => self.convert(index, &Type::Int),
             _ => self.coerce(index, &Type::Int),
         };
         if let ExpressionKind::Constant(Value::Int(value)) = index.kind
@@ -139,10 +140,11 @@ impl Checker<'_> {
         let size = awl_asm::Address::parse(&plain).ok().map(|address| address_size(&address));
         let of_type = match (size, wanted) {
             (Some(1), _) => Type::Bool,
+            (Some(8), Some(kind @ (Type::Sint | Type::Usint))) => kind.clone(),
             (Some(8), _) => Type::Byte,
-            (Some(16), Some(Type::Word)) => Type::Word,
+            (Some(16), Some(kind @ (Type::Word | Type::Uint))) => kind.clone(),
             (Some(16), _) => Type::Int,
-            (_, Some(kind @ (Type::Dword | Type::Real | Type::Time))) => kind.clone(),
+            (_, Some(kind @ (Type::Dword | Type::Udint | Type::Real | Type::Time))) => kind.clone(),
             _ => Type::Dint,
         };
         let name = Name { text: text.to_owned(), span };

@@ -86,6 +86,8 @@ impl Checker<'_> {
                 continue;
             }
             each_assignment(&unit.body, &mut |place, span| {
+                // What an element of a drawing does is told at its unit.
+                let span = if span == diagnostics::Span::default() { unit.span } else { span };
                 let variable = match &place.root {
                     Root::Local(at) => unit.variables.get(*at),
                     Root::Global(at) => self.program.globals.get(*at),
@@ -116,7 +118,9 @@ pub(crate) fn each_assignment(
 ) {
     for statement in statements {
         match &statement.kind {
-            StatementKind::Assign(place, _) => found(place, statement.span),
+            StatementKind::Assign(place, _) | StatementKind::AddElapsed(place) => {
+                found(place, statement.span);
+            }
             StatementKind::If(arms, otherwise) => {
                 arms.iter().for_each(|(_, body)| each_assignment(body, found));
                 each_assignment(otherwise, found);
@@ -184,7 +188,11 @@ pub(crate) fn each_expression(statements: &[Statement], found: &mut dyn FnMut(&E
                     }
                 }
             }
-            StatementKind::Exit | StatementKind::Continue | StatementKind::Return => {}
+            StatementKind::AddElapsed(place) => in_place(place, found),
+            StatementKind::Exit
+            | StatementKind::Continue
+            | StatementKind::Return
+            | StatementKind::Element(_) => {}
         }
     }
 }

@@ -45,15 +45,21 @@ impl Checker<'_> {
             Kind::For(one) => self.for_loop(one),
             Kind::While(condition, body) => {
                 let condition = self.condition(condition);
-                Some(StatementKind::While(condition, self.in_loop(None, body)))
+                let body = self.in_loop(None, body);
+                self.never_ends(&condition, true, &body);
+                Some(StatementKind::While(condition, body))
             }
             Kind::Repeat(body, condition) => {
                 let body = self.in_loop(None, body);
-                Some(StatementKind::Repeat(body, self.condition(condition)))
+                let condition = self.condition(condition);
+                self.never_ends(&condition, false, &body);
+                Some(StatementKind::Repeat(body, condition))
             }
             Kind::Exit => self.leave(StatementKind::Exit, "EXIT", statement.span),
             Kind::Continue => self.leave(StatementKind::Continue, "CONTINUE", statement.span),
             Kind::Return => Some(StatementKind::Return),
+            Kind::Element(element) => Some(StatementKind::Element(element.clone())),
+            Kind::AddElapsed(target) => self.target(target).map(StatementKind::AddElapsed),
         }
     }
 
@@ -104,7 +110,8 @@ impl Checker<'_> {
         let kind = selector.of_type.clone();
         let fits = kind.is_whole() || matches!(kind, Type::Enumeration(_) | Type::Invalid);
         if !fits {
-            let message = format!("CASE chooses by INT, DINT or an enumeration, this is a {kind}");
+            let message =
+                format!("CASE chooses by whole numbers or an enumeration, this is a {kind}");
             let found = Diagnostic::new(Code::WrongType, selector.span, message);
             let help = match kind.is_bits() {
                 true => format!("{kind}_TO_INT(...) is a number"),
@@ -117,11 +124,25 @@ impl Checker<'_> {
         for arm in arms {
             let mut labels = Vec::new();
             for (first, last) in &arm.labels {
-                labels.extend(self.label(first, last.as_ref(), &kind, fits, &mut taken));
+                let label = self.label(first, last.as_ref(), &kind, fits, &mut taken);
+                if let Some(label) = label {
+                    self.never_chosen(label, &selector, first.span);
+                    labels.push(label);
+                }
             }
             known.push((labels, self.statements(&arm.body)));
         }
         StatementKind::Case(selector, known, self.statements(otherwise))
+    }
+
+    /// Reports a label that a variable with a part of its type's numbers never has.
+    fn never_chosen(&mut self, (low, high): (i64, i64), selector: &Expression, span: Span) {
+        let ExpressionKind::Read(place) = &selector.kind else { return };
+        let Some((least, most)) = place.of_type.range() else { return };
+        if high < least || low > most {
+            let message = format!("nothing gets here: this is {least} to {most} only");
+            self.error(Code::NeverReached, span, message);
+        }
     }
 
     fn label(
@@ -163,15 +184,15 @@ impl Checker<'_> {
         let place = self.target(&one.variable);
         let kind = place.as_ref().map_or(Type::Int, |place| place.of_type.clone());
         let is_plain = place.as_ref().is_none_or(|place| place.steps.is_empty());
-        if !kind.is_whole() || !is_plain {
-            let message = "a loop counts with a variable of INT or DINT";
+        if !kind.base().is_whole() || !is_plain {
+            let message = "a loop counts with a variable of whole numbers, such as INT";
             self.error(Code::Loop, one.variable.span, message);
         }
         let from = self.value_of(&one.from, &kind);
         let to = self.value_of(&one.to, &kind);
         let by = match &one.by {
             None => 1,
-            Some(by) => match self.constant(by, &kind) {
+            Some(by) => match self.constant(by, &step_type(kind.base())) {
                 Some(Value::Int(0)) => {
                     self.error(Code::Loop, by.span, "with the step 0 the loop never ends");
                     1
@@ -192,7 +213,16 @@ impl Checker<'_> {
             _ => None,
         };
         let body = self.in_loop(control, &one.body);
-        let variable = place.filter(|_| kind.is_whole())?;
+        let variable = place.filter(|_| kind.base().is_whole())?;
         Some(StatementKind::For(Box::new(ForLoop { variable, from, to, by, body })))
+    }
+}
+
+/// The type of a loop's step: unsigned types count down, too.
+fn step_type(kind: &Type) -> Type {
+    match kind {
+        Type::Usint => Type::Int,
+        Type::Uint | Type::Udint => Type::Dint,
+        _ => kind.clone(),
     }
 }

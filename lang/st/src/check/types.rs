@@ -2,10 +2,14 @@
 
 use std::sync::Arc;
 
+use diagnostics::Span;
+
 use super::Checker;
 use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{Array, ELEMENTARY, Enumeration, Member, Structure, Type, UnitKind};
+use crate::model::{
+    Array, ELEMENTARY, Enumeration, Member, Range, Structure, Type, UnitKind, Value,
+};
 use crate::tree::{Declaration, Expression, File, Name, TypeText, TypeTextKind};
 
 /// Bytes of V memory.
@@ -44,7 +48,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Reports that a name is there already.
-    pub(super) fn twice(&mut self, name: &Name, first: Option<diagnostics::Span>) {
+    pub(super) fn twice(&mut self, name: &Name, first: Option<Span>) {
         let message = format!("{}: there is something of this name already", name.text);
         let mut found = Diagnostic::new(Code::Duplicate, name.span, message);
         if let Some(first) = first {
@@ -54,7 +58,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The type of a name; reported where there is none.
-    pub(super) fn named(&mut self, name: &str, span: diagnostics::Span) -> Type {
+    pub(super) fn named(&mut self, name: &str, span: Span) -> Type {
         let wanted = upper(name);
         if let Some((_, kind)) = ELEMENTARY.iter().find(|(text, _)| *text == wanted) {
             return kind.clone();
@@ -81,10 +85,8 @@ impl<'a> Checker<'a> {
         self.types.insert(wanted.clone(), None);
         let around = std::mem::replace(&mut self.file, file);
         let kind = self.type_of(&declared.of_type, &declared.name.text);
-        if let Some(initial) = &declared.initial {
-            let message = "the initial value belongs to the variable here, not to its type";
-            self.error(Code::NotThere, initial.span, message);
-        }
+        let initial = self.initial(declared.initial.as_ref(), &declared.of_type, &kind);
+        self.type_initials.insert(wanted.clone(), initial);
         self.file = around;
         self.types.insert(wanted, Some(kind.clone()));
         kind
@@ -98,17 +100,54 @@ impl<'a> Checker<'a> {
                 self.unknown_type("STRING", text.span);
                 Type::Invalid
             }
-            TypeTextKind::Range => {
-                let message = "ranges of values are not there yet";
-                let found = Diagnostic::new(Code::NotThere, text.span, message);
-                self.report(found.help("take the type without the range, and LIMIT"));
-                Type::Invalid
-            }
+            TypeTextKind::Range(name, bounds) => self.range(name, bounds, text.span),
             TypeTextKind::Array(bounds, of) => self.array(bounds, of, name),
             TypeTextKind::Struct(members) => self.structure(members, name),
             TypeTextKind::Enumeration(values) => self.enumeration(values, name),
             TypeTextKind::Missing => Type::Invalid,
         }
+    }
+
+    /// What a variable is before the first scan: what its declaration says, or its type.
+    pub(super) fn initial(
+        &mut self,
+        written: Option<&Expression>,
+        text: &TypeText,
+        kind: &Type,
+    ) -> Value {
+        let of_type = match &text.kind {
+            TypeTextKind::Named(name) => self.type_initials.get(&upper(name)),
+            _ => None,
+        };
+        match (written, of_type) {
+            (Some(written), of_type) => {
+                let around = of_type.cloned().unwrap_or_else(|| kind.initial());
+                self.initial_value(written, kind, around)
+            }
+            (None, Some(value)) => value.clone(),
+            (None, None) => kind.initial(),
+        }
+    }
+
+    fn range(&mut self, name: &str, bounds: &(Expression, Expression), span: Span) -> Type {
+        let of = self.named(name, span);
+        if !of.is_whole() {
+            if of != Type::Invalid {
+                let message = format!("{of}: only whole numbers have parts such as INT(0..100)");
+                self.error(Code::WrongType, span, message);
+            }
+            return Type::Invalid;
+        }
+        let (low, high) = (self.constant(&bounds.0, &of), self.constant(&bounds.1, &of));
+        let (Some(Value::Int(low)), Some(Value::Int(high))) = (low, high) else {
+            return Type::Invalid;
+        };
+        if low > high {
+            let message = format!("{low}..{high}: the first value of a range is the lower one");
+            self.error(Code::BadConstant, bounds.0.span, message);
+            return Type::Invalid;
+        }
+        Type::Range(Arc::new(Range { of, low, high }))
     }
 
     fn array(&mut self, bounds: &[(Expression, Expression)], of: &TypeText, name: &str) -> Type {
@@ -139,7 +178,10 @@ impl<'a> Checker<'a> {
                 self.error(Code::BadConstant, of.span, message);
                 Type::Invalid
             }
-            of_type => Type::Array(Arc::new(Array { bounds: known, of: of_type })),
+            of_type => {
+                let initial = self.initial(None, of, &of_type);
+                Type::Array(Arc::new(Array { bounds: known, of: of_type, initial }))
+            }
         }
     }
 
@@ -161,10 +203,7 @@ impl<'a> Checker<'a> {
                 self.error(Code::NotThere, declared.of_type.span, message);
                 continue;
             }
-            let initial = match &declared.initial {
-                Some(text) => self.initial_value(text, &of_type),
-                None => of_type.initial(),
-            };
+            let initial = self.initial(declared.initial.as_ref(), &declared.of_type, &of_type);
             for name in &declared.names {
                 if members.iter().any(|member| upper(&member.name) == upper(&name.text)) {
                     self.twice(name, None);

@@ -234,5 +234,6 @@ impl Generator<'_> {
 /// What is in a place.
 fn read(place: &Place) -> Expression {
     let kind = ExpressionKind::Read(place.clone());
-    Expression { kind, of_type: place.of_type.clone(), span: diagnostics::Span::default() }
+    let of_type = place.of_type.base().clone();
+    Expression { kind, of_type, span: diagnostics::Span::default() }
 }

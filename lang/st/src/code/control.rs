@@ -1,12 +1,19 @@
 //! IF, CASE and loops: bodies that hang on power flow, and jumps over others.
 
+use diagnostics::Span;
+
 use super::Generator;
+use super::compare::relation;
 use super::logic::Logic;
-use super::memory::literal;
+use super::memory::{literal, storage};
 use super::timers::each;
+use super::values::{has_instructions, known};
 use super::writer::Storage;
 use crate::check::each_assignment;
-use crate::model::{CaseArm, Expression, ExpressionKind, ForLoop, Statement, StatementKind, Value};
+use crate::model::{
+    BinaryOperator, CaseArm, Expression, ExpressionKind, ForLoop, Statement, StatementKind, Type,
+    Value,
+};
 
 /// FOR and NEXT in each other at most (docs/errors/E0011.md).
 const LOOPS_MAX: usize = 8;
@@ -19,8 +26,8 @@ type Arm<'s> = (Choice<'s>, &'s [Statement]);
 enum Choice<'s> {
     /// A condition.
     If(&'s Expression),
-    /// Labels of CASE, about an operand.
-    Labels(char, String, &'s [(i64, i64)]),
+    /// Labels of CASE, about an operand of a type.
+    Labels(&'s Type, String, &'s [(i64, i64)]),
 }
 
 impl Generator<'_> {
@@ -40,17 +47,15 @@ impl Generator<'_> {
         arms: &[CaseArm],
         otherwise: &[Statement],
     ) {
-        let letter = self.storage_of(selector).letter();
         if otherwise.is_empty() && arms.len() > 2 {
             self.arms_by_themselves(selector, arms);
             return;
         }
         let operand = self.operand(selector);
+        let kind = &selector.of_type;
         let chosen: Vec<Arm> = arms
             .iter()
-            .map(|(labels, body)| {
-                (Choice::Labels(letter, operand.clone(), labels), body.as_slice())
-            })
+            .map(|(labels, body)| (Choice::Labels(kind, operand.clone(), labels), body.as_slice()))
             .collect();
         self.arms(&chosen, otherwise);
     }
@@ -66,7 +71,7 @@ impl Generator<'_> {
             operand = kept;
         }
         for (labels, body) in arms {
-            let choice = Choice::Labels(storage.letter(), operand.clone(), labels);
+            let choice = Choice::Labels(&selector.of_type, operand.clone(), labels);
             let arm = [(choice, body.as_slice())];
             if self.are_simple(&[body], 1) {
                 self.powered(&arm, &[]);
@@ -110,9 +115,10 @@ impl Generator<'_> {
     fn decide(&mut self, choice: &Choice) -> Logic {
         match choice {
             Choice::If(condition) => self.lower(condition),
-            Choice::Labels(letter, operand, labels) => {
-                let one = |relation, value: i64| {
-                    Logic::Compare(*letter, relation, operand.clone(), value.to_string())
+            Choice::Labels(kind, operand, labels) => {
+                let kind = (*kind, storage(kind, false));
+                let one = |word, value: i64| {
+                    relation(kind, word, operand, &literal(&Value::Int(value), kind.0), Some(value))
                 };
                 let mut any: Vec<Logic> = labels
                     .iter()
@@ -162,6 +168,7 @@ impl Generator<'_> {
                 StatementKind::If(arms, otherwise) => {
                     self.nested(arms, otherwise, are_last && at + 1 == body.len());
                 }
+                StatementKind::AddElapsed(place) => self.add_elapsed(place),
                 kind => {
                     let label = self.target_of(kind);
                     self.writer.jump(label);
@@ -277,7 +284,6 @@ impl Generator<'_> {
     pub(super) fn for_loop(&mut self, one: &ForLoop) {
         let found = self.locate(&one.variable);
         let storage = found.storage;
-        let letter = storage.letter();
         let variable = found.text;
         if self.writer.open_loops < LOOPS_MAX && counts_by_instruction(one, storage) {
             self.for_next(one, &variable);
@@ -289,8 +295,8 @@ impl Generator<'_> {
         let past = if one.by > 0 { ">" } else { "<" };
         let is_entered = enters(one);
         if !is_entered {
-            let logic = Logic::Compare(letter, past, variable.clone(), to.clone());
-            self.load(&logic);
+            let kind = (one.variable.of_type.base(), storage);
+            self.load(&relation(kind, past, &variable, &to, known(&one.to)));
             self.writer.jump(exit);
             self.writer.forget();
         }
@@ -337,28 +343,47 @@ impl Generator<'_> {
 
     /// Leaves the loop where the next value is past the end, else sets it.
     fn next_pass(&mut self, one: &ForLoop, variable: &str, to: &str, storage: Storage, exit: u16) {
-        let letter = storage.letter();
+        let kind = one.variable.of_type.base();
         if one.by == 1 || one.by == -1 {
             let at_end = if one.by > 0 { ">=" } else { "<=" };
-            self.load(&Logic::Compare(letter, at_end, variable.to_owned(), to.to_owned()));
+            self.load(&relation((kind, storage), at_end, variable, to, known(&one.to)));
             self.writer.jump(exit);
             self.writer.forget();
+            let letter = storage.letter();
             let mnemonic = if one.by > 0 { format!("INC{letter}") } else { format!("DEC{letter}") };
             self.writer.boxed(&mnemonic, variable);
             return;
         }
-        let sign = if storage == Storage::Double { 'D' } else { 'I' };
         let next = self.writer.temporary(storage);
         self.copy(storage, variable, &next);
-        self.writer.boxed(&format!("+{sign}"), &format!("{}, {next}", one.by));
+        self.add_step(kind, one.by, storage, &next);
         // Where there is no such number, it stays as it was, and the end is reached.
         let past = if one.by > 0 { ">" } else { "<" };
-        let is_past = Logic::Compare(letter, past, next.clone(), to.to_owned());
-        let has_none = Logic::Compare(letter, "=", next.clone(), variable.to_owned());
+        let is_past = relation((kind, storage), past, &next, to, known(&one.to));
+        let has_none = relation((kind, storage), "=", &next, variable, None);
         self.load(&Logic::Any(vec![is_past, has_none]));
         self.writer.jump(exit);
         self.writer.forget();
         self.copy(storage, &next, variable);
+    }
+}
+
+impl Generator<'_> {
+    /// Adds the step of a loop, which of types without sign may be negative.
+    fn add_step(&mut self, kind: &Type, by: i64, storage: Storage, to: &str) {
+        if has_instructions(kind) {
+            let sign = if storage == Storage::Double { 'D' } else { 'I' };
+            self.writer.boxed(&format!("+{sign}"), &format!("{by}, {to}"));
+            return;
+        }
+        let (operator, by) = match kind.is_unsigned() && by < 0 {
+            true => (BinaryOperator::Subtract, -by),
+            false => (BinaryOperator::Add, by),
+        };
+        let step = ExpressionKind::Constant(Value::Int(by));
+        let step = Expression { kind: step, of_type: kind.clone(), span: Span::default() };
+        let operand = self.operand(&step);
+        self.operate(operator, &step, &operand, to);
     }
 }
 

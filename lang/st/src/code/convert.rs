@@ -1,7 +1,10 @@
 //! Conversions and standard functions as boxes.
 
 use super::Generator;
+use super::compare::relation;
 use super::logic::Logic;
+use super::memory::storage;
+use super::values::known;
 use super::writer::Storage;
 use crate::model::{Expression, ExpressionKind, Function, Type, Value};
 
@@ -12,12 +15,12 @@ impl Generator<'_> {
         match (from_type, to_type) {
             (Type::Bool, _) => self.number_of_bit(inside, wanted, to),
             (Type::Real, Type::Real) => self.into(inside, to),
-            (Type::Real, _) => self.round_into("ROUND", inside, wanted, to),
+            (Type::Real, _) => self.round_into("ROUND", inside, to_type, to),
             (_, Type::Real) => self.real_into(inside, from, to),
             _ if from_type.is_bits() || to_type.is_bits() => {
                 self.bits_into(inside, from, wanted, to);
             }
-            _ => self.whole_into(inside, from, wanted, to),
+            _ => self.whole_into(inside, (from, wanted), to_type, to),
         }
     }
 
@@ -28,20 +31,36 @@ impl Generator<'_> {
     }
 
     fn real_into(&mut self, inside: &Expression, from: Storage, to: &str) {
-        let operand = self.operand(inside);
         if from == Storage::Double {
+            let operand = self.operand(inside);
             self.writer.boxed("DTR", &format!("{operand}, {to}"));
             return;
         }
         let double = self.writer.temporary(Storage::Double);
-        self.writer.boxed("ITD", &format!("{operand}, {double}"));
+        self.longer_into(inside, from, &double, Storage::Double);
         self.writer.boxed("DTR", &format!("{double}, {to}"));
     }
 
-    /// ROUND or TRUNC, and the nearest number where the result is too large.
-    fn round_into(&mut self, word: &str, inside: &Expression, wanted: Storage, to: &str) {
+    /// A number in more bytes: with its sign, or with zeros.
+    fn longer_into(&mut self, inside: &Expression, from: Storage, to: &str, wanted: Storage) {
+        let kind = &inside.of_type;
         let operand = self.operand(inside);
-        let double = match wanted {
+        match (from, wanted) {
+            (Storage::Byte, Storage::Word) => self.word_of(kind, &operand, to),
+            (Storage::Byte, _) => {
+                let word = self.writer.temporary(Storage::Word);
+                self.word_of(kind, &operand, &word);
+                self.writer.boxed("ITD", &format!("{word}, {to}"));
+            }
+            _ if matches!(kind, Type::Word | Type::Uint) => self.double_of(&operand, to),
+            _ => self.writer.boxed("ITD", &format!("{operand}, {to}")),
+        }
+    }
+
+    /// ROUND or TRUNC, and the nearest number where the result is too large.
+    fn round_into(&mut self, word: &str, inside: &Expression, kind: &Type, to: &str) {
+        let operand = self.operand(inside);
+        let double = match storage(kind, false) {
             Storage::Double if !self.reads(inside, to) => to.to_owned(),
             _ => self.writer.temporary(Storage::Double),
         };
@@ -53,26 +72,78 @@ impl Generator<'_> {
             self.writer.boxed_here("MOVD", &format!("{value}, {double}"));
             self.writer.forget();
         }
-        if wanted == Storage::Double {
-            self.copy(Storage::Double, &double, to);
-        } else {
-            self.nearest_word(&double, to);
+        match kind {
+            Type::Int => self.nearest_word(&double, to),
+            _ => self.nearest_of(&Type::Dint, kind, Storage::Double, &double, to),
         }
     }
 
     /// Whole numbers and durations: the nearest.
-    fn whole_into(&mut self, inside: &Expression, from: Storage, wanted: Storage, to: &str) {
-        match (from, wanted) {
-            (Storage::Word, Storage::Double) => {
-                let operand = self.operand(inside);
-                self.writer.boxed("ITD", &format!("{operand}, {to}"));
+    fn whole_into(
+        &mut self,
+        inside: &Expression,
+        (from, wanted): (Storage, Storage),
+        to_type: &Type,
+        to: &str,
+    ) {
+        let from_type = &inside.of_type;
+        if from_type.is_within(to_type) {
+            match from == wanted {
+                true => self.into(inside, to),
+                false => self.longer_into(inside, from, to, wanted),
             }
-            (Storage::Double, Storage::Word) => {
-                let operand = self.operand(inside);
-                self.nearest_word(&operand, to);
-            }
-            _ => self.into(inside, to),
+            return;
         }
+        if let (Type::Dint | Type::Time, Type::Int) = (from_type, to_type) {
+            let operand = self.operand(inside);
+            self.nearest_word(&operand, to);
+            return;
+        }
+        // Computed where all numbers of both have a sign; above a DINT nothing else has one.
+        let kept = match from_type {
+            Type::Sint | Type::Usint => Storage::Word,
+            Type::Int if *to_type != Type::Udint => Storage::Word,
+            _ => Storage::Double,
+        };
+        let number = self.writer.temporary(kept);
+        if from == kept {
+            self.into(inside, &number);
+        } else {
+            self.longer_into(inside, from, &number, kept);
+        }
+        if *from_type == Type::Udint {
+            self.writer.logic("LDD<", &format!("{number}, 0"), true);
+            self.writer.boxed_here("MOVD", &format!("{}, {number}", i32::MAX));
+            self.writer.forget();
+        }
+        self.nearest_of(from_type, to_type, kept, &number, to);
+    }
+
+    /// The nearest number of a type: `number`, which is changed, has a sign.
+    fn nearest_of(&mut self, from: &Type, to_type: &Type, kept: Storage, number: &str, to: &str) {
+        let (Some((low, high)), Some((least, most))) = (from.range(), to_type.range()) else {
+            return;
+        };
+        let letter = kept.letter();
+        for (is_needed, word, limit) in [(low < least, '<', least), (high > most, '>', most)] {
+            if is_needed {
+                self.writer.logic(
+                    &format!("LD{letter}{word}"),
+                    &format!("{number}, {limit}"),
+                    true,
+                );
+                self.writer.boxed_here(&format!("MOV{letter}"), &format!("{limit}, {number}"));
+                self.writer.forget();
+            }
+        }
+        let wanted = storage(to_type, false);
+        if wanted == kept {
+            self.copy(kept, number, to);
+            return;
+        }
+        // The low part of an accumulator.
+        self.writer.boxed(&format!("MOV{letter}"), &format!("{number}, AC0"));
+        self.writer.boxed(&format!("MOV{}", wanted.letter()), &format!("AC0, {to}"));
     }
 
     fn nearest_word(&mut self, double: &str, to: &str) {
@@ -86,23 +157,9 @@ impl Generator<'_> {
 
     /// Bit strings: longer with zeros, of numbers with the sign; shorter by the low bits.
     fn bits_into(&mut self, inside: &Expression, from: Storage, wanted: Storage, to: &str) {
-        let is_signed = inside.of_type.is_whole();
         match (from, wanted) {
-            (Storage::Byte, Storage::Word) => {
-                let operand = self.operand(inside);
-                self.writer.boxed("BTI", &format!("{operand}, {to}"));
-            }
-            (Storage::Byte, Storage::Double) => {
-                let (operand, word) = (self.operand(inside), self.writer.temporary(Storage::Word));
-                self.writer.boxed("BTI", &format!("{operand}, {word}"));
-                self.writer.boxed("ITD", &format!("{word}, {to}"));
-            }
-            (Storage::Word, Storage::Double) => {
-                let operand = self.operand(inside);
-                self.writer.boxed("ITD", &format!("{operand}, {to}"));
-                if !is_signed {
-                    self.writer.boxed("ANDD", &format!("16#FFFF, {to}"));
-                }
+            (Storage::Byte, Storage::Word | Storage::Double) | (Storage::Word, Storage::Double) => {
+                self.longer_into(inside, from, to, wanted);
             }
             (Storage::Word | Storage::Double, Storage::Byte) | (Storage::Double, Storage::Word) => {
                 // The low part of an accumulator.
@@ -124,10 +181,9 @@ impl Generator<'_> {
     ) {
         match (function, arguments) {
             (Function::Abs, [one]) => self.absolute_into(one, storage, to),
-            (Function::Trunc, [one]) => self.round_into("TRUNC", one, storage, to),
+            (Function::Trunc, [one]) => self.round_into("TRUNC", one, &Type::Dint, to),
             (Function::Min | Function::Max, _) => {
-                let relation = if function == Function::Min { "<" } else { ">" };
-                self.best_into(relation, arguments, storage, to);
+                self.best_into(function == Function::Min, arguments, storage, to);
             }
             (Function::Sel, [choice, no, yes]) => {
                 let logic = self.lower(choice);
@@ -159,6 +215,13 @@ impl Generator<'_> {
 
     fn absolute_into(&mut self, one: &Expression, storage: Storage, to: &str) {
         self.into(one, to);
+        if storage == Storage::Byte {
+            self.load(&relation((&Type::Sint, storage), "<", to, "0", Some(0)));
+            self.writer.boxed_here("INVB", to);
+            self.writer.boxed_here("INCB", to);
+            self.writer.forget();
+            return;
+        }
         let (mnemonic, minus, zero) = match storage {
             Storage::Real => ("*R", "-1.0", "0.0"),
             Storage::Double => ("*D", "-1", "0"),
@@ -170,20 +233,19 @@ impl Generator<'_> {
     }
 
     /// The least or greatest, of equal ones the first.
-    fn best_into(&mut self, relation: &str, values: &[Expression], storage: Storage, to: &str) {
+    fn best_into(&mut self, is_least: bool, values: &[Expression], storage: Storage, to: &str) {
         let Some((first, rest)) = values.split_first() else { return };
         let best = match rest.iter().any(|one| self.reads(one, to)) {
             true => self.writer.temporary(storage),
             false => to.to_owned(),
         };
-        let rest: Vec<String> = rest.iter().map(|one| self.operand(one)).collect();
+        let rest: Vec<_> = rest.iter().map(|one| (self.operand(one), known(one))).collect();
         self.into(first, &best);
         let letter = storage.letter();
         // best > next is next < best, and a constant is the second operand.
-        let mirrored = if relation == "<" { ">" } else { "<" };
-        for next in rest {
-            let compare = format!("LD{letter}{mirrored}");
-            self.writer.logic(&compare, &format!("{best}, {next}"), true);
+        let mirrored = if is_least { ">" } else { "<" };
+        for (next, value) in rest {
+            self.load(&relation((&first.of_type, storage), mirrored, &best, &next, value));
             self.writer.boxed_here(&format!("MOV{letter}"), &format!("{next}, {best}"));
             self.writer.forget();
         }

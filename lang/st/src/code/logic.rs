@@ -1,6 +1,8 @@
 //! BOOL expressions as contacts on the logic stack.
 
 use super::Generator;
+use super::compare::relation;
+use super::values::known;
 use super::writer::Storage;
 use crate::model::{BinaryOperator, Expression, ExpressionKind, Type, Value};
 
@@ -166,39 +168,20 @@ impl Generator<'_> {
         left: &Expression,
         right: &Expression,
     ) -> Logic {
-        let storage = self.storage_of(left);
-        let is_ordered = !matches!(operator, BinaryOperator::Equal | BinaryOperator::NotEqual);
-        let is_unsigned = matches!(left.of_type, Type::Word | Type::Dword);
-        let (a, b) = match is_ordered && is_unsigned {
-            true => (self.shifted(left, storage), self.shifted(right, storage)),
-            false => (self.operand(left), self.operand(right)),
-        };
-        let relation = operator.text();
-        let is_constant = matches!(left.kind, ExpressionKind::Constant(_));
-        if is_constant {
-            let mirrored = match relation {
+        let kind = (&left.of_type, self.storage_of(left));
+        let (a, b) = (self.operand(left), self.operand(right));
+        let text = operator.text();
+        if matches!(left.kind, ExpressionKind::Constant(_)) {
+            let mirrored = match text {
                 "<" => ">",
                 ">" => "<",
                 "<=" => ">=",
                 ">=" => "<=",
                 other => other,
             };
-            return Logic::Compare(storage.letter(), mirrored, b, a);
+            return relation(kind, mirrored, &b, &a, known(left));
         }
-        Logic::Compare(storage.letter(), relation, a, b)
-    }
-
-    /// A bit string with its highest bit inverted: compared with sign, it is as without.
-    fn shifted(&mut self, expression: &Expression, storage: Storage) -> String {
-        let highest: i64 = if storage == Storage::Word { 0x8000 } else { 0x8000_0000 };
-        if let ExpressionKind::Constant(Value::Int(value)) = expression.kind {
-            return (value - highest).to_string();
-        }
-        let temporary = self.writer.temporary(storage);
-        self.into(expression, &temporary);
-        let mask = format!("16#{highest:X}, {temporary}");
-        self.writer.boxed(&format!("XOR{}", storage.letter()), &mask);
-        temporary
+        relation(kind, text, &a, &b, known(right))
     }
 
     /// Puts a condition on the stack as the first of a rung.

@@ -9,13 +9,25 @@ use crate::model::{SectionKind, Type, UnitKind, Value, Variable};
 
 /// How a value of an elementary type is stored; `is_short`: a TIME is a word.
 pub(super) fn storage(kind: &Type, is_short: bool) -> Storage {
-    match kind {
+    match kind.base() {
         Type::Bool => Storage::Bit,
-        Type::Byte => Storage::Byte,
+        Type::Byte | Type::Sint | Type::Usint => Storage::Byte,
         Type::Time if is_short => Storage::Word,
-        Type::Dword | Type::Dint | Type::Time => Storage::Double,
+        Type::Dword | Type::Dint | Type::Udint | Type::Time => Storage::Double,
         Type::Real => Storage::Real,
         _ => Storage::Word,
+    }
+}
+
+/// The type that a variable has in AWL.
+pub(super) fn type_name(kind: &Type) -> String {
+    let kind = kind.base();
+    match kind {
+        Type::Sint | Type::Usint => "BYTE".to_owned(),
+        Type::Uint => "WORD".to_owned(),
+        Type::Udint => "DWORD".to_owned(),
+        Type::Enumeration(_) => "INT".to_owned(),
+        _ => kind.to_string(),
     }
 }
 
@@ -30,10 +42,13 @@ pub(super) fn safe_name(name: &str) -> String {
 
 /// A constant as AWL writes it.
 pub(super) fn literal(value: &Value, kind: &Type) -> String {
-    match (value, kind) {
+    match (value, kind.base()) {
         (Value::Bool(value), _) => u8::from(*value).to_string(),
         (Value::Int(value), Type::Word) => format!("16#{value:04X}"),
+        (Value::Int(value), Type::Uint) if *value > i16::MAX.into() => format!("16#{value:04X}"),
         (Value::Int(value), Type::Dword) => format!("16#{value:08X}"),
+        (Value::Int(value), Type::Udint) if *value > i32::MAX.into() => format!("16#{value:08X}"),
+        (Value::Int(value), Type::Sint) => (value & 0xFF).to_string(),
         (Value::Int(value), _) => value.to_string(),
         (Value::Real(value), _) => real(*value),
         (Value::List(_), _) => String::new(),
@@ -163,9 +178,8 @@ fn leaf_lines(
         }
         _ => {
             let text = match (kind, bounds.is_empty()) {
-                (Type::Enumeration(_), _) => "INT".to_owned(),
                 (Type::Bool, false) => "BYTE".to_owned(),
-                _ => kind.to_string(),
+                _ => type_name(kind),
             };
             let is_unset = |value: &Value| {
                 matches!(value, Value::Int(0) | Value::Bool(false))

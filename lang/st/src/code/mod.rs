@@ -1,7 +1,9 @@
 //! From a checked program to AWL that a person can read.
 
+mod arithmetic;
 mod blocks;
 mod calls;
+mod compare;
 mod control;
 mod convert;
 mod hardware;
@@ -20,7 +22,7 @@ use diagnostics::{Source, Span};
 
 use crate::around::Around;
 use crate::diagnostic::Diagnostic;
-use crate::model::{Program, SectionKind, Type, UnitKind};
+use crate::model::{Element, ExpressionKind, Program, SectionKind, Type, UnitKind};
 use hardware::Devices;
 use timers::Short;
 use writer::Writer;
@@ -136,8 +138,10 @@ fn written(
     } else {
         lines.extend(generator.main());
     }
-    for number in 0..program.units.len() {
-        if program.units.get(number).is_some_and(|unit| unit.kind == UnitKind::Function) {
+    let called = called(program);
+    for (number, unit) in program.units.iter().enumerate() {
+        let is_needed = unit.file.is_some() || called.contains(&number);
+        if unit.kind == UnitKind::Function && is_needed {
             lines.extend(generator.function(number, routine));
             routine += 1;
         }
@@ -147,6 +151,23 @@ fn written(
         routine += 1;
     }
     lines.join("\n") + "\n"
+}
+
+/// The functions that are called by what is in the files, and by those.
+fn called(program: &Program) -> HashSet<usize> {
+    let mut found = HashSet::new();
+    let is_written = |unit: &&crate::model::Unit| unit.file.is_some();
+    let mut open: Vec<&crate::model::Unit> = program.units.iter().filter(is_written).collect();
+    while let Some(unit) = open.pop() {
+        crate::check::each_expression(&unit.body, &mut |expression| {
+            if let ExpressionKind::Call(number, _) = expression.kind
+                && found.insert(number)
+            {
+                open.extend(program.units.get(number));
+            }
+        });
+    }
+    found
 }
 
 fn located(program: &Program) -> HashSet<String> {
@@ -300,8 +321,18 @@ impl Generator<'_> {
 
     /// What follows in the AWL text belongs to a statement, if that is of a file.
     fn begin(&mut self, span: Span) {
+        if span == Span::default() {
+            return;
+        }
         if let Some(source) = self.frame.file.and_then(|file| self.sources.get(file)) {
             self.writer.statement(source, span);
+        }
+    }
+
+    /// What follows in the AWL text belongs to an element of a drawing.
+    fn begin_element(&mut self, element: &Element) {
+        if let Some(source) = self.frame.file.and_then(|file| self.sources.get(file)) {
+            self.writer.element(&source.name, element);
         }
     }
 }
@@ -310,8 +341,7 @@ impl Generator<'_> {
 fn local_type(kind: &Type) -> String {
     match kind {
         Type::Time => "DINT".to_owned(),
-        Type::Enumeration(_) => "INT".to_owned(),
-        _ => kind.to_string(),
+        _ => memory::type_name(kind),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Which statements can hang on the power flow of a condition: those that boxes alone execute.
 
 use super::Generator;
+use super::values::has_instructions;
 use super::writer::Storage;
 use crate::model::{
     BinaryOperator, Expression, ExpressionKind, Function, Place, Statement, StatementKind, Step,
@@ -39,6 +40,7 @@ impl Generator<'_> {
                 }
                 Some(sum)
             }
+            StatementKind::AddElapsed(_) => Some(2),
             StatementKind::Exit | StatementKind::Continue | StatementKind::Return => {
                 (level == 1).then_some(1)
             }
@@ -69,7 +71,9 @@ impl Generator<'_> {
                 Some(self.boxes_of(inside)? + 1)
             }
             ExpressionKind::Binary(operator, left, right)
-                if !operator.is_comparison() && value.of_type != Type::Bool =>
+                if !operator.is_comparison()
+                    && value.of_type != Type::Bool
+                    && has_instructions(&value.of_type) =>
             {
                 let more = if *operator == BinaryOperator::Modulo { 4 } else { 0 };
                 Some(self.boxes_of(left)? + self.boxes_of(right)? + more)
@@ -86,7 +90,7 @@ impl Generator<'_> {
             ExpressionKind::Convert(inside) => {
                 let widens = inside.of_type.widens_to(&value.of_type)
                     || inside.of_type == Type::Int && value.of_type == Type::Time;
-                if widens { Some(self.boxes_of(inside)? + 2) } else { None }
+                if widens { Some(self.boxes_of(inside)? + 3) } else { None }
             }
             _ => None,
         }
@@ -99,8 +103,7 @@ impl Generator<'_> {
             ExpressionKind::Read(place) => !has_computed_index(place),
             ExpressionKind::Not(inside) => self.is_plain(inside),
             ExpressionKind::Binary(operator, left, right) if operator.is_comparison() => {
-                let is_word = !matches!(left.of_type, Type::Bool | Type::Word | Type::Dword);
-                is_word && self.is_operand(left) && self.is_operand(right)
+                left.of_type != Type::Bool && self.is_operand(left) && self.is_operand(right)
             }
             ExpressionKind::Binary(BinaryOperator::And | BinaryOperator::Or, left, right) => {
                 self.is_plain(left) && self.is_plain(right)

@@ -21,6 +21,8 @@ impl Generator<'_> {
 
     fn statement(&mut self, statement: &Statement) {
         match &statement.kind {
+            StatementKind::Element(element) => self.begin_element(element),
+            StatementKind::AddElapsed(place) => self.add_elapsed(place),
             StatementKind::Assign(place, value) => self.assign(place, value),
             StatementKind::If(arms, otherwise) => self.if_statement(arms, otherwise),
             StatementKind::Case(selector, arms, otherwise) => {
@@ -102,7 +104,8 @@ impl Generator<'_> {
             _ => {
                 let read = ExpressionKind::Read(from.clone());
                 let span = diagnostics::Span::default();
-                self.store(to, &Expression { kind: read, of_type: kind.clone(), span });
+                let of_type = kind.base().clone();
+                self.store(to, &Expression { kind: read, of_type, span });
             }
         }
     }

@@ -6,6 +6,19 @@ use super::memory::literal;
 use super::writer::Storage;
 use crate::model::{BinaryOperator, Expression, ExpressionKind, Function, Place, Type, Value};
 
+/// The value of a constant that is a whole number.
+pub(super) fn known(expression: &Expression) -> Option<i64> {
+    match expression.kind {
+        ExpressionKind::Constant(Value::Int(value)) => Some(value),
+        _ => None,
+    }
+}
+
+/// Whether there are instructions for the arithmetic of a type.
+pub(super) fn has_instructions(kind: &Type) -> bool {
+    !matches!(kind, Type::Sint) && !kind.is_unsigned()
+}
+
 impl Generator<'_> {
     /// How a value of an expression is stored while it is computed.
     pub(super) fn storage_of(&self, expression: &Expression) -> Storage {
@@ -41,7 +54,9 @@ impl Generator<'_> {
 
     /// Whether a conversion between types of the same length does something.
     fn needs_work(&self, inside: &Expression, outside: &Expression) -> bool {
-        (inside.of_type == Type::Real) != (outside.of_type == Type::Real)
+        let (from, to) = (&inside.of_type, &outside.of_type);
+        let is_cut = !from.is_bits() && !to.is_bits() && !from.is_within(to);
+        (*from == Type::Real) != (*to == Type::Real) || is_cut && from.range().is_some()
     }
 
     /// Computes a value into a place that the expression does not read, or reads first.
@@ -102,11 +117,18 @@ impl Generator<'_> {
     fn negate_into(&mut self, inside: &Expression, storage: Storage, to: &str) {
         self.into(inside, to);
         let (mnemonic, minus) = match storage {
+            Storage::Byte => return self.opposite_byte(to),
             Storage::Real => ("*R", "-1.0"),
             Storage::Double => ("*D", "-1"),
             _ => ("*I", "-1"),
         };
         self.writer.boxed(mnemonic, &format!("{minus}, {to}"));
+    }
+
+    /// The opposite of a SINT; the lowest one stays.
+    pub(super) fn opposite_byte(&mut self, to: &str) {
+        self.writer.boxed("INVB", to);
+        self.writer.boxed("INCB", to);
     }
 
     fn binary_into(
@@ -117,7 +139,8 @@ impl Generator<'_> {
         storage: Storage,
         to: &str,
     ) {
-        if operator == BinaryOperator::Modulo {
+        let has_own = has_instructions(&left.of_type);
+        if operator == BinaryOperator::Modulo && has_own {
             self.modulo_into(left, right, storage, to);
             return;
         }
@@ -145,6 +168,10 @@ impl Generator<'_> {
         // no longer than is needed.
         let operand = self.operand(right);
         self.into(left, to);
+        if !has_instructions(&left.of_type) {
+            self.operate(operator, right, &operand, to);
+            return;
+        }
         let sign = match storage {
             Storage::Real => 'R',
             Storage::Double => 'D',
@@ -162,10 +189,27 @@ impl Generator<'_> {
         };
         self.writer.boxed(&mnemonic, &format!("{operand}, {to}"));
         if self.is_tick {
-            // A timer's word ends at the highest number, not before.
-            self.writer.logic("A", "SM1.1", false);
-            self.writer.boxed_here("MOVW", &format!("{}, {to}", i16::MAX));
+            self.end_at_highest(to);
         }
+    }
+
+    /// A word of milliseconds ends at the highest number, not before.
+    fn end_at_highest(&mut self, to: &str) {
+        self.writer.logic("A", "SM1.1", false);
+        self.writer.boxed_here("MOVW", &format!("{}, {to}", i16::MAX));
+    }
+
+    /// Adds the milliseconds since the start of the scan before.
+    pub(super) fn add_elapsed(&mut self, place: &Place) {
+        let found = self.locate(place);
+        if found.storage == Storage::Double {
+            let elapsed = self.writer.temporary(Storage::Double);
+            self.writer.boxed("ITD", &format!("SMW22, {elapsed}"));
+            self.writer.boxed("+D", &format!("{elapsed}, {}", found.text));
+            return;
+        }
+        self.writer.boxed("+I", &format!("SMW22, {}", found.text));
+        self.end_at_highest(&found.text);
     }
 
     /// `a - a / b * b`: with b = 0 nothing is divided, and a * 0 is taken away.

@@ -3,6 +3,8 @@
 
 use diagnostics::{Source, Span};
 
+use crate::model::Element;
+
 /// How a value is stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Storage {
@@ -96,6 +98,14 @@ impl Writer {
             None => text,
         };
         self.head = Some(Head { title, place: format!("{}:{line}:{column}", source.name) });
+    }
+
+    /// What is written from now on belongs to an element of a drawing.
+    pub(super) fn element(&mut self, file: &str, element: &Element) {
+        self.section(&element.title);
+        if let Some(head) = &mut self.head {
+            head.place = format!("{file}#{}", element.name);
+        }
     }
 
     /// What is written from now on comes from no text.

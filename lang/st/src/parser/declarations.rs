@@ -177,7 +177,9 @@ impl Parser<'_> {
         }
         if self.token().kind == Kind::Word && super::is_keyword(self.word_at(0)) {
             let ends = ["END_VAR", "END_STRUCT"];
-            if matches!(self.ahead(1).kind, Kind::Sign(":" | ",")) && !self.is_one_of(&ends) {
+            let is_declared = matches!(self.ahead(1).kind, Kind::Sign(":" | ","))
+                || self.word_at(1).eq_ignore_ascii_case("AT");
+            if is_declared && !self.is_one_of(&ends) {
                 let word = self.word_at(0).to_owned();
                 let message = format!("{word}: is a word of the language and names no variable");
                 self.report(Diagnostic::new(Code::Declaration, self.token().span, message));
@@ -292,13 +294,20 @@ impl Parser<'_> {
             return self.enumeration();
         }
         let name = self.name("a type")?;
-        if self.is_sign("(") || self.is_sign("[") {
+        if name.text.to_ascii_uppercase().ends_with("STRING") {
             let close = if self.is_sign("(") { ")" } else { "]" };
-            let is_text = name.text.to_ascii_uppercase().ends_with("STRING");
-            while !self.is_at_end() && !self.is_sign(";") && !self.take_sign(close) {
+            let has_length = self.is_sign("(") || self.is_sign("[");
+            while has_length && !self.is_at_end() && !self.is_sign(";") && !self.take_sign(close) {
                 self.step();
             }
-            return Ok(if is_text { TypeTextKind::Text } else { TypeTextKind::Range });
+            return Ok(TypeTextKind::Text);
+        }
+        if self.take_sign("(") {
+            let low = self.expression()?;
+            self.need_sign("..")?;
+            let high = self.expression()?;
+            self.need_sign(")")?;
+            return Ok(TypeTextKind::Range(name.text, Box::new((low, high))));
         }
         Ok(TypeTextKind::Named(name.text))
     }

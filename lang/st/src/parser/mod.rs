@@ -9,8 +9,8 @@ mod statements;
 use diagnostics::{Source, Span};
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::lexer::{Kind, Token, cut};
-use crate::tree::{File, Name};
+use crate::lexer::{Kind, Token, Tokens, cut, cut_part};
+use crate::tree::{Expression, File, Name, Statement};
 
 /// How deep statements and brackets can be in each other.
 const DEPTH_MAX: u32 = 60;
@@ -81,23 +81,42 @@ pub(crate) const KEYWORDS: [&str; 60] = [
 
 /// Reads a text.
 pub fn parse(source: &Source) -> (File, Vec<Diagnostic>) {
-    let tokens = cut(&source.text);
-    let mut parser = Parser {
-        text: &source.text,
-        tokens: tokens.tokens,
-        at: 0,
-        depth: 0,
-        coarse: tokens.coarse,
-        diagnostics: tokens.diagnostics,
-    };
+    let mut tokens = cut(&source.text);
+    let settings = std::mem::take(&mut tokens.settings);
+    let mut parser = Parser::new(&source.text, tokens);
     let mut file = parser.file();
-    file.settings = tokens.settings;
+    file.settings = settings;
     for span in std::mem::take(&mut parser.coarse) {
         let message = "`{coarse}` is not at the declaration of a timer";
         let found = Diagnostic::new(Code::Coarse, span, message);
         parser.report(found.help("such as `{coarse} Delay : TON;`"));
     }
     (file, parser.diagnostics)
+}
+
+/// Reads the expression that a stretch of a text is; `None` where it is none.
+pub fn parse_expression(text: &str, part: Span) -> (Option<Expression>, Vec<Diagnostic>) {
+    let mut parser = Parser::new(text, cut_part(text, part));
+    let expression = parser.expression().ok();
+    if expression.is_some() && !parser.is_at_end() {
+        parser.expected("the end of the expression");
+    }
+    (expression, parser.diagnostics)
+}
+
+/// Reads the statements that a stretch of a text is.
+pub fn parse_statements(text: &str, part: Span) -> (Vec<Statement>, Vec<Diagnostic>) {
+    let mut parser = Parser::new(text, cut_part(text, part));
+    let statements = parser.statements();
+    if !parser.is_at_end() {
+        parser.expected("a statement");
+    }
+    (statements, parser.diagnostics)
+}
+
+/// Whether a pragma permits a timer of the controller.
+fn is_coarse(pragma: &str) -> bool {
+    pragma.trim_matches(['{', '}']).trim().eq_ignore_ascii_case("coarse")
 }
 
 struct Parser<'t> {
@@ -116,13 +135,20 @@ struct Failed;
 type Outcome<T> = Result<T, Failed>;
 
 impl<'t> Parser<'t> {
+    fn new(text: &'t str, tokens: Tokens) -> Parser<'t> {
+        let Tokens { tokens, mut pragmas, diagnostics, .. } = tokens;
+        pragmas.retain(|span| is_coarse(span.text(text)));
+        Parser { text, tokens, at: 0, depth: 0, coarse: pragmas, diagnostics }
+    }
+
     fn token(&self) -> Token {
         self.ahead(0)
     }
 
     fn ahead(&self, count: usize) -> Token {
         let end = Token { kind: Kind::End, span: Span::new(self.text.len(), self.text.len()) };
-        self.tokens.get(self.at + count).copied().unwrap_or(end)
+        let last = self.tokens.last().copied().unwrap_or(end);
+        self.tokens.get(self.at + count).copied().unwrap_or(last)
     }
 
     fn previous(&self) -> Span {
@@ -199,7 +225,10 @@ impl<'t> Parser<'t> {
     fn expected(&mut self, what: &str) -> Failed {
         let token = self.token();
         let message = match token.kind {
-            Kind::End => format!("{what} is missing at the end of the text"),
+            Kind::End if token.span.end as usize >= self.text.len() => {
+                format!("{what} is missing at the end of the text")
+            }
+            Kind::End => format!("{what} is missing here"),
             _ => format!("`{}`: {what} is expected here", short(self.text_of(token))),
         };
         self.report(Diagnostic::new(Code::Syntax, token.span, message));
@@ -223,8 +252,11 @@ impl<'t> Parser<'t> {
 
     /// Reports that a word or sign is missing at the end of what was read.
     fn missing(&mut self, what: &str, opened: Option<(Span, &str)>) {
-        let end = self.previous().end as usize;
-        let start = self.previous().start as usize;
+        self.missing_after(self.previous(), what, opened);
+    }
+
+    fn missing_after(&mut self, before: Span, what: &str, opened: Option<(Span, &str)>) {
+        let (start, end) = (before.start as usize, before.end as usize);
         let before = self.text.get(start..end).and_then(|text| text.char_indices().last());
         let last = start + before.map_or(0, |(at, _)| at);
         let span = Span::new(last, end);

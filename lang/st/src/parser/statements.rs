@@ -129,11 +129,39 @@ impl Parser<'_> {
         Ok((StatementKind::Assign(target, value), span))
     }
 
-    /// The word that closes a statement; where another is there, it is reported as missing.
+    /// The word that closes a statement; where another is there, it is reported as missing: before
+    /// the first line that is indented no more than the statement, else here.
     fn close(&mut self, word: &str, opened: Span) {
-        if !self.take_word(word) {
-            self.missing(word, Some((opened, "for this one")));
+        if self.take_word(word) {
+            return;
         }
+        let after = self.end_by_layout(opened).unwrap_or(self.previous());
+        self.missing_after(after, word, Some((opened, "for this one")));
+    }
+
+    /// What is before the line where the layout says that a statement has ended.
+    fn end_by_layout(&self, opened: Span) -> Option<Span> {
+        let column = self.indentation(opened)?;
+        let first = self.tokens.partition_point(|token| token.span.start <= opened.start);
+        let inside = self.tokens.get(first..self.at)?;
+        let mut lines = inside.iter().filter_map(|token| self.indentation(token.span));
+        if lines.next().is_none_or(|inner| inner <= column) {
+            return None;
+        }
+        let parts = ["ELSE", "ELSIF", "UNTIL"];
+        let outside = inside.iter().position(|token| {
+            let is_part = parts.iter().any(|part| part.eq_ignore_ascii_case(self.text_of(*token)));
+            !is_part && self.indentation(token.span).is_some_and(|other| other <= column)
+        });
+        let before = (first + outside?).checked_sub(1)?;
+        self.tokens.get(before).map(|token| token.span).filter(|span| span.start > opened.start)
+    }
+
+    /// How far the first token of a line is indented; `None` of others.
+    fn indentation(&self, span: Span) -> Option<usize> {
+        let before = self.text.get(..span.start as usize)?;
+        let line = before.rsplit('\n').next()?;
+        line.chars().all(char::is_whitespace).then(|| line.chars().count())
     }
 
     fn if_statement(&mut self) -> Outcome<(StatementKind, Span)> {

@@ -1,14 +1,13 @@
 //! A naive evaluator of the syntax tree, written from docs/structured-text.md alone: it looks up
 //! every name and every type when it gets there. It uses nothing of the compiler but the parser.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::coarse::Coarse;
 use super::values::{Kind, Value, as_type, binary, convert, shift, unary, whole};
 use st::tree::{
     Argument, BinaryOperator, CaseArm, Expression, ExpressionKind, File, Name, Section,
-    SectionKind, Selector, Statement, StatementKind, TypeText, TypeTextKind, UnaryOperator, Unit,
-    UnitKind,
+    SectionKind, Selector, Statement, StatementKind, TypeTextKind, UnaryOperator, Unit, UnitKind,
 };
 
 /// What a statement leaves.
@@ -21,13 +20,17 @@ enum Flow {
 
 /// A program that is being evaluated.
 pub struct Evaluator {
-    file: File,
+    pub(super) file: File,
     /// Variables by their full name, upper case.
     pub values: HashMap<String, Value>,
     /// Bounds of arrays by their full name.
-    bounds: HashMap<String, Vec<(i64, i64)>>,
+    pub(super) bounds: HashMap<String, Vec<(i64, i64)>>,
+    /// Arrays and structures.
+    pub(super) wholes: HashSet<String>,
+    /// Variables that have only some of the numbers of their type.
+    pub(super) ranges: HashMap<String, (i64, i64)>,
     /// The types of instances by their full name.
-    instances: HashMap<String, String>,
+    pub(super) instances: HashMap<String, String>,
     /// Enumerations: their values by name.
     enumerators: HashMap<String, i64>,
     /// For timers and edges: what they remember, by instance.
@@ -38,7 +41,7 @@ pub struct Evaluator {
     pub(super) now: u64,
 }
 
-fn upper(text: &str) -> String {
+pub(super) fn upper(text: &str) -> String {
     text.to_uppercase()
 }
 
@@ -48,6 +51,8 @@ impl Evaluator {
             file: file.clone(),
             values: HashMap::new(),
             bounds: HashMap::new(),
+            wholes: HashSet::new(),
+            ranges: HashMap::new(),
             instances: HashMap::new(),
             enumerators: HashMap::new(),
             since: HashMap::new(),
@@ -75,7 +80,7 @@ impl Evaluator {
         evaluator
     }
 
-    fn declare(&mut self, section: &Section, prefix: &str) {
+    pub(super) fn declare(&mut self, section: &Section, prefix: &str) {
         for declared in &section.declarations {
             for name in &declared.names {
                 let full = join(prefix, &name.text);
@@ -87,49 +92,7 @@ impl Evaluator {
         }
     }
 
-    fn declare_one(&mut self, full: &str, text: &TypeText, initial: Option<&Expression>) {
-        match &text.kind {
-            TypeTextKind::Named(name) => {
-                let name = upper(name);
-                if name == "BOOL" || name == "REAL" || Kind::of(&name).is_some() {
-                    let value = initial.map_or(Value::Open(0), |one| self.expression(one, ""));
-                    self.values.insert(full.to_owned(), as_type(value, &name));
-                    return;
-                }
-                if self.enumeration(&name) {
-                    self.values.insert(full.to_owned(), Value::Number(Kind::Int, 0));
-                    return;
-                }
-                self.instances.insert(full.to_owned(), name.clone());
-                for (parameter, kind) in standard_variables(&name) {
-                    let value = as_type(Value::Open(0), kind);
-                    self.values.insert(format!("{full}.{parameter}"), value);
-                }
-                let unit = self.unit(&name);
-                for section in unit.iter().flat_map(|unit| &unit.sections) {
-                    self.declare(section, full);
-                }
-            }
-            TypeTextKind::Array(bounds, of) => {
-                let known: Vec<(i64, i64)> = bounds
-                    .iter()
-                    .map(|(low, high)| (number(&low.kind), number(&high.kind)))
-                    .collect();
-                let count: i64 = known.iter().map(|(low, high)| high - low + 1).product();
-                self.bounds.insert(full.to_owned(), known);
-                for at in 0..count {
-                    self.declare_one(&format!("{full}[{at}]"), of, None);
-                }
-            }
-            other => panic!("not evaluated: {other:?}"),
-        }
-    }
-
-    fn enumeration(&self, name: &str) -> bool {
-        self.file.types.iter().any(|declared| upper(&declared.name.text) == name)
-    }
-
-    fn unit(&self, name: &str) -> Option<Unit> {
+    pub(super) fn unit(&self, name: &str) -> Option<Unit> {
         self.file.units.iter().find(|unit| upper(&unit.name.text) == name).cloned()
     }
 
@@ -178,8 +141,13 @@ impl Evaluator {
     fn statement(&mut self, statement: &Statement, prefix: &str) -> Flow {
         match &statement.kind {
             StatementKind::Assign(target, value) => {
-                let value = self.expression(value, prefix);
                 let place = self.place(target, prefix);
+                if self.wholes.contains(&place) {
+                    let from = self.place(value, prefix);
+                    self.copy_whole(&from, &place);
+                    return Flow::On;
+                }
+                let value = self.expression(value, prefix);
                 self.write(&place, value);
             }
             StatementKind::Call(target, arguments) => self.call(target, arguments, prefix),
@@ -217,6 +185,7 @@ impl Evaluator {
             StatementKind::Exit => return Flow::Exit,
             StatementKind::Continue => return Flow::Continue,
             StatementKind::Return => return Flow::Return,
+            other => panic!("no text has {other:?}"),
         }
         Flow::On
     }
@@ -250,6 +219,7 @@ impl Evaluator {
         let to = whole(self.expression(&one.to, prefix));
         let by = one.by.as_ref().map_or(1, |by| whole(self.expression(by, prefix)));
         let place = self.place(&one.variable, prefix);
+        let to = self.ranges.get(&place).map_or(to, |&(low, high)| to.clamp(low, high));
         self.write(&place, from);
         let is_past = |value: i64| if by > 0 { value > to } else { value < to };
         if is_past(whole(self.values[&place])) {
@@ -281,6 +251,7 @@ impl Evaluator {
         let local = join(prefix, &name.text);
         let is_local = self.values.contains_key(&local)
             || self.bounds.contains_key(&local)
+            || self.wholes.contains(&local)
             || self.instances.contains_key(&local);
         let mut full = if is_local { local } else { upper(&name.text) };
         for selector in selectors {
@@ -300,7 +271,11 @@ impl Evaluator {
         full
     }
 
-    fn write(&mut self, place: &str, value: Value) {
+    pub(super) fn write(&mut self, place: &str, value: Value) {
+        let value = match self.ranges.get(place) {
+            Some(&(low, high)) => Value::Open(whole(value).clamp(low, high)),
+            None => value,
+        };
         let slot = self.values.get_mut(place).unwrap_or_else(|| panic!("no {place}"));
         *slot = match (*slot, value) {
             (Value::Number(kind, _), Value::Number(_, value) | Value::Open(value)) => {
@@ -458,7 +433,7 @@ impl Evaluator {
         self.set(instance, "ET", Value::Open(elapsed));
     }
 
-    fn expression(&mut self, expression: &Expression, prefix: &str) -> Value {
+    pub(super) fn expression(&mut self, expression: &Expression, prefix: &str) -> Value {
         match &expression.kind {
             ExpressionKind::Integer(value) => Value::Open(*value),
             ExpressionKind::Real(value) => Value::Real(*value),
@@ -543,14 +518,14 @@ impl Evaluator {
     }
 }
 
-fn join(prefix: &str, name: &str) -> String {
+pub(super) fn join(prefix: &str, name: &str) -> String {
     match prefix {
         "" => upper(name),
         prefix => format!("{prefix}.{}", upper(name)),
     }
 }
 
-fn standard_variables(name: &str) -> &'static [(&'static str, &'static str)] {
+pub(super) fn standard_variables(name: &str) -> &'static [(&'static str, &'static str)] {
     match name {
         "TON" | "TOF" | "TP" => &[("IN", "BOOL"), ("PT", "TIME"), ("Q", "BOOL"), ("ET", "TIME")],
         "CTU" => &[("CU", "BOOL"), ("R", "BOOL"), ("PV", "INT"), ("Q", "BOOL"), ("CV", "INT")],
@@ -559,7 +534,7 @@ fn standard_variables(name: &str) -> &'static [(&'static str, &'static str)] {
     }
 }
 
-fn number(kind: &ExpressionKind) -> i64 {
+pub(super) fn number(kind: &ExpressionKind) -> i64 {
     match kind {
         ExpressionKind::Integer(value) => *value,
         other => panic!("no number: {other:?}"),

@@ -3,14 +3,46 @@
 use fastrand::Rng;
 
 /// Variables of the program by type; those that the test writes are the first of each.
-pub const VARIABLES: [(&str, &[&str]); 6] = [
+pub const VARIABLES: [(&str, &[&str]); 10] = [
     ("INT", &["gi", "gj", "a", "b", "c"]),
     ("DINT", &["gd", "d", "e"]),
     ("BOOL", &["gp", "gq", "gr", "p", "q", "r"]),
     ("WORD", &["gw", "w", "x"]),
     ("REAL", &["gy", "y", "z"]),
     ("TIME", &["t", "u"]),
+    ("SINT", &["gs", "s1", "s2"]),
+    ("USINT", &["gu", "u1", "u2"]),
+    ("UINT", &["gn", "n1", "n2"]),
+    ("UDINT", &["gl", "l1", "l2"]),
 ];
+
+/// Types of whole numbers with their lowest and highest, what the counters of loops are called, and
+/// types whose values they take.
+const WHOLE: [(&str, i64, i64, &str, &[&str]); 6] = [
+    ("INT", -32768, 32767, "i", &["SINT", "USINT"]),
+    ("DINT", -2147483648, 2147483647, "id", &["INT", "UINT", "SINT"]),
+    ("SINT", -128, 127, "is", &[]),
+    ("USINT", 0, 255, "iu", &[]),
+    ("UINT", 0, 65535, "in", &["USINT"]),
+    ("UDINT", 0, 4294967295, "il", &["UINT", "USINT"]),
+];
+
+/// Which of them it is.
+fn whole_type(kind: &str) -> (i64, i64, &'static str, &'static [&'static str]) {
+    let found = WHOLE.iter().find(|one| one.0 == kind).expect("a type of whole numbers");
+    (found.1, found.2, found.3, found.4)
+}
+
+/// Types, with initial values.
+const TYPES: &str = "TYPE
+State : (Idle, Run, Done);
+Part : INT(-5..20) := 3;
+Row : ARRAY[0..3] OF Part := [1, 2(-4)];
+Pair : STRUCT x : INT := 2; y : UINT; z : Part; END_STRUCT;
+Twin : Pair := (y := 7);
+END_TYPE
+VAR_GLOBAL
+";
 
 const EDGES: [i64; 14] = [0, 1, -1, 2, 3, 5, 7, 10, 100, 255, 300, 32767, -32768, 181];
 
@@ -37,7 +69,7 @@ impl Generator {
     }
 
     fn text(&mut self) -> String {
-        let mut text = String::from("TYPE State : (Idle, Run, Done); END_TYPE\nVAR_GLOBAL\n");
+        let mut text = String::from(TYPES);
         for (kind, names) in VARIABLES {
             let written: Vec<&str> =
                 names.iter().copied().filter(|name| name.starts_with('g')).collect();
@@ -55,7 +87,15 @@ impl Generator {
                 names.iter().copied().filter(|name| !name.starts_with('g')).collect();
             text += &format!("{} : {kind};\n", own.join(", "));
         }
-        text += "i1, i2, i3, k1, k2, k3 : INT;\n";
+        text += "k1, k2, k3 : INT;\n";
+        for (kind, _, _, counter, _) in WHOLE {
+            text += &format!("{counter}1, {counter}2, {counter}3 : {kind};\n");
+        }
+        text += "part, counter : Part; low : USINT(10..200); row : Row; row2 : Row := [5];\n";
+        text += "pair : Pair := (x := 9); twin : Twin; twin2 : Twin := (z := -1);\n";
+        text += "pairs : ARRAY[0..2] OF Twin := [(x := 1), 1((y := 4))];\n";
+        text += "bytes : ARRAY[0..3] OF SINT;\nwords : ARRAY[0..2] OF UINT;\n";
+        text += "longs : ARRAY[0..1] OF UDINT;\n";
         text += "list : ARRAY[1..5] OF INT;\nflags : ARRAY[0..3] OF BOOL;\n";
         text += "grid : ARRAY[0..2, -1..1] OF DINT;\n";
         text += "s : State;\nton1 : TON; tof1 : TOF; tp1 : TP; ton2 : TON; count1 : CTU;\n";
@@ -143,8 +183,20 @@ impl Generator {
         }
         let names = VARIABLES.iter().find(|(one, _)| *one == kind).map(|(_, names)| *names);
         match (kind, self.rng.u8(..6)) {
+            ("INT", 0) if self.rng.bool() => match self.rng.u8(..5) {
+                0 => "part".to_owned(),
+                1 => format!("row[{}]", self.index(0, 3)),
+                2 => self.pick(&["pair.x", "twin.z", "twin2.x"]).to_owned(),
+                3 => format!("pairs[{}].z", self.index(0, 2)),
+                _ => format!("pairs[{}].x", self.index(0, 2)),
+            },
+            ("UINT", 1) => self.pick(&["pair.y", "twin2.y", "pairs[1].y"]).to_owned(),
+            ("USINT", 0) => "low".to_owned(),
             ("INT", 0) => format!("list[{}]", self.index(1, 5)),
             ("DINT", 0) => format!("grid[{}, {}]", self.index(0, 2), self.index(-1, 1)),
+            ("SINT", 0) => format!("bytes[{}]", self.index(0, 3)),
+            ("UINT", 0) => format!("words[{}]", self.index(0, 2)),
+            ("UDINT", 0) => format!("longs[{}]", self.index(0, 1)),
             ("BOOL", 0) => format!("flags[{}]", self.index(0, 3)),
             _ => self.pick(names.unwrap_or(&["a"])).to_owned(),
         }
@@ -153,7 +205,7 @@ impl Generator {
     fn index(&mut self, low: i64, high: i64) -> String {
         match self.rng.u8(..3) {
             0 => self.rng.i64(low..=high).to_string(),
-            _ => self.pick(&["gi", "a", "b", "i1", "gi + 1"]).to_owned(),
+            _ => self.pick(&["gi", "a", "b", "i1", "gi + 1", "u1", "n1", "gl"]).to_owned(),
         }
     }
 
@@ -168,7 +220,7 @@ impl Generator {
 
     fn statement(&mut self) -> String {
         self.depth += 1;
-        let choice = if self.depth > 3 { self.rng.u8(..6) } else { self.rng.u8(..16) };
+        let choice = if self.depth > 3 { self.rng.u8(..7) } else { self.rng.u8(..18) };
         let text = match choice {
             0 | 1 => self.assignment("INT"),
             2 => self.assignment("DINT"),
@@ -177,7 +229,11 @@ impl Generator {
                 let kind = self.pick(&["WORD", "REAL", "TIME"]);
                 self.assignment(kind)
             }
-            5 | 6 => {
+            5 | 17 => {
+                let kind = self.pick(&["SINT", "USINT", "UINT", "UDINT"]);
+                self.assignment(kind)
+            }
+            6 | 16 => {
                 let value = self.pick(&["TRUE", "FALSE"]);
                 format!(
                     "IF {} THEN {} := {value}; END_IF;\n",
@@ -190,6 +246,10 @@ impl Generator {
             10 | 11 => self.for_loop(),
             12 => self.while_loop(),
             13 => self.call(),
+            14 if self.rng.u8(..3) == 0 => {
+                let whole = ["pair := twin;", "twin2 := pairs[gi];", "row := row2;"];
+                self.pick(&whole).to_owned() + "\n"
+            }
             14 => format!("s := {};\n", self.pick(&["Idle", "Run", "Done"])),
             _ => self.machine(),
         };
@@ -229,11 +289,14 @@ impl Generator {
     }
 
     fn case(&mut self) -> String {
-        let selector = if self.rng.bool() { "gi".to_owned() } else { self.whole("INT") };
+        let kind = self.pick(&["INT", "INT", "SINT", "USINT", "UINT", "UDINT"]);
+        let selector = if self.rng.bool() { self.variable(kind) } else { self.whole(kind) };
         let mut text = format!("CASE {selector} OF\n");
         text += &format!("0: {}", self.some());
         text += &format!("1, 3..5: {}", self.some());
-        text += &format!("-10..-1: {}", self.some());
+        let (low, high, ..) = whole_type(kind);
+        let far = if low < 0 { (-10, -1) } else { (high / 2 - 20, high - 3) };
+        text += &format!("{}..{}: {}", far.0, far.1, self.some());
         if self.rng.bool() {
             text += &format!("ELSE\n{}", self.some());
         }
@@ -263,20 +326,35 @@ impl Generator {
         }
         self.loops += 1;
         let number = self.loops;
-        let (from, to) = (self.rng.i64(-3..4), self.rng.i64(-3..8));
+        let kind = self.pick(&["INT", "INT", "INT", "DINT", "SINT", "USINT", "UINT", "UDINT"]);
+        let (low, high, counter, _) = whole_type(kind);
+        let base = match self.rng.u8(..4) {
+            0 => high - 8,
+            1 => low + 3,
+            _ => 3.max(low + 3),
+        };
+        let (from, to) = (base + self.rng.i64(-3..4), base + self.rng.i64(-3..8));
         let by = match self.rng.u8(..4) {
             0 => " BY -1".to_owned(),
             1 => format!(" BY {}", self.rng.i64(2..5)),
             _ => String::new(),
         };
         let to = match self.rng.u8(..3) {
-            0 => "MIN(gj, 6)".to_owned(),
+            0 => match kind {
+                "INT" => "MIN(gj, 6)".to_owned(),
+                kind => format!("MIN({}, 6)", self.variable(kind)),
+            },
             _ => to.to_string(),
         };
         let by = if to.starts_with('M') { by.replace("-1", "2") } else { by };
         let body = self.some() + &self.leave() + &self.some();
         self.loops -= 1;
-        format!("FOR i{number} := {from} TO {to}{by} DO\n{body}END_FOR;\n")
+        if kind == "INT" && number == 1 && base == 3 && self.rng.bool() {
+            return format!("FOR counter := {from} TO {to}{by} DO\n{body}END_FOR;\n");
+        }
+        // From a high number on there would be no end of passes backwards.
+        let from = if to.starts_with('M') { from.clamp(0.max(low), 6) } else { from };
+        format!("FOR {counter}{number} := {from} TO {to}{by} DO\n{body}END_FOR;\n")
     }
 
     fn while_loop(&mut self) -> String {
@@ -343,11 +421,20 @@ impl Generator {
                 let kind = match self.in_function {
                     true => "INT",
                     false if self.in_block => self.pick(&["INT", "DINT"]),
-                    false => self.pick(&["INT", "INT", "DINT", "WORD", "REAL", "TIME"]),
+                    false => self.pick(&[
+                        "INT", "INT", "DINT", "WORD", "REAL", "TIME", "SINT", "USINT", "UINT",
+                        "UDINT",
+                    ]),
                 };
                 format!("({} {relation} {})", self.variable(kind), self.value(kind))
             }
-            9 => format!("INT_TO_BOOL({})", self.whole("INT")),
+            9 => match self.in_function || self.in_block {
+                true => format!("INT_TO_BOOL({})", self.whole("INT")),
+                false => {
+                    let kind = self.pick(&["INT", "SINT", "UINT", "UDINT"]);
+                    format!("{kind}_TO_BOOL({})", self.whole(kind))
+                }
+            },
             10 => format!("SEL({}, {}, {})", self.condition(), self.condition(), self.condition()),
             _ => format!("({} AND {})", self.condition(), self.condition()),
         };
@@ -355,7 +442,7 @@ impl Generator {
         text
     }
 
-    /// An INT or DINT.
+    /// A whole number of a type.
     fn whole(&mut self, kind: &str) -> String {
         self.depth += 1;
         let choice = if self.depth > 4 { self.rng.u8(..4) } else { self.rng.u8(..14) };
@@ -364,19 +451,37 @@ impl Generator {
             0..=2 if kind == "DINT" && self.in_function => "INT_TO_DINT(a)".to_owned(),
             0..=2 => self.variable(kind),
             3 => {
-                let value = EDGES[self.rng.usize(..EDGES.len())];
+                let (low, high, ..) = whole_type(kind);
+                let edges = [low, high, high / 2, high / 2 + 1];
+                let value = match self.rng.u8(..4) {
+                    0 => edges[self.rng.usize(..4)],
+                    _ => EDGES[self.rng.usize(..EDGES.len())].clamp(low, high),
+                };
                 format!("{kind}#{value}")
             }
             4..=8 => {
                 let operator = self.pick(&["+", "-", "*", "/", "MOD"]);
-                let left = if kind == "DINT" && self.rng.u8(..4) == 0 { "INT" } else { kind };
+                let taken = whole_type(kind).3;
+                let left = match self.rng.u8(..4) {
+                    0 if is_plain && kind == "DINT" => "INT",
+                    0 if !is_plain && !taken.is_empty() => self.pick(taken),
+                    _ => kind,
+                };
                 format!("({} {operator} {})", self.whole(left), self.whole(kind))
             }
-            9 => format!("(-{})", self.variable(kind)),
+            9 if whole_type(kind).0 < 0 => format!("(-{})", self.variable(kind)),
             10 => format!("ABS({})", self.whole(kind)),
             11 => {
                 let function = self.pick(&["MIN", "MAX"]);
                 format!("{function}({}, {})", self.whole(kind), self.whole(kind))
+            }
+            12 if !is_plain && self.rng.bool() => {
+                let from = self.pick(&["SINT", "USINT", "INT", "UINT", "DINT", "UDINT", "REAL"]);
+                format!("{from}_TO_{kind}({})", self.value(from))
+            }
+            13 if !is_plain && self.rng.u8(..3) == 0 => {
+                let from = self.pick(&["WORD", "TIME", "BOOL"]);
+                format!("{from}_TO_{kind}({})", self.value(from))
             }
             12 if kind == "INT" && !is_plain => match self.rng.u8(..5) {
                 0 => format!("DINT_TO_INT({})", self.whole("DINT")),
@@ -423,7 +528,13 @@ impl Generator {
                 };
                 format!("{function}({}, {count})", self.bits())
             }
-            _ => format!("INT_TO_WORD({})", self.whole("INT")),
+            _ if self.in_function || self.in_block => {
+                format!("INT_TO_WORD({})", self.whole("INT"))
+            }
+            _ => {
+                let kind = self.pick(&["INT", "SINT", "USINT", "UINT", "UDINT"]);
+                format!("{kind}_TO_WORD({})", self.whole(kind))
+            }
         };
         self.depth -= 1;
         text
@@ -439,7 +550,10 @@ impl Generator {
                 let operator = self.pick(&["+", "-", "*", "/"]);
                 format!("({} {operator} {})", self.real(), self.real())
             }
-            _ => format!("INT_TO_REAL({})", self.whole("INT")),
+            _ => {
+                let kind = self.pick(&["INT", "SINT", "USINT", "UINT", "UDINT"]);
+                format!("{kind}_TO_REAL({})", self.whole(kind))
+            }
         };
         self.depth -= 1;
         text
@@ -454,7 +568,10 @@ impl Generator {
             3 => self.pick(&["ton1.ET", "tof1.ET", "ton2.ET"]).to_owned(),
             4 => format!("({} + {})", self.time(), self.time()),
             5 => format!("({} - {})", self.time(), self.time()),
-            6 => format!("({} * {})", self.time(), self.whole("INT")),
+            6 => {
+                let kind = self.pick(&["INT", "SINT", "UINT"]);
+                format!("({} * {})", self.time(), self.whole(kind))
+            }
             _ => format!("DINT_TO_TIME({})", self.whole("DINT")),
         };
         self.depth -= 1;

@@ -9,8 +9,12 @@ pub enum Kind {
     Byte,
     Word,
     Dword,
+    Sint,
+    Usint,
     Int,
+    Uint,
     Dint,
+    Udint,
     Time,
 }
 
@@ -20,8 +24,12 @@ impl Kind {
             "BYTE" => Kind::Byte,
             "WORD" => Kind::Word,
             "DWORD" => Kind::Dword,
+            "SINT" => Kind::Sint,
+            "USINT" => Kind::Usint,
             "INT" => Kind::Int,
+            "UINT" => Kind::Uint,
             "DINT" => Kind::Dint,
+            "UDINT" => Kind::Udint,
             "TIME" => Kind::Time,
             _ => return None,
         })
@@ -29,9 +37,10 @@ impl Kind {
 
     pub fn range(self) -> (i64, i64) {
         match self {
-            Kind::Byte => (0, 0xFF),
-            Kind::Word => (0, 0xFFFF),
-            Kind::Dword => (0, 0xFFFF_FFFF),
+            Kind::Byte | Kind::Usint => (0, 0xFF),
+            Kind::Word | Kind::Uint => (0, 0xFFFF),
+            Kind::Dword | Kind::Udint => (0, 0xFFFF_FFFF),
+            Kind::Sint => (-128, 127),
             Kind::Int => (-32768, 32767),
             Kind::Dint | Kind::Time => (-2147483648, 2147483647),
         }
@@ -150,7 +159,7 @@ pub fn of_numbers(operator: BinaryOperator, left: Value, right: Value) -> Value 
     let result = match operator {
         Add => Some(a + b),
         Subtract => Some(a - b),
-        Multiply => Some(a * b),
+        Multiply => a.checked_mul(b),
         Divide => (b != 0).then(|| a / b),
         Modulo => (b != 0).then(|| a % b),
         And => Some(a & b),

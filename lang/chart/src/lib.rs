@@ -1,0 +1,21 @@
+//! Charts: GRAFCET of IEC 60848 and SFC of IEC 61131-3. What a chart means is in docs/charts.md.
+//! It opens no files, and never runs a program.
+//!
+//! [`text`] reads a file into the [`model`]; [`translate`] makes Structured Text of it, which
+//! becomes AWL like any other. [`interpret`] executes a chart without translating it. [`sfcedit`] reads
+//! charts of another editor, [`set_reset`] makes Structured Text of those for other controllers.
+
+mod check;
+pub mod diagnostic;
+pub mod drawn;
+mod generate;
+pub mod interpret;
+pub mod model;
+pub mod set_reset;
+pub mod sfcedit;
+pub mod summary;
+pub mod text;
+
+pub use diagnostic::{Code, Diagnostic};
+pub use generate::{Translation, declared, translate};
+pub use model::Chart;

@@ -1,0 +1,8 @@
+//! Tests of charts: texts, pages of errors, and random charts in two implementations.
+
+mod compiled;
+mod evaluator;
+mod pages;
+mod random_charts;
+mod random_text;
+mod text;

@@ -1,0 +1,92 @@
+//! What is said about mistakes, and where: a mistake in its line, then the code, the place, and
+//! what the answer must contain. Nothing else is reported.
+
+use diagnostics::Source;
+use st::{Around, compile};
+
+/// Code, place of the mistake as text that is there once, parts of the answer.
+struct Answer(&'static str, &'static str, &'static [&'static str]);
+
+/// Declarations of a program, its statements, and the answers.
+const MISTAKES: &[(&str, &str, &[Answer])] = &[
+    (
+        "i : INT;",
+        "i := 40000;",
+        &[Answer("E0207", "40000", &["INT cannot take 40000", "UINT or DINT can"])],
+    ),
+    ("s : SINT;", "s := 200;", &[Answer("E0207", "200", &["-128 to 127", "USINT or INT can"])]),
+    ("u : USINT;", "u := -1;", &[Answer("E0207", "-1", &["USINT cannot take -1", "SINT can"])]),
+    ("d : DINT;", "d := 5000000000;", &[Answer("E0200", "5000000000", &["no whole number"])]),
+    ("b : BYTE;", "b := 300;", &[Answer("E0207", "300", &["WORD can"])]),
+    ("u : UINT; i : INT;", "i := u;", &[Answer("E0206", "u", &["UINT_TO_INT(...) converts it"])]),
+    ("u : UINT; i : INT;", "u := u + i;", &[Answer("E0205", "u + i", &["INT_TO_UINT(...)"])]),
+    ("u : UINT;", "u := -u;", &[Answer("E0205", "-u", &["a number with a sign"])]),
+    ("u AT %MW0 : USINT;", "u := 1;", &[Answer("E0205", "%MW0", &["a byte such as %MB0"])]),
+    ("p : INT(0..100);", "p := 200;", &[Answer("E0207", "200", &["200: this is 0 to 100 only"])]),
+    ("p : INT(9..1);", "p := 2;", &[Answer("E0212", "9", &["the first value of a range"])]),
+    ("p : REAL(0..1);", "p := 0.5;", &[Answer("E0205", "REAL(0..1)", &["only whole numbers"])]),
+    ("r : REAL; d : DINT;", "r := r ** d;", &[Answer("E0206", "d", &["DINT_TO_REAL(...)"])]),
+    (
+        "p : INT(0..9); i : INT;",
+        "CASE p OF 1: i := 1; 20..30: i := 2; END_CASE;",
+        &[Answer("W0201", "20", &["nothing gets here", "0 to 9"])],
+    ),
+    (
+        "i : INT;",
+        "WHILE TRUE DO i := i + 1; END_WHILE;",
+        &[Answer("E0214", "TRUE", &["nothing leaves the loop"])],
+    ),
+    (
+        "i, j : INT; Go AT %I0.0 : BOOL;",
+        "WHILE i < 5 AND Go DO j := j + 1; END_WHILE;",
+        &[Answer("E0214", "i < 5 AND Go", &["once begun, it never ends"])],
+    ),
+    ("i, j : INT;", "REPEAT j := j + 1; IF j > 9 THEN EXIT; END_IF; UNTIL i > 5 END_REPEAT;", &[]),
+    ("i : INT; Ready AT %T32 : BOOL;", "WHILE NOT Ready DO i := i + 1; END_WHILE;", &[]),
+    (
+        "i : INT; END_VAR VAR_TEMP t : INT;",
+        "i := t + 1; t := i;",
+        &[Answer("W0203", "t", &["t: is read before", "initial value"])],
+    ),
+    ("i : INT; END_VAR VAR_TEMP t : INT := 5; END_VAR VAR", "i := t;", &[]),
+    (
+        "i : INT; END_VAR VAR_TEMP t : INT;",
+        "FOR i := 1 TO 3 DO IF i > 1 THEN i := i; END_IF; t := t; END_FOR;",
+        &[Answer("E0214", "i", &["the loop around counts with it"])],
+    ),
+    (
+        "i : INT;",
+        "IF i > 1 THEN\n    i := 2;\n    i := 3;\ni := 4;\ni := 5;",
+        &[Answer("E0201", ";", &["`END_IF` is missing"])],
+    ),
+    ("i : INT;", "i = 5;", &[Answer("E0202", "=", &["`:=` assigns", "\":=\""])]),
+    ("i : INT;", "i := 5\ni := i + 1;", &[Answer("E0201", "5", &["`;` is missing"])]),
+    ("i : INT;", "i := i / 0;", &[Answer("E0212", "0", &["divides by zero"])]),
+    ("t : ARRAY[1..5] OF INT;", "t[6] := 1;", &[Answer("E0212", "6", &["the index is 1 to 5"])]),
+];
+
+#[test]
+fn mistakes_are_answered_at_their_place() {
+    for (declarations, statements, answers) in MISTAKES {
+        let text =
+            format!("PROGRAM Main\nVAR\n{declarations}\nEND_VAR\n{statements}\nEND_PROGRAM\n");
+        let source = Source::new("m.st", text.as_str()).expect("a short text");
+        let compiled = compile(&[source], &Around::default());
+        let found = &compiled.diagnostics;
+        let all: Vec<String> = found
+            .iter()
+            .map(|(_, one)| {
+                let (code, place) = (one.code.text(), one.span.text(&text));
+                format!("{code} `{place}` {} {:?}", one.message, one.help)
+            })
+            .collect();
+        assert_eq!(all.len(), answers.len(), "{statements}: {all:#?}");
+        for ((_, one), Answer(code, place, parts)) in found.iter().zip(*answers) {
+            let message = format!("{} {:?} {:?}", one.message, one.help, one.suggestion);
+            assert_eq!((one.code.text(), one.span.text(&text)), (*code, *place), "{statements}");
+            for part in *parts {
+                assert!(message.contains(part), "{statements}: {message} has no {part}");
+            }
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! `uno200 convert` from outside: what is written, what is printed, and that nothing is left of what
+//! fails.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+const CHART: &str = include_str!("../../lang/chart/tests/sfcedit/ejemplo.xml");
+
+/// Exit code, standard output, standard error. Paths are in a folder with `chart.xml`.
+fn convert(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_uno200"));
+    let output = command.current_dir(folder).arg("convert").args(arguments).output().unwrap();
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (output.status.code(), text(&output.stdout), text(&output.stderr))
+}
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("chart.xml"), CHART).unwrap();
+    folder
+}
+
+#[test]
+fn a_chart_becomes_a_file_and_a_table() {
+    let folder = folder();
+    let (code, table, _) =
+        convert(folder.path(), &["chart.xml", "-o", "out.st", "--target", "twincat", "--table"]);
+    assert_eq!(code, Some(0));
+    assert!(table.contains("| X7 | X5.T5_7 + X6.T6_7 | X8 + Init + Reset |"), "{table}");
+    let text = fs::read_to_string(folder.path().join("out.st")).unwrap();
+    assert!(text.contains("A2:= X5 OR (X8 AND NOT a1);"), "{text}");
+    assert!(!table.contains("FUNCTION_BLOCK"), "{table}");
+    let again = ["chart.xml", "-o", "out.xml", "--target", "plcopen"];
+    assert_eq!(convert(folder.path(), &again).0, Some(0));
+    let (code, _, errors) = convert(folder.path(), &again);
+    assert_eq!(code, Some(2), "a text that is there is kept");
+    assert!(errors.contains("--overwrite"), "{errors}");
+}
+
+#[test]
+fn a_summary_is_a_line_for_each_number() {
+    let folder = folder();
+    let (code, text, _) = convert(folder.path(), &["chart.xml", "--summary"]);
+    let expected = "steps: 9\nactions: 2\ninstances: 3\nsimple: 3\ndivergences: 1\n\
+                    convergences: 1\nsimultaneous: 2\n";
+    assert_eq!((code, text.as_str()), (Some(0), expected));
+}
+
+#[test]
+fn variables_come_from_a_table() {
+    let folder = folder();
+    fs::write(folder.path().join("v.csv"), "name,kind,type\nA1,memory,BOOL\n").unwrap();
+    let twincat = ["chart.xml", "--target", "twincat", "--variables", "v.csv"];
+    assert!(convert(folder.path(), &twincat).1.contains("A1 AT %M* : BOOL;"));
+    fs::write(folder.path().join("v.csv"), "name,kind,type\nA1,memry,BOOL\n").unwrap();
+    let (code, text, errors) = convert(folder.path(), &twincat);
+    assert_eq!((code, text.as_str()), (Some(1), ""));
+    assert!(errors.contains("v.csv:2:4") && errors.contains("did you mean `memory`?"), "{errors}");
+}
+
+#[test]
+fn what_fails_leaves_no_file() {
+    let folder = folder();
+    let path = folder.path();
+    let broken = CHART.replace("</project>", "");
+    fs::write(path.join("broken.xml"), broken).unwrap();
+    let dangling = CHART.replace("seqid_to=\"1\"", "seqid_to=\"99\"");
+    fs::write(path.join("dangling.xml"), dangling).unwrap();
+    for (input, code, words) in [
+        ("broken.xml", 1, "E0340"),
+        ("dangling.xml", 1, "E0341"),
+        ("none.xml", 2, "none.xml"),
+        ("chart.mp3", 2, ".xml"),
+    ] {
+        let (found, _, errors) = convert(path, &[input, "-o", "out.st"]);
+        assert_eq!(found, Some(code), "{input}: {errors}");
+        assert!(errors.contains(words), "{input}: {errors}");
+        assert!(!path.join("out.st").exists(), "{input}");
+    }
+    let (code, ..) = convert(path, &["chart.xml", "-o", "out.png"]);
+    assert_eq!(code, Some(2), "an ending that says nothing");
+}
