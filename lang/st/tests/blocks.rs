@@ -8,8 +8,8 @@ fn program(variables: &str, body: &str, instances: usize) -> String {
     let names: Vec<String> = (0..instances).map(|number| format!("b{number}")).collect();
     let calls: String = names.iter().map(|name| format!("{name}(p := %I0.0);\n")).collect();
     format!(
-        "FUNCTION_BLOCK Part\nVAR_INPUT p : BOOL; END_VAR\n{variables}\n{body}\nEND_FUNCTION_BLOCK\n\
-         PROGRAM Main\nVAR {} : Part; END_VAR\n{calls}END_PROGRAM\n",
+        "FUNCTION_BLOCK Part\nVAR_INPUT p : BOOL; END_VAR\n{variables}\n{body}\n\
+         END_FUNCTION_BLOCK\nPROGRAM Main\nVAR {} : Part; END_VAR\n{calls}END_PROGRAM\n",
         names.join(", ")
     )
 }

@@ -1,6 +1,6 @@
 //! Structured Text beside hand-written AWL that does what the same scenario expects: bytes and
-//! cycles, for docs/benchmarks.md, and whether they are within the budget. It needs no board: cycles
-//! are those of the longest scan, as the assembler tells them.
+//! cycles, for docs/benchmarks.md, and whether they are within the budget. It needs no board:
+//! cycles are those of the longest scan, as the assembler tells them.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -49,9 +49,9 @@ pub fn tables() -> Result<String> {
     let pairs = pairs()?;
     let mut page = String::from(
         "\n## Structured Text\n\n\
-         Programs of `examples/st` beside the hand-written ones of `examples`; both do what the same \
-         scenario expects. *Bytes*\nare those of instructions, *interpreter* and *native* the cycles \
-         of the longest scan as `awl-asm` tells them.\n\n",
+         Programs of `examples/st` beside the hand-written ones of `examples`; both do what the \
+         same scenario expects. *Bytes*\nare those of instructions, *interpreter* and *native* \
+         the cycles of the longest scan as `awl-asm` tells them.\n\n",
     );
     let chosen = |pair: &Pair| Some(pair.st);
     table(&mut page, &pairs, &chosen);

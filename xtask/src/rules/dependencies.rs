@@ -41,7 +41,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     ("wasm-smoke", &["plc-isa", "awl-asm", "awl-sim", "analysis", "client", "flash"]),
-    ("xtask", &["plc-isa", "plc-vm", "awl-asm", "awl-sim", "uno200"]),
+    ("xtask", &["plc-isa", "plc-vm", "awl-asm", "awl-sim", "project", "uno200"]),
     ("bind", &[]),
 ];
 

@@ -1,37 +1,10 @@
-//! Function blocks as subroutines: their state goes in and out as parameters. Which can be one, how
-//! they are called, and their text; whether that is shorter than writing them out is decided by who
-//! asks.
+//! Function blocks as subroutines: their state goes in and out as parameters. How they are called,
+//! and their text; which are one is decided elsewhere.
 
-use std::collections::HashMap;
-
-use super::memory::safe_name;
-use super::timers::each;
-use super::writer::Writer;
-use super::{Frame, Generator, Names, block, local_type};
-use crate::model::{Program, SectionKind, StatementKind, Type, Unit, UnitKind, Variable};
-
-/// Blocks that can be subroutines: called more than once, with elementary variables alone.
-pub(super) fn candidates(program: &Program) -> Vec<usize> {
-    let mut calls: HashMap<usize, usize> = HashMap::new();
-    for unit in &program.units {
-        each(&unit.body, &mut |statement| {
-            if let StatementKind::Call(call) = &statement.kind {
-                *calls.entry(call.block).or_default() += 1;
-            }
-        });
-    }
-    let is_one = |(number, unit): &(usize, &Unit)| {
-        let is_plain = |one: &Variable| {
-            one.of_type.is_elementary() && one.of_type != Type::Invalid && one.at.is_none()
-        };
-        unit.kind == UnitKind::Block
-            && unit.file.is_some()
-            && calls.get(number).is_some_and(|&count| count > 1)
-            && unit.variables.iter().all(|one| one.is_constant || is_plain(one))
-    };
-    let units = program.units.iter().enumerate();
-    units.filter(is_one).map(|(number, _)| number).collect()
-}
+use super::memory::{local_type, safe_name};
+use super::writer::{Writer, block};
+use super::{Frame, Generator, Names};
+use crate::model::{SectionKind, Unit, Variable};
 
 /// How a variable of a block goes to its subroutine.
 fn section_of(variable: &Variable) -> Option<&'static str> {

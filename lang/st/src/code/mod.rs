@@ -3,6 +3,7 @@
 mod arithmetic;
 mod blocks;
 mod calls;
+mod candidates;
 mod compare;
 mod control;
 mod convert;
@@ -22,7 +23,7 @@ use diagnostics::{Source, Span};
 
 use crate::around::Around;
 use crate::diagnostic::Diagnostic;
-use crate::model::{Element, ExpressionKind, Program, SectionKind, Type, UnitKind};
+use crate::model::{Element, ExpressionKind, Program, SectionKind, UnitKind};
 use hardware::Devices;
 use timers::Short;
 use writer::Writer;
@@ -83,7 +84,7 @@ pub(crate) fn generate(
     let mut chosen = BTreeSet::new();
     let mut awl = write(&chosen);
     // Beside AWL the text cannot be assembled alone, so nobody knows how long it becomes.
-    let candidates = if around.has_main { Vec::new() } else { blocks::candidates(program) };
+    let candidates = if around.has_main { Vec::new() } else { candidates::candidates(program) };
     let mut size = if candidates.is_empty() { None } else { bytes_of(&awl) };
     for number in candidates {
         chosen.insert(number);
@@ -197,7 +198,7 @@ impl Generator<'_> {
         }
         let writer = std::mem::take(&mut self.writer);
         let place = self.programs().first().and_then(|&number| self.place_of(number));
-        block(place, "ORGANIZATION_BLOCK MAIN:OB1", "END_ORGANIZATION_BLOCK", &[], writer)
+        writer::block(place, "ORGANIZATION_BLOCK MAIN:OB1", "END_ORGANIZATION_BLOCK", &[], writer)
     }
 
     fn programs(&self) -> Vec<usize> {
@@ -223,7 +224,7 @@ impl Generator<'_> {
             let header = format!("SUBROUTINE_BLOCK {name}:SBR{routine}");
             let writer = std::mem::take(&mut self.writer);
             let place = self.place_of(number);
-            lines.extend(block(place, &header, "END_SUBROUTINE_BLOCK", &[], writer));
+            lines.extend(writer::block(place, &header, "END_SUBROUTINE_BLOCK", &[], writer));
             *routine += 1;
         }
         lines
@@ -297,7 +298,11 @@ impl Generator<'_> {
                         || is_wanted == SectionKind::Var && one.section == SectionKind::Temp
                 })
                 .map(|one| {
-                    format!("{}:{};", memory::safe_name(&one.name), local_type(&one.of_type))
+                    format!(
+                        "{}:{};",
+                        memory::safe_name(&one.name),
+                        memory::local_type(&one.of_type)
+                    )
                 })
                 .collect();
             if !list.is_empty() {
@@ -308,7 +313,7 @@ impl Generator<'_> {
         }
         let header = format!("SUBROUTINE_BLOCK {}:SBR{routine}", unit.name);
         let writer = std::mem::take(&mut self.writer);
-        block(self.place_of(number), &header, "END_SUBROUTINE_BLOCK", &sections, writer)
+        writer::block(self.place_of(number), &header, "END_SUBROUTINE_BLOCK", &sections, writer)
     }
 
     /// Where the name of a unit is, unless it is a standard block.
@@ -335,37 +340,4 @@ impl Generator<'_> {
             self.writer.element(&source.name, element);
         }
     }
-}
-
-/// The type of a local variable in AWL.
-fn local_type(kind: &Type) -> String {
-    match kind {
-        Type::Time => "DINT".to_owned(),
-        _ => memory::type_name(kind),
-    }
-}
-
-/// A block with its sections and lines.
-fn block(
-    place: Option<String>,
-    header: &str,
-    end: &str,
-    sections: &[String],
-    writer: Writer,
-) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    lines.extend(place.map(|place| format!("//# source {place}")));
-    lines.push(header.to_owned());
-    lines.extend(sections.iter().cloned());
-    let temporaries = writer.temporaries();
-    if !temporaries.is_empty() {
-        lines.push("VAR".to_owned());
-        lines.extend(temporaries);
-        lines.push("END_VAR".to_owned());
-    }
-    lines.push("BEGIN".to_owned());
-    lines.extend(writer.finish());
-    lines.push("//# source".to_owned());
-    lines.push(end.to_owned());
-    lines
 }

@@ -291,3 +291,28 @@ impl Writer {
         self.lines
     }
 }
+
+/// A block with its sections and lines.
+pub(super) fn block(
+    place: Option<String>,
+    header: &str,
+    end: &str,
+    sections: &[String],
+    writer: Writer,
+) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    lines.extend(place.map(|place| format!("//# source {place}")));
+    lines.push(header.to_owned());
+    lines.extend(sections.iter().cloned());
+    let temporaries = writer.temporaries();
+    if !temporaries.is_empty() {
+        lines.push("VAR".to_owned());
+        lines.extend(temporaries);
+        lines.push("END_VAR".to_owned());
+    }
+    lines.push("BEGIN".to_owned());
+    lines.extend(writer.finish());
+    lines.push("//# source".to_owned());
+    lines.push(end.to_owned());
+    lines
+}
