@@ -6,6 +6,8 @@ import { join } from "node:path";
 import { writeMnemonics } from "./mnemonics.mjs";
 
 const OUT = "dist";
+/** Everything that belongs together; where the page is served its name is that of a version. */
+const VERSION = join(OUT, "version");
 
 const options = {
   bundle: true,
@@ -20,11 +22,11 @@ const options = {
 
 await writeMnemonics();
 await rm(OUT, { recursive: true, force: true });
-await mkdir(OUT);
+await mkdir(VERSION, { recursive: true });
 const page = await build({
   ...options,
   entryPoints: { page: "src/page.ts" },
-  outdir: OUT,
+  outdir: VERSION,
   // Styles of the editor come from a sheet that the Content-Security-Policy allows.
   alias: { "style-mod": "./src/editor/style-mod.ts" },
 });
@@ -32,11 +34,18 @@ const page = await build({
 const worker = await build({
   ...options,
   entryPoints: { worker: "src/core/worker.ts" },
-  outdir: OUT,
+  outdir: VERSION,
   external: ["./ide_core.js"],
 });
+// Its address is the same for all versions, and what it keeps is below it.
+await build({
+  ...options,
+  entryPoints: { sw: "src/offline/service_worker.ts" },
+  outdir: OUT,
+  format: "iife",
+});
 await writeFile(join(OUT, "index.html"), await readFile("index.html"));
-await writeFile(join(OUT, "licences.txt"), await licences([page, worker]));
+await writeFile(join(VERSION, "licences.txt"), await licences([page, worker]));
 
 /** The licences of what is in the bundles, in the order of the names of the packages. */
 async function licences(bundles) {

@@ -130,7 +130,11 @@ pub enum Command {
 /// What `ide` takes.
 #[derive(Debug, Args)]
 pub struct Ide {
-    /// The folder of the page [default: target/ide, where a build leaves it]
+    /// A folder that is the project: the page opens it, and saves into it
+    pub folder: Option<PathBuf>,
+
+    /// A folder with another page than the one that is part of this program, as a build leaves it
+    /// in target/ide
     #[arg(long, value_name = "FOLDER")]
     pub page: Option<PathBuf>,
 
@@ -233,7 +237,7 @@ pub struct Build {
 /// Arguments of `convert`.
 #[derive(Debug, Args)]
 pub struct Convert {
-    /// A chart of SFCEdit (.xml)
+    /// A chart of SFCEdit (.xml); of one as text (.sfc) the summary
     #[arg(value_name = "IN")]
     pub input: PathBuf,
     /// Where the result goes; without it to standard output

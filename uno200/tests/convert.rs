@@ -48,6 +48,20 @@ fn a_summary_is_a_line_for_each_number() {
 }
 
 #[test]
+fn a_chart_as_text_is_counted_without_declarations() {
+    let folder = folder();
+    let text = "INITIAL_STEP Wait: Ready; END_STEP STEP Fill: Valve; Lamp(L, T#2s); END_STEP\n\
+                STEP Stir: Motor; END_STEP\n\
+                TRANSITION FROM Wait TO (Fill, Stir) := Start; END_TRANSITION\n\
+                TRANSITION FROM (Fill, Stir) TO Wait := Full; END_TRANSITION\n";
+    fs::write(folder.path().join("mix.sfc"), text).unwrap();
+    let (code, text, errors) = convert(folder.path(), &["mix.sfc", "--summary"]);
+    let expected = "steps: 3\nactions: 4\ninstances: 4\nsimple: 0\ndivergences: 0\n\
+                    convergences: 0\nsimultaneous: 2\n";
+    assert_eq!((code, text.as_str()), (Some(0), expected), "{errors}");
+}
+
+#[test]
 fn variables_come_from_a_table() {
     let folder = folder();
     fs::write(folder.path().join("v.csv"), "name,kind,type\nA1,memory,BOOL\n").unwrap();

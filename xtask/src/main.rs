@@ -77,6 +77,9 @@ enum Task {
         /// Only check: the page is what its sources say, and does what it should in Chromium.
         #[arg(long, conflicts_with = "no_open")]
         check: bool,
+        /// Only build its core, and make it the one that is part of the tools.
+        #[arg(long, conflicts_with_all = ["no_open", "check"])]
+        keep: bool,
     },
     /// Starts a virtual Uno on a pseudo-terminal and prints its port.
     Board {
@@ -117,6 +120,7 @@ fn main() -> ExitCode {
         Task::Size => size::run(),
         Task::Wasm => wasm::check(),
         Task::Ide { check: true, .. } => ide::check(),
+        Task::Ide { keep: true, .. } => ide::keep(),
         Task::Ide { no_open, .. } => ide::start(!no_open),
         Task::Board { with_firmware, new } => board::start(with_firmware, new),
         Task::Dist { check: false } => dist::run(),

@@ -1,15 +1,19 @@
-//! The compiler as cargo calls it for the board, with names that do not depend on the folder.
+//! The compiler as cargo calls it for the board and the page, with names that do not depend on the
+//! folder.
 //!
 //! Cargo mixes the path of a package into the names of its functions, the compiler orders functions
-//! by their names, and code in another order has other bytes. The firmware that is part of the
-//! tools must come out the same in every clone, so xtask stands between cargo and the compiler and
-//! gives our own packages a name without the path.
+//! by their names, and code in another order has other bytes. The firmware and the page's core that
+//! are part of the tools must come out the same in every clone, so xtask stands between cargo and
+//! the compiler and gives our own packages a name without the path.
 
 use std::env;
 use std::ffi::OsString;
+use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 
 use anyhow::{Context, Result};
+
+use crate::process::root;
 
 /// Says that this process is called in place of the compiler.
 const CALLED: &str = "UNO200_SAME_NAMES";
@@ -46,9 +50,8 @@ fn without_path(argument: OsString) -> OsString {
     }
 }
 
-/// The package that cargo compiles, if it is one of this repository: these have no address.
+/// The package that cargo compiles, if it is one of this repository.
 fn own_package() -> Option<String> {
-    let name = env::var("CARGO_PKG_NAME").ok()?;
-    let ours = name.starts_with("plc-") || name.starts_with("uno200") || name == "vm-on-avr";
-    ours.then_some(name)
+    let folder = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR")?);
+    folder.starts_with(root()).then(|| env::var("CARGO_PKG_NAME").ok()).flatten()
 }

@@ -37,7 +37,7 @@ const HOST_ALONE: [Stage; 2] =
     [("lints", || lint(&[])), ("tests", || process::run(&mut tests(&[])))];
 
 /// Instead of these.
-const BOARD: [Stage; 11] = [
+const BOARD: [Stage; 12] = [
     ("libraries as WebAssembly", wasm::check),
     ("IDE in a browser", ide::check),
     ("modules", || modules::run(true)),
@@ -49,6 +49,7 @@ const BOARD: [Stage; 11] = [
     ("lints of what runs on an AVR", firmware::lint),
     ("lints with the virtual board", || lint(WITH_BOARD)),
     ("tests, on the virtual board too", || process::run(&mut tests(WITH_BOARD))),
+    ("the IDE's core in tests, and as WebAssembly", ide::log),
     ("size of the firmware", size::gate),
     ("budgets of the board", bench::board_gate),
 ];

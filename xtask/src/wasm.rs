@@ -1,13 +1,14 @@
 //! `cargo xtask wasm`: builds the libraries for WebAssembly and has node do with them what this
 //! computer does: both must tell the same.
 
+use std::env;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 
 use crate::process::{cargo, root, run};
-use crate::{avr, packages};
+use crate::{avr, packages, same_names};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 /// The libraries that run anywhere, and what uses them all.
@@ -26,6 +27,8 @@ const LIBRARIES: [&str; 12] = [
     "wasm-smoke",
 ];
 const MODULE: &str = "wasm_smoke";
+/// What links with Debian's compiler.
+const DEBIAN_LINKER: &str = "wasm-ld-19";
 
 /// Builds the libraries, and compares the report of node with that of this computer.
 pub fn check() -> Result<()> {
@@ -54,6 +57,12 @@ pub fn build(module: &str, of: &[&str]) -> Result<PathBuf> {
     build.args(["--config", "profile.release.debug=false"]);
     build.args(["--config", "profile.release.opt-level=\"s\""]);
     build.args(["--config", "profile.release.panic=\"abort\""]);
+    same_names::apply(&mut build)?;
+    // Messages of panics name sources; where cargo keeps them is nobody's business.
+    let home = env::var_os("CARGO_HOME").map(PathBuf::from);
+    let home = home.or_else(|| Some(env::home_dir()?.join(".cargo"))).unwrap_or_default();
+    let flags = format!("rustflags=[\"--remap-path-prefix={}=cargo\"]", home.display());
+    build.arg("--config").arg(format!("target.{TARGET}.{flags}"));
     for package in of {
         build.args(["--package", package]);
     }
@@ -62,19 +71,37 @@ pub fn build(module: &str, of: &[&str]) -> Result<PathBuf> {
     Ok(folder.join(TARGET).join("release").join(name).with_extension("wasm"))
 }
 
+/// Whether rustup's compiler has the target.
+fn has_target() -> bool {
+    let sysroot = Command::new("rustc").args(["--print", "sysroot"]).current_dir(root()).output();
+    let sysroot = sysroot.map(|output| String::from_utf8_lossy(&output.stdout).trim().to_string());
+    sysroot.is_ok_and(|path| Path::new(&path).join("lib/rustlib").join(TARGET).is_dir())
+}
+
+/// The compiler and linker that [`build`] uses, a line each. rustup's brings its linker.
+pub fn compilers() -> Result<String> {
+    let version = |command: &mut Command| {
+        let text = output(command.current_dir(root()).arg("--version"))?;
+        Ok(format!("{}\n", text.lines().next().unwrap_or_default().trim()))
+    };
+    if has_target() {
+        return version(&mut Command::new("rustc"));
+    }
+    let compiler = version(&mut Command::new("/usr/bin/rustc"))?;
+    Ok(compiler + &version(&mut Command::new(DEBIAN_LINKER))?)
+}
+
 /// A cargo that can build for the target: rustup's where it has the target, otherwise Debian's,
 /// which builds std from source.
 fn compiler() -> Result<Command> {
-    let sysroot = Command::new("rustc").args(["--print", "sysroot"]).current_dir(root()).output();
-    let sysroot = sysroot.map(|output| String::from_utf8_lossy(&output.stdout).trim().to_string());
-    if sysroot.is_ok_and(|path| Path::new(&path).join("lib/rustlib").join(TARGET).is_dir()) {
+    if has_target() {
         return Ok(cargo());
     }
     packages::ensure_installed(packages::AVR_COMPILER)?;
     packages::ensure_installed(packages::WASM_LINKER)?;
     let mut debian = avr::debian_cargo();
     debian
-        .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", "wasm-ld-19")
+        .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", DEBIAN_LINKER)
         .env_remove("CARGO")
         .args(["-Z", "build-std=std,panic_abort", "-Z", "build-std-features="]);
     Ok(debian)

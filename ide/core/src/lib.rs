@@ -94,6 +94,12 @@ mod page {
             crate::session::json(&self.0.tick(now_ms as u64, scans_max))
         }
 
+        /// See [`Session::is_behind`].
+        #[wasm_bindgen(js_name = isBehind)]
+        pub fn is_behind(&self) -> bool {
+            self.0.is_behind()
+        }
+
         /// See [`Session::receive`].
         pub fn receive(&mut self, bytes: &[u8], now_ms: f64) -> String {
             crate::session::json(&self.0.receive(bytes, now_ms as u64))

@@ -152,6 +152,12 @@ impl Session {
         events
     }
 
+    /// Whether the simulator was allowed fewer scans in the last [`tick`](Self::tick) than were
+    /// due: as fast as it can go, that is always so.
+    pub fn is_behind(&self) -> bool {
+        self.simulator.as_ref().is_some_and(|simulator| simulator.is_behind)
+    }
+
     /// Requests and answers, as far as the target answers at once.
     fn exchange(&mut self, now_ms: u64) -> Vec<Event> {
         let Some(plc) = &mut self.plc else { return Vec::new() };

@@ -68,6 +68,8 @@ pub struct Simulator {
     /// How far its time is, and how far it is to be.
     now_ms: u64,
     due_ms: f64,
+    /// Whether more scans were due the last time than it was allowed to do.
+    pub is_behind: bool,
 }
 
 impl Simulator {
@@ -88,6 +90,7 @@ impl Simulator {
             scan_ms,
             now_ms: 0,
             due_ms: 0.0,
+            is_behind: false,
         };
         for (&operand, &value) in &bench.driven {
             simulator.drive(operand, value)?;
@@ -113,6 +116,7 @@ impl Simulator {
             return answers;
         }
         self.due_ms += elapsed_ms as f64 * bench.speed;
+        self.is_behind = false;
         for _ in 0..scans_max {
             if bench.speed > 0.0 && self.due_ms < self.scan_ms as f64 {
                 return answers;
@@ -122,6 +126,7 @@ impl Simulator {
         }
         // Time that it could not keep up with is lost, not made up for later.
         self.due_ms = 0.0;
+        self.is_behind = true;
         answers
     }
 

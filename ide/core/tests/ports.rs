@@ -2,12 +2,13 @@
 //! bootloader, and asked.
 
 mod board;
+mod recorded;
 
 use awl_asm::hex;
 use board::Board;
 use flash::bootloader::Bootloader;
-use ide_core::Session;
 use ide_core::protocol::{Event, File, ProjectWish, Request, Status, TargetKind, TargetWish, Wish};
+use recorded::Recorded;
 
 const LAMP: &str = "LD I0.0\nNOT\n= Q0.1\n";
 
@@ -61,7 +62,7 @@ impl Uno {
 
 /// A page with an Uno at a port.
 struct Page {
-    session: Session,
+    session: Recorded,
     uno: Uno,
     open: Option<(u32, String)>,
     /// Whether people say yes to what they are asked.
@@ -82,7 +83,7 @@ impl Page {
             sent: Vec::new(),
         };
         let mut page = Page {
-            session: Session::new(),
+            session: Recorded::default(),
             uno,
             open: None,
             agrees: true,
@@ -274,7 +275,7 @@ fn a_cable_that_is_pulled_out_is_told_with_what_the_board_holds() {
 #[test]
 fn a_plc_on_the_network_is_asked_and_not_written() {
     let files = vec![File { name: "p.awl".to_owned(), text: LAMP.to_owned() }];
-    let mut session = Session::new();
+    let mut session = Recorded::default();
     let mut ask = |wish| session.request(Request { id: 1, wish }, 0);
     ask(Wish::Project(ProjectWish::Open { files, main: None }));
     ask(Wish::Target(TargetWish::Target { kind: TargetKind::Bridge }));

@@ -1,11 +1,13 @@
 //! A session as the page uses it: requests in, events out, with time passed in.
 
-use ide_core::Session;
+mod recorded;
+
 use ide_core::protocol::ladder::Ladder;
 use ide_core::protocol::{
     ApartWish, Event, File, LookWish, Problem, ProjectWish, Recording, Request, Status, TargetWish,
     TestResult, TextWish, Value, Wish,
 };
+use recorded::Recorded;
 
 const STATION: &str = include_str!("../../../examples/station1.awl");
 const SCENARIO: &str = include_str!("../../../examples/station1.scn");
@@ -15,7 +17,7 @@ const PLANT: &str =
 /// A page without pixels.
 #[derive(Default)]
 struct Page {
-    session: Session,
+    session: Recorded,
     now_ms: u64,
     id: u32,
     events: Vec<Event>,

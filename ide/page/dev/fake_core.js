@@ -35,6 +35,9 @@ export class Ide {
     return "[]";
   }
 
+  isBehind() {
+    return false;
+  }
   chipDueMs() {
     return 0;
   }

@@ -33,15 +33,15 @@ async function exampleNames() {
 }
 
 async function answer(path) {
-  if (path === "/examples/list.json") return exampleNames();
-  const name = /^\/examples\/(\w+)\.json$/.exec(path)?.[1];
+  if (path === "/version/examples/list.json") return exampleNames();
+  const name = /^\/version\/examples\/(\w+)\.json$/.exec(path)?.[1];
   if (name) return example(name);
   const file = path === "/" ? "/index.html" : path;
-  if (/^\/ide_core/.test(file)) {
-    const real = at(`../../../target/ide${file}`);
+  if (/^\/version\/ide_core/.test(file)) {
+    const real = at(`../../../target/ide-core/${file.slice("/version/".length)}`);
     return readFile(real).catch(() => readFile(at("./fake_core.js")));
   }
-  if (!/^\/[\w.]+$/.test(file)) throw new Error("no such file");
+  if (!/^\/(version\/)?[\w.]+$/.test(file)) throw new Error("no such file");
   return readFile(at(`../dist${file}`));
 }
 

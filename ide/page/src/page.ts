@@ -24,10 +24,14 @@ import { Problems } from "./panels/problems";
 import { Scope } from "./panels/scope";
 import { Tests } from "./panels/tests";
 import { Watch } from "./panels/watch";
-import { Outside } from "./ports/outside";
+import { keepOffline } from "./offline/register";
+import { diskTalk } from "./page/disk_talk";
+import { Bridge } from "./ports/bridge";
+import { Outside, words } from "./ports/outside";
 import { fragmentFor, fromAddress, lastOrBlink, type Opened } from "./project/begin";
+import { Disk } from "./project/disk";
 import { Project, Unfit } from "./project/project";
-import { Keeper } from "./project/storage";
+import { Keeper, lastId } from "./project/storage";
 import { confirm } from "./page/dialog";
 import { language, t } from "./text/language";
 
@@ -37,6 +41,7 @@ const core = new Core((message) => notice(t("coreBroken", message), true));
 const project = new Project(core);
 const keeper = new Keeper(project, () => notice(t("storageFull"), true));
 const operands = new Operands(core);
+const bridge = Bridge.fromAddress();
 let current = { id: "", title: "" };
 
 const place = h("div", { class: "editors" });
@@ -70,7 +75,14 @@ const scope = new Scope(core, operands);
 const capture = new Capture(core, project, operands);
 const plant = new Plant(core, project);
 const tests = new Tests(core, project, editors, () => tabs);
-const menu = new ProjectMenu(project, open, () => current);
+const disk =
+  bridge && new Disk(bridge, project, (file, text) => editors.replace(file, text), diskTalk);
+const menu = new ProjectMenu(
+  project,
+  open,
+  () => current,
+  () => (bridge?.hasFolder ? disk : null),
+);
 const header = new Header(core, {
   project: (at) => menu.show(at),
   settings,
@@ -102,7 +114,7 @@ const tabs: Tabs = new Tabs("panels", [
     shown: (shown) => ladder.shown(shown),
   },
 ]);
-new Outside(core, () => header.status?.target ?? "simulator");
+new Outside(core, bridge, () => header.status?.target ?? "simulator");
 new LiveView(core, project, editors, ladder, header);
 
 header.onStatus((status) => watch.showStatus(status));
@@ -162,17 +174,35 @@ async function open(opened: Opened): Promise<void> {
   // A reload opens what is open now.
   history.replaceState(null, "", location.pathname + location.search + fragmentFor(id));
   document.title = `${opened.title} – uno200`;
+  disk?.opened("");
   project.open(opened.content);
+  disk?.opened(id);
+}
+
+/** The folder of `uno200 ide`, where the page was opened for it or had it before. */
+async function fromBridge(): Promise<Opened | null> {
+  if (!bridge || !disk) return null;
+  const { isNew } = bridge;
+  const wasOpen = lastId()?.startsWith("folder:") ?? false;
+  try {
+    // A token is good for once: it is exchanged before somebody reloads the page.
+    await bridge.connect();
+    return bridge.hasFolder && (isNew || wasOpen) ? await disk.open() : null;
+  } catch (error) {
+    if (isNew || wasOpen) notice(words(error), true);
+    return null;
+  }
 }
 
 async function begin(): Promise<void> {
   let opened: Opened | null = null;
+  const folder = await fromBridge();
   try {
     opened = await fromAddress(location.hash);
   } catch (error) {
     notice(error instanceof Unfit ? unfitWords(error) : String(error), true);
   }
-  await open(opened ?? lastOrBlink());
+  await open(opened ?? folder ?? lastOrBlink());
 }
 
 addEventListener("beforeunload", (event) => {
@@ -182,3 +212,4 @@ addEventListener("hashchange", () => void begin());
 shortcuts({ header, tabs, menu, editors, search: () => (showFiles(true), sidebar.focusSearch()) });
 EditorView.findFromDOM(place)?.requestMeasure();
 void begin();
+void keepOffline();

@@ -2,19 +2,10 @@
 // firmware and program, answers, and gets another program by Web Serial, whose port leads to the same
 // board. `node test/board.mjs ADDRESS PORT`; the address has a token, the port is known to the bridge.
 import assert from "node:assert/strict";
-import { chromium } from "playwright-core";
+import { open } from "./browser.mjs";
 
 const [, , address, port] = process.argv;
-const PATIENCE = 120_000;
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-sync"],
-});
-const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
-page.setDefaultTimeout(PATIENCE);
-const errors = [];
-page.on("pageerror", (error) => errors.push(error.message));
-page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+const { browser, page, errors } = await open({ patience: 120_000 });
 
 const button = (name) => page.getByRole("button", { name, exact: true });
 const mode = (wanted) => page.getByRole("status").first().filter({ hasText: wanted }).waitFor();

@@ -17,7 +17,13 @@ async function load(text) {
   }
 }
 
-/** The core of the folder that a page is served from. */
+/** Where everything is that belongs to a version, in the folder that a page is served from. */
+export async function innerFolder(folder) {
+  const page = await readFile(join(folder, "index.html"), "utf8");
+  return join(folder, /"(\w+)\/page\.js"/.exec(page)[1]);
+}
+
+/** The core, in the folder of its version. */
 export async function loadCore(folder) {
   const core = await load(await readFile(join(folder, "ide_core.js"), "utf8"));
   await core.default({ module_or_path: await readFile(join(folder, "ide_core_bg.wasm")) });

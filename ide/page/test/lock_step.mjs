@@ -4,9 +4,9 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
-import { loadCore, loadSource } from "./load.mjs";
+import { innerFolder, loadCore, loadSource } from "./load.mjs";
 
-const [, , folder] = process.argv;
+const folder = await innerFolder(process.argv[2]);
 /** How long an example runs whose scenario is about what only time on the board itself brings. */
 const FOR_MS = 5000;
 const ONLY_IN_REAL_TIME = /takes no (pulses|characters|setting)|does not show what/;

@@ -3,25 +3,10 @@
 // awl-sim. `node test/page.mjs ADDRESS FIGURES.csv`; the figures are what awl-sim writes.
 import { readFile } from "node:fs/promises";
 import assert from "node:assert/strict";
-import { chromium } from "playwright-core";
+import { open } from "./browser.mjs";
 
 const [, , address, figures] = process.argv;
-const PATIENCE = 60_000;
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-background-networking",
-    "--disable-sync",
-    "--no-first-run",
-  ],
-});
-const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
-page.setDefaultTimeout(PATIENCE);
-const errors = [];
-page.on("pageerror", (error) => errors.push(error.message));
-page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+const { browser, page, errors } = await open();
 
 const button = (name) => page.getByRole("button", { name, exact: true });
 const tab = (name) => page.getByRole("tab", { name, exact: true }).click();

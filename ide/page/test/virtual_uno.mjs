@@ -1,12 +1,12 @@
 // The virtual Uno as the page's worker has it, in node and in a time that the test gives: what a
 // board does beside scans. `node test/virtual_uno.mjs FOLDER`; in the folder is what a page loads.
 import assert from "node:assert/strict";
-import { loadCore, loadSource } from "./load.mjs";
+import { innerFolder, loadCore, loadSource } from "./load.mjs";
 
 /** Until the firmware has checked its program, and has answered. */
 const BOOT_MS = 700;
 
-const [, , folder] = process.argv;
+const folder = await innerFolder(process.argv[2]);
 const { Ide } = await loadCore(folder);
 const { VirtualUno } = await loadSource("src/board/virtual_uno.ts");
 

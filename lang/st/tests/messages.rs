@@ -63,6 +63,7 @@ const MISTAKES: &[(&str, &str, &[Answer])] = &[
     ("i : INT;", "i := 5\ni := i + 1;", &[Answer("E0201", "5", &["`;` is missing"])]),
     ("i : INT;", "i := i / 0;", &[Answer("E0212", "0", &["divides by zero"])]),
     ("t : ARRAY[1..5] OF INT;", "t[6] := 1;", &[Answer("E0212", "6", &["the index is 1 to 5"])]),
+    ("t : TON; s : STRUCT x : INT; END_STRUCT;", "s := t;", &[Answer("E0205", "t", &["no value"])]),
 ];
 
 #[test]

@@ -6,6 +6,7 @@ use std::path::Path;
 use anyhow::{Context as _, Result, bail};
 use awl_asm::files::{ending, ensure_distinct, ensure_no_source, read_source, write_whole};
 use awl_asm::report::Report;
+use chart::Chart;
 use chart::set_reset::variables::{self, Table};
 use chart::set_reset::{Target, plan, table, write};
 use chart::sfcedit;
@@ -31,6 +32,21 @@ pub(super) fn convert(arguments: &Convert) -> Result<bool> {
     }
 }
 
+/// How much there is in a chart as text, whatever its names stand for.
+fn summary_of_text(arguments: &Convert) -> Result<bool> {
+    let source = read_source(&arguments.input)?;
+    let reading = chart::text::read(&source);
+    let charts: Vec<Chart> = reading.document.charts().cloned().collect();
+    let mut report = Report::new(arguments.messages, false);
+    Ok(told(&mut report, &source, reading.diagnostics) && counted(&charts)?)
+}
+
+/// Prints how many there are of what.
+fn counted(charts: &[Chart]) -> Result<bool> {
+    let lines = summary(charts).map(|(name, count)| format!("{name}: {count}\n"));
+    print(&lines.concat()).map(|()| true)
+}
+
 /// A chart of SFCEdit to Structured Text, the set/reset way.
 fn from_chart(arguments: &Convert) -> Result<bool> {
     let source = read_source(&arguments.input)?;
@@ -52,12 +68,7 @@ fn from_chart(arguments: &Convert) -> Result<bool> {
     let Some(project) = reading.project else { return Ok(told(&mut report, &source, found)) };
     if arguments.summary {
         let charts = sfcedit::model::charts(&project, &mut found);
-        if !told(&mut report, &source, found) {
-            return Ok(false);
-        }
-        let lines = summary(&charts).map(|(name, count)| format!("{name}: {count}\n"));
-        print(&lines.concat())?;
-        return Ok(true);
+        return Ok(told(&mut report, &source, found) && counted(&charts)?);
     }
     let (plan, more) = plan(&project, &rows);
     found.extend(more);

@@ -66,9 +66,9 @@ fn run(arguments: Arguments) -> Result<u8> {
             show::run_in(base, client, show::Arguments { program, picture, line, scan })
                 .map(|()| true)
         }
-        Command::Ide(Ide { page, listen, no_open }) => {
+        Command::Ide(Ide { folder, page, listen, no_open }) => {
             let Connection { port, tcp, .. } = connection;
-            ide::serve(&ide::Settings { page, listen, port, tcp }, !no_open).map(|()| true)
+            ide::serve(&ide::Settings { folder, page, listen, port, tcp }, !no_open).map(|()| true)
         }
         Command::Test(arguments) => return test::test(&connection, &files, &arguments),
         Command::Shell { script } => {

@@ -1,14 +1,15 @@
-//! `uno200 ide`: the page of the IDE from a folder, for browsers on this computer alone, and the
-//! bridge through which that page reaches ports. What the page does is in `ide`.
+//! `uno200 ide`: the page of the IDE, for browsers on this computer alone, and the bridge through
+//! which that page reaches ports and a folder. What the page does is in `ide`.
 
 mod access;
 pub mod bridge;
+pub mod folder;
 mod http;
 mod page;
 
 use std::fs;
 use std::net::{SocketAddr, TcpListener, TcpStream};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
 
@@ -17,17 +18,17 @@ use tungstenite::handshake::server::{Request, create_response, write_response};
 use tungstenite::http::{Method, StatusCode};
 
 use access::Access;
-use bridge::Ports;
 use bridge::protocol::{Kind, Port};
+use bridge::{Ports, Reach};
+use folder::Folder;
 use page::Page;
-
-/// Where a build leaves the page.
-const BUILT: &str = "target/ide";
 
 /// What is served, and where.
 #[derive(Debug)]
 pub struct Settings {
-    /// The folder of the page; without it the one that a build leaves.
+    /// The folder that is the project.
+    pub folder: Option<PathBuf>,
+    /// The folder of another page than the one that is part of this program.
     pub page: Option<PathBuf>,
     /// Where browsers find it. Only addresses of this computer.
     pub listen: SocketAddr,
@@ -50,7 +51,7 @@ pub struct Server {
 struct Site {
     page: Page,
     access: Access,
-    ports: Arc<Ports>,
+    reach: Reach,
 }
 
 /// Serves the page until the process ends. The first line on standard output is its address.
@@ -72,16 +73,17 @@ impl Server {
             "{address}: others could reach it; the IDE listens on this computer alone, such as \
              127.0.0.1:8200"
         );
-        let page = Page::new(folder(settings.page.clone())?);
+        let project = settings.folder.as_deref().map(Folder::new).transpose()?;
+        let page = settings.page.as_deref().map_or_else(|| Ok(Page::own()), other_page)?;
         let listener = TcpListener::bind(address).with_context(|| format!("{address}"))?;
         let address = listener.local_addr()?;
         let (access, token) = Access::new(address.port())?;
         let serial = settings.port.iter().map(|name| (name, Kind::Serial));
         let tcp = settings.tcp.iter().map(|name| (name, Kind::Tcp));
         let named = serial.chain(tcp).map(|(name, kind)| Port { name: name.clone(), kind });
-        let ports = Arc::new(Ports::new(named.collect()));
+        let reach = Reach { ports: Arc::new(Ports::new(named.collect())), folder: project };
         let url = format!("http://{address}/?token={token}");
-        Ok(Server { listener, url, site: Arc::new(Site { page, access, ports }) })
+        Ok(Server { listener, url, site: Arc::new(Site { page, access, reach }) })
     }
 
     /// The address with the token that is good for once. A fragment can be appended.
@@ -128,7 +130,7 @@ impl Site {
         let mut head = Vec::new();
         write_response(&mut head, &response).map_err(std::io::Error::other)?;
         std::io::Write::write_all(&mut stream, &head)?;
-        bridge::serve(stream, &self.access, &self.ports)
+        bridge::serve(stream, &self.access, &self.reach)
     }
 }
 
@@ -137,16 +139,16 @@ fn refusal(status: StatusCode) -> (StatusCode, Vec<u8>, &'static str) {
     (status, text.as_bytes().to_vec(), "text/plain; charset=utf-8")
 }
 
-fn folder(given: Option<PathBuf>) -> Result<PathBuf> {
-    let folder = given.unwrap_or_else(|| PathBuf::from(BUILT));
+/// The page in a folder.
+fn other_page(folder: &Path) -> Result<Page> {
     if !folder.join("index.html").is_file() {
         bail!(
-            "{}: the page of the IDE is not there; `cargo xtask ide` builds it in a clone, \
-             --page names another folder",
+            "{}: the page of the IDE is not there; `cargo xtask ide` builds it in a clone, into \
+             target/ide",
             folder.display()
         );
     }
-    Ok(fs::canonicalize(folder)?)
+    Ok(Page::In(fs::canonicalize(folder)?))
 }
 
 /// Starts the browser. Who has none has the address.

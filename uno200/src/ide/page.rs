@@ -1,7 +1,10 @@
 //! The files of the page: which are given away, as what, and what a browser may do with them.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
+
+use ide_site::Core;
 
 /// What is given away, by its ending.
 pub const ENDINGS: &[(&str, &str)] = &[
@@ -35,16 +38,19 @@ pub fn headers(host: &str) -> Vec<(&'static str, String)> {
     [("Content-Security-Policy", policy)].into_iter().chain(others).collect()
 }
 
-/// The page in its folder.
+/// The page.
 #[derive(Debug)]
-pub struct Page {
-    folder: PathBuf,
+pub enum Page {
+    /// The one that is part of this program: its files by their paths.
+    Own(BTreeMap<String, Vec<u8>>),
+    /// One in a folder, whose path has no links.
+    In(PathBuf),
 }
 
 impl Page {
-    /// The page in this folder, whose path has no links.
-    pub fn new(folder: PathBuf) -> Page {
-        Page { folder }
+    /// The one that is part of this program.
+    pub fn own() -> Page {
+        Page::Own(ide_site::files(&Core::kept()))
     }
 
     /// The file of an address's path, with its type; `/` is the page itself.
@@ -60,12 +66,15 @@ impl Page {
         }
         let ending = path.extension()?.to_str()?;
         let (_, kind) = ENDINGS.iter().find(|(known, _)| *known == ending)?;
-        // A link may lead out of the folder.
-        let file = fs::canonicalize(self.folder.join(path)).ok()?;
-        if !file.starts_with(&self.folder) {
-            return None;
-        }
-        Some((fs::read(file).ok()?, kind))
+        let bytes = match self {
+            Page::Own(files) => files.get(path.to_str()?)?.clone(),
+            Page::In(folder) => {
+                // A link may lead out of the folder.
+                let file = fs::canonicalize(folder.join(path)).ok()?;
+                fs::read(file.starts_with(folder).then_some(file)?).ok()?
+            }
+        };
+        Some((bytes, kind))
     }
 }
 
@@ -91,7 +100,7 @@ mod tests {
         #[cfg(unix)]
         std::os::unix::fs::symlink(outer.path().join("secret.json"), folder.join("link.json"))
             .unwrap();
-        let page = Page::new(fs::canonicalize(&folder).unwrap());
+        let page = Page::In(fs::canonicalize(&folder).unwrap());
         assert_eq!(page.file("/").unwrap().0, b"<p>");
         assert_eq!(page.file("/examples/a.json").unwrap().1, ENDINGS[3].1);
         for url in [
@@ -106,5 +115,18 @@ mod tests {
         ] {
             assert!(page.file(url).is_none(), "{url}");
         }
+    }
+
+    #[test]
+    fn the_page_is_part_of_the_program() {
+        let page = Page::own();
+        let (index, _) = page.file("/").unwrap();
+        let index = String::from_utf8(index).unwrap();
+        let (_, script) = index.split_once("src=\"").unwrap();
+        let script = script.split('"').next().unwrap();
+        assert_eq!(page.file(&format!("/{script}")).unwrap().1, ENDINGS[1].1);
+        let module = script.replace("page.js", ide_site::MODULE);
+        assert!(page.file(&module).unwrap().0.starts_with(b"\0asm"));
+        assert!(page.file("/Cargo.toml").is_none() && page.file("/..").is_none());
     }
 }

@@ -242,7 +242,7 @@ fn ports_that_are_not_listed_are_not_opened() {
     }
     let message = page.refusal(json!({ "do": "lines", "on": false }));
     assert!(message.contains("no port is open"), "{message}");
-    assert!(page.refusal(json!({ "do": "read", "name": "/etc/passwd" })).contains("no message"));
+    assert!(page.refusal(json!({ "do": "run", "name": "/bin/sh" })).contains("no message"));
     // It goes on nevertheless.
     assert_eq!(page.ask(json!({ "do": "ports" }))["is"], "ports");
 }
@@ -295,4 +295,53 @@ fn other_computers_are_not_served() {
     let errors = String::from_utf8(output.stderr).unwrap();
     assert_eq!((output.status.code(), errors.contains("this computer alone")), (Some(2), true));
     assert!(output.stdout.is_empty());
+}
+
+#[test]
+fn a_folder_is_read_and_written_and_nothing_beside_it() {
+    let outer = tempfile::tempdir().unwrap();
+    let folder = outer.path().join("lamp");
+    std::fs::create_dir(&folder).unwrap();
+    std::fs::write(folder.join("lamp.awl"), "LD I0.0\n").unwrap();
+    std::fs::write(outer.path().join("secret.txt"), "secret").unwrap();
+    let ide = Ide::start(&[folder.to_str().unwrap()]);
+    let mut page = ide.page();
+    assert!(page.refusal(json!({ "do": "folder" })).contains("hello"), "before the token");
+    let mut page = ide.page();
+    let told = page.ask(json!({ "do": "hello", "token": ide.token }));
+    assert_eq!((&told["is"], &told["folder"]), (&json!("welcome"), &json!(true)));
+    let told = page.ask(json!({ "do": "folder" }));
+    assert_eq!((&told["is"], &told["name"]), (&json!("folder"), &json!("lamp")));
+    assert_eq!(told["files"][0]["name"], "lamp.awl");
+    let told = page.ask(json!({ "do": "read", "file": "lamp.awl" }));
+    assert_eq!((&told["is"], &told["text"]), (&json!("file"), &json!("LD I0.0\n")));
+    let base = &told["version"];
+    // More than a message without a folder may hold.
+    let text = "LD I0.1 // \"\n".repeat(20_000);
+    let save = json!({ "do": "save", "file": "lamp.awl", "text": text, "base": base });
+    let saved = page.ask(save.clone());
+    assert_eq!(saved["is"], "saved", "{saved}");
+    assert_eq!(std::fs::read_to_string(folder.join("lamp.awl")).unwrap(), text);
+    let changed = page.ask(save);
+    assert_eq!((&changed["is"], &changed["version"]), (&json!("changed"), &saved["version"]));
+    let secret = json!({ "do": "read", "file": "../secret.txt" });
+    assert!(page.refusal(secret).contains("cannot be the name"));
+    let removed = json!({ "do": "remove", "file": "lamp.awl", "base": saved["version"] });
+    assert_eq!(page.ask(removed)["is"], "saved");
+    assert!(!folder.join("lamp.awl").exists());
+}
+
+#[test]
+fn without_a_folder_no_file_is_reached() {
+    let ide = Ide::start(&[]);
+    let mut page = ide.welcome();
+    for wish in [json!({ "do": "folder" }), json!({ "do": "read", "file": "lamp.awl" })] {
+        assert!(page.refusal(wish).contains("no folder was given"));
+    }
+    for folder in ["/nowhere/at/all", file!()] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_uno200"));
+        let output = command.args(["ide", "--no-open", folder]).output().unwrap();
+        let errors = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(2) && errors.contains(folder), "{errors}");
+    }
 }

@@ -12,7 +12,8 @@ fn main() -> Result<()> {
     let module = arguments.next().context("bind MODULE.wasm FOLDER")?;
     let folder = arguments.next().context("bind MODULE.wasm FOLDER")?;
     let mut bindgen = Bindgen::new();
-    bindgen.input_path(&module).typescript(false);
+    // Names of functions are a quarter of a module, and no page shows them.
+    bindgen.input_path(&module).typescript(false).remove_name_section(true);
     match arguments.next() {
         Some(_) => bindgen.web(true)?.omit_default_module_path(false),
         None => bindgen.nodejs(true)?,

@@ -21,9 +21,20 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("virtual-uno", &["simavr"]),
     ("client", &["plc-isa", "plc-vm", "plc-link", "awl-asm"]),
     ("flash", &["plc-isa"]),
+    ("ide-site", &[]),
     (
         "uno200",
-        &["plc-isa", "diagnostics", "awl-asm", "awl-sim", "analysis", "client", "project", "chart"],
+        &[
+            "plc-isa",
+            "diagnostics",
+            "awl-asm",
+            "awl-sim",
+            "analysis",
+            "client",
+            "project",
+            "chart",
+            "ide-site",
+        ],
     ),
     ("ide-core", &["plc-isa", "diagnostics", "awl-asm", "awl-sim", "analysis", "client", "flash"]),
     (
@@ -41,7 +52,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     ("wasm-smoke", &["plc-isa", "awl-asm", "awl-sim", "analysis", "client", "flash"]),
-    ("xtask", &["plc-isa", "plc-vm", "awl-asm", "awl-sim", "project", "uno200"]),
+    ("xtask", &["plc-isa", "plc-vm", "awl-asm", "awl-sim", "project", "uno200", "ide-site"]),
     ("bind", &[]),
 ];
 

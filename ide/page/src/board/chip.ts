@@ -93,6 +93,11 @@ export class Chip {
     this.core = this.anew(new Uint8Array(SRAM_BYTES), POWER_ON);
   }
 
+  /** What the EEPROM holds. */
+  get eepromBytes(): Uint8Array {
+    return this.eeprom.memory;
+  }
+
   /** Power comes, with this in the flash from address 0 on. The EEPROM is as it was. */
   powerOn(flash: Uint8Array): void {
     this.flash.fill(0xffff);

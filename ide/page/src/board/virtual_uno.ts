@@ -21,6 +21,23 @@ export class VirtualUno {
   /** Whether it is plugged in. */
   isOn = false;
 
+  /** The EEPROM as it was told last. */
+  private told = Uint8Array.from(this.chip.eepromBytes);
+
+  /** The EEPROM of an earlier time; the board has to be off. */
+  setEeprom(bytes: Uint8Array): void {
+    this.chip.eepromBytes.set(bytes.subarray(0, this.chip.eepromBytes.length));
+    this.told = Uint8Array.from(this.chip.eepromBytes);
+  }
+
+  /** The EEPROM, if it is another one than the last time. */
+  newEeprom(): Uint8Array | null {
+    const now = this.chip.eepromBytes;
+    if (now.every((byte, index) => byte === this.told[index])) return null;
+    this.told = Uint8Array.from(now);
+    return this.told;
+  }
+
   /** Takes what is for the chip; whether it was. */
   take(event: Event, core: Surroundings): boolean {
     switch (event.is) {

@@ -1,8 +1,12 @@
 // The core as the rest of the page sees it: orders, questions, events. Where it runs is known here
 // alone.
+import { keepEeprom, keptEeprom } from "../board/eeprom";
+import { addressOf } from "../offline/address";
 import type { Event, EventKind, EventOf, Orders, Questions } from "./protocol";
 
 type Listener = (event: never) => void;
+/** What the worker tells. */
+type Told = Event[] | { broken: string } | { eeprom: Uint8Array };
 type Order = { [K in keyof Orders]: { do: K } & Orders[K] }[keyof Orders];
 type Question<K extends keyof Questions> = { do: K } & Questions[K]["wish"];
 
@@ -20,7 +24,7 @@ const ORDERS_MAX = 256;
 export class Core {
   /** Called before a question: what was written and not yet sent has to come first. */
   beforeQuestion: () => void = () => {};
-  private worker = new Worker("worker.js", { type: "module" });
+  private worker = new Worker(addressOf("worker.js"), { type: "module" });
   private lastId = 0;
   private open = new Map<number, Open>();
   private orders = new Map<number, Order["do"]>();
@@ -29,10 +33,13 @@ export class Core {
 
   constructor(broken: (message: string) => void) {
     this.worker.onerror = (event) => broken(event.message);
-    this.worker.onmessage = ({ data }: MessageEvent<Event[] | { broken: string }>) => {
-      if (!Array.isArray(data)) return broken(data.broken);
-      for (const event of data) this.take(event);
+    this.worker.onmessage = ({ data }: MessageEvent<Told>) => {
+      if (Array.isArray(data)) for (const event of data) this.take(event);
+      else if ("broken" in data) broken(data.broken);
+      else keepEeprom(data.eeprom);
     };
+    const eeprom = keptEeprom();
+    if (eeprom) this.worker.postMessage({ eeprom });
   }
 
   /** Has something done. */

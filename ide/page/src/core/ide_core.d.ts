@@ -8,6 +8,7 @@ export class Ide {
   constructor();
   request(json: string, nowMs: number): string;
   tick(nowMs: number, scansMax: number): string;
+  isBehind(): boolean;
   receive(bytes: Uint8Array, nowMs: number): string;
   chipDueMs(): number;
   chipPassed(data: Uint8Array): Uint16Array;

@@ -12,10 +12,16 @@ const TICK_MS_MAX = 25;
 const SCANS_MIN = 100;
 const SCANS_MAX = 1_000_000;
 
+/** From look to look whether the EEPROM of the virtual Uno is another one. */
+const EEPROM_MS = 500;
+
+/** What comes from the page: requests, bytes of a line, and first the EEPROM that it kept. */
+type Message = string | Uint8Array | { eeprom: Uint8Array };
+
 /** What is used of a worker's surroundings; the page's types have another `self`. */
 interface Surroundings {
-  onmessage: ((message: MessageEvent<string | Uint8Array>) => void) | null;
-  postMessage(message: Event[] | { broken: string }): void;
+  onmessage: ((message: MessageEvent<Message>) => void) | null;
+  postMessage(message: Event[] | { broken: string } | { eeprom: Uint8Array }): void;
 }
 const surroundings = self as unknown as Surroundings;
 
@@ -42,9 +48,11 @@ function tick(ide: Ide): void {
   post(ide, ide.tick(began, scansMax));
   uno.goOn(ide, began + TICK_MS_MAX, (bytes) => post(ide, ide.receive(bytes, performance.now())));
   const took = performance.now() - began;
+  // Only a tick that was cut off says how many scans fit into one.
   if (took > TICK_MS_MAX) scansMax = Math.max(SCANS_MIN, scansMax >> 1);
-  else if (took > TICK_MS_MAX / 4) scansMax = Math.min(SCANS_MAX, scansMax + (scansMax >> 2));
-  else if (isBusy) scansMax = Math.min(SCANS_MAX, scansMax * 2);
+  else if (!ide.isBehind()) return;
+  else if (took > TICK_MS_MAX / 2) scansMax = Math.min(SCANS_MAX, scansMax + (scansMax >> 3));
+  else scansMax = Math.min(SCANS_MAX, scansMax * 2);
 }
 
 /** What the core does not survive ends it: its state cannot be trusted any more. */
@@ -67,9 +75,15 @@ function goOn(): void {
   setTimeout(goOn, Math.max(0, (isBusy || uno.isOn ? BUSY_MS : IDLE_MS) - took));
 }
 
+setInterval(() => {
+  const eeprom = uno.newEeprom();
+  if (eeprom) surroundings.postMessage({ eeprom });
+}, EEPROM_MS);
+
 surroundings.onmessage = ({ data }) => {
   const core = ide;
-  if (core) guard(() => take(core, data));
+  if (typeof data === "object" && "eeprom" in data) uno.setEeprom(data.eeprom);
+  else if (core) guard(() => take(core, data));
   else early.push(data);
 };
 

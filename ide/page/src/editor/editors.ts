@@ -1,14 +1,22 @@
 // All editors: which files are open where, with texts, histories and problems. What is written is
 // told to the project.
-import { historyField } from "@codemirror/commands";
-import { Compartment, EditorState, type Extension, type TransactionSpec } from "@codemirror/state";
+import { isolateHistory } from "@codemirror/commands";
+import {
+  Compartment,
+  EditorState,
+  StateEffect,
+  type Extension,
+  Transaction,
+  type TransactionSpec,
+} from "@codemirror/state";
 import { EditorView, keymap, type KeyBinding } from "@codemirror/view";
 import type { Core } from "../core/core";
 import type { Edit, Line, Place, Problem } from "../core/protocol";
 import { iconButton } from "../page/dom";
 import { icon } from "../page/icons";
 import type { Project } from "../project/project";
-import { onLanguage } from "../text/language";
+import { notice } from "../page/notices";
+import { onLanguage, t } from "../text/language";
 import { assist } from "./assist";
 import { colours } from "./awl";
 import { LiveValues, type Chosen } from "./live";
@@ -16,6 +24,7 @@ import { Pane, type Sheet } from "./pane";
 import { phrases } from "./phrases";
 import { show as showProblems, type Explain } from "./problems";
 import { setup } from "./setup";
+import { mark, partOf, rememberTogether, samePart, type Part } from "./together";
 
 interface Wishes {
   chosen: Chosen;
@@ -25,8 +34,6 @@ interface Wishes {
 }
 
 const PANES_MAX = 2;
-/** What of a state is kept when its file gets another name. */
-const FIELDS = { history: historyField };
 
 export class Editors {
   readonly live: LiveValues;
@@ -36,6 +43,9 @@ export class Editors {
   private active: Pane;
   private words = new Compartment();
   private currentListeners: ((file: string | null) => void)[] = [];
+  /** Files that one change has changed together, by its mark. */
+  private changedTogether = new Map<number, string[]>();
+  private isFollowing = false;
   private viewListeners: (() => void)[] = [];
   private cursorListeners: (() => void)[] = [];
 
@@ -171,14 +181,49 @@ export class Editors {
     this.changed();
   }
 
-  /** Changes texts, of files that are not open too: what is done can be undone there. */
+  /** Changes texts, of files that are not open too; what is done is one step for Undo. */
   apply(edits: Edit[]): void {
-    for (const file of new Set(edits.map((edit) => edit.file))) {
+    const files = [...new Set(edits.map((edit) => edit.file))].filter((file) => this.sheet(file));
+    const effect = mark();
+    if (files.length > 1) this.changedTogether.set(effect.value, files);
+    for (const file of files) {
       const changes = edits
         .filter((edit) => edit.file === file)
         .map(({ from, to, text }) => ({ from, to, insert: text }));
-      if (this.sheet(file)) this.update(file, () => ({ changes, userEvent: "input.change" }));
+      const effects = files.length > 1 ? [effect] : [];
+      const annotations = isolateHistory.of("full");
+      this.update(file, () => ({ changes, effects, annotations, userEvent: "input.change" }));
     }
+  }
+
+  /** What was undone or redone in a file of several that were changed together is in the others. */
+  private follow(file: string, transaction: Transaction): void {
+    const part = partOf(transaction);
+    if (!part || this.isFollowing) return;
+    this.isFollowing = true;
+    const others = (this.changedTogether.get(part.id) ?? []).filter((other) => other !== file);
+    const left = others.filter((other) => this.sheets.has(other) && !this.goWith(other, part));
+    this.isFollowing = false;
+    if (left.length > 0)
+      notice(t(part.isUndo ? "undoElsewhere" : "redoElsewhere", left.join(", ")), true);
+  }
+
+  private goWith(file: string, part: Part): boolean {
+    const transaction = samePart(this.stateOf(file), part);
+    if (transaction) this.update(file, () => transaction);
+    return transaction !== null;
+  }
+
+  /** Gives a file another text; the cursor stays where nothing has changed. */
+  replace(file: string, text: string): void {
+    const before = this.project.text(file) ?? "";
+    const least = Math.min(before.length, text.length);
+    let from = 0;
+    while (from < least && before[from] === text[from]) from += 1;
+    let same = 0;
+    while (same < least - from && before.at(-1 - same) === text.at(-1 - same)) same += 1;
+    const changed = text.slice(from, text.length - same);
+    this.apply([{ file, from, to: before.length - same, text: changed }]);
   }
 
   /** Where the file is shown, if it is. */
@@ -195,8 +240,11 @@ export class Editors {
     for (const pane of this.panes) pane.leave();
     const sheet = this.sheets.get(file);
     if (!sheet) return;
-    const json = sheet.state.toJSON(FIELDS) as unknown;
-    const state = EditorState.fromJSON(json, { extensions: this.extensions(to) }, FIELDS);
+    // Its history stays, and what was changed together with others.
+    const effects = StateEffect.reconfigure.of(this.extensions(to));
+    const { state } = sheet.state.update({ effects });
+    for (const files of this.changedTogether.values())
+      if (files.includes(file)) files.splice(files.indexOf(file), 1, to);
     this.sheets.delete(file);
     this.sheets.set(to, { state });
     for (const pane of this.panes) pane.rename(file, to);
@@ -221,10 +269,12 @@ export class Editors {
       colours(file),
       assist(this.core, file),
       this.live.extension,
+      rememberTogether,
       this.words.of(phrases()),
       EditorView.contentAttributes.of({ "aria-label": file, spellcheck: "false", tabindex: "0" }),
       EditorView.updateListener.of((update) => {
         if (update.docChanged) this.project.edit(file, update.state.doc.toString());
+        for (const transaction of update.transactions) this.follow(file, transaction);
         if (update.viewportChanged || update.docChanged)
           for (const listener of this.viewListeners) listener();
         if (update.selectionSet || update.docChanged)
@@ -248,12 +298,13 @@ export class Editors {
     return state ?? EditorState.create();
   }
 
-  private update(file: string, spec: (file: string) => TransactionSpec): void {
+  private update(file: string, change: (file: string) => TransactionSpec | Transaction): void {
     const view = this.viewOf(file);
     const sheet = this.sheets.get(file);
-    if (view) return view.dispatch(spec(file));
+    const spec = change(file);
+    if (view) return view.dispatch(spec);
     if (!sheet) return;
-    const transaction = sheet.state.update(spec(file));
+    const transaction = spec instanceof Transaction ? spec : sheet.state.update(spec);
     sheet.state = transaction.state;
     if (transaction.docChanged) this.project.edit(file, sheet.state.doc.toString());
   }
@@ -266,6 +317,7 @@ export class Editors {
     for (const pane of this.panes) for (const file of [...pane.files]) pane.remove(file);
     if (this.panes.length > 1) this.join();
     this.sheets.clear();
+    this.changedTogether.clear();
     this.problems = [];
     const main = this.project.main() ?? this.project.names()[0];
     if (main !== undefined) this.open(main, undefined, false);

@@ -55,3 +55,39 @@ export async function ask(
   input.setSelectionRange(0, dot > 0 ? dot : value.length);
   return (await answer) ? input.value.trim() : null;
 }
+
+/** One of several that can be chosen. */
+interface Entry<T> {
+  text: string;
+  hint?: string;
+  value: T;
+  /** Takes it out of the list for good. */
+  forget?: () => void;
+}
+
+/** Lets one of several be chosen; null for none. */
+export async function pick<T>(title: string, entries: Entry<T>[]): Promise<T | null> {
+  let picked: T | null = null;
+  const list = h("ul", { class: "list" });
+  for (const { text, hint, value, forget } of entries) {
+    const take = (event: MouseEvent) => {
+      picked = value;
+      (event.currentTarget as Element).closest("dialog")?.close();
+    };
+    const item = h("li");
+    const row = h("button", { class: "row", attributes: { type: "button" }, on: { click: take } });
+    row.append(h("span", {}, text), h("span", { class: "where" }, hint ?? ""));
+    item.append(row);
+    if (forget)
+      item.append(
+        button("forget", () => {
+          forget();
+          item.remove();
+        }),
+      );
+    list.append(item);
+  }
+  const body = entries.length > 0 ? list : h("p", { class: "nothing", text: "nothingKept" });
+  await dialog({ title, body: [body] });
+  return picked;
+}

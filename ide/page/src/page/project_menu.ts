@@ -1,12 +1,14 @@
 // The menu of the project: open, save, share.
+import { words } from "../ports/outside";
 import { example, exampleNames, keptProject, linkTo, BLINK, type Opened } from "../project/begin";
+import type { Disk } from "../project/disk";
 import { canOpenFolders, choose, Folder, save } from "../project/files";
 import { LINK_MAX, linkPart, zipped } from "../project/pack";
 import { checked, Unfit, type Project } from "../project/project";
 import { allKept, forget, freshId } from "../project/storage";
 import { t } from "../text/language";
-import { ask, confirm, dialog } from "./dialog";
-import { button, h } from "./dom";
+import { ask, confirm, dialog, pick } from "./dialog";
+import { h } from "./dom";
 import { openMenu } from "./menu";
 import { notice } from "./notices";
 import { unfitWords } from "./unfit";
@@ -22,6 +24,8 @@ export class ProjectMenu {
     private open: Open,
     /** The project that is open: where it is kept and what it is called. */
     private current: () => { id: string; title: string },
+    /** The folder that `uno200 ide` was given, if it was given one. */
+    private disk: () => Disk | null,
   ) {}
 
   /** Shows the menu. */
@@ -29,7 +33,17 @@ export class ProjectMenu {
     const does = (act: () => Promise<void>) => () => void this.guard(act);
     const { id } = this.current();
     const isExample = id.startsWith("example:");
+    const disk = this.disk();
     openMenu(at, [
+      disk
+        ? [
+            {
+              text: t("folderOfBridge", disk.name),
+              checked: disk.isProject,
+              act: does(async () => this.open(await disk.open())),
+            },
+          ]
+        : [],
       [
         { text: t("newProject"), act: does(() => this.begin()) },
         { text: t("openExample"), act: does(() => this.openExample()) },
@@ -51,7 +65,7 @@ export class ProjectMenu {
     try {
       await act();
     } catch (error) {
-      notice(error instanceof Unfit ? unfitWords(error) : String(error), true);
+      notice(error instanceof Unfit ? unfitWords(error) : words(error), true);
     }
   }
 
@@ -122,7 +136,13 @@ export class ProjectMenu {
 
   /** Ctrl+S: into the folder, where there is one; the browser has it anyway. */
   async save(): Promise<void> {
-    if (this.folder) await this.guard(() => this.saveFolder());
+    const disk = this.disk();
+    if (disk?.isProject)
+      await this.guard(async () => {
+        await disk.save();
+        notice(t("savedIn", disk.name));
+      });
+    else if (this.folder) await this.guard(() => this.saveFolder());
     else notice(t("keptInBrowser"));
   }
 
@@ -143,38 +163,4 @@ export class ProjectMenu {
       await dialog({ title: t("copyLink"), body: [field] });
     }
   }
-}
-
-interface Entry {
-  text: string;
-  hint?: string;
-  value: string;
-  forget?: () => void;
-}
-
-/** Lets one of several be chosen; null for none. */
-async function pick(title: string, entries: Entry[]): Promise<string | null> {
-  let picked: string | null = null;
-  const list = h("ul", { class: "list" });
-  for (const { text, hint, value, forget } of entries) {
-    const take = (event: MouseEvent) => {
-      picked = value;
-      (event.currentTarget as Element).closest("dialog")?.close();
-    };
-    const item = h("li");
-    const row = h("button", { class: "row", attributes: { type: "button" }, on: { click: take } });
-    row.append(h("span", {}, text), h("span", { class: "where" }, hint ?? ""));
-    item.append(row);
-    if (forget)
-      item.append(
-        button("forget", () => {
-          forget();
-          item.remove();
-        }),
-      );
-    list.append(item);
-  }
-  const body = entries.length > 0 ? list : h("p", { class: "nothing", text: "nothingKept" });
-  await dialog({ title, body: [body] });
-  return picked;
 }

@@ -1,6 +1,7 @@
 // A line between two parts of the page that moves them, by pointer and by arrow keys.
 import { h } from "./dom";
 import type { Key } from "../text/language";
+import { store, storedText } from "../project/stored";
 
 interface Split {
   label: Key;
@@ -21,7 +22,7 @@ export function separator({ label, property, isColumn, isAfter, min }: Split): H
   const root = document.documentElement;
   const direction = isAfter ? -1 : 1;
   const total = () => (isColumn ? innerWidth : innerHeight);
-  let size = Number(localStorage.getItem(stored)) || 0;
+  let size = Number(storedText(stored)) || 0;
 
   const line = h("div", {
     class: isColumn ? "split column" : "split row",
@@ -43,7 +44,7 @@ export function separator({ label, property, isColumn, isAfter, min }: Split): H
     size = Math.round(Math.max(min, Math.min(wanted, total() * 0.7)));
     root.style.setProperty(`--${property}`, `${size}px`);
     line.setAttribute("aria-valuenow", String(size));
-    localStorage.setItem(stored, String(size));
+    store(stored, String(size));
   };
   if (size > 0) set(size);
 

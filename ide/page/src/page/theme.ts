@@ -1,4 +1,5 @@
 // Light or dark: as the system has it, or as somebody chose.
+import { store, storedText } from "../project/stored";
 
 export const THEMES = ["system", "light", "dark"] as const;
 export type Theme = (typeof THEMES)[number];
@@ -9,11 +10,11 @@ const system = matchMedia("(prefers-color-scheme: dark)");
 
 /** What was chosen. */
 export function theme(): Theme {
-  return THEMES.find((theme) => theme === localStorage.getItem(STORED)) ?? "system";
+  return THEMES.find((theme) => theme === storedText(STORED)) ?? "system";
 }
 
 export function setTheme(theme: Theme): void {
-  localStorage.setItem(STORED, theme);
+  store(STORED, theme);
   show();
 }
 

@@ -2,6 +2,7 @@
 import { h, iconButton } from "../page/dom";
 import { icon } from "../page/icons";
 import type { Operands } from "./operands";
+import { store, storedText } from "../project/stored";
 
 const SIGNALS_MAX = 8;
 
@@ -43,13 +44,13 @@ export class Signals {
         h("button", { text: "addIt", attributes: { type: "submit" } }),
       ),
     );
-    this.names = (localStorage.getItem(stored) ?? "").split(",").filter(Boolean);
+    this.names = (storedText(stored) ?? "").split(",").filter(Boolean);
     this.draw();
   }
 
   private set(names: string[]): void {
     this.names = [...new Set(names)].slice(0, SIGNALS_MAX);
-    localStorage.setItem(this.stored, this.names.join(","));
+    store(this.stored, this.names.join(","));
     this.draw();
     this.changed();
   }

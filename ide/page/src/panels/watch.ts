@@ -7,6 +7,7 @@ import { icon } from "../page/icons";
 import type { Tabs } from "../page/tabs";
 import { FORMATS, formatted, type Format } from "./formats";
 import type { Operands } from "./operands";
+import { store, storedText } from "../project/stored";
 
 const STORED = "uno200.watch";
 
@@ -174,7 +175,7 @@ export class Watch {
 
   private keep(): void {
     const rows = this.rows.map(({ operand, format }) => [operand, format]);
-    localStorage.setItem(STORED, JSON.stringify(rows));
+    store(STORED, JSON.stringify(rows));
   }
 
   private send(): void {
@@ -234,7 +235,7 @@ export class Watch {
 
 function stored(): [string, Format][] {
   try {
-    const rows = JSON.parse(localStorage.getItem(STORED) ?? "[]") as unknown;
+    const rows = JSON.parse(storedText(STORED) ?? "[]") as unknown;
     if (!Array.isArray(rows)) return [];
     return rows.flatMap((row: unknown): [string, Format][] => {
       const [operand, name] = Array.isArray(row) ? (row as unknown[]) : [];

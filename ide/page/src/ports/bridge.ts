@@ -1,4 +1,4 @@
-// Ports that `uno200 ide` reaches, through its WebSocket; what is said there is written in
+// Ports and the folder that `uno200 ide` reaches, through its WebSocket; what is said there is written in
 // uno200/src/ide/bridge/protocol.rs.
 import type { Line, Listener, Port } from "./port";
 
@@ -7,12 +7,19 @@ type Wish =
   | { do: "ports" }
   | ({ do: "open"; name: string } & Line)
   | { do: "lines"; on: boolean }
-  | { do: "close" };
+  | { do: "close" }
+  | { do: "folder" }
+  | { do: "read"; file: string }
+  | { do: "save"; file: string; text: string; base: string | null }
+  | { do: "remove"; file: string; base: string };
 
 type Told =
-  | { is: "welcome"; session: string }
+  | { is: "welcome"; session: string; folder: boolean }
   | { is: "ports"; ports: BridgePort[] }
   | { is: "done" }
+  | ({ is: "folder" } & BridgeFolder)
+  | { is: "file"; text: string; version: string }
+  | Written
   | { is: "refused"; message: string }
   | { is: "lost"; message: string };
 
@@ -22,6 +29,18 @@ export interface BridgePort {
   kind: "serial" | "tcp";
 }
 
+/** What is in the folder of the project. */
+export interface BridgeFolder {
+  id: string;
+  name: string;
+  files: { name: string; version: string }[];
+  leftOut: { name: string; why: string }[];
+}
+
+/** What came of saving or removing a file. */
+export type Written =
+  { is: "saved"; version: string; note: string | null } | { is: "changed"; version: string | null };
+
 /** The bridge has refused something, and says why. */
 export class BridgeRefusal extends Error {}
 
@@ -29,6 +48,8 @@ export class BridgeRefusal extends Error {}
 const KEY = "bridge";
 
 export class Bridge {
+  /** Whether there is a folder to work in; known when it is connected. */
+  hasFolder = false;
   private socket: WebSocket | undefined;
   private connected: Promise<void> | undefined;
   private waiting: { told(told: Told): void; failed(error: Error): void }[] = [];
@@ -56,6 +77,11 @@ export class Bridge {
     return this.hello.token !== undefined;
   }
 
+  /** Whether it is connected. */
+  get isUp(): boolean {
+    return this.socket?.readyState === WebSocket.OPEN;
+  }
+
   /** Says who this is. The token is good for once: a reload comes back with the key. */
   connect(): Promise<void> {
     this.connected ??= this.begin();
@@ -74,14 +100,44 @@ export class Bridge {
     const told = await this.ask({ do: "hello", ...this.hello });
     if (told.is !== "welcome") return;
     this.hello = { session: told.session };
+    this.hasFolder = told.folder;
     sessionStorage.setItem(KEY, told.session);
   }
 
   /** What can be opened now. */
   async ports(): Promise<BridgePort[]> {
+    return (await this.answer({ do: "ports" }, "ports")).ports;
+  }
+
+  /** What is in the folder now. */
+  folder(): Promise<BridgeFolder> {
+    return this.answer({ do: "folder" }, "folder");
+  }
+
+  /** A file of it. */
+  read(file: string): Promise<{ text: string; version: string }> {
+    return this.answer({ do: "read", file }, "file");
+  }
+
+  /** Writes a file in place of the version `base`, or a new one. */
+  save(file: string, text: string, base: string | null): Promise<Written> {
+    return this.answer({ do: "save", file, text, base }, "saved", "changed");
+  }
+
+  /** Removes a file of this version. */
+  remove(file: string, base: string): Promise<Written> {
+    return this.answer({ do: "remove", file, base }, "saved", "changed");
+  }
+
+  /** Asks, and takes nothing but these answers. */
+  private async answer<K extends Told["is"]>(
+    wish: Wish,
+    ...kinds: K[]
+  ): Promise<Extract<Told, { is: K }>> {
     await this.connect();
-    const told = await this.ask({ do: "ports" });
-    return told.is === "ports" ? told.ports : [];
+    const told = await this.ask(wish);
+    if ((kinds as string[]).includes(told.is)) return told as Extract<Told, { is: K }>;
+    throw new BridgeRefusal(`${wish.do}: ${told.is}`);
   }
 
   /** The port with a name. */

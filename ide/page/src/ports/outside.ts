@@ -4,9 +4,8 @@ import type { Core } from "../core/core";
 import type { EventOf, TargetKind } from "../core/protocol";
 import { confirm, dialog } from "../page/dialog";
 import { h, newId } from "../page/dom";
-import { notice } from "../page/notices";
 import { t } from "../text/language";
-import { Bridge, BridgeRefusal, type BridgePort } from "./bridge";
+import { BridgeRefusal, type Bridge, type BridgePort } from "./bridge";
 import type { Port } from "./port";
 import { hasSerial, requestUsb } from "./usb";
 
@@ -17,18 +16,15 @@ const RESET_MS = 100;
 class Cancelled extends Error {}
 
 export class Outside {
-  private bridge = Bridge.fromAddress();
   private port: Port | undefined;
   /** What is done with the port is done in its order. */
   private queue: Promise<void> = Promise.resolve();
 
   constructor(
     private core: Core,
+    private bridge: Bridge | null,
     private target: () => TargetKind,
   ) {
-    // A token is good for once: it is exchanged before somebody reloads the page.
-    if (this.bridge?.isNew)
-      this.bridge.connect().catch((error: unknown) => notice(words(error), true));
     core.on("openPort", (line) => this.then(() => this.open(line)));
     core.on("closePort", () => this.then(() => this.close()));
     core.on("send", ({ bytes }) => this.then(() => this.port?.send(Uint8Array.from(bytes))));
@@ -108,7 +104,8 @@ async function chooseFrom(ports: BridgePort[]): Promise<BridgePort | null> {
   return (isChosen && ports.find(({ name }) => name === list.value)) || null;
 }
 
-function words(error: unknown): string {
+/** What went wrong, in words. */
+export function words(error: unknown): string {
   if (error instanceof BridgeRefusal) return error.message || t("bridgeGone");
   return error instanceof Error ? error.message : String(error);
 }

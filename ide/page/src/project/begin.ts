@@ -1,5 +1,6 @@
 // Which project the page begins with: the one that its address names, the last one, or a lamp that
 // blinks.
+import { addressOf } from "../offline/address";
 import { fromLink } from "./pack";
 import { checked, Unfit, type Content } from "./project";
 import { contentOf, kept, lastId } from "./storage";
@@ -57,7 +58,7 @@ export function linkTo(part: string): string {
 /** An example as it was written; throws [`Unfit`]. */
 export async function example(name: string): Promise<Opened> {
   if (!/^[\w-]{1,60}$/.test(name)) throw new Unfit("name", name);
-  const answer = await fetch(`examples/${name}.json`);
+  const answer = await fetch(addressOf(`examples/${name}.json`));
   if (!answer.ok) throw new Unfit("empty", name);
   const content = contentOf(await answer.json());
   if (!content) throw new Unfit("broken", name);
@@ -67,7 +68,7 @@ export async function example(name: string): Promise<Opened> {
 /** The names of the examples, where the server has a list of them. */
 export async function exampleNames(): Promise<string[]> {
   try {
-    const answer = await fetch("examples/list.json");
+    const answer = await fetch(addressOf("examples/list.json"));
     const names = answer.ok ? ((await answer.json()) as unknown) : [];
     return Array.isArray(names) ? names.filter((name) => typeof name === "string") : [];
   } catch {

@@ -1,6 +1,7 @@
 // Keeps projects in the browser, so that a reload loses nothing. localStorage, because it can be
 // written while the page is being left.
 import type { Content, Project } from "./project";
+import { store, storedNames, storedText } from "./stored";
 
 const PREFIX = "uno200.project.";
 const LAST = "uno200.last";
@@ -43,7 +44,7 @@ export function contentOf(value: unknown): Content | null {
 /** The project of this name, if it is kept. */
 export function kept(id: string): Kept | null {
   try {
-    const value = JSON.parse(localStorage.getItem(PREFIX + id) ?? "null") as Partial<Kept> | null;
+    const value = JSON.parse(storedText(PREFIX + id) ?? "null") as Partial<Kept> | null;
     const content = contentOf(value);
     if (!content || !value) return null;
     return { ...content, id, title: value.title ?? id, changed: value.changed ?? 0 };
@@ -54,18 +55,17 @@ export function kept(id: string): Kept | null {
 
 /** All that are kept, the last ones first. */
 export function allKept(): Kept[] {
-  const ids = Object.keys(localStorage).filter((key) => key.startsWith(PREFIX));
-  const all = ids.map((key) => kept(key.slice(PREFIX.length)));
+  const all = storedNames(PREFIX).map((key) => kept(key.slice(PREFIX.length)));
   return all.filter((one) => one !== null).sort((a, b) => b.changed - a.changed);
 }
 
 export function forget(id: string): void {
-  localStorage.removeItem(PREFIX + id);
+  store(PREFIX + id, null);
 }
 
 /** The project that was open last. */
 export function lastId(): string | null {
-  return localStorage.getItem(LAST);
+  return storedText(LAST);
 }
 
 /** A name that no kept project has. */
@@ -97,7 +97,7 @@ export class Keeper {
     const isMine = await this.lock(id);
     this.id = isMine ? id : freshId();
     this.title = title;
-    localStorage.setItem(LAST, this.id);
+    if (!store(LAST, this.id)) this.failed();
     return this.id;
   }
 
@@ -107,11 +107,7 @@ export class Keeper {
     clearTimeout(this.timer);
     this.timer = 0;
     const kept = { ...this.project.content(), title: this.title, changed: Date.now() };
-    try {
-      localStorage.setItem(PREFIX + this.id, JSON.stringify(kept));
-    } catch {
-      this.failed();
-    }
+    if (!store(PREFIX + this.id, JSON.stringify(kept))) this.failed();
   }
 
   private soon(): void {

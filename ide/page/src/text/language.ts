@@ -1,5 +1,6 @@
 // Which language the page speaks, and its words from the table.
 import { TABLE } from "./table";
+import { store, storedText } from "../project/stored";
 
 export const LANGUAGES = ["en", "de", "es"] as const;
 export type Language = (typeof LANGUAGES)[number];
@@ -11,7 +12,7 @@ const listeners: (() => void)[] = [];
 let index = LANGUAGES.indexOf(stored());
 
 function stored(): Language {
-  const value = localStorage.getItem(STORED);
+  const value = storedText(STORED);
   return LANGUAGES.find((language) => language === value) ?? "en";
 }
 
@@ -23,7 +24,7 @@ export function language(): Language {
 /** Chooses a language, for this time and the next ones. */
 export function setLanguage(language: Language): void {
   index = LANGUAGES.indexOf(language);
-  localStorage.setItem(STORED, language);
+  store(STORED, language);
   document.documentElement.lang = language;
   for (const listener of listeners) listener();
 }

@@ -158,6 +158,53 @@ export const TABLE = {
     "Dieses Projekt ist in einem anderen Fenster offen. Was Sie hier sehen, ist eine eigene Kopie.",
     "Este proyecto está abierto en otra ventana. Lo que ve aquí es una copia aparte.",
   ],
+  folderOfBridge: ["Folder {0}", "Ordner {0}", "Carpeta {0}"],
+  conflict: [
+    "{0} was changed in the folder, and here, too",
+    "{0} wurde im Ordner geändert, und hier auch",
+    "{0} cambió en la carpeta, y también aquí",
+  ],
+  conflictGone: [
+    "{0} was deleted in the folder, and changed here",
+    "{0} wurde im Ordner gelöscht und hier geändert",
+    "{0} se borró en la carpeta y cambió aquí",
+  ],
+  conflictKeep: [
+    "Keep what is here: the folder gets it",
+    "Behalten, was hier steht: Der Ordner bekommt es",
+    "Conservar lo de aquí: la carpeta lo recibe",
+  ],
+  conflictTake: [
+    "Take what is in the folder; Undo brings this text back",
+    "Nehmen, was im Ordner ist; Rückgängig holt diesen Text zurück",
+    "Tomar lo de la carpeta; Deshacer recupera este texto",
+  ],
+  conflictDelete: ["Delete it here, too", "Hier auch löschen", "Borrarlo aquí también"],
+  changedOnDisk: [
+    "{0} was changed in the folder; this is the new text.",
+    "{0} wurde im Ordner geändert; dies ist der neue Text.",
+    "{0} cambió en la carpeta; este es el texto nuevo.",
+  ],
+  goneOnDisk: [
+    "{0} was deleted in the folder.",
+    "{0} wurde im Ordner gelöscht.",
+    "{0} se borró en la carpeta.",
+  ],
+  notSaved: [
+    "{0} is not saved in the folder; Ctrl+S asks again.",
+    "{0} ist nicht im Ordner gesichert; Strg+S fragt noch einmal.",
+    "{0} no está guardado en la carpeta; Ctrl+S vuelve a preguntar.",
+  ],
+  filesLeftOut: [
+    "Files of the folder that are left out: {0}",
+    "Dateien des Ordners, die fehlen: {0}",
+    "Archivos de la carpeta que faltan: {0}",
+  ],
+  folderOutOfReach: [
+    "The folder is out of reach: `uno200 ide` does not answer. This browser keeps what you write; start it again with the folder and open the address that it prints, then it is saved there.",
+    "Der Ordner ist nicht erreichbar: `uno200 ide` antwortet nicht. Dieser Browser behält, was Sie schreiben; starten Sie es wieder mit dem Ordner und öffnen Sie die Adresse, die es ausgibt, dann wird es dort gesichert.",
+    "La carpeta no está al alcance: `uno200 ide` no responde. Este navegador guarda lo que escribe; inícielo otra vez con la carpeta y abra la dirección que muestra, y se guardará allí.",
+  ],
   nothingKept: ["There is nothing here yet.", "Hier ist noch nichts.", "Aquí no hay nada todavía."],
   forget: ["Forget", "Vergessen", "Olvidar"],
   unfitName: [
@@ -236,6 +283,16 @@ export const TABLE = {
   ],
   renameSymbol: ["Rename {0}", "{0} umbenennen", "Renombrar {0}"],
   renamed: ["places changed: {0}", "geänderte Stellen: {0}", "lugares cambiados: {0}"],
+  undoElsewhere: [
+    "It was not undone in {0}: that was changed afterwards. Undo there goes back to it.",
+    "In {0} wurde es nicht rückgängig gemacht: Dort wurde danach geändert. Rückgängig geht dort bis dahin zurück.",
+    "No se deshizo en {0}: se cambió después. Deshacer allí llega hasta ello.",
+  ],
+  redoElsewhere: [
+    "It was not redone in {0}: that was changed meanwhile.",
+    "In {0} wurde es nicht wiederholt: Dort wurde inzwischen geändert.",
+    "No se rehizo en {0}: se cambió entretanto.",
+  ],
   find: ["Find", "Suchen", "Buscar"],
   replaceField: ["Replace", "Ersetzen", "Reemplazar"],
   findNext: ["next", "weiter", "siguiente"],

@@ -9,7 +9,7 @@ use super::build::{
     all, any, assign, binary, duration, element, integer, not, set, variable, when,
 };
 use super::mentions::{Length, Scope, Times, rewrite};
-use super::names::{Variables, step_name, stored_name};
+use super::names::{Variables, action_name, step_name, stored_name};
 use super::parsed::Parsed;
 use crate::model::{Action, ActionId, Body, Instance, Qualifier, StepId};
 
@@ -44,8 +44,9 @@ impl<'e> Actions<'e> {
         action: &Action,
         body: Vec<Statement>,
     ) -> Vec<Statement> {
-        let name = format!("{}{}", self.scope.prefix, action.name);
-        let mut statements = vec![element(&name, format!("Action {name}"))];
+        let title = format!("{}{}", self.scope.prefix, action.name);
+        let name = action_name(self.scope, &action.name);
+        let mut statements = vec![element(&title, format!("Action {title}"))];
         let instances: Vec<(StepId, usize, &Instance)> = self.instances(id);
         match &action.body {
             Body::Variable => {

@@ -129,7 +129,7 @@ impl Evolution<'_> {
             crossings.push(when(is_crossed, body));
             return;
         }
-        let crossed = format!("{name}.crossed");
+        let crossed = self.variables.unused(&format!("{name}.crossed"));
         self.variables.add(&crossed, "BOOL");
         crossings.push(assign(variable(&crossed), is_crossed));
         crossings.push(when(variable(&crossed), body));

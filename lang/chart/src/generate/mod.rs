@@ -72,7 +72,8 @@ pub fn translate(source: &Source, known: &mut HashSet<String>) -> Translation {
         }
         let mut variables = Variables::default();
         unit.body = unit_body(&mut parsed, &mut variables, &mut diagnostics);
-        unit.sections.push(build::section(SectionKind::Var, variables.0));
+        variables.check(&mut diagnostics);
+        unit.sections.push(build::section(SectionKind::Var, variables.list()));
     }
     diagnostics.extend(warnings);
     diagnostics.sort_by_key(|one| one.span);
@@ -156,7 +157,7 @@ fn chart_body(
 ) -> Vec<Statement> {
     let chart = parsed.chart;
     for (id, step) in &chart.steps {
-        variables.add_at(&step_name(chart, scope, *id), "BOOL", step.origin.0);
+        variables.add_once(&step_name(chart, scope, *id), "BOOL", step.origin.0);
     }
     let mut statements = time_goes_on(parsed, scope, times, variables);
     statements.extend(Evolution { parsed, scope, times, variables }.statements());

@@ -166,7 +166,7 @@ impl Assembler<'_> {
         match parse(words, &|name| self.instance_kind(name).is_some()) {
             Ok(condition) => Some(self.note(condition, words.span)),
             Err(error) => {
-                self.diagnostics.push(error);
+                self.diagnostics.push(*error);
                 None
             }
         }

@@ -99,7 +99,7 @@ pub fn read(source: &Source) -> (Table, Vec<Diagnostic>) {
                         diagnostics.push(error.related(other, "the other one"));
                     }
                 }
-                Err(error) => diagnostics.push(error),
+                Err(error) => diagnostics.push(*error),
             }
         }
         start += line.len();
@@ -127,23 +127,25 @@ impl<'t> Row<'t> {
         Some(Row { cells })
     }
 
-    fn variable(&self) -> Result<Variable, Diagnostic> {
+    fn variable(&self) -> Result<Variable, Box<Diagnostic>> {
         let bad = |span, message: String| Diagnostic::new(Code::BadVariables, span, message);
         let [(name, at), (kind, kind_at), rest @ ..] = &self.cells[..] else {
             let message = "a row has a name, a kind and a type".to_owned();
-            return Err(bad(self.cells[0].1, message).help("for example `Start,input,BOOL`"));
+            return Err(Box::new(
+                bad(self.cells[0].1, message).help("for example `Start,input,BOOL`"),
+            ));
         };
         let is_name = name.starts_with(|c: char| c.is_alphabetic() || c == '_')
             && name.chars().all(|c| c.is_alphanumeric() || c == '_');
         if !is_name {
-            return Err(bad(*at, format!("`{name}` is no name")));
+            return Err(Box::new(bad(*at, format!("`{name}` is no name"))));
         }
         let Some((_, found)) = Kind::ALL.iter().find(|(text, _)| text.eq_ignore_ascii_case(kind))
         else {
             let mut error = bad(*kind_at, format!("`{kind}` is no kind of variable"));
             error.suggestion = nearest(kind, Kind::ALL.map(|(text, _)| text)).map(str::to_owned);
             let kinds = Kind::ALL.map(|(text, _)| text).join(", ");
-            return Err(error.help(format!("kinds are {kinds}")));
+            return Err(Box::new(error.help(format!("kinds are {kinds}"))));
         };
         let types = found.types();
         let (written, type_at) = rest.first().copied().unwrap_or(("", *kind_at));
@@ -156,7 +158,9 @@ impl<'t> Row<'t> {
             None if written.is_empty() => types[0],
             None => {
                 let message = format!("{name}: a {kind} cannot be of type {written}");
-                return Err(bad(type_at, message).help(format!("it can be {}", types.join(", "))));
+                return Err(Box::new(
+                    bad(type_at, message).help(format!("it can be {}", types.join(", "))),
+                ));
             }
         };
         Ok(Variable { name: (*name).to_owned(), kind: *found, of_type: of_type.to_owned(), value })

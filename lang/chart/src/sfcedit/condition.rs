@@ -107,7 +107,20 @@ impl Condition {
 
 /// Reads a condition. `is_instance` says which names are those of timers and counters, whose `.Q` is
 /// a part of theirs and no AND.
-pub fn parse(words: &Words, is_instance: &dyn Fn(&str) -> bool) -> Result<Condition, Diagnostic> {
+pub fn parse(
+    words: &Words,
+    is_instance: &dyn Fn(&str) -> bool,
+) -> Result<Condition, Box<Diagnostic>> {
+    condition(words, is_instance).map_err(|wrong| {
+        let found = Diagnostic::new(Code::BadCondition, wrong.span, wrong.message);
+        Box::new(match wrong.help {
+            Some(help) => found.help(help),
+            None => found,
+        })
+    })
+}
+
+fn condition(words: &Words, is_instance: &dyn Fn(&str) -> bool) -> Result<Condition, Wrong> {
     let tokens = cut(words, is_instance)?;
     let mut parser = Parser { tokens: &tokens, at: 0, end: words.span };
     // GRAFCET's `=1` is what is always true.
@@ -164,11 +177,24 @@ const RELATIONS: [(&str, &str); 9] = [
     ("=", "="),
 ];
 
-fn error(span: Span, message: impl Into<String>) -> Diagnostic {
-    Diagnostic::new(Code::BadCondition, span, message)
+/// What is wrong with a condition.
+struct Wrong {
+    span: Span,
+    message: String,
+    help: Option<&'static str>,
 }
 
-fn unexpected(token: &Token) -> Diagnostic {
+impl Wrong {
+    fn help(self, help: &'static str) -> Wrong {
+        Wrong { help: Some(help), ..self }
+    }
+}
+
+fn error(span: Span, message: impl Into<String>) -> Wrong {
+    Wrong { span, message: message.into(), help: None }
+}
+
+fn unexpected(token: &Token) -> Wrong {
     let message = match &token.kind {
         Kind::Name(name) | Kind::Number(name) => {
             format!("{name}: an operator is missing before this")
@@ -180,7 +206,7 @@ fn unexpected(token: &Token) -> Diagnostic {
 }
 
 /// Cuts a text into tokens.
-fn cut(words: &Words, is_instance: &dyn Fn(&str) -> bool) -> Result<Vec<Token>, Diagnostic> {
+fn cut(words: &Words, is_instance: &dyn Fn(&str) -> bool) -> Result<Vec<Token>, Wrong> {
     let mut tokens: Vec<Token> = Vec::new();
     let at_part = |tokens: &[Token]| tokens.last().map_or(words.span, |last| last.span);
     for part in &words.parts {
@@ -205,7 +231,7 @@ fn cut_text(
     span: Span,
     tokens: &mut Vec<Token>,
     is_instance: &dyn Fn(&str) -> bool,
-) -> Result<(), Diagnostic> {
+) -> Result<(), Wrong> {
     // Offsets hold where the text is in the file as it is; entities make it shorter than there.
     let is_plain = (span.end - span.start) as usize == text.len();
     let place = |start: usize, end: usize| match is_plain {
@@ -327,7 +353,7 @@ impl Parser<'_> {
         is_next
     }
 
-    fn or(&mut self, depth: usize) -> Result<Condition, Diagnostic> {
+    fn or(&mut self, depth: usize) -> Result<Condition, Wrong> {
         let mut all = vec![self.and(depth)?];
         while self.take(&Kind::Or) {
             all.push(self.and(depth)?);
@@ -335,7 +361,7 @@ impl Parser<'_> {
         Ok(one_or(all, Condition::Or))
     }
 
-    fn and(&mut self, depth: usize) -> Result<Condition, Diagnostic> {
+    fn and(&mut self, depth: usize) -> Result<Condition, Wrong> {
         let mut all = vec![self.not(depth)?];
         while self.take(&Kind::And) {
             all.push(self.not(depth)?);
@@ -343,7 +369,7 @@ impl Parser<'_> {
         Ok(one_or(all, Condition::And))
     }
 
-    fn not(&mut self, depth: usize) -> Result<Condition, Diagnostic> {
+    fn not(&mut self, depth: usize) -> Result<Condition, Wrong> {
         if depth > DEPTH_MAX {
             return Err(error(self.end, "this condition is nested too deeply"));
         }
@@ -360,7 +386,7 @@ impl Parser<'_> {
         }
     }
 
-    fn primary(&mut self, depth: usize) -> Result<Condition, Diagnostic> {
+    fn primary(&mut self, depth: usize) -> Result<Condition, Wrong> {
         let Some(token) = self.peek().cloned() else {
             return Err(error(self.end, "something is missing at the end of this condition"));
         };
@@ -380,7 +406,7 @@ impl Parser<'_> {
         }
     }
 
-    fn edge(&mut self, span: Span) -> Result<String, Diagnostic> {
+    fn edge(&mut self, span: Span) -> Result<String, Wrong> {
         match self.peek().map(|token| token.kind.clone()) {
             Some(Kind::Name(name)) if !name.contains('.') => {
                 self.at += 1;
@@ -390,7 +416,7 @@ impl Parser<'_> {
         }
     }
 
-    fn operand(&mut self, left: String, span: Span) -> Result<Condition, Diagnostic> {
+    fn operand(&mut self, left: String, span: Span) -> Result<Condition, Wrong> {
         if let Some(Token { kind: Kind::Relation(relation), span: at }) = self.peek().cloned() {
             self.at += 1;
             let right = match self.peek().map(|token| token.kind.clone()) {

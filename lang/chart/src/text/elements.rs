@@ -10,7 +10,8 @@ use st::lexer::Kind;
 use super::reader::{Begin, Reader};
 use crate::diagnostic::{Code as ErrorCode, Diagnostic};
 use crate::model::{
-    Action, Body, Chart, Code, Instance, Origin, Qualifier, Step, StepId, Transition, TransitionId,
+    Action, ActionId, Body, Chart, Code, Instance, Origin, Qualifier, Step, StepId, Transition,
+    TransitionId,
 };
 
 /// A name in the text.
@@ -215,13 +216,8 @@ impl Reader<'_> {
         }
         let span = Span::new(start.start as usize, self.end_before());
         let text = span.text(self.text).to_owned();
-        let mut instance = Instance::new(crate::model::ActionId(0));
+        let mut instance = Instance::new(ActionId(0));
         instance.origin = Origin(span);
-        if kind == Kind::Word && is_address(&text) {
-            let message = format!("{text}: an address is written with `%`");
-            let found = Diagnostic::new(ErrorCode::Syntax, span, message);
-            self.report(found.suggest(format!("%{text}")));
-        }
         if self.take_sign("(") {
             self.qualified(&mut instance);
             if !self.take_sign(")") {
@@ -426,16 +422,24 @@ impl Reader<'_> {
 
     /// Gives transitions their steps and instances their actions.
     fn resolve(&mut self, chart: &mut Chart, open: Open) {
+        let mut steps: HashMap<String, StepId> = HashMap::new();
+        for (id, step) in &chart.steps {
+            steps.entry(step.name.to_uppercase()).or_insert(*id);
+        }
         for (id, from, to) in open.sides {
-            let from = self.steps(chart, from);
-            let to = self.steps(chart, to);
+            let from = self.steps(chart, &steps, from);
+            let to = self.steps(chart, &steps, to);
             if let Some(transition) = chart.transitions.get_mut(&id) {
                 (transition.from, transition.to) = (from, to);
             }
         }
         self.transitions_once(chart);
+        let mut actions: HashMap<String, ActionId> = HashMap::new();
+        for (id, action) in &chart.actions {
+            actions.entry(action.name.to_uppercase()).or_insert(*id);
+        }
         for (step, at, (name, span)) in open.instances {
-            let action = chart.action_named(&name).unwrap_or_else(|| {
+            let action = *actions.entry(name.to_uppercase()).or_insert_with(|| {
                 let (body, comment) = (Body::Variable, String::new());
                 chart.add_action(Action { name, body, comment, origin: Origin(span) })
             });
@@ -444,12 +448,18 @@ impl Reader<'_> {
                 instance.action = action;
             }
         }
+        self.names_once(chart);
     }
 
-    fn steps(&mut self, chart: &Chart, names: Vec<Name>) -> BTreeSet<StepId> {
+    fn steps(
+        &mut self,
+        chart: &Chart,
+        known: &HashMap<String, StepId>,
+        names: Vec<Name>,
+    ) -> BTreeSet<StepId> {
         let mut steps = BTreeSet::new();
         for (name, span) in names {
-            let Some(id) = chart.step_named(&name) else {
+            let Some(&id) = known.get(&name.to_uppercase()) else {
                 let message = format!("{name}: there is no step of this name");
                 let mut found = Diagnostic::new(ErrorCode::UnknownStep, span, message);
                 let names = chart.steps.values().map(|step| step.name.as_str());
@@ -483,11 +493,6 @@ impl Reader<'_> {
         }
         found.into_iter().for_each(|one| self.report(one));
     }
-}
-
-/// `Q0.0` without its sign.
-fn is_address(text: &str) -> bool {
-    text.contains('.') && awl_asm::Address::parse(text).is_ok()
 }
 
 fn short(text: &str) -> String {

@@ -1,14 +1,14 @@
 //! Finds the charts of a text, and reads each into the model. The elements are read by
 //! [`super::elements`].
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use diagnostics::{Source, Span};
 use st::lexer::{Kind, Token, cut};
 
 use super::{Document, Piece, Reading, Region, program_name};
 use crate::diagnostic::{Code as ErrorCode, Diagnostic};
-use crate::model::{Chart, Standard};
+use crate::model::{Chart, Origin, Standard};
 
 /// The words that begin an element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -229,7 +229,6 @@ impl<'t> Reader<'t> {
             chart.standard = Standard::Grafcet;
         }
         self.elements(&mut chart, standard);
-        self.names_once(&chart);
         debug_assert!(self.at > at);
         (chart, Span::new(start, self.end_before()))
     }
@@ -258,18 +257,34 @@ impl<'t> Reader<'t> {
         start
     }
 
-    /// Reports steps and actions of one name.
-    fn names_once(&mut self, chart: &Chart) {
-        let steps = chart.steps.values().map(|step| (&step.name, step.origin, "step"));
-        let actions = chart.actions.values().map(|action| (&action.name, action.origin, "action"));
-        let mut seen: HashSet<(String, &str)> = HashSet::new();
-        let mut twice = Vec::new();
-        for (name, origin, what) in steps.chain(actions) {
-            if !seen.insert((name.to_uppercase(), what)) {
-                let message = format!("{name}: a {what} of this name is there already");
-                twice.push(Diagnostic::new(ErrorCode::Duplicate, origin.0, message));
+    /// Reports what has a name that something else has: steps and actions share theirs, transitions
+    /// have their own. Action blocks have an action once with each qualifier.
+    pub(super) fn names_once(&mut self, chart: &Chart) {
+        let steps = chart.steps.values().map(|step| (step.name.as_str(), step.origin));
+        let actions = chart.actions.values().map(|action| (action.name.as_str(), action.origin));
+        let transitions = chart.transitions.values();
+        let transitions = transitions.filter_map(|one| Some((one.name.as_deref()?, one.origin)));
+        let elements: Vec<(&str, Origin)> = steps.chain(actions).collect();
+        for list in [elements, transitions.collect()] {
+            let mut seen: HashMap<String, Span> = HashMap::new();
+            for (name, Origin(span)) in list {
+                let first = *seen.entry(name.to_uppercase()).or_insert(span);
+                if first != span {
+                    let message = format!("{name}: an element of this name is there already");
+                    let twice = Diagnostic::new(ErrorCode::Duplicate, span, message);
+                    self.report(twice.related(first, "this one"));
+                }
             }
         }
-        twice.into_iter().for_each(|one| self.report(one));
+        for step in chart.steps.values() {
+            let mut seen = HashSet::new();
+            for instance in &step.block {
+                if !seen.insert((instance.action, instance.qualifier)) {
+                    let message = "this action is in the block already, with this qualifier";
+                    let span = instance.origin.0;
+                    self.report(Diagnostic::new(ErrorCode::Duplicate, span, message));
+                }
+            }
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 mod compiled;
 mod evaluator;
+mod messages;
 mod pages;
 mod random_charts;
 mod random_text;

@@ -151,7 +151,10 @@ fn add_instances(
                 let time = ["T#5s", "Limit"][random.usize(..2)];
                 instance.time = Some(Code::new(time));
             }
-            chart.steps.get_mut(step).expect("a step").block.push(instance);
+            let block = &mut chart.steps.get_mut(step).expect("a step").block;
+            if !block.iter().any(|one| one.action == id && one.qualifier == instance.qualifier) {
+                block.push(instance);
+            }
         }
     }
 }

@@ -205,9 +205,10 @@ impl<'a> Checker<'a> {
         }
         let is_parameter =
             matches!(section.kind, SectionKind::Input | SectionKind::Output | SectionKind::InOut);
-        if is_parameter && !kind.is_elementary() {
-            let message = "parameters that are no elementary types are not there yet";
-            self.error(Code::NotThere, span, message);
+        if is_parameter && matches!(kind, Type::Block(..)) {
+            let message = "an instance of a function block is no parameter";
+            let found = Diagnostic::new(Code::NotThere, span, message);
+            self.report(found.help("declare it in VAR, or give its inputs and outputs"));
         }
     }
 

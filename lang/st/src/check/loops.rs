@@ -69,8 +69,8 @@ fn can_leave(body: &[Statement], is_own_loop: bool) -> bool {
         StatementKind::For(one) => can_leave(&one.body, false),
         StatementKind::While(_, body) | StatementKind::Repeat(body, _) => can_leave(body, false),
         StatementKind::Assign(..)
-        | StatementKind::Continue
         | StatementKind::AddElapsed(_)
-        | StatementKind::Element(_) => false,
+        | StatementKind::Element(_)
+        | StatementKind::Continue => false,
     })
 }

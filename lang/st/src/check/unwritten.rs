@@ -84,10 +84,10 @@ impl Walk<'_> {
                 }
             }
             StatementKind::AddElapsed(place) => self.writes(place),
-            StatementKind::Exit
+            StatementKind::Element(_)
+            | StatementKind::Exit
             | StatementKind::Continue
-            | StatementKind::Return
-            | StatementKind::Element(_) => {}
+            | StatementKind::Return => {}
         }
     }
 

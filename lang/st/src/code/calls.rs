@@ -6,7 +6,7 @@ use super::timers::Owner;
 use super::writer::Storage;
 use super::{Frame, Generator, Names};
 use crate::model::{
-    BlockCall, Expression, ExpressionKind, Place, Root, RoutineArgument, Type, UnitKind,
+    BlockCall, Expression, ExpressionKind, Place, Root, RoutineArgument, Step, Type, UnitKind,
 };
 
 impl Generator<'_> {
@@ -69,11 +69,19 @@ impl Generator<'_> {
             return;
         }
         for (at, value) in &call.inputs {
-            self.pass(&frame, *at, value);
+            match &value.kind {
+                ExpressionKind::Read(from) if !value.of_type.is_elementary() => {
+                    self.copy_whole(from, &parameter(call, *at, &value.of_type), &value.of_type);
+                }
+                _ => self.pass(&frame, *at, value),
+            }
         }
         for (at, place) in &call.in_outs {
-            let from = read(place);
-            self.pass(&frame, *at, &from);
+            let of_type = &place.of_type;
+            match of_type.is_elementary() {
+                true => self.pass(&frame, *at, &read(place)),
+                false => self.copy_whole(place, &parameter(call, *at, of_type), of_type),
+            }
         }
         if self.as_routines.contains(&call.block) {
             self.call_as_routine(&frame, unit);
@@ -85,7 +93,11 @@ impl Generator<'_> {
             self.frame = around;
         }
         for (at, place) in call.in_outs.iter().chain(&call.outputs) {
-            self.take(&frame, *at, place);
+            let of_type = &place.of_type;
+            match of_type.is_elementary() {
+                true => self.take(&frame, *at, place),
+                false => self.copy_whole(&parameter(call, *at, of_type), place, of_type),
+            }
         }
     }
 
@@ -229,6 +241,14 @@ impl Generator<'_> {
             }
         }
     }
+}
+
+/// A parameter of an instance as a place of the unit that calls it.
+fn parameter(call: &BlockCall, at: usize, of_type: &Type) -> Place {
+    let mut place = call.instance.clone();
+    place.steps.push(Step::Member(at));
+    place.of_type = of_type.clone();
+    place
 }
 
 /// What is in a place.

@@ -17,13 +17,14 @@ pub(super) fn candidates(program: &Program) -> Vec<usize> {
         });
     }
     let is_one = |(number, unit): &(usize, &Unit)| {
+        // Arrays and structures, constant ones too, are reached by the name of their instance.
         let is_plain = |one: &Variable| {
             one.of_type.is_elementary() && one.of_type != Type::Invalid && one.at.is_none()
         };
         unit.kind == UnitKind::Block
             && unit.file.is_some()
             && calls.get(number).is_some_and(|&count| count > 1)
-            && unit.variables.iter().all(|one| one.is_constant || is_plain(one))
+            && unit.variables.iter().all(is_plain)
     };
     let units = program.units.iter().enumerate();
     units.filter(is_one).map(|(number, _)| number).collect()

@@ -116,7 +116,9 @@ impl Generator<'_> {
         is_retained: bool,
         lines: &mut Vec<String>,
     ) {
-        if variable.is_constant || variable.section == SectionKind::External {
+        // An index that is computed needs the table.
+        let is_plain_constant = variable.is_constant && variable.of_type.is_elementary();
+        if is_plain_constant || variable.section == SectionKind::External {
             return;
         }
         if let Some(address) = &variable.at {

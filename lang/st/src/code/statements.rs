@@ -78,7 +78,7 @@ impl Generator<'_> {
     }
 
     /// Copies a structure or array, member by member, element by element.
-    fn copy_whole(&mut self, from: &Place, to: &Place, kind: &Type) {
+    pub(super) fn copy_whole(&mut self, from: &Place, to: &Place, kind: &Type) {
         let inner = |place: &Place, step: Step, of_type: &Type| {
             let mut place = place.clone();
             place.steps.push(step);

@@ -1,5 +1,6 @@
 //! Expressions by the standard's precedence.
 
+use awl_asm::Address;
 use diagnostics::Span;
 
 use super::{Outcome, Parser};
@@ -149,6 +150,9 @@ impl Parser<'_> {
         let mut selectors = Vec::new();
         loop {
             if self.take_sign(".") {
+                if let Some(address) = self.bare_address(&name, &selectors) {
+                    return Ok(address);
+                }
                 selectors.push(Selector::Field(self.name("the name of a member")?));
             } else if self.take_sign("[") {
                 selectors.push(Selector::Index(self.indexes()?));
@@ -158,6 +162,22 @@ impl Parser<'_> {
         }
         let span = joined(name.span, self.previous());
         Ok(Expression { kind: ExpressionKind::Variable(name, selectors), span })
+    }
+
+    /// The address that a word and the number ahead are without `%`, which is reported.
+    fn bare_address(&mut self, name: &Name, selectors: &[Selector]) -> Option<Expression> {
+        let token = self.token();
+        let span = joined(name.span, token.span);
+        let text = span.text(self.text);
+        let is_number = selectors.is_empty() && token.kind == Kind::Integer;
+        if !is_number || Address::parse(text).is_err() {
+            return None;
+        }
+        self.step();
+        let message = format!("{text}: an address is written with `%`");
+        let found = Diagnostic::new(Code::Syntax, span, message);
+        self.report(found.suggest(format!("%{text}")));
+        Some(Expression { kind: ExpressionKind::Address(text.to_owned()), span })
     }
 
     fn indexes(&mut self) -> Outcome<Vec<Expression>> {

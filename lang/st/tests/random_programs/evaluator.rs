@@ -142,13 +142,7 @@ impl Evaluator {
         match &statement.kind {
             StatementKind::Assign(target, value) => {
                 let place = self.place(target, prefix);
-                if self.wholes.contains(&place) {
-                    let from = self.place(value, prefix);
-                    self.copy_whole(&from, &place);
-                    return Flow::On;
-                }
-                let value = self.expression(value, prefix);
-                self.write(&place, value);
+                self.give(value, prefix, &place);
             }
             StatementKind::Call(target, arguments) => self.call(target, arguments, prefix),
             StatementKind::If(arms, otherwise) => {
@@ -188,6 +182,17 @@ impl Evaluator {
             other => panic!("no text has {other:?}"),
         }
         Flow::On
+    }
+
+    /// Writes a value, or all of an array or structure, to a place.
+    fn give(&mut self, value: &Expression, prefix: &str, place: &str) {
+        if self.wholes.contains(place) {
+            let from = self.place(value, prefix);
+            self.copy_whole(&from, place);
+            return;
+        }
+        let value = self.expression(value, prefix);
+        self.write(place, value);
     }
 
     fn is_true(&mut self, condition: &Expression, prefix: &str) -> bool {
@@ -313,8 +318,8 @@ impl Evaluator {
             for (_, argument) in
                 given.iter().filter(|(one, one_of)| one == name && !one_of.is_output)
             {
-                let value = self.expression(&argument.value, prefix);
-                self.write(&format!("{instance}.{name}"), value);
+                let parameter = format!("{instance}.{name}");
+                self.give(&argument.value, prefix, &parameter);
             }
         }
         match unit {
@@ -335,8 +340,13 @@ impl Evaluator {
         let back: Vec<(String, &Argument)> =
             given.iter().filter(|(name, one)| one.is_output || is_in_out(name)).cloned().collect();
         for (name, argument) in back {
-            let value = self.values[&format!("{instance}.{name}")];
+            let parameter = format!("{instance}.{name}");
             let place = self.place(&argument.value, prefix);
+            if self.wholes.contains(&place) {
+                self.copy_whole(&parameter, &place);
+                continue;
+            }
+            let value = self.values[&parameter];
             self.write(&place, value);
         }
     }

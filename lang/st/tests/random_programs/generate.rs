@@ -51,6 +51,8 @@ pub struct Generator {
     depth: u32,
     in_function: bool,
     in_block: bool,
+    /// Within the block that has elementary variables alone.
+    is_plain: bool,
     loops: u32,
     whiles: u32,
 }
@@ -62,6 +64,7 @@ impl Generator {
             depth: 0,
             in_function: false,
             in_block: false,
+            is_plain: false,
             loops: 0,
             whiles: 0,
         };
@@ -79,8 +82,8 @@ impl Generator {
         }
         text += "gt : TIME := T#35ms;\nEND_VAR\n";
         text += &self.function();
-        text += &self.block("Block", true);
-        text += &self.block("Plain", false);
+        text += &self.block();
+        text += &self.plain();
         text += "PROGRAM Main\nVAR\n";
         for (kind, names) in VARIABLES {
             let own: Vec<&str> =
@@ -140,29 +143,60 @@ impl Generator {
         text + "Compute := Compute + c;\nEND_FUNCTION\n"
     }
 
-    /// A function block; without a timer in it, it can be a subroutine.
-    fn block(&mut self, name: &str, has_timer: bool) -> String {
+    /// A function block with a timer, an array and structures.
+    fn block(&mut self) -> String {
         self.in_block = true;
-        let timer = if has_timer { "delay : TON; " } else { "" };
-        let mut text = format!(
-            "FUNCTION_BLOCK {name}\nVAR_INPUT p : BOOL; a : INT; END_VAR\nVAR_OUTPUT q : BOOL; \
-             b : INT; END_VAR\nVAR_IN_OUT c : INT; END_VAR\nVAR d : DINT; {timer}\
+        let mut text = String::from(
+            "FUNCTION_BLOCK Block\nVAR_INPUT p : BOOL; a : INT; row : Row; END_VAR\n\
+             VAR_OUTPUT q : BOOL; b : INT; twin : Pair; END_VAR\n\
+             VAR_IN_OUT c : INT; both : Pair; END_VAR\nVAR d : DINT; delay : TON; \
              END_VAR\n",
         );
         for _ in 0..self.rng.usize(1..5) {
-            text += &match self.rng.u8(..5) {
-                0 => format!("b := {};\n", self.whole("INT")),
-                1 => format!("q := {};\n", self.condition()),
-                2 => format!("IF {} THEN c := {}; END_IF;\n", self.condition(), self.whole("INT")),
-                3 => format!("d := {};\n", self.whole("DINT")),
-                _ if !has_timer => format!("b := b + {};\n", self.whole("INT")),
-                _ => format!("delay(IN := {}, PT := T#40ms); q := delay.Q;\n", self.condition()),
+            text += &match self.rng.u8(..7) {
+                0 => format!("both.x := {};\n", self.whole("INT")),
+                1 => self.pick(&["twin := both;\n", "twin.z := a;\n"]).to_owned(),
+                2 => format!("delay(IN := {}, PT := T#40ms); q := delay.Q;\n", self.condition()),
+                _ => self.block_statement(),
             };
         }
+        text += &self.block_end();
+        self.in_block = false;
+        text
+    }
+
+    /// A function block with elementary variables alone, which can be a subroutine.
+    fn plain(&mut self) -> String {
+        (self.in_block, self.is_plain) = (true, true);
+        let mut text = String::from(
+            "FUNCTION_BLOCK Plain\nVAR_INPUT p : BOOL; a : INT; END_VAR\nVAR_OUTPUT q : BOOL; \
+             b : INT; END_VAR\nVAR_IN_OUT c : INT; END_VAR\nVAR d : DINT; END_VAR\n",
+        );
+        for _ in 0..self.rng.usize(1..5) {
+            text += &self.block_statement();
+        }
+        text += &self.block_end();
+        (self.in_block, self.is_plain) = (false, false);
+        text
+    }
+
+    /// A statement of either block.
+    fn block_statement(&mut self) -> String {
+        match self.rng.u8(..5) {
+            0 => format!("b := {};\n", self.whole("INT")),
+            1 => format!("q := {};\n", self.condition()),
+            2 => format!("IF {} THEN c := {}; END_IF;\n", self.condition(), self.whole("INT")),
+            3 => format!("d := {};\n", self.whole("DINT")),
+            _ => format!("b := b + {};\n", self.whole("INT")),
+        }
+    }
+
+    /// The end of a block, which some leave before it.
+    fn block_end(&mut self) -> String {
+        let mut text = String::new();
         if self.rng.u8(..4) == 0 {
             text += &format!("IF {} THEN RETURN; END_IF;\nb := b + 1;\n", self.condition());
         }
-        self.in_block = false;
         text + "END_FUNCTION_BLOCK\n"
     }
 
@@ -176,7 +210,8 @@ impl Generator {
         }
         if self.in_block {
             return match kind {
-                "INT" => self.pick(&["a", "b", "c", "gi"]),
+                "INT" if self.is_plain => self.pick(&["a", "b", "c", "gi"]),
+                "INT" => self.pick(&["a", "b", "c", "gi", "both.x", "row[b]", "twin.z"]),
                 _ => self.pick(&["d", "gd"]),
             }
             .to_owned();
@@ -383,9 +418,18 @@ impl Generator {
             3 => format!("ton2(IN := {condition}, PT := gt, Q => q);\n"),
             4 => format!("count1(CU := {condition}, R := gq, PV := gi, CV => b);\n"),
             5 => format!("edge1(CLK := {condition}, Q => p);\n"),
-            6 => format!("one(p := {condition}, a := {}, c := a, b => b);\n", self.whole("INT")),
+            6 => {
+                let whole = self.whole("INT");
+                format!(
+                    "one(p := {condition}, a := {whole}, row := row2, c := a, both := pair, \
+                     b => b, twin => pairs[gi]);\n"
+                )
+            }
             7 => format!("four(c := b, p := {condition}, q => r);\n"),
-            _ => format!("two({condition}, {}, c := list[2]);\n", self.whole("INT")),
+            _ => {
+                let whole = self.whole("INT");
+                format!("two({condition}, {whole}, c := list[2], both := twin2);\n")
+            }
         }
     }
 

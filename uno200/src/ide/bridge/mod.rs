@@ -1,5 +1,6 @@
-//! The bridge: a WebSocket through which the page reaches ports of this computer, and nothing else.
-//! Who may use it `access` knows; what the bytes mean nobody does here.
+//! The bridge: a WebSocket through which the page reaches ports of this computer and the folder of
+//! its project, and nothing else. Who may use it `access` knows; what the bytes mean nobody does
+//! here.
 
 mod ports;
 pub mod protocol;
@@ -9,22 +10,33 @@ use std::io::{self, Read, Write};
 use std::net::TcpStream;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use client::Error;
 use tungstenite::protocol::{Role, WebSocketConfig};
 use tungstenite::{Message, WebSocket};
 
 use super::access::Access;
+use super::folder::{Folder, Listing, Written};
 pub use ports::Ports;
 use protocol::{Told, Wish};
 use way::{Sink, Way};
 
 /// Where it is on the server.
 pub const PATH: &str = "/bridge";
-/// No message is longer.
+/// No message is longer, unless it holds a file of a folder: then as long as the largest, with its
+/// quotes and line ends escaped.
 const MESSAGE_LEN_MAX: usize = 64 * 1024;
+const FILE_MESSAGE_LEN_MAX: usize = 10_000_000;
+
+/// What pages reach through it.
+#[derive(Debug)]
+pub struct Reach {
+    /// The ports.
+    pub ports: Arc<Ports>,
+    /// The folder of the project, if one was given.
+    pub folder: Option<Folder>,
+}
 
 /// Serves a page at the other end of a connection until that ends.
-pub fn serve(stream: TcpStream, access: &Access, ports: &Arc<Ports>) -> io::Result<()> {
+pub fn serve(stream: TcpStream, access: &Access, reach: &Reach) -> io::Result<()> {
     // Of a page that sleeps nothing may come for hours.
     stream.set_read_timeout(None)?;
     stream.set_nodelay(true)?;
@@ -36,25 +48,30 @@ pub fn serve(stream: TcpStream, access: &Access, ports: &Arc<Ports>) -> io::Resu
     let mut page = Page {
         socket: WebSocket::from_raw_socket(both, Role::Server, Some(config)),
         sink: sink(end),
-        ports: Arc::clone(ports),
+        reach,
         way: None,
     };
     // However it ends, the port is closed.
     if page.welcome(access).is_ok() {
+        let len = reach.folder.as_ref().map_or(MESSAGE_LEN_MAX, |_| FILE_MESSAGE_LEN_MAX);
+        page.socket.set_config(|config| {
+            config.max_message_size = Some(len);
+            config.max_frame_size = Some(len);
+        });
         while page.go_on().is_ok() {}
     }
     Ok(())
 }
 
 /// A page at the other end.
-struct Page {
+struct Page<'a> {
     socket: WebSocket<Both>,
     sink: Sink,
-    ports: Arc<Ports>,
+    reach: &'a Reach,
     way: Option<Way>,
 }
 
-impl Page {
+impl Page<'_> {
     /// The first message says who it is.
     fn welcome(&mut self, access: &Access) -> tungstenite::Result<()> {
         let wish = match self.socket.read()? {
@@ -67,7 +84,10 @@ impl Page {
             _ => Err("the first message is hello, with token or session"),
         };
         match session {
-            Ok(session) => self.tell(&Told::Welcome { session: session.to_owned() }),
+            Ok(session) => self.tell(&Told::Welcome {
+                session: session.to_owned(),
+                folder: self.reach.folder.is_some(),
+            }),
             Err(message) => {
                 self.tell(&Told::Refused { message: message.to_owned() })?;
                 self.socket.close(None)?;
@@ -83,7 +103,7 @@ impl Page {
         match self.socket.read()? {
             Message::Text(text) => {
                 let told = match serde_json::from_str(&text) {
-                    Ok(wish) => self.fulfil(wish).map_err(|error| error.to_string()),
+                    Ok(wish) => self.fulfil(wish),
                     Err(error) => Err(format!("no message of the bridge: {error}")),
                 };
                 self.tell(&told.unwrap_or_else(|message| Told::Refused { message }))
@@ -102,30 +122,56 @@ impl Page {
         }
     }
 
-    fn fulfil(&mut self, wish: Wish) -> Result<Told, Error> {
+    fn fulfil(&mut self, wish: Wish) -> Result<Told, String> {
         match wish {
-            Wish::Hello { .. } => Err(Error::NotConnected("that was said already".to_owned())),
-            Wish::Ports => Ok(Told::Ports { ports: self.ports.all() }),
+            Wish::Hello { .. } => Err("that was said already".to_owned()),
+            Wish::Ports => Ok(Told::Ports { ports: self.reach.ports.all() }),
             Wish::Open { name, baud, parity } => {
                 self.way = None;
-                let taken = self.ports.take(&name).map_err(Error::NotConnected)?;
+                let taken = self.reach.ports.take(&name)?;
                 let sink = Arc::clone(&self.sink);
-                self.way = Some(Way::open(taken, baud, parity.into(), sink)?);
+                let way = Way::open(taken, baud, parity.into(), sink);
+                self.way = Some(way.map_err(|error| error.to_string())?);
                 Ok(Told::Done)
             }
             Wish::Lines { on } => match &mut self.way {
-                Some(way) => way.lines(on).map(|()| Told::Done),
-                None => Err(Error::NotConnected("no port is open".to_owned())),
+                Some(way) => way.lines(on).map(|()| Told::Done).map_err(|error| error.to_string()),
+                None => Err("no port is open".to_owned()),
             },
             Wish::Close => {
                 self.way = None;
                 Ok(Told::Done)
             }
+            Wish::Folder => {
+                let folder = self.folder()?;
+                let Listing { files, left_out } = folder.listing()?;
+                Ok(Told::Folder { id: folder.id(), name: folder.name(), files, left_out })
+            }
+            Wish::Read { file } => {
+                let (text, version) = self.folder()?.read(&file)?;
+                Ok(Told::File { text, version })
+            }
+            Wish::Save { file, text, base } => {
+                self.folder()?.save(&file, &text, base.as_deref()).map(written)
+            }
+            Wish::Remove { file, base } => self.folder()?.remove(&file, &base).map(written),
         }
+    }
+
+    fn folder(&self) -> Result<&Folder, String> {
+        let folder = self.reach.folder.as_ref();
+        folder.ok_or_else(|| "no folder was given: `uno200 ide FOLDER`".to_owned())
     }
 
     fn tell(&mut self, told: &Told) -> tungstenite::Result<()> {
         self.socket.send(text(told))
+    }
+}
+
+fn written(written: Written) -> Told {
+    match written {
+        Written::Done { version, note } => Told::Saved { version, note },
+        Written::Changed(version) => Told::Changed { version },
     }
 }
 

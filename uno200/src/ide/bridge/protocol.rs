@@ -4,6 +4,8 @@
 use plc_isa::Parity;
 use serde::{Deserialize, Serialize};
 
+use crate::ide::folder::{LeftOut, Listed};
+
 /// What the page wants.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "do", rename_all = "camelCase", deny_unknown_fields)]
@@ -38,6 +40,29 @@ pub enum Wish {
     },
     /// Closes the port. Answer: [`Told::Done`].
     Close,
+    /// What is in the folder of the project. Answer: [`Told::Folder`].
+    Folder,
+    /// The text of a file in it. Answer: [`Told::File`].
+    Read {
+        /// As [`Listed::name`].
+        file: String,
+    },
+    /// Writes a file of the folder. Answer: [`Told::Saved`] or [`Told::Changed`].
+    Save {
+        /// As [`Listed::name`].
+        file: String,
+        /// All of it.
+        text: String,
+        /// The version that it takes the place of; none of a new file.
+        base: Option<String>,
+    },
+    /// Removes a file of the folder. Answer: [`Told::Saved`] or [`Told::Changed`].
+    Remove {
+        /// As [`Listed::name`].
+        file: String,
+        /// The version that is to be removed.
+        base: String,
+    },
 }
 
 fn usual_baud() -> u32 {
@@ -75,6 +100,8 @@ pub enum Told {
     Welcome {
         /// The key to come back with.
         session: String,
+        /// Whether there is a folder to work in.
+        folder: bool,
     },
     /// What can be opened.
     Ports {
@@ -87,6 +114,37 @@ pub enum Told {
     Refused {
         /// Why.
         message: String,
+    },
+    /// What is in the folder.
+    #[serde(rename_all = "camelCase")]
+    Folder {
+        /// What tells it from other folders.
+        id: String,
+        /// Its name.
+        name: String,
+        /// What belongs to the project.
+        files: Vec<Listed>,
+        /// What would, and why it does not.
+        left_out: Vec<LeftOut>,
+    },
+    /// A file of it.
+    File {
+        /// Its text, with line feeds alone between lines.
+        text: String,
+        /// Which version that is.
+        version: String,
+    },
+    /// The file is written, or gone.
+    Saved {
+        /// Which version it is now; empty of one that is gone.
+        version: String,
+        /// What else happened to it.
+        note: Option<String>,
+    },
+    /// It is not: somebody else has changed it.
+    Changed {
+        /// Which version it is now; none where it is gone.
+        version: Option<String>,
     },
     /// No answer: the port that was open is gone.
     Lost {

@@ -5,24 +5,27 @@ use crate::sfcedit::condition::Edges;
 /// The words of a target.
 #[derive(Debug)]
 pub(super) struct Dialect {
-    /// TRUE and FALSE of steps.
+    /// What a step is set to.
     pub on: &'static str,
+    /// What a step is reset to.
     pub off: &'static str,
     /// What is after the input in the call of an edge.
     pub edge_end: &'static str,
     /// Whether `Init` comes with the first scan by itself.
     pub first_scan: Option<&'static str>,
-    /// Reset and load of counters.
+    /// The input of CTU that resets it.
     pub reset: &'static str,
+    /// The input of CTD that loads it.
     pub load: &'static str,
-    /// What every comparison of a signal with a place is given: `AT %I*`, or one after the other.
+    /// How inputs, outputs and memory get their addresses.
     pub places: Places,
 }
 
 /// How variables get their addresses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Places {
     /// `%I*`: the project's links say it.
+    #[default]
     Open,
     /// One after the other, as the S7-200 has them.
     S7200,

@@ -132,12 +132,6 @@ struct Numbers {
     analog_outputs: usize,
 }
 
-impl Default for Places {
-    fn default() -> Places {
-        Places::Open
-    }
-}
-
 impl Numbers {
     fn place(&mut self, kind: Kind, of_type: &str) -> Option<String> {
         let letter = match kind {

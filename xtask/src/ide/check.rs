@@ -1,5 +1,5 @@
-//! `cargo xtask ide`: builds the IDE's core for WebAssembly, puts it beside the page, and serves
-//! both. The check of a test run uses them in a real browser.
+//! The check of the IDE: the page is what its sources say, and does what it should in a real
+//! browser.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,22 +8,21 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
 use anyhow::{Context, Result, ensure};
-use serde_json::json;
 
+use super::{build, core};
+use crate::packages;
 use crate::process::{cargo, root, run};
-use crate::{packages, wasm};
 
 /// The page as it is committed.
 const PAGE: &str = "ide/page/dist";
-/// Where page and core are together: any web server can give them away from here.
-const BUILT: &str = "target/ide";
-/// Examples that come with more than their scenario: their plant.
-const PLANTS: &[(&str, &str)] = &[
-    ("station1", "station1 pieces=normal,small,normal,large,small,normal noise=3 seed=7"),
-    ("tank", "tank"),
-    ("pid", "tank"),
-];
-
+/// How the page looked; docs/ide has those that are shown there.
+const PICTURES: &str = "target/ide-pictures";
+/// Where the tests of the core write what they told it, and its answers.
+const LOG: &str = "target/tmp/ide-log";
+/// The folder that the page works in when that is checked.
+const PROJECT: &str = "target/ide-project/lamp";
+/// The tool that serves the page.
+const UNO200: &str = "target/debug/uno200";
 /// What awl-sim writes of the same run that the page is asked for.
 const FIGURES: &str = "target/ide-figures.csv";
 
@@ -42,7 +41,9 @@ pub fn check() -> Result<()> {
         files(&root().join(PAGE))? == committed,
         "{PAGE} was not what its sources say: it is now, and is to be committed"
     );
-    let folder = build()?;
+    let core = core::build()?;
+    core::check(&core)?;
+    let folder = build(&core)?;
     let node = |script: &str| {
         let mut node = Command::new("node");
         node.current_dir(&sources).arg(script);
@@ -54,7 +55,40 @@ pub fn check() -> Result<()> {
     let mut server = Serving::page(&folder, &[])?;
     let address = server.line()?;
     run(node("test/page.mjs").arg(&address).arg(root().join(FIGURES)))?;
+    run(node("test/budgets.mjs").arg(&address).arg(&folder))?;
+    run(node("test/reload.mjs").arg(&address))?;
+    run(node("test/errors.mjs").arg(root().join(UNO200)).arg(&folder))?;
+    run(node("test/pictures.mjs").arg(&address).arg(root().join(PICTURES)))?;
+    run(node("test/offline.mjs").arg(&folder))?;
+    check_folder(&folder, &sources)?;
     check_board(&folder, &sources)
+}
+
+/// Has the page work in a folder of this computer.
+fn check_folder(folder: &Path, sources: &Path) -> Result<()> {
+    let project = root().join(PROJECT);
+    if project.exists() {
+        fs::remove_dir_all(&project)?;
+    }
+    fs::create_dir_all(&project)?;
+    // As Micro/WIN writes it.
+    fs::write(project.join("lamp.awl"), b"// L\xFCfter\r\nLD I0.0\r\n")?;
+    #[cfg(unix)]
+    std::os::unix::fs::symlink(root().join("README.md"), project.join("link.txt"))?;
+    let mut server = Serving::page(folder, &[PROJECT])?;
+    let address = server.line()?;
+    let mut test = Command::new("node");
+    test.current_dir(sources).args(["test/folder.mjs", &address]).arg(&project);
+    run(test.arg(server.0.id().to_string()))
+}
+
+/// Has the core in WebAssembly answer what it was told in tests on this computer: the same. To be
+/// called after both were built.
+pub fn log() -> Result<()> {
+    let sources = root().join("ide/page");
+    let mut test = Command::new("node");
+    test.current_dir(sources).arg("test/log.mjs").arg(core::folder()).arg(root().join(LOG));
+    run(&mut test)
 }
 
 /// Has the page write a board from the factory, with its real bootloader, and talk to it.
@@ -69,15 +103,22 @@ fn check_board(folder: &Path, sources: &Path) -> Result<()> {
     run(Command::new("node").current_dir(sources).args(["test/board.mjs", &address, &port]))
 }
 
-/// The files of a folder with their bytes.
+/// The files of a folder, and of those in it, with their bytes.
 fn files(folder: &Path) -> Result<BTreeMap<PathBuf, Vec<u8>>> {
+    let mut files = BTreeMap::new();
     let entries = fs::read_dir(folder).with_context(|| format!("cannot read {}", folder.display()));
-    let bytes = |path: PathBuf| Ok((path.clone(), fs::read(&path)?));
-    entries?.map(|entry| bytes(entry?.path())).collect()
+    for entry in entries? {
+        let path = entry?.path();
+        match path.is_dir() {
+            true => files.extend(self::files(&path)?),
+            false => drop(files.insert(path.clone(), fs::read(&path)?)),
+        }
+    }
+    Ok(files)
 }
 
 fn figures() -> Result<()> {
-    let plant = PLANTS.iter().find(|(of, _)| *of == "station1").map_or("", |(_, plant)| *plant);
+    let plant = ide_site::plant_of("station1").unwrap_or_default();
     run(cargo()
         .args(["run", "--quiet", "--package", "awl-sim", "--", "examples/station1.awl"])
         .args([
@@ -102,7 +143,7 @@ impl Serving {
     fn page(folder: &Path, arguments: &[&str]) -> Result<Serving> {
         run(cargo().args(["build", "--quiet", "--package", "uno200"]))?;
         // Not by way of cargo, which would be ended in its place.
-        let mut ide = Command::new(root().join("target/debug/uno200"));
+        let mut ide = Command::new(root().join(UNO200));
         ide.args(["ide", "--no-open", "--listen", "127.0.0.1:0", "--page"]).arg(folder);
         Serving::start(ide.args(arguments))
     }
@@ -129,67 +170,4 @@ impl Drop for Serving {
         let _ = self.0.kill();
         let _ = self.0.wait();
     }
-}
-
-/// Builds the IDE, and serves it.
-pub fn start(open: bool) -> Result<()> {
-    let folder = build()?;
-    let mut ide = cargo();
-    ide.args(["run", "--quiet", "--package", "uno200", "--", "ide", "--page"]).arg(folder);
-    if !open {
-        ide.arg("--no-open");
-    }
-    run(&mut ide)
-}
-
-/// Builds the IDE into its folder.
-pub fn build() -> Result<PathBuf> {
-    let folder = root().join(BUILT);
-    let module = wasm::build("ide-core", &["ide-core"])?;
-    fs::create_dir_all(folder.join("examples"))?;
-    run(cargo()
-        .args(["run", "--quiet", "--package", "bind", "--"])
-        .args([&module, &folder])
-        .arg("web"))?;
-    copy(&root().join(PAGE), &folder)?;
-    examples(&folder.join("examples"))?;
-    Ok(folder)
-}
-
-fn copy(from: &Path, to: &Path) -> Result<()> {
-    for entry in fs::read_dir(from).with_context(|| format!("cannot read {}", from.display()))? {
-        let path = entry?.path();
-        if let (true, Some(name)) = (path.is_file(), path.file_name()) {
-            fs::copy(&path, to.join(name))?;
-        }
-    }
-    Ok(())
-}
-
-/// The examples as projects, and the list of them.
-fn examples(to: &Path) -> Result<()> {
-    let from = root().join("examples");
-    let mut names = Vec::new();
-    for entry in fs::read_dir(&from)? {
-        let path = entry?.path();
-        let (Some(stem), true) = (path.file_stem(), path.extension() == Some("awl".as_ref()))
-        else {
-            continue;
-        };
-        names.push(stem.to_string_lossy().into_owned());
-    }
-    names.sort();
-    for name in &names {
-        let file = |ending: &str| {
-            let file = format!("{name}.{ending}");
-            let text = fs::read_to_string(from.join(&file)).ok()?;
-            Some(json!({ "name": file, "text": text }))
-        };
-        let files: Vec<_> = ["awl", "scn"].iter().filter_map(|ending| file(ending)).collect();
-        let plant = PLANTS.iter().find(|(of, _)| of == name).map(|(_, plant)| plant);
-        let project = json!({ "files": files, "main": format!("{name}.awl"), "plant": plant });
-        fs::write(to.join(name).with_extension("json"), project.to_string())?;
-    }
-    fs::write(to.join("list.json"), json!(names).to_string())?;
-    Ok(())
 }

@@ -1,0 +1,24 @@
+// The browser of a test: Debian's Chromium, without what it does beside.
+import { chromium } from "playwright-core";
+
+const PATIENCE = 60_000;
+
+/** A browser with a page, and what goes wrong in it. */
+export async function open({ width = 1280, height = 800, patience = PATIENCE } = {}) {
+  const browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    args: [
+      "--no-sandbox",
+      "--disable-gpu",
+      "--disable-background-networking",
+      "--disable-sync",
+      "--no-first-run",
+    ],
+  });
+  const page = await browser.newPage({ viewport: { width, height } });
+  page.setDefaultTimeout(patience);
+  const errors = [];
+  page.on("pageerror", (error) => errors.push(error.message));
+  page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+  return { browser, page, errors };
+}

@@ -1,0 +1,117 @@
+//! The page of the IDE with its core and its examples, as the files that a web server gives away:
+//! it is put together here, from what is committed. No server, and nothing of what the page does.
+
+mod examples;
+mod files;
+
+pub use examples::plant_of;
+
+use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+/// In the built page the folder of everything that belongs to a version; its name here is the
+/// version.
+const VERSION: &str = "version/";
+/// What the page fetches to keep itself in the browser: which files its version has.
+const LIST: &str = "files.json";
+
+/// The core, as wasm-bindgen gives it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Core {
+    /// `ide_core.js`
+    pub script: Vec<u8>,
+    /// `ide_core_bg.wasm`
+    pub module: Vec<u8>,
+}
+
+/// Names of the core's files.
+pub const SCRIPT: &str = "ide_core.js";
+/// See [`SCRIPT`].
+pub const MODULE: &str = "ide_core_bg.wasm";
+
+impl Core {
+    /// The one that is committed.
+    pub fn kept() -> Core {
+        let file = |name: &str| {
+            let found = files::CORE.iter().find(|(file, _)| *file == name);
+            found.map(|(_, bytes)| bytes.to_vec()).unwrap_or_default()
+        };
+        Core { script: file(SCRIPT), module: file(MODULE) }
+    }
+}
+
+/// The files by their paths, `/` between parts; `index.html` is the page. All but that and the
+/// script that keeps the page in the browser are in a folder whose name is another one whenever
+/// anything in it is: what belongs together comes together, whatever a browser has kept.
+pub fn files(core: &Core) -> BTreeMap<String, Vec<u8>> {
+    let mut inner = BTreeMap::new();
+    let mut outer = BTreeMap::new();
+    for (path, bytes) in files::PAGE {
+        match path.strip_prefix(VERSION) {
+            Some(path) => inner.insert(path.to_owned(), bytes.to_vec()),
+            None => outer.insert((*path).to_owned(), bytes.to_vec()),
+        };
+    }
+    inner.insert(SCRIPT.to_owned(), core.script.clone());
+    inner.insert(MODULE.to_owned(), core.module.clone());
+    for (name, project) in examples::projects() {
+        inner.insert(format!("examples/{name}.json"), project.into_bytes());
+    }
+    let version = version_of(&inner);
+    let paths: Vec<String> = inner.keys().map(|path| format!("{version}/{path}")).collect();
+    inner.insert(LIST.to_owned(), serde_json::json!(paths).to_string().into_bytes());
+    for bytes in outer.values_mut() {
+        *bytes =
+            String::from_utf8_lossy(bytes).replace(VERSION, &format!("{version}/")).into_bytes();
+    }
+    let inner = inner.into_iter().map(|(path, bytes)| (format!("{version}/{path}"), bytes));
+    inner.chain(outer).collect()
+}
+
+/// Tells versions apart; protects nothing.
+fn version_of(files: &BTreeMap<String, Vec<u8>>) -> String {
+    let mut hasher = DefaultHasher::new();
+    files.hash(&mut hasher);
+    format!("{:016x}", hasher.finish())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn core(byte: u8) -> Core {
+        Core { script: vec![byte], module: vec![] }
+    }
+
+    #[test]
+    fn everything_is_in_the_folder_of_its_version() {
+        let files = files(&core(1));
+        let inner = |name: &str| files.keys().find(|path| path.ends_with(&format!("/{name}")));
+        let version = inner("page.js").unwrap().split('/').next().unwrap();
+        for name in ["page.css", "worker.js", SCRIPT, MODULE, "examples/station1.json"] {
+            assert_eq!(*inner(name).unwrap(), format!("{version}/{name}"));
+        }
+        let outer: Vec<_> = files.keys().filter(|path| !path.starts_with(version)).collect();
+        assert_eq!(outer, ["index.html", "sw.js"]);
+        for path in outer {
+            let text = String::from_utf8_lossy(&files[path]).into_owned();
+            assert!(text.contains(&format!("{version}/")) && !text.contains(VERSION), "{path}");
+        }
+        let list: Vec<String> = serde_json::from_slice(&files[inner(LIST).unwrap()]).unwrap();
+        assert!(list.iter().all(|path| files.contains_key(path)) && list.len() == files.len() - 3);
+    }
+
+    #[test]
+    fn another_core_is_another_version() {
+        let paths = |byte| files(&core(byte)).into_keys().collect::<Vec<_>>();
+        assert_eq!(paths(1), paths(1));
+        assert_ne!(paths(1), paths(2));
+    }
+
+    #[test]
+    fn the_core_is_there() {
+        let Core { script, module } = Core::kept();
+        assert!(module.starts_with(b"\0asm"));
+        assert!(String::from_utf8_lossy(&script).contains(MODULE));
+    }
+}
