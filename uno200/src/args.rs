@@ -246,7 +246,8 @@ pub struct Convert {
     /// For whom Structured Text is written [default: uno200]
     #[arg(long, value_name = "TARGET", value_parser = target())]
     pub target: Option<Target>,
-    /// Kinds and types of variables: rows `name,kind,type`. What is not in it is guessed from its use
+    /// Kinds and types of variables: rows `name,kind,type`. What is not in it is guessed from its
+    /// use
     #[arg(long, value_name = "F.csv")]
     pub variables: Option<PathBuf>,
     /// Prints the equations of the steps

@@ -1,5 +1,5 @@
-//! `uno200 convert` from outside: what is written, what is printed, and that nothing is left of what
-//! fails.
+//! `uno200 convert` from outside: what is written, what is printed, and that nothing is left of
+//! what fails.
 
 use std::fs;
 use std::path::Path;

@@ -140,7 +140,8 @@ fn edges_complements_and_derived_signals() {
 #[test]
 fn timers_and_counters_are_started_counted_and_reset_by_steps() {
     let actions = "<action><text>Temp1</text></action><action><text>Temp1 := T#5s</text></action>\
-                   <action type=\"conditional\"><text>Cont1</text><condition>Piece</condition></action>\
+                   <action type=\"conditional\"><text>Cont1</text>\
+                   <condition>Piece</condition></action>\
                    <action><text>Cont1 := 10</text></action>";
     let text = small(actions, "Temp1.Q + Cont1");
     let text = text.replace(

@@ -33,9 +33,13 @@ fn blocks_are_subroutines_where_that_is_shorter() {
     assert!(is_subroutine(&program(counts, &count.repeat(20), 2), &alone));
     assert!(!is_subroutine(&program(counts, &count.repeat(20), 1), &alone));
     // Instances and arrays in it, and variables at addresses, cannot go in and out.
-    for variables in
-        ["VAR n : INT; t : TON; END_VAR", "VAR n : INT; l : ARRAY[1..3] OF INT; END_VAR"]
-    {
+    for variables in [
+        "VAR n : INT; t : TON; END_VAR",
+        "VAR n : INT; l : ARRAY[1..3] OF INT; END_VAR",
+        "VAR_INPUT l : ARRAY[1..3] OF INT; END_VAR VAR n : INT; END_VAR",
+        "VAR_OUTPUT s : STRUCT x : INT; END_STRUCT; END_VAR VAR n : INT; END_VAR",
+        "VAR CONSTANT l : ARRAY[1..3] OF INT := [1, 2, 3]; END_VAR VAR n : INT; END_VAR",
+    ] {
         assert!(!is_subroutine(&program(variables, &count.repeat(20), 2), &alone));
     }
     // Nobody knows what AWL beside it makes of the program.

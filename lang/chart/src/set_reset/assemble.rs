@@ -463,7 +463,8 @@ impl Assembler<'_> {
         &mut all[at]
     }
 
-    /// A timer or counter has a preset; one that nothing starts is started by the steps that set it.
+    /// A timer or counter has a preset; one that nothing starts is started by the steps that
+    /// set it.
     fn devices_are_complete(&mut self) {
         let mut errors = Vec::new();
         for device in self.plan.timers.iter_mut().chain(&mut self.plan.counters) {

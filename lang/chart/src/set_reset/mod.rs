@@ -1,6 +1,6 @@
 //! Structured Text from charts, the set/reset way: a step is set by its transitions and taken back
-//! by the steps after it. What this way does and does not do is in docs/charts.md; programs that run
-//! here are made by [`crate::translate`], which evaluates all transitions first.
+//! by the steps after it. What this way does and does not do is in docs/charts.md; programs that
+//! run here are made by [`crate::translate`], which evaluates all transitions first.
 //!
 //! [`plan`] is what is generated without the words of a target, `targets` writes it.
 

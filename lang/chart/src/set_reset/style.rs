@@ -76,8 +76,8 @@ fn two_steps(wiring: &Wiring, at: usize, found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// A step that is left by what it was entered by is passed in one scan; where it is in a branch of an
-/// AND divergence, the step before is never reset.
+/// A step that is left by what it was entered by is passed in one scan; where it is in a branch of
+/// an AND divergence, the step before is never reset.
 fn at_once(
     wiring: &Wiring,
     conditions: &[Option<Condition>],

@@ -1,4 +1,5 @@
-//! Variables and their kinds: as a table says (csv: `name,kind,type`), otherwise as their use shows.
+//! Variables and their kinds: as a table says (csv: `name,kind,type`), otherwise as their use
+//! shows.
 
 use std::collections::HashMap;
 

@@ -105,8 +105,8 @@ impl Condition {
     }
 }
 
-/// Reads a condition. `is_instance` says which names are those of timers and counters, whose `.Q` is
-/// a part of theirs and no AND.
+/// Reads a condition. `is_instance` says which names are those of timers and counters, whose `.Q`
+/// is a part of theirs and no AND.
 pub fn parse(
     words: &Words,
     is_instance: &dyn Fn(&str) -> bool,

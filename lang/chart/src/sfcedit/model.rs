@@ -1,5 +1,5 @@
-//! The charts of a file in the model of all charts. Conditions and actions stay as they are written:
-//! what they mean is said by those who translate them.
+//! The charts of a file in the model of all charts. Conditions and actions stay as they are
+//! written: what they mean is said by those who translate them.
 
 use std::collections::{BTreeSet, HashMap};
 

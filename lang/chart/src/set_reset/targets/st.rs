@@ -98,7 +98,8 @@ fn heading(text: &mut String, words: &str) {
     text.push_str(&format!("\n(* {words} *)\n"));
 }
 
-/// What MAIN does, in this order: edges, derived signals, charts, outputs, values, timers, counters.
+/// What MAIN does, in this order: edges, derived signals, charts, outputs, values, timers,
+/// counters.
 pub(super) fn main_body(plan: &Plan, dialect: &Dialect) -> String {
     let first_scan = dialect.first_scan.map_or(String::new(), |bit| format!(" OR {bit}"));
     let mut text = format!("XInit:=INIT{first_scan}; XReset:=RESET;\n");
