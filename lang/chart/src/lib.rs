@@ -3,7 +3,8 @@
 //!
 //! [`text`] reads a file into the [`model`]; [`translate`] makes Structured Text of it, which
 //! becomes AWL like any other. [`interpret`] executes a chart without translating it. [`sfcedit`]
-//! reads charts of another editor, [`set_reset`] makes Structured Text of those for other controllers.
+//! reads charts of another editor, [`set_reset`] makes Structured Text of those for other
+//! controllers.
 
 mod check;
 pub mod diagnostic;

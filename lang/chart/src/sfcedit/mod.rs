@@ -1,6 +1,6 @@
 //! Charts as XML of SFCEdit, read: sequences that links and jumps join. [`document`] is what the
-//! file says, [`wiring`] the steps before and after each transition, [`words`] texts with their edges
-//! and complements. Nothing is written in this format.
+//! file says, [`wiring`] the steps before and after each transition, [`words`] texts with their
+//! edges and complements. Nothing is written in this format.
 
 pub mod condition;
 pub mod document;
