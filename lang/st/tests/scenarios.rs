@@ -51,10 +51,15 @@ fn programs(folder: &Path) -> Vec<PathBuf> {
 fn programs_do_what_their_scenarios_expect() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut wrong = Vec::new();
-    for folder in ["../../examples/st", "../../examples/sfc", "tests/cases"] {
+    for (folder, of_awl) in [
+        ("../../examples/st", "../../examples"),
+        ("../../examples/st/tutorial", "../../examples/tutorial"),
+        ("../../examples/sfc", "../../examples"),
+        ("tests/cases", "tests/cases"),
+    ] {
         for program in programs(&here.join(folder)) {
             let beside = program.with_extension("scn");
-            let of_awl = here.join("../../examples").join(beside.file_name().expect("a name"));
+            let of_awl = here.join(of_awl).join(beside.file_name().expect("a name"));
             let scenario = if beside.is_file() { beside } else { of_awl };
             wrong.extend(failures(&program, &scenario));
         }

@@ -9,6 +9,7 @@ use super::budget;
 use super::costs;
 use super::exceptions;
 use super::page;
+use super::pairs;
 use super::record::{Record, parse_all, text_of};
 use crate::process::{WITH_BOARD, cargo, root};
 use crate::{firmware, packages};
@@ -33,7 +34,7 @@ pub fn write() -> Result<()> {
         report("worse than in docs/benchmarks.csv (delete the file if it has to be so)", bad)?;
     }
     put(FIGURES, &text_of(&records))?;
-    put(PAGE, &page::page(&records))?;
+    put(PAGE, &page_of(&records)?)?;
     put(COSTS, &costs::table(&records)?)?;
     println!("{} figures in {PAGE} and {FIGURES}, those of modules in {COSTS}", records.len());
     judge(&records)
@@ -42,7 +43,7 @@ pub fn write() -> Result<()> {
 /// Fails where a file that is made of the figures says something else. Measures nothing.
 pub fn check_files() -> Result<()> {
     let known = known()?;
-    for (file, text) in [(PAGE, page::page(&known)), (COSTS, costs::table(&known)?)] {
+    for (file, text) in [(PAGE, page_of(&known)?), (COSTS, costs::table(&known)?)] {
         let kept =
             fs::read_to_string(root().join(file)).with_context(|| format!("cannot read {file}"))?;
         ensure!(kept == text, "{file} is not what {FIGURES} says: run `cargo xtask bench`");
@@ -66,6 +67,11 @@ pub fn check() -> Result<()> {
         bad,
     )?;
     judge(&records)
+}
+
+/// The page, with what needs no board.
+fn page_of(records: &[Record]) -> Result<String> {
+    Ok(page::page(records) + &pairs::tables()?)
 }
 
 fn known() -> Result<Vec<Record>> {

@@ -8,6 +8,7 @@ mod costs;
 mod exceptions;
 mod host;
 mod page;
+mod pairs;
 mod record;
 mod text;
 mod yardstick;
@@ -21,6 +22,7 @@ pub fn run() -> Result<()> {
     if !cfg!(debug_assertions) {
         return host::run();
     }
+    pairs::judge()?;
     let host = gate();
     board::write()?;
     host
@@ -55,8 +57,10 @@ pub fn gate() -> Result<()> {
     result
 }
 
-/// What is made of the measured figures says what they say. Needs no board.
+/// What is made of the measured figures says what they say, and Structured Text is within its
+/// budget. Needs no board.
 pub fn check_files() -> Result<()> {
+    pairs::judge()?;
     board::check_files()
 }
 

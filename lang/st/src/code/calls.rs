@@ -56,7 +56,7 @@ impl Generator<'_> {
         }
     }
 
-    /// A call of an instance: the block is written out here.
+    /// A call of an instance: the block is written out here, or its subroutine called.
     pub(super) fn block_call(&mut self, call: &BlockCall) {
         let program = self.program;
         let Some(unit) = program.units.get(call.block) else { return };
@@ -83,11 +83,15 @@ impl Generator<'_> {
                 false => self.copy_whole(place, &parameter(call, *at, of_type), of_type),
             }
         }
-        let around = std::mem::replace(&mut self.frame, frame.clone());
-        self.reset_temporaries(unit);
-        self.body(&unit.body);
-        self.end_of_unit();
-        self.frame = around;
+        if self.as_routines.contains(&call.block) {
+            self.call_as_routine(&frame, unit);
+        } else {
+            let around = std::mem::replace(&mut self.frame, frame.clone());
+            self.reset_temporaries(unit);
+            self.body(&unit.body);
+            self.end_of_unit();
+            self.frame = around;
+        }
         for (at, place) in call.in_outs.iter().chain(&call.outputs) {
             let of_type = &place.of_type;
             match of_type.is_elementary() {
@@ -140,7 +144,7 @@ impl Generator<'_> {
     }
 
     /// A variable of an instance as a place of the unit that calls it, by its name.
-    fn operand_of(&self, frame: &Frame, at: usize) -> Option<(String, Type, Storage)> {
+    pub(super) fn operand_of(&self, frame: &Frame, at: usize) -> Option<(String, Type, Storage)> {
         let variable = self.program.units.get(frame.unit)?.variables.get(at)?;
         let Names::Static(prefix) = &frame.names else { return None };
         let text = format!("{prefix}.{}", variable.name);

@@ -6,12 +6,17 @@ use super::Generator;
 use super::compare::relation;
 use super::logic::Logic;
 use super::memory::{literal, storage};
+use super::timers::each;
 use super::values::{has_instructions, known};
 use super::writer::Storage;
+use crate::check::each_assignment;
 use crate::model::{
     BinaryOperator, CaseArm, Expression, ExpressionKind, ForLoop, Statement, StatementKind, Type,
     Value,
 };
+
+/// FOR and NEXT in each other at most (docs/errors/E0011.md).
+const LOOPS_MAX: usize = 8;
 
 /// A condition and its statements.
 type Arm<'s> = (Choice<'s>, &'s [Statement]);
@@ -42,6 +47,10 @@ impl Generator<'_> {
         arms: &[CaseArm],
         otherwise: &[Statement],
     ) {
+        if otherwise.is_empty() && arms.len() > 2 {
+            self.arms_by_themselves(selector, arms);
+            return;
+        }
         let operand = self.operand(selector);
         let kind = &selector.of_type;
         let chosen: Vec<Arm> = arms
@@ -49,6 +58,42 @@ impl Generator<'_> {
             .map(|(labels, body)| (Choice::Labels(kind, operand.clone(), labels), body.as_slice()))
             .collect();
         self.arms(&chosen, otherwise);
+    }
+
+    /// Without ELSE each arm is a rung of its own, about a selector that stays as it was.
+    fn arms_by_themselves(&mut self, selector: &Expression, arms: &[CaseArm]) {
+        let storage = self.storage_of(selector);
+        let mut operand = self.operand(selector);
+        let all_but_last = arms.split_last().map_or(&[][..], |(_, before)| before);
+        if all_but_last.iter().any(|(_, body)| self.may_write(body, selector)) {
+            let kept = self.writer.temporary(storage);
+            self.copy(storage, &operand, &kept);
+            operand = kept;
+        }
+        for (labels, body) in arms {
+            let choice = Choice::Labels(&selector.of_type, operand.clone(), labels);
+            let arm = [(choice, body.as_slice())];
+            if self.are_simple(&[body], 1) {
+                self.powered(&arm, &[]);
+            } else {
+                self.jumped(&arm, &[]);
+            }
+        }
+    }
+
+    /// Whether statements may change what an expression reads.
+    fn may_write(&self, body: &[Statement], expression: &Expression) -> bool {
+        let mut is_written = false;
+        each(body, &mut |statement| {
+            // Blocks write global variables, subroutines whatever they like.
+            let is_call =
+                matches!(statement.kind, StatementKind::Call(_) | StatementKind::Routine(..));
+            is_written |= is_call;
+        });
+        each_assignment(body, &mut |place, _| {
+            is_written |= self.reads(expression, &self.locate(place).text);
+        });
+        is_written
     }
 
     fn arms(&mut self, arms: &[Arm], otherwise: &[Statement]) {
@@ -100,32 +145,33 @@ impl Generator<'_> {
             if at == 0 {
                 self.load(&logic);
             } else {
-                self.writer.logic("LPS", "", false);
+                if has_more {
+                    self.writer.logic("LPS", "", false);
+                }
                 self.and(&logic);
             }
-            self.guarded(body);
-            match (has_more, at) {
-                (true, 0) => self.writer.logic("NOT", "", false),
-                (true, _) => {
-                    self.writer.logic("NOT", "", false);
+            self.guarded(body, !has_more);
+            if has_more {
+                self.writer.logic("NOT", "", false);
+                if at > 0 {
                     self.writer.logic("ALD", "", false);
                 }
-                (false, 0) => {}
-                (false, _) => self.writer.logic("LPP", "", false),
             }
         }
-        self.guarded(otherwise);
+        self.guarded(otherwise, true);
         self.writer.forget();
     }
 
-    /// Statements that hang on the top of the stack, which stays.
-    fn guarded(&mut self, body: &[Statement]) {
+    /// Statements that hang on the top of the stack, which stays unless they are the last that do.
+    fn guarded(&mut self, body: &[Statement], are_last: bool) {
         let before = self.writer.guard(true);
-        for statement in body {
+        for (at, statement) in body.iter().enumerate() {
             let in_use = self.writer.in_use();
             match &statement.kind {
                 StatementKind::Assign(place, value) => self.assign(place, value),
-                StatementKind::If(arms, otherwise) => self.nested(arms, otherwise),
+                StatementKind::If(arms, otherwise) => {
+                    self.nested(arms, otherwise, are_last && at + 1 == body.len());
+                }
                 StatementKind::AddElapsed(place) => self.add_elapsed(place),
                 kind => {
                     let label = self.target_of(kind);
@@ -137,9 +183,16 @@ impl Generator<'_> {
         self.writer.guard(before);
     }
 
-    /// IF on power flow: the top of the stack is as before afterwards.
-    fn nested(&mut self, arms: &[(Expression, Vec<Statement>)], otherwise: &[Statement]) {
-        self.writer.logic("LPS", "", false);
+    /// IF on power flow: the top of the stack is as before afterwards, unless nothing follows.
+    fn nested(
+        &mut self,
+        arms: &[(Expression, Vec<Statement>)],
+        otherwise: &[Statement],
+        is_last: bool,
+    ) {
+        if !is_last {
+            self.writer.logic("LPS", "", false);
+        }
         let last = arms.len().saturating_sub(1);
         for (at, (condition, body)) in arms.iter().enumerate() {
             let logic = self.lower(condition);
@@ -148,14 +201,16 @@ impl Generator<'_> {
                 self.writer.logic("LPS", "", false);
             }
             self.and(&logic);
-            self.guarded(body);
+            self.guarded(body, is_last && !has_more);
             if has_more {
                 self.writer.logic("NOT", "", false);
                 self.writer.logic("ALD", "", false);
             }
         }
-        self.guarded(otherwise);
-        self.writer.logic("LPP", "", false);
+        self.guarded(otherwise, is_last);
+        if !is_last {
+            self.writer.logic("LPP", "", false);
+        }
     }
 
     /// Bodies are jumped over where their conditions are not met.
@@ -234,6 +289,10 @@ impl Generator<'_> {
         let found = self.locate(&one.variable);
         let storage = found.storage;
         let variable = found.text;
+        if self.writer.open_loops < LOOPS_MAX && counts_by_instruction(one, storage) {
+            self.for_next(one, &variable);
+            return;
+        }
         let to = self.first_and_last(one, storage, &variable);
         let (start, next) = (self.writer.new_label(), self.writer.new_label());
         let exit = self.writer.new_label();
@@ -253,6 +312,24 @@ impl Generator<'_> {
         self.next_pass(one, &variable, &to, storage, exit);
         self.writer.always_jump(start);
         self.writer.label(exit);
+    }
+
+    /// FOR and NEXT of the controller; the variable ends one too high there.
+    fn for_next(&mut self, one: &ForLoop, variable: &str) {
+        let (from, to) = (self.operand(&one.from), self.operand(&one.to));
+        self.writer.boxed("FOR", &format!("{variable}, {from}, {to}"));
+        self.writer.forget();
+        self.writer.open_loops += 1;
+        let next = self.writer.new_label();
+        self.in_loop(next, next, &one.body);
+        let continues = any(&one.body, &|kind| matches!(kind, StatementKind::Continue));
+        if continues {
+            self.writer.power();
+            self.writer.label(next);
+        }
+        self.writer.open_loops -= 1;
+        self.writer.next();
+        self.writer.boxed("DECW", variable);
     }
 
     /// Sets the variable to its first value, and gives the last one as an operand that stays.
@@ -322,6 +399,22 @@ fn enters(one: &ForLoop) -> bool {
         }
         _ => false,
     }
+}
+
+/// Whether a loop is one of FOR and NEXT: by one up to a number that is not the highest, and left
+/// at its end alone.
+fn counts_by_instruction(one: &ForLoop, storage: Storage) -> bool {
+    let has_end =
+        matches!(one.to.kind, ExpressionKind::Constant(Value::Int(to)) if to < i16::MAX.into());
+    let is_left =
+        any(&one.body, &|kind| matches!(kind, StatementKind::Exit | StatementKind::Return));
+    storage == Storage::Word && one.by == 1 && enters(one) && has_end && !is_left
+}
+
+fn any(body: &[Statement], is_wanted: &dyn Fn(&StatementKind) -> bool) -> bool {
+    let mut found = false;
+    each(body, &mut |statement| found |= is_wanted(&statement.kind));
+    found
 }
 
 /// Whether nothing follows statements.

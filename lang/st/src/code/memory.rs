@@ -66,6 +66,14 @@ pub(super) fn row(bounds: &[(i64, i64)]) -> Option<(i64, i64)> {
     }
 }
 
+/// The type of a local variable in AWL.
+pub(super) fn local_type(kind: &Type) -> String {
+    match kind {
+        Type::Time => "DINT".to_owned(),
+        _ => type_name(kind),
+    }
+}
+
 impl Generator<'_> {
     /// The lines that declare all variables.
     pub(super) fn declarations(&self) -> Vec<String> {

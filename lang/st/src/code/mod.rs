@@ -1,7 +1,9 @@
 //! From a checked program to AWL that a person can read.
 
 mod arithmetic;
+mod blocks;
 mod calls;
+mod candidates;
 mod compare;
 mod control;
 mod convert;
@@ -15,13 +17,13 @@ mod timers;
 mod values;
 mod writer;
 
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 
 use diagnostics::{Source, Span};
 
 use crate::around::Around;
 use crate::diagnostic::Diagnostic;
-use crate::model::{Element, ExpressionKind, Program, SectionKind, Type, UnitKind};
+use crate::model::{Element, ExpressionKind, Program, SectionKind, UnitKind};
 use hardware::Devices;
 use timers::Short;
 use writer::Writer;
@@ -58,6 +60,8 @@ struct Generator<'a> {
     short: Short,
     /// Instances that are timers and counters of the controller.
     devices: Devices,
+    /// Blocks that are subroutines.
+    as_routines: BTreeSet<usize>,
     /// Names that stand for addresses.
     located: HashSet<String>,
     writer: Writer,
@@ -73,6 +77,40 @@ pub(crate) fn generate(
     sources: &[Source],
     around: &Around,
 ) -> (String, Vec<(usize, Diagnostic)>) {
+    let (devices, notes) = hardware::devices(program, around);
+    let write = |as_routines: &BTreeSet<usize>| {
+        written(program, sources, around, devices.clone(), as_routines.clone())
+    };
+    let mut chosen = BTreeSet::new();
+    let mut awl = write(&chosen);
+    // Beside AWL the text cannot be assembled alone, so nobody knows how long it becomes.
+    let candidates = if around.has_main { Vec::new() } else { candidates::candidates(program) };
+    let mut size = if candidates.is_empty() { None } else { bytes_of(&awl) };
+    for number in candidates {
+        chosen.insert(number);
+        let other = write(&chosen);
+        match (bytes_of(&other), size) {
+            (Some(fewer), Some(most)) if fewer < most => (awl, size) = (other, Some(fewer)),
+            _ => drop(chosen.remove(&number)),
+        }
+    }
+    (awl, notes)
+}
+
+/// Bytes of the image of a program that has no errors.
+fn bytes_of(awl: &str) -> Option<usize> {
+    let source = Source::new("program.awl", awl).ok()?;
+    awl_asm::assemble::assemble(&source, Vec::new()).image.map(|image| image.len())
+}
+
+/// The text with these blocks as subroutines, all others written out.
+fn written(
+    program: &Program,
+    sources: &[Source],
+    around: &Around,
+    devices: Devices,
+    as_routines: BTreeSet<usize>,
+) -> String {
     let frame = Frame {
         unit: 0,
         names: Names::Local,
@@ -82,12 +120,12 @@ pub(crate) fn generate(
         end: None,
         loops: Vec::new(),
     };
-    let (devices, notes) = hardware::devices(program, around);
     let mut generator = Generator {
         program,
         sources,
         short: timers::short_timers(program),
         devices,
+        as_routines,
         located: located(program),
         writer: Writer::default(),
         frame,
@@ -109,7 +147,11 @@ pub(crate) fn generate(
             routine += 1;
         }
     }
-    (lines.join("\n") + "\n", notes)
+    for number in generator.as_routines.clone() {
+        lines.extend(generator.block_routine(number, routine));
+        routine += 1;
+    }
+    lines.join("\n") + "\n"
 }
 
 /// The functions that are called by what is in the files, and by those.
@@ -156,7 +198,7 @@ impl Generator<'_> {
         }
         let writer = std::mem::take(&mut self.writer);
         let place = self.programs().first().and_then(|&number| self.place_of(number));
-        block(place, "ORGANIZATION_BLOCK MAIN:OB1", "END_ORGANIZATION_BLOCK", &[], writer)
+        writer::block(place, "ORGANIZATION_BLOCK MAIN:OB1", "END_ORGANIZATION_BLOCK", &[], writer)
     }
 
     fn programs(&self) -> Vec<usize> {
@@ -182,7 +224,7 @@ impl Generator<'_> {
             let header = format!("SUBROUTINE_BLOCK {name}:SBR{routine}");
             let writer = std::mem::take(&mut self.writer);
             let place = self.place_of(number);
-            lines.extend(block(place, &header, "END_SUBROUTINE_BLOCK", &[], writer));
+            lines.extend(writer::block(place, &header, "END_SUBROUTINE_BLOCK", &[], writer));
             *routine += 1;
         }
         lines
@@ -256,7 +298,8 @@ impl Generator<'_> {
                         || is_wanted == SectionKind::Var && one.section == SectionKind::Temp
                 })
                 .map(|one| {
-                    format!("{}:{};", crate::names::safe_name(&one.name), local_type(&one.of_type))
+                    let of_type = memory::local_type(&one.of_type);
+                    format!("{}:{of_type};", crate::names::safe_name(&one.name))
                 })
                 .collect();
             if !list.is_empty() {
@@ -267,7 +310,7 @@ impl Generator<'_> {
         }
         let header = format!("SUBROUTINE_BLOCK {}:SBR{routine}", unit.name);
         let writer = std::mem::take(&mut self.writer);
-        block(self.place_of(number), &header, "END_SUBROUTINE_BLOCK", &sections, writer)
+        writer::block(self.place_of(number), &header, "END_SUBROUTINE_BLOCK", &sections, writer)
     }
 
     /// Where the name of a unit is, unless it is a standard block.
@@ -294,37 +337,4 @@ impl Generator<'_> {
             self.writer.element(&source.name, element);
         }
     }
-}
-
-/// The type of a local variable in AWL.
-fn local_type(kind: &Type) -> String {
-    match kind {
-        Type::Time => "DINT".to_owned(),
-        _ => memory::type_name(kind),
-    }
-}
-
-/// A block with its sections and lines.
-fn block(
-    place: Option<String>,
-    header: &str,
-    end: &str,
-    sections: &[String],
-    writer: Writer,
-) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    lines.extend(place.map(|place| format!("//# source {place}")));
-    lines.push(header.to_owned());
-    lines.extend(sections.iter().cloned());
-    let temporaries = writer.temporaries();
-    if !temporaries.is_empty() {
-        lines.push("VAR".to_owned());
-        lines.extend(temporaries);
-        lines.push("END_VAR".to_owned());
-    }
-    lines.push("BEGIN".to_owned());
-    lines.extend(writer.finish());
-    lines.push("//# source".to_owned());
-    lines.push(end.to_owned());
-    lines
 }

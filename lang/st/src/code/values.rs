@@ -97,6 +97,12 @@ impl Generator<'_> {
             self.copy(wanted, &preset.to_string(), to);
             return;
         }
+        let found = self.locate(place);
+        if found.is_computed() && found.storage == wanted {
+            self.point(&found);
+            self.writer.boxed(&format!("MOV{}", wanted.letter()), &format!("*AC1, {to}"));
+            return;
+        }
         let found = self.readable(place);
         match (found.storage, wanted) {
             // The milliseconds of a timer that counts in a word.

@@ -74,6 +74,8 @@ pub(super) struct Writer {
     has_power: bool,
     /// The bit that the top of the stack is equal to.
     top: Option<String>,
+    /// FOR that have no NEXT yet.
+    pub(super) open_loops: usize,
     /// Inside the body of a condition: instructions hang on its power flow.
     pub(super) is_guarded: bool,
     /// Lines after which nothing was put out that could be jumped over.
@@ -229,6 +231,12 @@ impl Writer {
         self.forget();
     }
 
+    /// The end of a loop. The top of the stack is 1 after it.
+    pub(super) fn next(&mut self) {
+        self.line("NEXT", "");
+        self.forget();
+    }
+
     /// A jump for the power flow that there is.
     pub(super) fn jump(&mut self, label: u16) {
         self.line("JMP", &label.to_string());
@@ -282,4 +290,29 @@ impl Writer {
     pub(super) fn finish(self) -> Vec<String> {
         self.lines
     }
+}
+
+/// A block with its sections and lines.
+pub(super) fn block(
+    place: Option<String>,
+    header: &str,
+    end: &str,
+    sections: &[String],
+    writer: Writer,
+) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    lines.extend(place.map(|place| format!("//# source {place}")));
+    lines.push(header.to_owned());
+    lines.extend(sections.iter().cloned());
+    let temporaries = writer.temporaries();
+    if !temporaries.is_empty() {
+        lines.push("VAR".to_owned());
+        lines.extend(temporaries);
+        lines.push("END_VAR".to_owned());
+    }
+    lines.push("BEGIN".to_owned());
+    lines.extend(writer.finish());
+    lines.push("//# source".to_owned());
+    lines.push(end.to_owned());
+    lines
 }

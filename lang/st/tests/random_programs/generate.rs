@@ -1,5 +1,7 @@
 //! Random programs that compile: every expression has the type that is asked for.
 
+mod units;
+
 use fastrand::Rng;
 
 /// Variables of the program by type; those that the test writes are the first of each.
@@ -51,6 +53,8 @@ pub struct Generator {
     depth: u32,
     in_function: bool,
     in_block: bool,
+    /// Within the block that has elementary variables alone.
+    is_plain: bool,
     loops: u32,
     whiles: u32,
 }
@@ -62,6 +66,7 @@ impl Generator {
             depth: 0,
             in_function: false,
             in_block: false,
+            is_plain: false,
             loops: 0,
             whiles: 0,
         };
@@ -80,6 +85,7 @@ impl Generator {
         text += "gt : TIME := T#35ms;\nEND_VAR\n";
         text += &self.function();
         text += &self.block();
+        text += &self.plain();
         text += "PROGRAM Main\nVAR\n";
         for (kind, names) in VARIABLES {
             let own: Vec<&str> =
@@ -100,7 +106,7 @@ impl Generator {
         text += "s : State;\nton1 : TON; tof1 : TOF; tp1 : TP; ton2 : TON; count1 : CTU;\n";
         text += "{coarse} slow1, fast1 : TON;\nslow2, fast2 : TOF {coarse};\n";
         text += "first AT %SM0.1 : BOOL; count2 : CTU;\n";
-        text += "edge1 : R_TRIG;\none, two : Block;\nEND_VAR\n";
+        text += "edge1 : R_TRIG;\none, two : Block; three, four : Plain;\nEND_VAR\n";
         text += &self.devices();
         let count = self.rng.usize(3..10);
         text += &self.statements(count);
@@ -114,51 +120,11 @@ impl Generator {
             text += &format!("{name}(IN := {}, PT := T#{preset}ms);\n", self.condition());
         }
         let (up, reset) = (self.condition(), self.condition());
+        for name in ["three", "four", "three"] {
+            let (p, a) = (self.condition(), self.whole("INT"));
+            text += &format!("{name}(p := {p}, a := {a}, c := c, b => b);\n");
+        }
         text + &format!("count2(CU := {up}, R := {reset} OR first, PV := 3);\n")
-    }
-
-    fn function(&mut self) -> String {
-        self.in_function = true;
-        let mut text = String::from(
-            "FUNCTION Compute : INT\nVAR_INPUT a, b : INT; p : BOOL; END_VAR\nVAR c : INT; \
-             END_VAR\n",
-        );
-        for _ in 0..self.rng.usize(1..4) {
-            let value = self.whole("INT");
-            let target = self.pick(&["c", "Compute"]);
-            text += &match self.rng.bool() {
-                true => format!("{target} := {value};\n"),
-                false => format!("IF {} THEN {target} := {value}; END_IF;\n", self.condition()),
-            };
-        }
-        self.in_function = false;
-        text + "Compute := Compute + c;\nEND_FUNCTION\n"
-    }
-
-    fn block(&mut self) -> String {
-        self.in_block = true;
-        let mut text = String::from(
-            "FUNCTION_BLOCK Block\nVAR_INPUT p : BOOL; a : INT; row : Row; END_VAR\n\
-             VAR_OUTPUT q : BOOL; b : INT; twin : Pair; END_VAR\n\
-             VAR_IN_OUT c : INT; both : Pair; END_VAR\nVAR d : DINT; delay : TON; \
-             END_VAR\n",
-        );
-        for _ in 0..self.rng.usize(1..5) {
-            text += &match self.rng.u8(..7) {
-                5 => format!("both.x := {};\n", self.whole("INT")),
-                6 => self.pick(&["twin := both;\n", "twin.z := a;\n"]).to_owned(),
-                0 => format!("b := {};\n", self.whole("INT")),
-                1 => format!("q := {};\n", self.condition()),
-                2 => format!("IF {} THEN c := {}; END_IF;\n", self.condition(), self.whole("INT")),
-                3 => format!("d := {};\n", self.whole("DINT")),
-                _ => format!("delay(IN := {}, PT := T#40ms); q := delay.Q;\n", self.condition()),
-            };
-        }
-        if self.rng.u8(..4) == 0 {
-            text += &format!("IF {} THEN RETURN; END_IF;\nb := b + 1;\n", self.condition());
-        }
-        self.in_block = false;
-        text + "END_FUNCTION_BLOCK\n"
     }
 
     fn pick<'t>(&mut self, list: &[&'t str]) -> &'t str {
@@ -171,6 +137,7 @@ impl Generator {
         }
         if self.in_block {
             return match kind {
+                "INT" if self.is_plain => self.pick(&["a", "b", "c", "gi"]),
                 "INT" => self.pick(&["a", "b", "c", "gi", "both.x", "row[b]", "twin.z"]),
                 _ => self.pick(&["d", "gd"]),
             }
@@ -371,7 +338,7 @@ impl Generator {
 
     fn call(&mut self) -> String {
         let condition = self.condition();
-        match self.rng.u8(..8) {
+        match self.rng.u8(..9) {
             0 => format!("ton1(IN := {condition}, PT := T#30ms);\n"),
             1 => format!("tof1(IN := {condition}, PT := T#1s20ms);\n"),
             2 => format!("tp1(IN := {condition}, PT := T#25ms);\n"),
@@ -385,6 +352,7 @@ impl Generator {
                      b => b, twin => pairs[gi]);\n"
                 )
             }
+            7 => format!("four(c := b, p := {condition}, q => r);\n"),
             _ => {
                 let whole = self.whole("INT");
                 format!("two({condition}, {whole}, c := list[2], both := twin2);\n")
