@@ -1,10 +1,11 @@
 //! Function blocks as subroutines: their state goes in and out as parameters. How they are called,
 //! and their text; which are one is decided elsewhere.
 
-use super::memory::{local_type, safe_name};
+use super::memory::local_type;
 use super::writer::{Writer, block};
 use super::{Frame, Generator, Names};
 use crate::model::{SectionKind, Unit, Variable};
+use crate::names::safe_name;
 
 /// How a variable of a block goes to its subroutine.
 fn section_of(variable: &Variable) -> Option<&'static str> {
