@@ -56,10 +56,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     ("wasm-smoke", &["plc-isa", "awl-asm", "awl-sim", "analysis", "client", "flash"]),
-    (
-        "xtask",
-        &["plc-isa", "plc-vm", "awl-asm", "st", "project", "awl-sim", "uno200", "ide-site"],
-    ),
+    ("xtask", &["plc-isa", "plc-vm", "awl-asm", "st", "project", "awl-sim", "uno200", "ide-site"]),
     ("bind", &[]),
 ];
 
