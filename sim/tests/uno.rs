@@ -14,6 +14,7 @@ use awl_sim::open::{Opened, Target, open_machine};
 use awl_sim::operand::Operand;
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
+use awl_sim::suite::plant_for;
 use plc_isa::{NATIVE_INTERFACE, Op, SLOT_START, verify};
 use plc_vm::Fault;
 use simavr::Pin;
@@ -352,9 +353,12 @@ fn assert_examples_do_what_they_shall(target: Target) {
         let opened =
             open_machine(&path, &[], target).unwrap_or_else(|error| panic!("{stem}: {error}"));
         let Opened { mut machine, symbols, scan_ms, .. } = opened;
-        let text = fs::read_to_string(path.with_extension("scn")).unwrap();
+        let beside = path.with_extension("scn");
+        let text = fs::read_to_string(&beside).unwrap();
+        let plant = plant_for(&beside, &stem, &text).unwrap_or_else(|error| panic!("{error}"));
+        let plant = plant.as_ref();
         let mut has_operand = |operand| machine.read(operand).map(|_| ());
-        let context = Context { symbols: &symbols, plant: None, has_operand: &mut has_operand };
+        let context = Context { symbols: &symbols, plant, has_operand: &mut has_operand };
         let scenario =
             Scenario::parse(&stem, &text, context).unwrap_or_else(|problems| panic!("{problems}"));
         let plant = scenario.plant.as_ref().map(|spec| spec.build().unwrap());
@@ -374,7 +378,7 @@ fn assert_examples_do_what_they_shall(target: Target) {
         );
         assert!(outcome.met >= 2, "{stem}: {}", outcome.met);
     }
-    assert_eq!(count, 14);
+    assert_eq!(count, 15);
 }
 
 #[test]
