@@ -2,7 +2,7 @@
 //! by the steps after it. What this way does and does not do is in docs/charts.md; programs that
 //! run here are made by [`crate::translate`], which evaluates all transitions first.
 //!
-//! [`plan`] is what is generated without the words of a target, `targets` writes it.
+//! [`mod@plan`] is what is generated without the words of a target, `targets` writes it.
 
 mod assemble;
 pub mod plan;
