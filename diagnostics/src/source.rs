@@ -5,6 +5,7 @@ use std::fmt;
 
 use crate::binary::Binary;
 use crate::origins::Origins;
+use crate::windows_1252;
 
 /// A stretch of the source text, in bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord)]
@@ -113,15 +114,16 @@ impl Encoding {
         }
     }
 
+    /// The text of a file. What is no character in its encoding is U+FFFD.
     fn decode(self, bytes: &[u8]) -> String {
-        let (encoding, mark_len) = match self {
-            Encoding::Utf8 => (encoding_rs::UTF_8, 0),
-            Encoding::Utf8Marked => (encoding_rs::UTF_8, 3),
-            Encoding::Utf16LittleEndian => (encoding_rs::UTF_16LE, 2),
-            Encoding::Utf16BigEndian => (encoding_rs::UTF_16BE, 2),
-            Encoding::Windows1252 => (encoding_rs::WINDOWS_1252, 0),
-        };
-        encoding.decode_without_bom_handling(bytes.get(mark_len..).unwrap_or(&[])).0.into_owned()
+        let after_mark = |mark_len| bytes.get(mark_len..).unwrap_or(&[]);
+        match self {
+            Encoding::Utf8 => String::from_utf8_lossy(bytes).into_owned(),
+            Encoding::Utf8Marked => String::from_utf8_lossy(after_mark(3)).into_owned(),
+            Encoding::Utf16LittleEndian => of_utf16(after_mark(2), u16::from_le_bytes),
+            Encoding::Utf16BigEndian => of_utf16(after_mark(2), u16::from_be_bytes),
+            Encoding::Windows1252 => bytes.iter().copied().map(windows_1252::character).collect(),
+        }
     }
 
     /// The bytes of a text, with the byte order mark of its encoding; `None` if that lacks a
@@ -136,12 +138,20 @@ impl Encoding {
             Encoding::Utf8Marked => Some([b"\xEF\xBB\xBF", text.as_bytes()].concat()),
             Encoding::Utf16LittleEndian => units(u16::to_le_bytes),
             Encoding::Utf16BigEndian => units(u16::to_be_bytes),
-            Encoding::Windows1252 => {
-                let (bytes, _, has_failed) = encoding_rs::WINDOWS_1252.encode(text);
-                (!has_failed).then(|| bytes.into_owned())
-            }
+            Encoding::Windows1252 => text.chars().map(windows_1252::byte).collect(),
         }
     }
+}
+
+/// A text of 16-bit units; half a pair and half a unit are U+FFFD.
+fn of_utf16(bytes: &[u8], unit_of: fn([u8; 2]) -> u16) -> String {
+    let (units, half) = bytes.as_chunks::<2>();
+    let characters = char::decode_utf16(units.iter().copied().map(unit_of));
+    let half = half.first().map(|_| char::REPLACEMENT_CHARACTER);
+    characters
+        .map(|character| character.unwrap_or(char::REPLACEMENT_CHARACTER))
+        .chain(half)
+        .collect()
 }
 
 /// Why bytes are no source text.
@@ -408,6 +418,11 @@ mod tests {
         assert_eq!(text(b"\xFF\xFEL\0D\0"), "LD");
         assert_eq!(text(b"\xFE\xFF\0L\0D"), "LD");
         assert_eq!(text(b"\xEF\xBB\xBF\xFF"), "\u{FFFD}", "a mark wins");
+        assert_eq!(
+            text(b"\xFF\xFEL\0\0\xD8D\0L"),
+            "L\u{FFFD}D\u{FFFD}",
+            "half a pair, half a unit"
+        );
     }
 
     #[test]

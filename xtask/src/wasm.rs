@@ -27,6 +27,9 @@ const LIBRARIES: [&str; 12] = [
     "wasm-smoke",
 ];
 const MODULE: &str = "wasm_smoke";
+/// The libraries that are worth some size: every scan of the simulator goes through them. All
+/// others are as small as the compiler can make them.
+const QUICK: [&str; 4] = ["plc-isa", "plc-vm", "plc-link", "awl-sim"];
 /// What links with Debian's compiler.
 const DEBIAN_LINKER: &str = "wasm-ld-19";
 
@@ -55,7 +58,10 @@ pub fn build(module: &str, of: &[&str]) -> Result<PathBuf> {
     build.current_dir(root()).args(["build", "--quiet", "--locked", "--lib", "--target", TARGET]);
     build.arg("--no-default-features").arg("--target-dir").arg(&folder).arg("--release");
     build.args(["--config", "profile.release.debug=false"]);
-    build.args(["--config", "profile.release.opt-level=\"s\""]);
+    build.args(["--config", "profile.release.opt-level=\"z\""]);
+    for quick in QUICK {
+        build.arg("--config").arg(format!("profile.release.package.{quick}.opt-level=\"s\""));
+    }
     build.args(["--config", "profile.release.panic=\"abort\""]);
     same_names::apply(&mut build)?;
     // Messages of panics name sources; where cargo keeps them is nobody's business.

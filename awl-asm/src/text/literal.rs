@@ -260,12 +260,8 @@ fn escape(whole: &str, rest: &mut std::str::Chars<'_>) -> Result<Vec<u8>, Litera
 }
 
 fn code_page(whole: &str, character: char) -> Result<u8, LiteralError> {
-    let mut buffer = [0; 4];
-    let (bytes, _, failed) = encoding_rs::WINDOWS_1252.encode(character.encode_utf8(&mut buffer));
-    match (&*bytes, failed) {
-        (&[byte], false) => Ok(byte),
-        _ => Err(malformed(whole, format!("{character} is no character of one byte"))),
-    }
+    diagnostics::windows_1252::byte(character)
+        .ok_or_else(|| malformed(whole, format!("{character} is no character of one byte")))
 }
 
 /// What the notation of another system would be here.
