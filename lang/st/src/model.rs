@@ -159,6 +159,13 @@ impl fmt::Display for Type {
 }
 
 impl Type {
+    /// Its name in a sentence: `a BOOL`, `an INT`.
+    pub(crate) fn with_article(&self) -> String {
+        let name = self.to_string();
+        let article = if name.starts_with(['A', 'E', 'I', 'O']) { "an" } else { "a" };
+        format!("{article} {name}")
+    }
+
     /// The type of the values: of a part of a type's numbers that type.
     pub fn base(&self) -> &Type {
         match self {

@@ -279,7 +279,7 @@ impl<'a> Checker<'a> {
             _ => false,
         };
         if !fits {
-            let message = format!("{}: a {of_type} is at {wanted}", at.text);
+            let message = format!("{}: {} is at {wanted}", at.text, of_type.with_article());
             self.error(Code::WrongType, at.span, message);
             return None;
         }

@@ -85,7 +85,7 @@ impl Checker<'_> {
             return Some((Step::Member(at), kind));
         }
         let message = match names.is_empty() {
-            true => format!("{}: a {kind} has no members", name.text),
+            true => format!("{}: {} has no members", name.text, kind.with_article()),
             false => format!("{}: {kind} has no such member", name.text),
         };
         let mut diagnostic = Diagnostic::new(Code::UnknownName, name.span, message);
@@ -106,7 +106,7 @@ impl Checker<'_> {
     ) -> Option<(Step, Type)> {
         let Type::Array(array) = kind else {
             if *kind != Type::Invalid {
-                let message = format!("{}: a {kind} has no elements", name.text);
+                let message = format!("{}: {} has no elements", name.text, kind.with_article());
                 self.error(Code::WrongType, name.span, message);
             }
             return None;

@@ -110,8 +110,9 @@ impl Checker<'_> {
         let kind = selector.of_type.clone();
         let fits = kind.is_whole() || matches!(kind, Type::Enumeration(_) | Type::Invalid);
         if !fits {
+            let this = kind.with_article();
             let message =
-                format!("CASE chooses by whole numbers or an enumeration, this is a {kind}");
+                format!("CASE chooses by whole numbers or an enumeration, this is {this}");
             let found = Diagnostic::new(Code::WrongType, selector.span, message);
             let help = match kind.is_bits() {
                 true => format!("{kind}_TO_INT(...) is a number"),

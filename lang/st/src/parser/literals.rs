@@ -45,6 +45,12 @@ impl Parser<'_> {
         let after = span.start as usize + prefix.len() + 1;
         let value_span = Span::new(after, span.end as usize);
         match kind.as_str() {
+            "S5T" | "S5TIME" => {
+                let meant = format!("T#{rest}");
+                let message = format!("{text}: a duration begins with `T#`");
+                self.report(Diagnostic::new(Code::Syntax, span, message).suggest(meant));
+                ExpressionKind::Missing
+            }
             "T" | "TIME" => match duration(rest) {
                 Some(ms) => ExpressionKind::Duration(ms),
                 None => self.bad_literal(span, "is no duration: write T#1m30s, T#1.5s or T#200ms"),
@@ -95,7 +101,7 @@ fn number(text: &str, base: u32) -> Option<i64> {
 
 /// `1d2h3m4s5ms`, units falling, the last with a fraction; milliseconds. What is less than a
 /// millisecond is rounded to the nearest, halves up.
-fn duration(text: &str) -> Option<i64> {
+pub(crate) fn duration(text: &str) -> Option<i64> {
     const UNITS: [(&str, i64); 5] =
         [("d", 86_400_000), ("h", 3_600_000), ("m", 60_000), ("s", 1_000), ("ms", 1)];
     let (is_negative, text) = match text.strip_prefix('-') {

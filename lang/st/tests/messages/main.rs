@@ -1,11 +1,14 @@
 //! What is said about mistakes, and where: a mistake in its line, then the code, the place, and
 //! what the answer must contain. Nothing else is reported.
 
+mod habits;
+
 use diagnostics::Source;
+use habits::{DECLARED, HABITS, TEXTS};
 use st::{Around, compile};
 
 /// Code, place of the mistake as text that is there once, parts of the answer.
-struct Answer(&'static str, &'static str, &'static [&'static str]);
+pub struct Answer(&'static str, &'static str, &'static [&'static str]);
 
 /// Declarations of a program, its statements, and the answers.
 const MISTAKES: &[(&str, &str, &[Answer])] = &[
@@ -69,25 +72,51 @@ const MISTAKES: &[(&str, &str, &[Answer])] = &[
 #[test]
 fn mistakes_are_answered_at_their_place() {
     for (declarations, statements, answers) in MISTAKES {
-        let text =
-            format!("PROGRAM Main\nVAR\n{declarations}\nEND_VAR\n{statements}\nEND_PROGRAM\n");
-        let source = Source::new("m.st", text.as_str()).expect("a short text");
-        let compiled = compile(&[source], &Around::default());
-        let found = &compiled.diagnostics;
-        let all: Vec<String> = found
-            .iter()
-            .map(|(_, one)| {
-                let (code, place) = (one.code.text(), one.span.text(&text));
-                format!("{code} `{place}` {} {:?}", one.message, one.help)
-            })
-            .collect();
-        assert_eq!(all.len(), answers.len(), "{statements}: {all:#?}");
-        for ((_, one), Answer(code, place, parts)) in found.iter().zip(*answers) {
-            let message = format!("{} {:?} {:?}", one.message, one.help, one.suggestion);
-            assert_eq!((one.code.text(), one.span.text(&text)), (*code, *place), "{statements}");
-            for part in *parts {
-                assert!(message.contains(part), "{statements}: {message} has no {part}");
-            }
+        answered(&program(declarations, statements), answers);
+    }
+}
+
+#[test]
+fn habits_of_other_languages_are_answered() {
+    for (declarations, statements, answers) in HABITS {
+        answered(&program(&format!("{DECLARED}{declarations}"), statements), answers);
+    }
+    for (text, answers) in TEXTS {
+        answered(text, answers);
+    }
+}
+
+/// Names that other languages have as words are names all the same.
+#[test]
+fn words_of_other_languages_can_be_names() {
+    let declared = "Next, Break, Step : INT; Default : (Begin, End, Other); Timer : TON;";
+    let statements = "Next := Break;\nFOR Step := Next TO Break DO Break := Step; END_FOR;\n\
+                      CASE Default OF Begin, End: Next := 1; Other: Break := -Step; END_CASE;\n\
+                      Timer(IN := Next > 1, PT := T#1s);\nBreak := Next\n+ Step;\n";
+    answered(&program(declared, statements), &[]);
+}
+
+fn program(declarations: &str, statements: &str) -> String {
+    format!("PROGRAM Main\nVAR\n{declarations}\nEND_VAR\n{statements}\nEND_PROGRAM\n")
+}
+
+fn answered(text: &str, answers: &[Answer]) {
+    let source = Source::new("m.st", text).expect("a short text");
+    let compiled = compile(&[source], &Around::default());
+    let found = &compiled.diagnostics;
+    let all: Vec<String> = found
+        .iter()
+        .map(|(_, one)| {
+            let (code, place) = (one.code.text(), one.span.text(text));
+            format!("{code} `{place}` {} {:?}", one.message, one.help)
+        })
+        .collect();
+    assert_eq!(all.len(), answers.len(), "{text}: {all:#?}");
+    for ((_, one), Answer(code, place, parts)) in found.iter().zip(answers) {
+        let message = format!("{} {:?} {:?}", one.message, one.help, one.suggestion);
+        assert_eq!((one.code.text(), one.span.text(text)), (*code, *place), "{text}");
+        for part in *parts {
+            assert!(message.contains(part), "{text}: {message} has no {part}");
         }
     }
 }
