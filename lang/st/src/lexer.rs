@@ -4,7 +4,9 @@
 use diagnostics::Span;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::parser::{habits, is_keyword, literals};
+use crate::durations::duration;
+use crate::habits;
+use crate::keywords::is_keyword;
 
 /// What a token is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -311,7 +313,7 @@ impl<'t> Lexer<'t> {
             let digits = prefix.iter().find_map(|prefix| text.strip_prefix(prefix))?;
             Some(format!("{base}#{digits}"))
         };
-        if literals::duration(text).is_some() {
+        if duration(text).is_some() {
             let meant = format!("T#{text}");
             return self.instead(start, "a duration begins with `T#`", meant);
         }
@@ -348,10 +350,10 @@ impl<'t> Lexer<'t> {
 
     fn sign(&mut self, first: char) -> Option<Kind> {
         let start = self.at;
-        if let Some((length, kind, found)) = habits::sign(self.rest(), start) {
+        if let Some((length, meant, found)) = habits::sign(self.rest(), start) {
             self.at += length;
             self.diagnostics.push(found);
-            return Some(kind);
+            return Some(meant.map_or(Kind::Unknown, Kind::Sign));
         }
         match SIGNS.into_iter().find(|sign| self.rest().starts_with(sign)) {
             Some(sign) => {

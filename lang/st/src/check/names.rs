@@ -4,8 +4,8 @@ use awl_asm::suggest::nearest;
 
 use super::Checker;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::habits;
 use crate::model::{ELEMENTARY, Root, Type, UnitKind, Value};
-use crate::parser::habits;
 use crate::standard::{FUNCTIONS, conversions};
 use crate::tree::Name;
 

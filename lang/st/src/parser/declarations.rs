@@ -3,8 +3,10 @@
 use diagnostics::Span;
 
 use super::expressions::joined;
-use super::{Failed, Outcome, Parser, is_keyword};
+use super::{Failed, Outcome, Parser};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::habits;
+use crate::keywords::is_keyword;
 use crate::lexer::Kind;
 use crate::model::ELEMENTARY;
 use crate::tree::{
@@ -55,7 +57,7 @@ impl Parser<'_> {
         if let Some(message) = message {
             let text = super::short(self.text_of(token));
             let found = Diagnostic::new(Code::Syntax, token.span, format!("`{text}`: {message}"));
-            let help = super::habits::help(word);
+            let help = habits::help(word);
             self.report(found.help(help.unwrap_or("a program is `PROGRAM Main ... END_PROGRAM`")));
         }
         let begins = ["PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TYPE", "VAR_GLOBAL"];
@@ -199,7 +201,7 @@ impl Parser<'_> {
                 break;
             }
         }
-        if self.token().kind == Kind::Word && super::is_keyword(self.word_at(0)) {
+        if self.token().kind == Kind::Word && is_keyword(self.word_at(0)) {
             let ends = ["END_VAR", "END_STRUCT"];
             let is_declared = matches!(self.ahead(1).kind, Kind::Sign(":" | ","))
                 || self.word_at(1).eq_ignore_ascii_case("AT");
@@ -251,7 +253,7 @@ impl Parser<'_> {
         } else if is_type(self.word_at(0)) && !is_keyword(second_text) && second.kind == Kind::Word
         {
             let kind = first_text.to_ascii_uppercase();
-            let kind = super::habits::type_name(&kind).unwrap_or(&kind);
+            let kind = habits::type_name(&kind).unwrap_or(&kind);
             ("the type is after the name", format!("{second_text} : {kind}"), span)
         } else if is_type(self.word_at(1)) {
             ("`:` is between name and type", format!("{first_text} : {second_text}"), span)
@@ -377,7 +379,7 @@ impl Parser<'_> {
             self.need_sign(")")?;
             return Ok(TypeTextKind::Range(name.text, Box::new((low, high))));
         }
-        if self.is_sign("[") || super::habits::is_pointer(&name.text) {
+        if self.is_sign("[") || habits::is_pointer(&name.text) {
             let (message, help) = match self.is_sign("[") {
                 true => ("an array begins with ARRAY", format!("`ARRAY[0..9] OF {}`", name.text)),
                 false => ("there are no pointers", "a VAR_IN_OUT passes a variable".to_owned()),
@@ -427,7 +429,7 @@ impl Parser<'_> {
 
 /// Whether a word names an elementary type, here or in another language.
 fn is_type(word: &str) -> bool {
-    super::habits::type_name(word).is_some() || is_elementary(word)
+    habits::type_name(word).is_some() || is_elementary(word)
 }
 
 fn is_elementary(word: &str) -> bool {

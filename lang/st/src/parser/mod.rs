@@ -3,85 +3,20 @@
 
 mod declarations;
 mod expressions;
-pub(crate) mod habits;
-pub(crate) mod literals;
+mod literals;
 mod statements;
+mod translated;
 
 use diagnostics::{Source, Span};
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::habits;
+use crate::keywords::is_keyword;
 use crate::lexer::{Kind, Token, Tokens, cut, cut_part};
 use crate::tree::{Expression, File, Name, Statement};
 
 /// How deep statements and brackets can be in each other.
 const DEPTH_MAX: u32 = 60;
-
-/// Words that name nothing.
-pub const KEYWORDS: [&str; 60] = [
-    "PROGRAM",
-    "END_PROGRAM",
-    "FUNCTION",
-    "END_FUNCTION",
-    "FUNCTION_BLOCK",
-    "END_FUNCTION_BLOCK",
-    "TYPE",
-    "END_TYPE",
-    "STRUCT",
-    "END_STRUCT",
-    "VAR",
-    "VAR_INPUT",
-    "VAR_OUTPUT",
-    "VAR_IN_OUT",
-    "VAR_TEMP",
-    "VAR_GLOBAL",
-    "VAR_EXTERNAL",
-    "END_VAR",
-    "CONSTANT",
-    "RETAIN",
-    "NON_RETAIN",
-    "AT",
-    "ARRAY",
-    "OF",
-    "IF",
-    "THEN",
-    "ELSIF",
-    "ELSE",
-    "END_IF",
-    "CASE",
-    "END_CASE",
-    "FOR",
-    "TO",
-    "BY",
-    "DO",
-    "END_FOR",
-    "WHILE",
-    "END_WHILE",
-    "REPEAT",
-    "UNTIL",
-    "END_REPEAT",
-    "EXIT",
-    "CONTINUE",
-    "RETURN",
-    "AND",
-    "OR",
-    "XOR",
-    "NOT",
-    "MOD",
-    "TRUE",
-    "FALSE",
-    "CONFIGURATION",
-    "RESOURCE",
-    "TASK",
-    "CLASS",
-    "METHOD",
-    "INTERFACE",
-    "NAMESPACE",
-    "GOTO",
-    "END_ELSIF",
-];
-
-/// Those of them that are operators.
-pub const OPERATOR_WORDS: [&str; 5] = ["AND", "OR", "XOR", "NOT", "MOD"];
 
 /// Reads a text.
 pub fn parse(source: &Source) -> (File, Vec<Diagnostic>) {
@@ -141,7 +76,7 @@ type Outcome<T> = Result<T, Failed>;
 impl<'t> Parser<'t> {
     fn new(text: &'t str, tokens: Tokens) -> Parser<'t> {
         let Tokens { tokens, mut pragmas, mut diagnostics, .. } = tokens;
-        let (tokens, reported) = habits::translate(text, tokens);
+        let (tokens, reported) = translated::translated(text, tokens);
         diagnostics.extend(reported);
         pragmas.retain(|span| is_coarse(span.text(text)));
         Parser { text, tokens, at: 0, depth: 0, coarse: pragmas, diagnostics }
@@ -390,11 +325,6 @@ impl<'t> Parser<'t> {
         self.depth -= 1;
         outcome
     }
-}
-
-/// Whether a word names nothing.
-pub fn is_keyword(word: &str) -> bool {
-    KEYWORDS.iter().any(|keyword| keyword.eq_ignore_ascii_case(word))
 }
 
 fn short(text: &str) -> String {

@@ -5,6 +5,8 @@ use diagnostics::Span;
 use super::expressions::joined;
 use super::{Failed, Outcome, Parser};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::habits;
+use crate::keywords::is_keyword;
 use crate::lexer::Kind;
 use crate::tree::{CaseArm, Expression, ExpressionKind, ForLoop, Statement, StatementKind};
 
@@ -43,7 +45,7 @@ impl Parser<'_> {
         ];
         let word = self.word_at(0);
         let is_end = word.get(..4).is_some_and(|start| start.eq_ignore_ascii_case("END_"))
-            && super::is_keyword(word);
+            && is_keyword(word);
         is_end || self.is_one_of(&ends) || self.is_case_label()
     }
 
@@ -56,7 +58,7 @@ impl Parser<'_> {
             }
             match self.ahead(at).kind {
                 Kind::Integer | Kind::Prefixed => {}
-                Kind::Word if !super::is_keyword(self.word_at(at)) => {}
+                Kind::Word if !is_keyword(self.word_at(at)) => {}
                 _ => return false,
             }
             match self.ahead(at + 1).kind {
@@ -142,7 +144,7 @@ impl Parser<'_> {
             (Kind::Sign(sign @ ("+" | "-")), Kind::Sign(again)) if sign == again => {
                 format!("`{name} := {name} {sign} 1;` counts")
             }
-            (Kind::Sign(";"), _) if super::habits::help(name).is_none() => {
+            (Kind::Sign(";"), _) if habits::help(name).is_none() => {
                 format!("`{name} := ...;` gives it a value, `{name}();` calls an instance")
             }
             _ => return self.expected("`:=`"),
