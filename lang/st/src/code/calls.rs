@@ -6,7 +6,7 @@ use super::timers::Owner;
 use super::writer::Storage;
 use super::{Frame, Generator, Names};
 use crate::model::{
-    BlockCall, Expression, ExpressionKind, Place, Root, RoutineArgument, Step, Type, UnitKind,
+    BlockCall, Expression, ExpressionKind, Place, Root, RoutineArgument, Step, Type, Unit, UnitKind,
 };
 
 impl Generator<'_> {
@@ -68,29 +68,12 @@ impl Generator<'_> {
             self.device_call(&name, &device, call);
             return;
         }
-        for (at, value) in &call.inputs {
-            match &value.kind {
-                ExpressionKind::Read(from) if !value.of_type.is_elementary() => {
-                    self.copy_whole(from, &parameter(call, *at, &value.of_type), &value.of_type);
-                }
-                _ => self.pass(&frame, *at, value),
-            }
-        }
-        for (at, place) in &call.in_outs {
-            let of_type = &place.of_type;
-            match of_type.is_elementary() {
-                true => self.pass(&frame, *at, &read(place)),
-                false => self.copy_whole(place, &parameter(call, *at, of_type), of_type),
-            }
-        }
-        if self.as_routines.contains(&call.block) {
-            self.call_as_routine(&frame, unit);
-        } else {
-            let around = std::mem::replace(&mut self.frame, frame.clone());
-            self.reset_temporaries(unit);
-            self.body(&unit.body);
-            self.end_of_unit();
-            self.frame = around;
+        let is_done = match &frame.names {
+            Names::Static(name) => self.edge_call(name, call),
+            Names::Local => false,
+        };
+        if !is_done {
+            self.block_body(&frame, unit, call);
         }
         for (at, place) in call.in_outs.iter().chain(&call.outputs) {
             let of_type = &place.of_type;
@@ -98,6 +81,34 @@ impl Generator<'_> {
                 true => self.take(&frame, *at, place),
                 false => self.copy_whole(&parameter(call, *at, of_type), place, of_type),
             }
+        }
+    }
+
+    /// Gives the parameters, then the block is written out, or its subroutine called.
+    fn block_body(&mut self, frame: &Frame, unit: &Unit, call: &BlockCall) {
+        for (at, value) in &call.inputs {
+            match &value.kind {
+                ExpressionKind::Read(from) if !value.of_type.is_elementary() => {
+                    self.copy_whole(from, &parameter(call, *at, &value.of_type), &value.of_type);
+                }
+                _ => self.pass(frame, *at, value),
+            }
+        }
+        for (at, place) in &call.in_outs {
+            let of_type = &place.of_type;
+            match of_type.is_elementary() {
+                true => self.pass(frame, *at, &read(place)),
+                false => self.copy_whole(place, &parameter(call, *at, of_type), of_type),
+            }
+        }
+        if self.as_routines.contains(&call.block) {
+            self.call_as_routine(frame, unit);
+        } else {
+            let around = std::mem::replace(&mut self.frame, frame.clone());
+            self.reset_temporaries(unit);
+            self.body(&unit.body);
+            self.end_of_unit();
+            self.frame = around;
         }
     }
 

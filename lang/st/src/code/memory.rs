@@ -1,6 +1,7 @@
 //! Variables in AWL: how each is called and stored, and the lines that declare them.
 
 use super::Generator;
+use super::edges::M;
 use super::timers::Owner;
 use super::writer::Storage;
 use crate::model::{SectionKind, Type, UnitKind, Value, Variable};
@@ -142,7 +143,11 @@ impl Generator<'_> {
         }
         let Some(unit) = self.program.units.get(number) else { return };
         let short = self.short.get(&(owner, at));
+        let is_edge = self.edges.contains(&(owner, at));
         for (inner, variable) in unit.variables.iter().enumerate() {
+            if is_edge && inner == M {
+                continue;
+            }
             let name = format!("{name}.{}", variable.name);
             if short.is_some() && variable.of_type == Type::Time {
                 if !(variable.name == "PT" && short.is_some_and(Option::is_some)) {
