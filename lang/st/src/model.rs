@@ -214,6 +214,22 @@ impl Type {
         !matches!(self, Type::Array(_) | Type::Struct(_) | Type::Block(..))
     }
 
+    /// The unit of the instance that it is, or of those in an array.
+    pub(crate) fn block(&self) -> Option<usize> {
+        match self {
+            Type::Block(number, _) => Some(*number),
+            _ => self.block_of_array(),
+        }
+    }
+
+    /// The unit of the instances in an array.
+    pub(crate) fn block_of_array(&self) -> Option<usize> {
+        match self {
+            Type::Array(array) => array.of.block(),
+            _ => None,
+        }
+    }
+
     /// Whether every value of `self` is one of `wider`, or is taken for it.
     pub fn widens_to(&self, wider: &Type) -> bool {
         if self == wider {

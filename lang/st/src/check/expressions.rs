@@ -278,13 +278,18 @@ impl Checker<'_> {
             return known(value, kind, span);
         }
         let Some(place) = self.place(name, selectors, span) else { return invalid(span) };
-        if let Type::Block(_, block) = &place.of_type {
-            let message = format!("{}: an instance of {block} is no value", name.text);
+        if place.of_type.block().is_some() {
+            let kind = place.of_type.with_article();
+            let message = format!("{}: {kind} is no value", name.text);
             let found = Diagnostic::new(Code::WrongType, span, message);
             self.report(found.help(format!("its outputs are, such as {}.Q", name.text)));
             return invalid(span);
         }
         let of_type = place.of_type.base().clone();
+        let pass = self.unrolled.iter().find(|one| one.name == upper(&name.text));
+        if let Some(value) = pass.filter(|_| selectors.is_empty()).map(|one| one.value) {
+            return known(Value::Int(value), of_type, span);
+        }
         if let Some(value) = self.constant_at(&place) {
             return known(value, of_type, span);
         }

@@ -2,6 +2,7 @@
 
 use super::hardware::Device;
 use super::logic::Logic;
+use super::memory::instances;
 use super::timers::Owner;
 use super::writer::Storage;
 use super::{Frame, Generator, Names};
@@ -142,7 +143,8 @@ impl Generator<'_> {
             Root::Global(at) => (Owner::Global, at),
             Root::Address(_) => (Owner::Global, usize::MAX),
         };
-        let short = self.short.get(&owner).filter(|_| place.steps.is_empty());
+        let is_own = place.steps.iter().all(|step| matches!(step, Step::Element(_)));
+        let short = self.short.get(&owner).filter(|_| is_own);
         Frame {
             unit: block,
             names: Names::Static(found.text),
@@ -207,21 +209,24 @@ impl Generator<'_> {
         let program = self.program;
         self.writer.section("Timers that run go on");
         for (at, variable) in program.globals.iter().enumerate() {
-            if let Type::Block(number, _) = variable.of_type {
-                let name = crate::names::safe_name(&variable.name);
-                self.ticks(number, &name, (Owner::Global, at));
-            }
+            let name = crate::names::safe_name(&variable.name);
+            self.ticks_of(&variable.of_type, &name, (Owner::Global, at));
         }
         for (number, unit) in program.units.iter().enumerate() {
             if unit.kind != UnitKind::Program {
                 continue;
             }
             for (at, variable) in unit.variables.iter().enumerate() {
-                if let Type::Block(block, _) = variable.of_type {
-                    let name = format!("{}.{}", unit.name, variable.name);
-                    self.ticks(block, &name, (Owner::Unit(number), at));
-                }
+                let name = format!("{}.{}", unit.name, variable.name);
+                self.ticks_of(&variable.of_type, &name, (Owner::Unit(number), at));
             }
+        }
+    }
+
+    /// What the instances that a variable is do at the start of the scan.
+    fn ticks_of(&mut self, of_type: &Type, name: &str, owner: (Owner, usize)) {
+        for (block, name) in instances(of_type, name) {
+            self.ticks(block, &name, owner);
         }
     }
 
@@ -246,10 +251,8 @@ impl Generator<'_> {
         self.body(&unit.every_scan);
         self.is_tick = false;
         for (at, variable) in unit.variables.iter().enumerate() {
-            if let Type::Block(inner, _) = variable.of_type {
-                let name = format!("{name}.{}", variable.name);
-                self.ticks(inner, &name, (Owner::Unit(block), at));
-            }
+            let name = format!("{name}.{}", variable.name);
+            self.ticks_of(&variable.of_type, &name, (Owner::Unit(block), at));
         }
     }
 }

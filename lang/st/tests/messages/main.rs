@@ -66,6 +66,51 @@ const MISTAKES: &[(&str, &str, &[Answer])] = &[
     ("i : INT;", "i := 5\ni := i + 1;", &[Answer("E0201", "5", &["`;` is missing"])]),
     ("i : INT;", "i := i / 0;", &[Answer("E0212", "0", &["divides by zero"])]),
     ("t : ARRAY[1..5] OF INT;", "t[6] := 1;", &[Answer("E0212", "6", &["the index is 1 to 5"])]),
+    (
+        "t : ARRAY[1..3] OF TON; i : INT; On AT %I0.0 : BOOL;",
+        "t[i](IN := On, PT := T#1s);",
+        &[Answer("E0212", "i", &["the index of an instance must be known", "FOR i := 1 TO 4"])],
+    ),
+    (
+        "t : ARRAY[1..3] OF TON; i : INT; On AT %I0.0 : BOOL;",
+        "FOR i := 1 TO 4 DO t[i](IN := On, PT := T#1s); END_FOR;",
+        &[Answer("E0212", "i", &["4: the index is 1 to 3"])],
+    ),
+    (
+        "t : ARRAY[1..3] OF TON; i : INT; On AT %I0.0 : BOOL;",
+        "FOR i := 1 TO 3 DO t[i](IN := On, PT := T#1s); IF t[i].Q THEN EXIT; END_IF; END_FOR;",
+        &[Answer("E0214", "EXIT", &["pass by pass", "IF does it"])],
+    ),
+    (
+        "t : ARRAY[0..255] OF TON; i, j : INT; On AT %I0.0 : BOOL;",
+        "FOR j := 1 TO 2 DO FOR i := 0 TO 255 DO t[i](IN := On, PT := T#1s * j); END_FOR; END_FOR;",
+        &[],
+    ),
+    (
+        "t : ARRAY[0..15, 0..15] OF TON; i, j : INT; On AT %I0.0 : BOOL;",
+        "FOR j := 0 TO 16 DO FOR i := 0 TO 15 DO t[j, i](IN := On, PT := T#1s); END_FOR; END_FOR;",
+        &[
+            Answer("E0214", "0", &["more than 256 times"]),
+            Answer("E0212", "j", &["16: the index is 0 to 15"]),
+        ],
+    ),
+    (
+        "t, u : ARRAY[1..3] OF TON; On AT %I0.0 : BOOL;",
+        "t := u; On := t; t[1].Q := On;",
+        &[
+            Answer("E0205", "t", &["ARRAY[1..3] OF TON cannot be assigned"]),
+            Answer("E0205", "t", &["ARRAY[1..3] OF TON is no value"]),
+            Answer("E0208", "t[1].Q", &["written by the block alone"]),
+        ],
+    ),
+    (
+        "t : ARRAY[1..300] OF TON; u : ARRAY[1..2] OF ARRAY[1..2] OF TON;",
+        ";",
+        &[
+            Answer("E0212", "TON", &["256 instances at most"]),
+            Answer("E0210", "ARRAY[1..2] OF TON", &["no element of another array"]),
+        ],
+    ),
     ("t : TON; s : STRUCT x : INT; END_STRUCT;", "s := t;", &[Answer("E0205", "t", &["no value"])]),
 ];
 
