@@ -106,7 +106,17 @@ pub(crate) struct Checker<'a> {
     /// The control variables of the loops around; `None` of WHILE and REPEAT.
     loops: Vec<Option<String>>,
     /// The loops around that are taken for their passes.
-    unrolled: Vec<unrolled::Unrolled>,
+    unrolled: Vec<Unrolled>,
+}
+
+/// A loop that is taken for its passes.
+struct Unrolled {
+    /// Its variable, upper case.
+    name: String,
+    /// What the variable is in this pass.
+    value: i64,
+    /// Passes of this loop and those around.
+    passes: i64,
 }
 
 impl Checker<'_> {

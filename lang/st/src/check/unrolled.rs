@@ -3,9 +3,9 @@
 
 use diagnostics::Span;
 
-use super::Checker;
 use super::expressions::known;
 use super::names::upper;
+use super::{Checker, Unrolled};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{self, Expression, ForLoop, Statement, StatementKind, Value};
 use crate::tree::{self, ExpressionKind, Selector};
@@ -13,16 +13,6 @@ use crate::visit;
 
 /// Passes of all loops around a statement at most, multiplied.
 const PASSES_MAX: i64 = 256;
-
-/// A loop that is taken for its passes.
-pub(crate) struct Unrolled {
-    /// Its variable, upper case.
-    pub(super) name: String,
-    /// What the variable is in this pass.
-    pub(super) value: i64,
-    /// Passes of this loop and those around.
-    passes: i64,
-}
 
 impl Checker<'_> {
     /// The values of the variable in the passes of a loop that is taken for them; `None`: it is a
