@@ -105,7 +105,7 @@ pub(crate) fn convert(from: &Type, to: &Type, value: &Value) -> Value {
         (Value::Real(a), _) => nearest(to, a.round() as i64),
         (Value::Int(a), _) if to.is_bits() || from.is_bits() => bits(to, *a),
         (Value::Int(a), _) => nearest(to, *a),
-        (Value::List(_), _) => value.clone(),
+        (Value::List(_) | Value::Text(_), _) => value.clone(),
     }
 }
 

@@ -38,7 +38,9 @@ const OTHER_SIGNS: [(&str, &str); 12] = [
 ];
 
 /// Names of types.
-const TYPES: [(&str, &str); 20] = [
+const TYPES: [(&str, &str); 22] = [
+    ("CHAR", "STRING"),
+    ("WSTRING", "STRING"),
     ("BOOLEAN", "BOOL"),
     ("BIT", "BOOL"),
     ("INTEGER", "INT"),

@@ -38,6 +38,8 @@ pub enum Type {
     Enumeration(Arc<Enumeration>),
     /// Part of the whole numbers of a type. Places alone have it: a value is of the type itself.
     Range(Arc<Range>),
+    /// So many characters at most.
+    String(u8),
     /// Elements of one type.
     Array(Arc<Array>),
     /// Members.
@@ -115,6 +117,8 @@ pub enum Value {
     Int(i64),
     /// Of REAL.
     Real(f32),
+    /// Characters of Windows-1252.
+    Text(Vec<u8>),
     /// Of an array, row after row, or of a structure's members.
     List(Vec<Value>),
 }
@@ -135,12 +139,19 @@ pub const ELEMENTARY: [(&str, Type); 12] = [
     ("TIME", Type::Time),
 ];
 
+/// Characters of a text at most, and of a STRING whose text does not say.
+pub const TEXT_MAX: u8 = 254;
+pub(crate) const TEXT_USUAL: u8 = 80;
+/// Characters of a constant text at most (docs/s7-200.md 1.10).
+pub(crate) const LITERAL_MAX: usize = 126;
+
 impl fmt::Display for Type {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Type::Enumeration(kind) => f.write_str(&kind.name),
             Type::Struct(kind) => f.write_str(&kind.name),
             Type::Block(_, name) => f.write_str(name),
+            Type::String(most) => write!(f, "STRING[{most}]"),
             Type::Range(range) => write!(f, "{}({}..{})", range.of, range.low, range.high),
             Type::Array(array) => {
                 f.write_str("ARRAY[")?;
@@ -171,6 +182,14 @@ impl Type {
         match self {
             Type::Range(range) => &range.of,
             _ => self,
+        }
+    }
+
+    /// How many characters a text has at most.
+    pub fn characters(&self) -> u8 {
+        match self {
+            Type::String(most) => *most,
+            _ => 0,
         }
     }
 
@@ -259,6 +278,7 @@ impl Type {
             Type::Array(array) => (array.count() as i64).saturating_mul(array.of.bytes()),
             Type::Struct(kind) => kind.members.iter().map(|one| one.of_type.bytes()).sum(),
             Type::Range(range) => range.of.bytes(),
+            Type::String(most) => i64::from(*most) + 1,
             _ => 4,
         }
     }
@@ -270,6 +290,7 @@ impl Type {
             Type::Real => Value::Real(0.0),
             Type::Enumeration(kind) => Value::Int(kind.values.first().map_or(0, |(_, n)| *n)),
             Type::Range(range) => Value::Int(range.low),
+            Type::String(_) => Value::Text(Vec::new()),
             Type::Array(array) => Value::List(vec![array.initial.clone(); array.count()]),
             Type::Struct(kind) => {
                 Value::List(kind.members.iter().map(|member| member.initial.clone()).collect())
@@ -452,6 +473,14 @@ pub enum Function {
     Rol,
     Ror,
     Trunc,
+    /// Of texts: a text; two texts; a text, how many characters there are, the first; texts.
+    Len,
+    Find,
+    Mid,
+    Concat,
+    /// A number as a text, and the number that a text is.
+    ToText,
+    FromText,
 }
 
 /// A statement.

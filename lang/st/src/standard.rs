@@ -27,6 +27,8 @@ const REAL: &[(&str, &str)] = &[("IN", "REAL")];
 const TWO_NUMBERS: &[(&str, &str)] = &[("IN1", NUMBER), ("IN2", NUMBER)];
 const TWO_VALUES: &[(&str, &str)] = &[("IN1", ANY), ("IN2", ANY)];
 const TWO_BITS: &[(&str, &str)] = &[("IN1", "BOOL or a bit string"), ("IN2", "the same")];
+const TEXT: &str = "STRING";
+const TWO_TEXTS: &[(&str, &str)] = &[("IN1", TEXT), ("IN2", TEXT)];
 const SHIFT: &[(&str, &str)] = &[("IN", BITS), ("N", "INT")];
 
 macro_rules! rows {
@@ -84,6 +86,20 @@ pub const FUNCTIONS: &[Standard] = rows! {
     LE TWO_VALUES, "BOOL", "Whether each argument is the next or below", "LE(2, 3)";
     LT TWO_VALUES, "BOOL", "Whether each argument is below the next", "LT(2, 3)";
     NE TWO_VALUES, "BOOL", "Whether two values differ", "NE(2, 3)";
+    LEN &[("IN", TEXT)], "INT", "How many characters a text has", "LEN('pump')";
+    LEFT &[("IN", TEXT), ("L", "INT")], TEXT, "The first L characters", "LEFT('pump', 2)";
+    RIGHT &[("IN", TEXT), ("L", "INT")], TEXT, "The last L characters", "RIGHT('pump', 2)";
+    MID &[("IN", TEXT), ("L", "INT"), ("P", "INT")], TEXT, "L characters from position P on, from 1",
+        "MID('pump', 2, 3)";
+    CONCAT TWO_TEXTS, TEXT, "One text after the other, two or more", "CONCAT('pump', ' 1')";
+    INSERT &[("IN1", TEXT), ("IN2", TEXT), ("P", "INT")], TEXT, "IN1 with IN2 after position P",
+        "INSERT('pump', 'lum', 1)";
+    DELETE &[("IN", TEXT), ("L", "INT"), ("P", "INT")], TEXT,
+        "The text without L characters from position P on", "DELETE('pump', 1, 2)";
+    REPLACE &[("IN1", TEXT), ("IN2", TEXT), ("L", "INT"), ("P", "INT")], TEXT,
+        "IN1 with IN2 in place of L characters from position P on", "REPLACE('pump', 'ra', 1, 2)";
+    FIND TWO_TEXTS, "INT", "The first position of IN2 in IN1, 0 if it is not in it",
+        "FIND('pump', 'm')";
     MOVE &[("IN", ANY)], AS_IN, "The value as it is", "MOVE(5)";
 };
 
@@ -99,7 +115,17 @@ pub fn conversions() -> impl Iterator<Item = String> {
     let names = || ELEMENTARY.iter().map(|(name, _)| *name);
     let pairs = names().flat_map(move |from| names().map(move |to| (from, to)));
     let pairs = pairs.filter(|(from, to)| from != to);
-    names().map(|to| format!("TO_{to}")).chain(pairs.map(|(from, to)| format!("{from}_TO_{to}")))
+    let of_texts = [
+        "TO_STRING",
+        "INT_TO_STRING",
+        "DINT_TO_STRING",
+        "STRING_TO_INT",
+        "STRING_TO_DINT",
+        "STRING_TO_REAL",
+    ];
+    let of_texts = of_texts.into_iter().map(str::to_owned);
+    let all = pairs.map(|(from, to)| format!("{from}_TO_{to}")).chain(of_texts);
+    names().map(|to| format!("TO_{to}")).chain(all)
 }
 
 #[cfg(test)]
@@ -115,6 +141,7 @@ mod tests {
             let kind = match one.result {
                 "BOOL" => "BOOL",
                 "REAL" => "REAL",
+                "STRING" => "STRING",
                 _ if one.example.contains("16#") => "WORD",
                 _ if one.example.ends_with("FALSE)") => "BOOL",
                 _ => "DINT",

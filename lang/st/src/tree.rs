@@ -127,7 +127,7 @@ pub enum TypeTextKind {
     /// A name: `INT`, `Recipe`.
     Named(String),
     /// `STRING[20]`
-    Text,
+    Text(Option<Box<Expression>>),
     /// `INT (0..10)`: the type, the lowest and the highest value.
     Range(String, Box<(Expression, Expression)>),
     /// `ARRAY[1..3] OF T`
@@ -248,8 +248,8 @@ pub enum ExpressionKind {
     Typed(String, Box<Expression>),
     /// `State#Fill`
     Member(String, Name),
-    /// A text.
-    Text,
+    /// A text, in Windows-1252.
+    Text(Vec<u8>),
     /// `%I0.0`, as written without the sign.
     Address(String),
     /// A variable with what is after its name.

@@ -35,7 +35,7 @@ pub fn expressions(expression: &mut Expression, found: &mut dyn FnMut(&mut Expre
         | ExpressionKind::Bool(_)
         | ExpressionKind::Duration(_)
         | ExpressionKind::Member(..)
-        | ExpressionKind::Text
+        | ExpressionKind::Text(_)
         | ExpressionKind::Address(_)
         | ExpressionKind::Missing => {}
     }

@@ -93,8 +93,9 @@ impl<'a> Checker<'a> {
     /// The variable of a function that is its result.
     fn result(&mut self, unit: &tree::Unit, text: &tree::TypeText) {
         let of_type = self.type_of(text, &unit.name.text);
-        if !of_type.is_elementary() {
-            let message = format!("{}: the result of a function has an elementary type", of_type);
+        if !of_type.is_elementary() || of_type.characters() > 0 {
+            let message =
+                format!("{}: the result of a function is elementary and no STRING", of_type);
             self.error(Code::NotThere, text.span, message);
         }
         let initial = self.initial(None, text, &of_type);
@@ -189,8 +190,10 @@ impl<'a> Checker<'a> {
         kind: &Type,
     ) {
         let span = declared.of_type.span;
-        if self.is_in_function() && (!kind.is_elementary() || declared.at.is_some()) {
-            let message = "the variables of a function have elementary types and no addresses";
+        let is_plain = kind.is_elementary() && kind.characters() == 0 && declared.at.is_none();
+        if self.is_in_function() && !is_plain {
+            let message =
+                "the variables of a function are elementary, no STRING, and at no address";
             self.error(Code::NotThere, span, message);
         }
         if self.is_in_function() && section.kind == SectionKind::InOut {

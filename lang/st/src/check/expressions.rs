@@ -55,9 +55,9 @@ impl Checker<'_> {
             Kind::Duration(ms) => known(Value::Int(*ms), Type::Time, span),
             Kind::Typed(name, value) => self.typed(name, value, span),
             Kind::Member(kind, name) => self.member_of(kind, name, span),
-            Kind::Text => {
-                self.unknown_type("STRING", span);
-                invalid(span)
+            Kind::Text(text) => {
+                let of_type = Type::String(text.len() as u8);
+                known(Value::Text(text.clone()), of_type, span)
             }
             Kind::Address(address) => self.read_address(address, wanted, span),
             Kind::Variable(name, selectors) => self.read(name, selectors, wanted, span),
@@ -140,6 +140,13 @@ impl Checker<'_> {
         if found.of_type.widens_to(wanted) {
             return self.convert(found, wanted);
         }
+        if let (Type::String(given), Type::String(most)) = (&found.of_type, wanted) {
+            if given > most && matches!(found.kind, ExpressionKind::Constant(_)) {
+                let message = format!("{given} characters: {wanted} has {most} at most");
+                self.error(Code::ConstantRange, span, message);
+            }
+            return found;
+        }
         self.mismatch(&found, wanted);
         invalid(span)
     }
@@ -166,7 +173,18 @@ impl Checker<'_> {
         let is_plain = |kind: &Type| ELEMENTARY.iter().any(|(_, elementary)| elementary == kind);
         let message = needed(wanted, from);
         if !is_plain(from) || !is_plain(wanted) {
-            self.error(Code::WrongType, found.span, message);
+            let diagnostic = Diagnostic::new(Code::WrongType, found.span, message);
+            let is_text = |kind: &Type| matches!(kind, Type::String(_));
+            let is_number = |kind: &Type| matches!(kind, Type::Int | Type::Dint | Type::Real);
+            self.report(match (is_text(from), is_text(wanted)) {
+                (true, false) if is_number(wanted) => {
+                    diagnostic.help(format!("STRING_TO_{wanted}(...) converts it"))
+                }
+                (false, true) if from.is_whole() => {
+                    diagnostic.help(format!("{from}_TO_STRING(...) converts it"))
+                }
+                _ => diagnostic,
+            });
             return;
         }
         let narrows = wanted.widens_to(from) || from.is_number() && wanted.is_number();
@@ -291,6 +309,10 @@ impl Checker<'_> {
             return known(Value::Int(value), of_type, span);
         }
         if let Some(value) = self.constant_at(&place) {
+            let of_type = match &value {
+                Value::Text(text) => Type::String(text.len() as u8),
+                _ => of_type,
+            };
             return known(value, of_type, span);
         }
         Expression { kind: ExpressionKind::Read(place), of_type, span }

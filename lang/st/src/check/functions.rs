@@ -8,8 +8,8 @@ use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::fold;
 use crate::model::{
-    BinaryOperator, ELEMENTARY, Expression, ExpressionKind, Function, SectionKind, Type, UnitKind,
-    Value,
+    BinaryOperator, ELEMENTARY, Expression, ExpressionKind, Function, SectionKind, TEXT_MAX, Type,
+    UnitKind, Value,
 };
 use crate::names::Named;
 use crate::tree::{Argument, Name};
@@ -97,7 +97,13 @@ impl Checker<'_> {
     }
 
     /// Reports a wrong number of arguments.
-    fn has_count(&mut self, name: &Name, given: usize, least: usize, most: usize) -> bool {
+    pub(super) fn has_count(
+        &mut self,
+        name: &Name,
+        given: usize,
+        least: usize,
+        most: usize,
+    ) -> bool {
         let fits = (least..=most).contains(&given);
         if !fits {
             let wanted = match (least, most) {
@@ -186,6 +192,9 @@ impl Checker<'_> {
         if let Some(function) = in_table(&SHIFTS, text) {
             return self.shift(name, function, &given, wanted, span);
         }
+        if let Some(found) = self.text_function(name, text, &given, span) {
+            return found;
+        }
         match text {
             "ABS" => self.of_one(name, Function::Abs, &given, None, span),
             "TRUNC" => self.of_one(name, Function::Trunc, &given, Some(&Type::Real), span),
@@ -204,12 +213,6 @@ impl Checker<'_> {
             "MIN" | "MAX" | "LIMIT" => self.choice(name, text, &given, wanted, span),
             "SEL" | "MUX" => self.select(name, text, &given, wanted, span),
             "MOVE" => invalid(span),
-            "LEN" | "LEFT" | "RIGHT" | "MID" | "CONCAT" | "FIND" | "INSERT" | "DELETE"
-            | "REPLACE" => {
-                let message = format!("{text}: this function is not there yet");
-                self.error(Code::NotThere, name.span, message);
-                invalid(span)
-            }
             _ => {
                 self.unknown_name(name, "function");
                 invalid(span)
@@ -397,7 +400,7 @@ impl Checker<'_> {
         let mut all = vec![self.value_of(&first.value, &kind)];
         all.extend(self.common_values(rest, wanted));
         let of_type = all.last().map_or(Type::Invalid, |one| one.of_type.clone());
-        if !of_type.is_elementary() {
+        if !of_type.is_elementary() || of_type.characters() > 0 {
             let message = format!("{text}: elementary values are needed, these are {of_type}");
             self.error(Code::NotThere, span, message);
             return invalid(span);
@@ -426,6 +429,9 @@ impl Checker<'_> {
         if value.of_type == Type::Invalid {
             return value;
         }
+        if let Some(found) = self.text_conversion(value.clone(), &to) {
+            return found;
+        }
         let of_type = &value.of_type;
         let is_number = |kind: &Type| kind.is_number() || *kind == Type::Time;
         let exists = match of_type {
@@ -449,8 +455,9 @@ impl Checker<'_> {
 
 /// The types in the name of a conversion.
 fn conversion(name: &str) -> Option<(Option<Type>, Type)> {
-    let kind = |text: &str| {
-        ELEMENTARY.iter().find(|(name, _)| *name == text).map(|(_, kind)| kind.clone())
+    let kind = |text: &str| match text {
+        "STRING" => Some(Type::String(TEXT_MAX)),
+        _ => ELEMENTARY.iter().find(|(name, _)| *name == text).map(|(_, kind)| kind.clone()),
     };
     if let Some(to) = name.strip_prefix("TO_") {
         return Some((None, kind(to)?));

@@ -12,6 +12,7 @@ mod operators;
 mod places;
 mod recursion;
 mod statements;
+mod texts;
 mod types;
 mod unrolled;
 mod unwritten;

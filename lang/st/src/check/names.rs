@@ -88,7 +88,6 @@ impl Checker<'_> {
 
     /// What is wrong with the name of a type.
     pub(super) fn unknown_type(&mut self, name: &str, span: diagnostics::Span) {
-        let not_yet = ["STRING", "CHAR"];
         let never = [
             "LINT",
             "ULINT",
@@ -100,15 +99,8 @@ impl Checker<'_> {
             "DT",
             "DATE_AND_TIME",
             "LTIME",
-            "WSTRING",
         ];
         let wanted = upper(name);
-        if not_yet.contains(&wanted.as_str()) {
-            let message = format!("{wanted}: this type is not there yet");
-            let help = "texts cannot be handled yet";
-            self.report(Diagnostic::new(Code::NotThere, span, message).help(help));
-            return;
-        }
         if never.contains(&wanted.as_str()) {
             let message = format!("{wanted}: an S7-200 has no such type");
             let help = "it has 32 bits at most: DINT, UDINT, REAL, DWORD, TIME";

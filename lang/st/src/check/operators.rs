@@ -57,6 +57,23 @@ impl Checker<'_> {
         if left.of_type == Type::Invalid || right.of_type == Type::Invalid {
             return invalid(span);
         }
+        let are_texts = [&left, &right].iter().all(|one| matches!(one.of_type, Type::String(_)));
+        if are_texts && matches!(operator, BinaryOperator::Equal | BinaryOperator::NotEqual) {
+            if let (ExpressionKind::Constant(a), ExpressionKind::Constant(b)) =
+                (&left.kind, &right.kind)
+            {
+                let is_equal = (a == b) == (operator == BinaryOperator::Equal);
+                return known(Value::Bool(is_equal), Type::Bool, span);
+            }
+            let kind = ExpressionKind::Binary(operator, Box::new(left), Box::new(right));
+            return Expression { kind, of_type: Type::Bool, span };
+        }
+        if are_texts {
+            let message = format!("{} does not work on texts", operator.text());
+            let found = Diagnostic::new(Code::WrongType, span, message);
+            self.report(found.help("`=` and `<>` compare them, CONCAT joins them"));
+            return invalid(span);
+        }
         if operator == BinaryOperator::Power {
             return self.power(left, right, span);
         }

@@ -8,7 +8,8 @@ use super::Checker;
 use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{
-    Array, ELEMENTARY, Enumeration, Member, Range, Structure, Type, UnitKind, Value,
+    Array, ELEMENTARY, Enumeration, Member, Range, Structure, TEXT_MAX, TEXT_USUAL, Type, UnitKind,
+    Value,
 };
 use crate::names::Named;
 use crate::tree::{Declaration, Expression, File, Name, TypeText, TypeTextKind};
@@ -106,10 +107,7 @@ impl<'a> Checker<'a> {
     pub(super) fn type_of(&mut self, text: &TypeText, name: &str) -> Type {
         match &text.kind {
             TypeTextKind::Named(name) => self.named(name, text.span),
-            TypeTextKind::Text => {
-                self.unknown_type("STRING", text.span);
-                Type::Invalid
-            }
+            TypeTextKind::Text(length) => self.string(length.as_deref()),
             TypeTextKind::Range(name, bounds) => self.range(name, bounds, text.span),
             TypeTextKind::Array(bounds, of) => self.array(bounds, of, name),
             TypeTextKind::Struct(members) => self.structure(members, name),
@@ -160,6 +158,19 @@ impl<'a> Checker<'a> {
         Type::Range(Arc::new(Range { of, low, high }))
     }
 
+    fn string(&mut self, length: Option<&Expression>) -> Type {
+        let Some(text) = length else { return Type::String(TEXT_USUAL) };
+        let Some(most) = self.constant_whole(text) else { return Type::Invalid };
+        match u8::try_from(most) {
+            Ok(most @ 1..=TEXT_MAX) => Type::String(most),
+            _ => {
+                let message = format!("{most}: a STRING has 1 to {TEXT_MAX} characters");
+                self.error(Code::BadConstant, text.span, message);
+                Type::Invalid
+            }
+        }
+    }
+
     fn array(&mut self, bounds: &[(Expression, Expression)], of: &TypeText, name: &str) -> Type {
         let of_type = self.type_of(of, name);
         let mut known = Vec::new();
@@ -182,6 +193,11 @@ impl<'a> Checker<'a> {
                 let message = "an array of instances is no element of another array";
                 let found = Diagnostic::new(Code::NotThere, of.span, message);
                 self.report(found.help("one array can have several dimensions"));
+                Type::Invalid
+            }
+            _ if has_text(&of_type) => {
+                let message = "an array holds no texts";
+                self.error(Code::NotThere, of.span, message);
                 Type::Invalid
             }
             Type::Block(..) if count > INSTANCES_MAX => {
@@ -253,5 +269,13 @@ impl<'a> Checker<'a> {
             next += 1;
         }
         Type::Enumeration(Arc::new(Enumeration { name: of.to_owned(), values: numbered }))
+    }
+}
+
+/// Whether a text is in it.
+fn has_text(kind: &Type) -> bool {
+    match kind {
+        Type::Struct(kind) => kind.members.iter().any(|member| has_text(&member.of_type)),
+        kind => matches!(kind, Type::String(_)),
     }
 }

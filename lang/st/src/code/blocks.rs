@@ -2,7 +2,7 @@
 //! and their text; which are one is decided elsewhere.
 
 use super::memory::local_type;
-use super::writer::{Writer, block};
+use super::writer::block;
 use super::{Frame, Generator, Names};
 use crate::model::{SectionKind, Unit, Variable};
 use crate::names::safe_name;
@@ -36,7 +36,7 @@ impl Generator<'_> {
     /// A block as a subroutine.
     pub(super) fn block_routine(&mut self, number: usize, routine: u16) -> Vec<String> {
         let Some(unit) = self.program.units.get(number) else { return Vec::new() };
-        self.writer = Writer::default();
+        self.begin_text();
         self.frame = Frame {
             unit: number,
             names: Names::Local,

@@ -182,6 +182,10 @@ impl Generator<'_> {
             self.assign(&target, value);
             return;
         }
+        if let Type::String(room) = kind {
+            self.text_into(value, &text, room);
+            return;
+        }
         self.into(value, &text);
     }
 

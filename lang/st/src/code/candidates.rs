@@ -19,7 +19,10 @@ pub(super) fn candidates(program: &Program) -> Vec<usize> {
     let is_one = |(number, unit): &(usize, &Unit)| {
         // Arrays and structures, constant ones too, are reached by the name of their instance.
         let is_plain = |one: &Variable| {
-            one.of_type.is_elementary() && one.of_type != Type::Invalid && one.at.is_none()
+            one.of_type.is_elementary()
+                && one.of_type.characters() == 0
+                && one.of_type != Type::Invalid
+                && one.at.is_none()
         };
         unit.kind == UnitKind::Block
             && unit.file.is_some()

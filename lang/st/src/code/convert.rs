@@ -180,6 +180,8 @@ impl Generator<'_> {
         to: &str,
     ) {
         match (function, arguments) {
+            (Function::Len | Function::Find, _) => self.of_texts_into(function, arguments, to),
+            (Function::FromText, [text]) => self.of_text_into(text, storage, to),
             (Function::Abs, [one]) => self.absolute_into(one, storage, to),
             (Function::Trunc, [one]) => self.round_into("TRUNC", one, &Type::Dint, to),
             (Function::Min | Function::Max, _) => {

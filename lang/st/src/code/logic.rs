@@ -83,6 +83,9 @@ impl Generator<'_> {
             }
             ExpressionKind::Binary(operator, left, right) if operator.is_comparison() => {
                 match left.of_type {
+                    Type::String(_) => {
+                        self.compare_texts(*operator == BinaryOperator::Equal, left, right)
+                    }
                     Type::Bool => {
                         let is_equal = *operator == BinaryOperator::Equal;
                         let exclusive = self.exclusive(left, right);

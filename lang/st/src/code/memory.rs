@@ -2,6 +2,7 @@
 
 use super::Generator;
 use super::edges::M;
+use super::texts::{temporary_name, text_literal};
 use super::timers::Owner;
 use super::writer::Storage;
 use crate::model::{SectionKind, Type, UnitKind, Value, Variable};
@@ -42,6 +43,7 @@ pub(super) fn literal(value: &Value, kind: &Type) -> String {
         (Value::Int(value), Type::Sint) => (value & 0xFF).to_string(),
         (Value::Int(value), _) => value.to_string(),
         (Value::Real(value), _) => real(*value),
+        (Value::Text(text), _) => text_literal(text),
         (Value::List(_), _) => String::new(),
     }
 }
@@ -110,6 +112,11 @@ impl Generator<'_> {
             }
         }
         lines.push("//# source".to_owned());
+        let texts = self.texts.iter().enumerate();
+        lines
+            .extend(texts.map(|(number, room)| {
+                format!("//# var {} STRING[{room}]", temporary_name(number))
+            }));
         lines
     }
 
@@ -207,6 +214,7 @@ fn leaf_lines(
             let is_unset = |value: &Value| {
                 matches!(value, Value::Int(0) | Value::Bool(false))
                     || matches!(value, Value::Real(real) if real.to_bits() == 0)
+                    || matches!(value, Value::Text(text) if text.is_empty())
             };
             let Some((low, high)) = row(bounds) else {
                 let initial = if is_unset(value) {

@@ -14,6 +14,7 @@ mod memory;
 mod places;
 mod simple;
 mod statements;
+mod texts;
 mod timers;
 mod values;
 mod writer;
@@ -70,6 +71,11 @@ struct Generator<'a> {
     located: HashSet<String>,
     writer: Writer,
     frame: Frame,
+    /// Whether there is AWL beside, whose names are not known.
+    has_awl: bool,
+    /// Room of the temporary texts, and which of them are of subroutines before.
+    texts: Vec<u8>,
+    texts_before: usize,
     /// Inside of what a timer does at the start of the scan, in a word.
     is_tick: bool,
 }
@@ -134,10 +140,12 @@ fn written(
         located: located(program),
         writer: Writer::default(),
         frame,
+        has_awl: around.has_main,
+        texts: Vec::new(),
+        texts_before: 0,
         is_tick: false,
     };
-    let mut lines: Vec<String> = program.settings.clone();
-    lines.extend(generator.declarations());
+    let mut lines: Vec<String> = Vec::new();
     let mut routine = around.first_routine;
     if around.has_main {
         lines.extend(generator.programs_as_routines(&mut routine));
@@ -156,7 +164,10 @@ fn written(
         lines.extend(generator.block_routine(number, routine));
         routine += 1;
     }
-    lines.join("\n") + "\n"
+    let mut all: Vec<String> = program.settings.clone();
+    all.extend(generator.declarations());
+    all.extend(lines);
+    all.join("\n") + "\n"
 }
 
 /// The functions that are called by what is in the files, and by those.
@@ -192,7 +203,7 @@ fn located(program: &Program) -> HashSet<String> {
 impl Generator<'_> {
     /// The main program, with all PROGRAMs one after the other.
     fn main(&mut self) -> Vec<String> {
-        self.writer = Writer::default();
+        self.begin_text();
         self.start_of_scan();
         for number in self.programs() {
             self.program_body(number);
@@ -206,6 +217,13 @@ impl Generator<'_> {
         writer::block(place, "ORGANIZATION_BLOCK MAIN:OB1", "END_ORGANIZATION_BLOCK", &[], writer)
     }
 
+    /// What is written from now on is a text of its own. It is called while temporary texts of others
+    /// are in use.
+    fn begin_text(&mut self) {
+        self.writer = Writer::default();
+        self.texts_before = self.texts.len();
+    }
+
     fn programs(&self) -> Vec<usize> {
         let units = self.program.units.iter().enumerate();
         units.filter(|(_, unit)| unit.kind == UnitKind::Program).map(|(at, _)| at).collect()
@@ -216,7 +234,7 @@ impl Generator<'_> {
     fn programs_as_routines(&mut self, routine: &mut u16) -> Vec<String> {
         let mut lines = Vec::new();
         for (at, number) in self.programs().into_iter().enumerate() {
-            self.writer = Writer::default();
+            self.begin_text();
             if at == 0 {
                 self.start_of_scan();
             }
@@ -270,7 +288,7 @@ impl Generator<'_> {
     /// A function as a subroutine.
     fn function(&mut self, number: usize, routine: u16) -> Vec<String> {
         let Some(unit) = self.program.units.get(number) else { return Vec::new() };
-        self.writer = Writer::default();
+        self.begin_text();
         self.frame = Frame {
             unit: number,
             names: Names::Local,

@@ -49,7 +49,8 @@ impl Generator<'_> {
     }
 
     fn weight_of_assignment(&self, place: &Place, value: &Expression) -> Option<usize> {
-        if has_computed_index(place) || !place.of_type.is_elementary() {
+        let is_text = matches!(place.of_type, Type::String(_));
+        if has_computed_index(place) || !place.of_type.is_elementary() || is_text {
             return None;
         }
         if place.of_type == Type::Bool {

@@ -150,6 +150,10 @@ impl Generator<'_> {
                 }
             }
             (Type::Block(..) | Type::Invalid, _) => {}
+            (Type::String(_), Value::Text(text)) => {
+                let operands = format!("{}, {}", self.text_constant(text), self.locate(place).text);
+                self.writer.boxed("SCPY", &operands);
+            }
             _ => {
                 let found = self.locate(place);
                 self.copy(found.storage, &literal(value, kind), &found.text);

@@ -27,6 +27,9 @@ impl Generator<'_> {
 
     /// A value as an operand: a constant, a variable, or a temporary that it is computed into.
     pub(super) fn operand(&mut self, expression: &Expression) -> String {
+        if expression.of_type.characters() > 0 {
+            return self.text_operand(expression);
+        }
         let wanted = self.storage_of(expression);
         match &expression.kind {
             ExpressionKind::Constant(value) => return literal(value, &expression.of_type),
@@ -311,6 +314,10 @@ impl Generator<'_> {
     /// Writes a value of an expression to a place.
     pub(super) fn store(&mut self, place: &Place, value: &Expression) {
         let found = self.locate(place);
+        if let Type::String(room) = place.of_type {
+            self.text_into(value, &found.text, room);
+            return;
+        }
         if found.is_computed() {
             let from = match value.of_type {
                 Type::Bool => {

@@ -58,7 +58,7 @@ const STORAGES: [Storage; 5] =
 
 /// Temporaries in use.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(super) struct InUse([u16; 5]);
+pub(super) struct InUse([u16; 5], usize);
 
 /// The text of a unit that is being written.
 #[derive(Debug, Default)]
@@ -263,11 +263,18 @@ impl Writer {
     pub(super) fn temporary(&mut self, storage: Storage) -> String {
         let wanted = storage.temporary();
         let at = STORAGES.iter().position(|one| one.temporary() == wanted).unwrap_or(0);
-        let InUse(in_use) = &mut self.in_use;
+        let InUse(in_use, _) = &mut self.in_use;
         in_use[at] += 1;
-        let InUse(most) = &mut self.most;
+        let InUse(most, _) = &mut self.most;
         most[at] = most[at].max(in_use[at]);
         format!("#{}{}", wanted.0, in_use[at])
+    }
+
+    /// The number of a temporary text.
+    pub(super) fn text_temporary(&mut self) -> usize {
+        let InUse(_, texts) = &mut self.in_use;
+        *texts += 1;
+        *texts - 1
     }
 
     /// The temporaries that are in use, to go back to.
@@ -282,7 +289,7 @@ impl Writer {
 
     /// The declarations of the temporaries.
     pub(super) fn temporaries(&self) -> Vec<String> {
-        let InUse(most) = self.most;
+        let InUse(most, _) = self.most;
         let named = STORAGES.iter().zip(most).flat_map(|(storage, count)| {
             let (prefix, kind) = storage.temporary();
             (1..=count).map(move |number| format!("{prefix}{number}:{kind};"))

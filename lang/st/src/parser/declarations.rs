@@ -364,13 +364,14 @@ impl Parser<'_> {
             return self.enumeration();
         }
         let name = self.name("a type")?;
-        if name.text.to_ascii_uppercase().ends_with("STRING") {
+        if name.text.eq_ignore_ascii_case("STRING") {
             let close = if self.is_sign("(") { ")" } else { "]" };
-            let has_length = self.is_sign("(") || self.is_sign("[");
-            while has_length && !self.is_at_end() && !self.is_sign(";") && !self.take_sign(close) {
-                self.step();
+            let mut length = None;
+            if self.take_sign("(") || self.take_sign("[") {
+                length = Some(Box::new(self.expression()?));
+                self.need_sign(close)?;
             }
-            return Ok(TypeTextKind::Text);
+            return Ok(TypeTextKind::Text(length));
         }
         if self.take_sign("(") {
             let low = self.expression()?;

@@ -105,7 +105,7 @@ impl Parser<'_> {
             Kind::Integer => self.integer(token.span),
             Kind::Real => self.real(token.span),
             Kind::Prefixed => self.prefixed(token.span),
-            Kind::Text => ExpressionKind::Text,
+            Kind::Text => self.text(token.span),
             Kind::Address => {
                 let text = self.text_of(token);
                 ExpressionKind::Address(text.strip_prefix('%').unwrap_or(text).to_owned())

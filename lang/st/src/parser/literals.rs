@@ -1,10 +1,12 @@
 //! Literals: what their characters mean as values.
 
 use diagnostics::Span;
+use diagnostics::source::Encoding;
 
 use super::Parser;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::durations::duration;
+use crate::model::LITERAL_MAX;
 use crate::tree::{Expression, ExpressionKind, Name};
 
 impl Parser<'_> {
@@ -20,6 +22,35 @@ impl Parser<'_> {
         match digits.parse::<f32>() {
             Ok(value) if value.is_finite() => ExpressionKind::Real(value),
             _ => self.bad_literal(span, "is no number that a REAL has"),
+        }
+    }
+
+    /// A text in single quotes, with what `$` begins in it.
+    pub(super) fn text(&mut self, span: Span) -> ExpressionKind {
+        let text = span.text(self.text);
+        let inside = text.strip_prefix('\'').and_then(|rest| rest.strip_suffix('\''));
+        if text.starts_with('\'') && (inside.is_none() || text.len() < 2) {
+            return ExpressionKind::Missing;
+        }
+        let Some(inside) = inside else {
+            let meant = format!("'{}'", text.trim_matches('"'));
+            let message = "a text is in single quotes";
+            self.report(Diagnostic::new(Code::Syntax, span, message).suggest(meant));
+            return ExpressionKind::Missing;
+        };
+        match characters(inside) {
+            Some(text) if text.len() <= LITERAL_MAX => ExpressionKind::Text(text),
+            Some(text) => {
+                let message =
+                    format!("{} characters: a text has {LITERAL_MAX} at most", text.len());
+                let found = Diagnostic::new(Code::BadConstant, span, message);
+                self.report(found.help("CONCAT joins two"));
+                ExpressionKind::Missing
+            }
+            None => self.bad_literal(
+                span,
+                "has a character that there is not: `$` is before $ ' \" L N P R T or two digits",
+            ),
         }
     }
 
@@ -89,6 +120,29 @@ impl Parser<'_> {
         };
         ExpressionKind::Typed(prefix.to_owned(), Box::new(Expression { kind, span: value_span }))
     }
+}
+
+/// The characters that a text in quotes means.
+fn characters(mut text: &str) -> Option<Vec<u8>> {
+    let mut all = Vec::new();
+    while let Some(first) = text.chars().next() {
+        let Some(rest) = text.strip_prefix('$') else {
+            all.extend(Encoding::Windows1252.encode(first.encode_utf8(&mut [0; 4]))?);
+            text = text.get(first.len_utf8()..)?;
+            continue;
+        };
+        let (byte, length) = match rest.chars().next()?.to_ascii_uppercase() {
+            sign @ ('$' | '\'' | '"') => (sign as u8, 1),
+            'L' | 'N' => (b'\n', 1),
+            'P' => (0x0C, 1),
+            'R' => (b'\r', 1),
+            'T' => (b'\t', 1),
+            _ => (u8::from_str_radix(rest.get(..2)?, 16).ok()?, 2),
+        };
+        all.push(byte);
+        text = rest.get(length..)?;
+    }
+    Some(all)
 }
 
 /// Digits of a base with `_` between them; 0 to 2^32 - 1.

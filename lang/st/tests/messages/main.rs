@@ -111,6 +111,48 @@ const MISTAKES: &[(&str, &str, &[Answer])] = &[
             Answer("E0210", "ARRAY[1..2] OF TON", &["no element of another array"]),
         ],
     ),
+    (
+        "s : STRING[3] := 'abcd'; u : STRING[0]; v : STRING[300];",
+        "s := 'abcde';",
+        &[
+            Answer("E0207", "'abcd'", &["4 characters: STRING[3] has 3 at most"]),
+            Answer("E0212", "0", &["1 to 254 characters"]),
+            Answer("E0212", "300", &["1 to 254 characters"]),
+            Answer("E0207", "'abcde'", &["5 characters"]),
+        ],
+    ),
+    (
+        "s : STRING;",
+        "s := \"abc\"; s := 'a$Zb'; s := 'abc;",
+        &[
+            Answer("E0200", "\"abc\"", &["in single quotes", "'abc'"]),
+            Answer("E0200", "'a$Zb'", &["`$` is before"]),
+            Answer("E0200", "'abc;", &["not closed"]),
+            Answer("E0201", ";", &["`;` is missing"]),
+        ],
+    ),
+    (
+        "s : STRING; i : INT; a : BOOL;",
+        "s := i; i := s; a := s < 'a'; s := s + 'a'; s := SEL(a, s, s); i := LEN(5);",
+        &[
+            Answer("E0205", "i", &["INT_TO_STRING(...)"]),
+            Answer("E0205", "s", &["STRING_TO_INT(...)"]),
+            Answer("E0205", "s < 'a'", &["`=` and `<>` compare"]),
+            Answer("E0205", "s + 'a'", &["CONCAT joins"]),
+            Answer("E0210", "SEL(a, s, s)", &["elementary values"]),
+            Answer("E0205", "5", &["a text is in single quotes"]),
+        ],
+    ),
+    (
+        "s : ARRAY[1..3] OF STRING[5]; t AT %VB100 : STRING; c : CHAR;",
+        ";",
+        &[
+            Answer("E0210", "STRING[5]", &["an array holds no texts"]),
+            Answer("E0210", "%VB100", &["not at an address"]),
+            Answer("E0203", "CHAR", &["STRING"]),
+        ],
+    ),
+    ("s : STRING[3]; END_VAR VAR CONSTANT c : STRING := 'abc';", "s := c;", &[]),
     ("t : TON; s : STRUCT x : INT; END_STRUCT;", "s := t;", &[Answer("E0205", "t", &["no value"])]),
 ];
 
