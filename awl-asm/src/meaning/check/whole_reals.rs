@@ -25,8 +25,8 @@ struct Uses<'c> {
     has_other: bool,
 }
 
-/// Warns of each double word that is given whole numbers alone, by the program or by its data block,
-/// and read as a real number.
+/// Warns of each double word that is given whole numbers alone, by the program or by its data
+/// block, and read as a real number.
 pub fn whole_reals(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnostic>) {
     let Some(all) = uses(code) else { return };
     for (&address, uses) in all.iter().filter(|(_, uses)| !uses.has_other) {
