@@ -131,15 +131,27 @@ impl Writer {
         self.lines.push(format!("//# source{place}"));
     }
 
-    fn line(&mut self, mnemonic: &str, operands: &str) {
-        let text = format!("{mnemonic:<6} {operands}");
-        self.lines.push(text.trim_end().to_owned());
+    /// A statement in the network of the one before.
+    fn go_on(&mut self, head: &Head) {
+        self.place(head);
+        if !head.title.is_empty() {
+            self.lines.push(format!("// {}", head.title));
+        }
     }
 
-    /// The first instruction of a rung. What loads the bit that is on top already is left out.
+    fn line(&mut self, mnemonic: &str, operands: &str) {
+        self.lines.push(text_of(mnemonic, operands));
+    }
+
+    /// The first instruction of a rung. What loads the bit that is on top already is left out; a
+    /// statement that begins so, right after the coil, goes on in the network.
     fn rung(&mut self, mnemonic: &str, operands: &str) {
+        let is_coil = self.lines.last().is_some_and(|last| *last == text_of("=", operands));
         if let Some(head) = self.head.take() {
-            self.network(&head);
+            match is_coil && ["LD", "LDN"].contains(&mnemonic) {
+                true => self.go_on(&head),
+                false => self.network(&head),
+            }
         }
         let is_there = self.top.as_deref() == Some(operands);
         match mnemonic {
@@ -200,10 +212,7 @@ impl Writer {
         if !self.has_power {
             self.rung("LD", "SM0.0");
         } else if let Some(head) = self.head.take() {
-            self.place(&head);
-            if !head.title.is_empty() {
-                self.lines.push(format!("// {}", head.title));
-            }
+            self.go_on(&head);
         }
     }
 
@@ -290,6 +299,10 @@ impl Writer {
     pub(super) fn finish(self) -> Vec<String> {
         self.lines
     }
+}
+
+fn text_of(mnemonic: &str, operands: &str) -> String {
+    format!("{mnemonic:<6} {operands}").trim_end().to_owned()
 }
 
 /// A block with its sections and lines.
