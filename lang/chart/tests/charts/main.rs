@@ -2,6 +2,7 @@
 
 mod compiled;
 mod evaluator;
+mod grafcet;
 mod messages;
 mod pages;
 mod random_charts;

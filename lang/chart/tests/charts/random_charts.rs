@@ -5,7 +5,7 @@ use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
 use awl_sim::open::{File, Opened, open};
 use awl_sim::operand::{Operand, Width};
-use chart::interpret::Interpreter;
+use chart::interpret::{Interpreter, View};
 use chart::model::{ActionId, Body, Chart};
 use diagnostics::Source;
 use fastrand::Rng;
@@ -60,8 +60,14 @@ fn steps(chart: &Chart, prefix: &str, around: &[ActionId], found: &mut Vec<Path>
     }
 }
 
-fn inside<'i>(interpreter: &'i Interpreter<'i>, around: &[ActionId]) -> &'i Interpreter<'i> {
-    around.iter().fold(interpreter, |outer, id| outer.inner(*id).expect("a chart"))
+/// The steps of a chart, or of one in its actions.
+fn view<'i>(interpreter: &'i Interpreter<'i>, around: &[ActionId]) -> View<'i> {
+    match interpreter {
+        Interpreter::Sfc(sfc) => {
+            around.iter().fold(sfc, |outer, id| outer.inner(*id).expect("a chart")).view()
+        }
+        Interpreter::Grafcet(grafcet) => grafcet.view(),
+    }
 }
 
 /// A chart that is being executed twice.
@@ -119,7 +125,7 @@ impl<'c> Both<'c> {
     fn situation(&mut self) -> Result<Vec<bool>, String> {
         let mut situation = Vec::new();
         for (active, time, (name, around, step)) in std::mem::take(&mut self.steps) {
-            let view = inside(&self.interpreter, &around).view();
+            let view = view(&self.interpreter, &around);
             let is_active = view.is_active(&step).expect("a step");
             let exact = view.time(&step).expect("a step");
             situation.push(is_active);
