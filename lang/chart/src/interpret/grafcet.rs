@@ -125,9 +125,11 @@ impl<'c> Grafcet<'c> {
                 Some(Role::Enclosed(by)) => Some(by),
                 _ => None,
             };
-            // The beginning has its own situation in enclosing steps.
-            if by.is_some_and(|by| now.contains(&by) && !before.contains(&by)) && !begins {
-                now.extend(hierarchy.linked(*partial));
+            if let Some(by) = by.filter(|by| now.contains(by) && !before.contains(by)) {
+                // The beginning has its own situation in enclosing steps.
+                if !(begins && hierarchy.beginning().contains(&by)) {
+                    now.extend(hierarchy.linked(*partial));
+                }
             }
             for order in hierarchy.orders.iter().filter(|order| order.chart == *partial) {
                 if let (true, Some(to)) = (now.contains(&order.by), &order.to) {

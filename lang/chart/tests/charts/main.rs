@@ -6,5 +6,6 @@ mod grafcet;
 mod messages;
 mod pages;
 mod random_charts;
+mod random_grafcet;
 mod random_text;
 mod text;
