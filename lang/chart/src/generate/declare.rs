@@ -8,9 +8,11 @@ use st::tree::{
     StatementKind, UnaryOperator,
 };
 
+use st::visit;
+
+use super::build;
 use super::mentions::Scope;
 use super::parsed::Parsed;
-use super::{build, visit};
 use crate::hierarchy::Hierarchy;
 use crate::model::Standard;
 use crate::operators::Operator;

@@ -12,12 +12,12 @@ mod names;
 mod parsed;
 mod samples;
 mod sound;
-mod visit;
 
 use std::collections::{BTreeSet, HashSet};
 
 use diagnostics::Source;
 use st::tree::{File, Name, SectionKind, Statement, Unit, UnitKind};
+use st::visit;
 
 use crate::check;
 use crate::diagnostic::{Code, Diagnostic};

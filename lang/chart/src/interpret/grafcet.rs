@@ -162,10 +162,10 @@ impl<'c> Grafcet<'c> {
         }
         let mut happens = false;
         for one in self.hierarchy.actions() {
-            let events = one.instances.iter().filter_map(|((chart, _), _, instance)| {
+            let mut events = one.instances.iter().filter_map(|((chart, _), _, instance)| {
                 instance.event.as_ref().map(|event| self.samples.happens(*chart, event))
             });
-            happens |= events.fold(false, |a, b| a || b);
+            happens |= events.any(|happens| happens);
             match &one.action.body {
                 Body::Variable => {
                     for (qualifier, value) in [(Qualifier::S, true), (Qualifier::R, false)] {

@@ -322,7 +322,7 @@ fn a_search_that_finds_nothing_goes_on_in_the_next_scan() {
         scans(text, &["", "a", "a", ""]),
         ["S1 p", "S1 p n=10 ?", "S1 p n=20 ?", "S1 p n=20"]
     );
-    // The beginning is an evolution, too: it ends in S2, where q is not written before it is stable.
+    // The beginning is an evolution, too: it ends in S2, whose q waits for a stable situation.
     assert_eq!(scans(text, &["a", ""]), ["S2 n=10 ?", "S2 q n=10"]);
 }
 
