@@ -266,7 +266,7 @@ interface Events {
   powerOn: { flash: number[] };
   powerOff: object;
   resetBoard: object;
-  openPort: { baud: number; parity: Parity };
+  openPort: { kind: TargetKind; baud: number; parity: Parity };
   closePort: object;
   lines: { on: boolean };
   askFirmware: object;
