@@ -4,7 +4,7 @@
 //! lets enclosing steps, forcing orders and macro-steps have their way. Stored actions follow from
 //! what steps were before.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use st::tree::{BinaryOperator, Expression, Statement};
 
@@ -18,14 +18,24 @@ use super::parsed::Parsed;
 use super::samples::{self, Samples};
 use crate::diagnostic::Diagnostic;
 use crate::hierarchy::{EVOLUTIONS_MAX, Hierarchy, Key, Order, Role, Use};
-use crate::model::{Body, Instance, Qualifier, Transition, TransitionId};
+use crate::model::{Body, Instance, Qualifier, Transition};
 
 const STARTED: &str = "Chart.started";
 const UNSTABLE: &str = "Chart.Unstable";
 const EVOLUTIONS: &str = "Chart.evolutions";
 
-/// A transition, and whether it is crossed.
-type Crossing = (usize, TransitionId, Expression);
+/// A transition that is judged.
+struct Crossing {
+    /// Its chart.
+    at: usize,
+    name: String,
+    /// Whether it is crossed.
+    crossed: Expression,
+    before: BTreeSet<Key>,
+    after: BTreeSet<Key>,
+    /// The statements of its crossing.
+    body: Option<Vec<Statement>>,
+}
 
 /// A GRAFCET that is being translated.
 struct Grafcet<'g, 'c> {
@@ -119,7 +129,8 @@ impl Grafcet<'_, '_> {
         for (name, of_type) in [(STARTED, "BOOL"), (UNSTABLE, "BOOL"), (EVOLUTIONS, "INT")] {
             self.variables.add(name, of_type);
         }
-        let (mut evolution, crossings) = self.crossings();
+        let (mut evolution, crossings) = self.judged();
+        evolution.extend(self.crossed(&crossings));
         evolution.push(element("Chart", "The beginning".to_owned()));
         let beginning = self.hierarchy.beginning().into_iter().map(|key| self.step(key));
         let beginning = beginning.map(|step| assign(step, truth(true))).collect();
@@ -130,7 +141,7 @@ impl Grafcet<'_, '_> {
         evolution.extend(self.times_begin());
         evolution.extend(self.stored(&crossings, found));
         evolution.push(element("Chart", "Whether that was an evolution".to_owned()));
-        let evolves = crossings.into_iter().map(|(_, _, crossed)| crossed);
+        let evolves = crossings.into_iter().map(|one| one.crossed);
         let evolves = evolves.chain(std::mem::take(&mut self.events));
         let evolves = evolves.chain([not(variable(STARTED))]);
         evolution.push(assign(variable(UNSTABLE), any(evolves)));
@@ -155,10 +166,9 @@ impl Grafcet<'_, '_> {
         ]
     }
 
-    /// Which transitions are crossed, and what becomes of their steps. With the bits that say so.
-    fn crossings(&mut self) -> (Vec<Statement>, Vec<Crossing>) {
-        let (mut judged, mut left, mut entered) = (Vec::new(), Vec::new(), Vec::new());
-        let mut crossings = Vec::new();
+    /// Judges transitions: whether each is crossed is a bit.
+    fn judged(&mut self) -> (Vec<Statement>, Vec<Crossing>) {
+        let (mut statements, mut crossings) = (Vec::new(), Vec::new());
         for (at, id, transition) in self.hierarchy.transitions() {
             let before = self.hierarchy.before(at, transition);
             if before.is_empty() {
@@ -167,7 +177,6 @@ impl Grafcet<'_, '_> {
             let name = self.transition_name(at, transition);
             let crossed = self.variables.unused(&format!("{name}.crossed"));
             self.variables.add(&crossed, "BOOL");
-            let crossed = variable(&crossed);
             let steps: Vec<Expression> = before.iter().map(|key| self.step(*key)).collect();
             let condition = self.parsed.get(at).and_then(|one| one.conditions.get(&id));
             let condition = self.rewritten(at, condition);
@@ -175,21 +184,40 @@ impl Grafcet<'_, '_> {
             let forcing: Vec<Key> = self.orders_of(partial).iter().map(|one| one.by).collect();
             let is_free = (!forcing.is_empty()).then(|| not(self.any_of(&forcing)));
             let is_crossed = all(steps.into_iter().chain(is_free).chain([condition]));
-            judged.push(element(&name, format!("Transition {name}")));
-            judged.push(assign(crossed.clone(), is_crossed));
-            let set_all = |keys: BTreeSet<Key>, value: bool| {
-                let body = keys.iter().map(|key| assign(self.step(*key), truth(value))).collect();
-                when(crossed.clone(), body)
-            };
-            left.push(element(&name, format!("Transition {name} is crossed")));
-            left.push(set_all(before, false));
-            entered.push(element(&name, format!("What transition {name} leads to")));
-            entered.push(set_all(self.hierarchy.after(at, transition), true));
-            crossings.push((at, id, crossed));
+            statements.push(element(&name, format!("Transition {name}")));
+            statements.push(assign(variable(&crossed), is_crossed));
+            let after = self.hierarchy.after(at, transition);
+            let body = self.parsed.get(at).and_then(|one| one.crossings.get(&id)).cloned();
+            crossings.push(Crossing { at, name, crossed: variable(&crossed), before, after, body });
         }
-        judged.extend(left);
-        judged.extend(entered);
-        (judged, crossings)
+        (statements, crossings)
+    }
+
+    /// What becomes of the steps. From the last transition to the first, so that most steps are
+    /// left by others before they are entered; where not, entering is put off.
+    fn crossed(&self, crossings: &[Crossing]) -> Vec<Statement> {
+        let mut last_leaver: BTreeMap<Key, usize> = BTreeMap::new();
+        for (position, one) in crossings.iter().enumerate().rev() {
+            last_leaver.extend(one.before.iter().map(|key| (*key, position)));
+        }
+        let (mut statements, mut later) = (Vec::new(), Vec::new());
+        for (position, one) in crossings.iter().enumerate().rev() {
+            let write = |keys: &[&Key], value: bool| -> Vec<Statement> {
+                keys.iter().map(|key| assign(self.step(**key), truth(value))).collect()
+            };
+            let is_put_off = |key: &&Key| last_leaver.get(key).is_some_and(|last| *last < position);
+            let (put_off, at_once): (Vec<&Key>, Vec<&Key>) = one.after.iter().partition(is_put_off);
+            let mut body = write(&one.before.iter().collect::<Vec<_>>(), false);
+            body.extend(write(&at_once, true));
+            statements.push(element(&one.name, format!("Transition {} is crossed", one.name)));
+            statements.push(when(one.crossed.clone(), body));
+            if !put_off.is_empty() {
+                later.push(element(&one.name, format!("Transition {} was crossed", one.name)));
+                later.push(when(one.crossed.clone(), write(&put_off, true)));
+            }
+        }
+        statements.extend(later);
+        statements
     }
 
     fn transition_name(&self, at: usize, transition: &Transition) -> String {
@@ -277,17 +305,11 @@ impl Grafcet<'_, '_> {
     /// Statements of crossed transitions and stored actions.
     fn stored(&mut self, crossings: &[Crossing], found: &mut Vec<Diagnostic>) -> Vec<Statement> {
         let mut statements = Vec::new();
-        for (at, id, crossed) in crossings {
-            let body = self.parsed.get(*at).and_then(|one| one.crossings.get(id));
-            if body.is_none() {
-                continue;
-            }
-            let body = self.statements(*at, body, found);
-            let member = self.hierarchy.members.get(*at);
-            let transition = member.and_then(|one| one.chart.transitions.get(id));
-            let name = transition.map_or_else(String::new, |one| self.transition_name(*at, one));
-            statements.push(element(&name, format!("Crossing of transition {name}")));
-            statements.push(when(crossed.clone(), body));
+        for one in crossings.iter().filter(|one| one.body.is_some()) {
+            let body = self.statements(one.at, one.body.as_ref(), found);
+            let title = format!("Crossing of transition {}", one.name);
+            statements.push(element(&one.name, title));
+            statements.push(when(one.crossed.clone(), body));
         }
         for one in self.hierarchy.actions() {
             match &one.action.body {
