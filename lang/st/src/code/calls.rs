@@ -87,10 +87,12 @@ impl Generator<'_> {
             self.call_as_routine(&frame, unit);
         } else {
             let around = std::mem::replace(&mut self.frame, frame.clone());
+            let place = self.writer.place();
             self.reset_temporaries(unit);
             self.body(&unit.body);
             self.end_of_unit();
             self.frame = around;
+            self.writer.go_on_at(&place);
         }
         for (at, place) in call.in_outs.iter().chain(&call.outputs) {
             let of_type = &place.of_type;
