@@ -18,13 +18,13 @@ const POLICY =
 const EXAMPLES = at("../../../examples/");
 const PLANTS = { station1: "station1", tank: "tank" };
 
-/** The examples in Structured Text have a mark at their names. */
-const ST = /-st$/;
+/** The examples in other languages than AWL have a mark at their names. */
+const MARK = /-(st|sfc|fbt)$/;
 
 async function example(name) {
-  const stem = name.replace(ST, "");
-  const ending = ST.test(name) ? "st" : "awl";
-  const program = ST.test(name) ? `st/${stem}.st` : `${stem}.awl`;
+  const stem = name.replace(MARK, "");
+  const ending = MARK.exec(name)?.[1] ?? "awl";
+  const program = ending === "awl" ? `${stem}.awl` : `${ending}/${stem}.${ending}`;
   const described = `${stem}.plant`;
   const all = await readdir(EXAMPLES);
   const beside = all.filter((file) => file === `${stem}.scn` || file === described);
@@ -47,7 +47,8 @@ async function exampleNames() {
     (await readdir(EXAMPLES + folder))
       .filter((file) => file.endsWith(ending))
       .map((file) => file.replace(ending, mark));
-  return JSON.stringify([...(await named("", ".awl", "")), ...(await named("st", ".st", "-st"))]);
+  const others = ["st", "sfc", "fbt"].map((one) => named(one, `.${one}`, `-${one}`));
+  return JSON.stringify([...(await named("", ".awl", "")), ...(await Promise.all(others)).flat()]);
 }
 
 async function answer(path) {
