@@ -4,6 +4,8 @@
 
 use std::collections::HashMap;
 
+use awl_asm::suggest::nearest;
+
 use crate::condition::{Wrong, condition};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Block, Event, Text, Transition, Variable};
@@ -27,14 +29,6 @@ pub fn is_name(word: &str) -> bool {
     let mut characters = word.chars();
     characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
         && characters.all(|next| next.is_ascii_alphanumeric() || next == '_')
-}
-
-/// The name among these that was probably meant.
-pub(crate) fn nearest<'n>(word: &str, names: impl Iterator<Item = &'n str>) -> Option<&'n str> {
-    let word = word.to_lowercase();
-    let near = |name: &'n str| (strsim::osa_distance(&word, &name.to_lowercase()), name);
-    let (distance, name) = names.map(near).min_by_key(|(distance, _)| *distance)?;
-    (distance <= 1 + word.len() / 4).then_some(name)
 }
 
 struct Checker {

@@ -5,6 +5,7 @@
 use diagnostics::Span;
 use st::parser::parse_expression;
 use st::tree::{BinaryOperator, Expression, ExpressionKind};
+use st::visit;
 
 use crate::check::is_name;
 use crate::model::{Block, Transition};
@@ -154,10 +155,11 @@ fn unknown(block: &Block, expression: &Expression) -> Option<Span> {
 fn event_inside(block: &Block, expression: &Expression) -> Option<Span> {
     let mut copy = expression.clone();
     let mut found = None;
-    crate::syntax::expressions(&mut copy, &mut |one| {
+    visit::expressions(&mut copy, &mut |one| {
         if event_of(block, one).is_some() {
             found = found.or(Some(one.span));
         }
+        found.is_none()
     });
     found
 }

@@ -4,11 +4,11 @@
 use diagnostics::{Source, Span};
 use st::parser::{parse_expression, parse_statements};
 use st::tree::{Expression, Statement, StatementKind};
+use st::visit;
 
 use crate::condition::condition;
 use crate::model::{Block, Text};
 use crate::places::Places;
-use crate::syntax;
 
 /// A transition, with numbers in place of names.
 #[derive(Debug, Clone)]
@@ -63,7 +63,7 @@ pub fn parse(block: &Block, file: &Source) -> Parsed {
         let text = &algorithm.text;
         let (mut body, wrong) = parse_statements(&text.text, Span::new(0, text.text.len()));
         parsed.report(wrong, text, file);
-        syntax::statements(&mut body, &mut |statement| {
+        visit::statements(&mut body, &mut |statement| {
             if matches!(statement.kind, StatementKind::Return) {
                 let message = "RETURN: an algorithm ends at its end";
                 let help = "put what is to be left out into IF ... END_IF";

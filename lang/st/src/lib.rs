@@ -18,6 +18,7 @@ pub mod names;
 pub mod parser;
 pub mod standard;
 pub mod tree;
+pub mod visit;
 
 use diagnostics::{Severity, Source};
 

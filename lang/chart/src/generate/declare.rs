@@ -8,9 +8,10 @@ use st::tree::{
     StatementKind, UnaryOperator,
 };
 
+use super::build;
 use super::mentions::Scope;
 use super::parsed::Parsed;
-use super::{build, visit};
+use st::visit;
 
 /// The names that a file declares for all, in upper case.
 pub fn globals(file: &File) -> Vec<String> {

@@ -9,10 +9,11 @@ use std::collections::{BTreeMap, HashMap};
 use diagnostics::Span;
 use st::tree::{Expression, ExpressionKind, Name, Selector, Statement, StatementKind};
 
+use super::build;
 use super::parsed::Parsed;
-use super::{build, visit};
 use crate::diagnostic::{Code as ErrorCode, Diagnostic};
 use crate::model::Qualifier;
+use st::visit;
 
 /// The longest time that a word is compared with. The time ends one above.
 const SHORT_MAX: i64 = i16::MAX as i64 - 1;

@@ -10,12 +10,12 @@ mod mentions;
 mod names;
 mod not_yet;
 mod parsed;
-mod visit;
 
 use std::collections::{BTreeSet, HashSet};
 
 use diagnostics::Source;
 use st::tree::{File, Name, SectionKind, Statement, Unit, UnitKind};
+use st::visit;
 
 use crate::check;
 use crate::diagnostic::{Code, Diagnostic};

@@ -1,16 +1,13 @@
 //! A block from XML. All that is wrong comes in one run; what is not kept is told.
 
+use diagnostics::xml::{self, Broken, Node, attribute, elements, tag, value};
 use diagnostics::{Source, Span};
-use roxmltree::{Attribute, Document, Node, ParsingOptions, TextPos};
 
 use crate::check::check;
 use crate::data_type::DataType;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Action, Algorithm, Block, Event, Place, State, Text, Transition, Variable};
 use crate::places::{operator, with_known_references};
-
-/// More elements than any block has: a bound on what a foreign file costs.
-const ELEMENTS_MAX: u32 = 200_000;
 
 /// What is in a file.
 #[derive(Debug)]
@@ -24,13 +21,11 @@ pub struct Read {
 /// Reads a block.
 pub fn read(source: &Source) -> Read {
     let mut reader = Reader { diagnostics: Vec::new() };
-    let options =
-        ParsingOptions { allow_dtd: true, nodes_limit: ELEMENTS_MAX, ..ParsingOptions::default() };
     let text = with_known_references(&source.text);
-    let block = match Document::parse_with_options(&text, options) {
+    let block = match xml::parse(&text) {
         Ok(document) => reader.root(document.root_element()),
-        Err(error) => {
-            reader.broken(&source.text, &error);
+        Err(Broken { span, message }) => {
+            reader.diagnostics.push(Diagnostic::new(Code::BrokenXml, span, message));
             None
         }
     };
@@ -40,26 +35,6 @@ pub fn read(source: &Source) -> Read {
     reader.diagnostics.sort_by_key(|one| one.span);
     let is_good = !reader.has_errors();
     Read { block: block.filter(|_| is_good), diagnostics: reader.diagnostics }
-}
-
-/// Where a line and column is.
-fn offset(text: &str, at: TextPos) -> usize {
-    let before = text.split_inclusive('\n').take((at.row as usize).saturating_sub(1));
-    let line: usize = before.map(str::len).sum();
-    let rest = text.get(line..).unwrap_or("");
-    let column = rest.char_indices().nth((at.col as usize).saturating_sub(1));
-    line + column.map_or(rest.len(), |(at, _)| at)
-}
-
-fn span_of(attribute: &Attribute) -> Span {
-    let range = attribute.range_value();
-    Span::new(range.start, range.end)
-}
-
-/// The opening tag's name.
-fn tag(node: Node) -> Span {
-    let start = node.range().start + 1;
-    Span::new(start, start + node.tag_name().name().len())
 }
 
 /// What a file describes that is no basic function block, and what helps.
@@ -97,16 +72,6 @@ impl Reader {
         self.diagnostics.iter().any(|one| one.code == Code::OtherKind)
     }
 
-    fn broken(&mut self, text: &str, error: &roxmltree::Error) {
-        let at = offset(text, error.pos());
-        let end =
-            at + text.get(at..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8);
-        let words = error.to_string();
-        let words = words.split(" at ").next().unwrap_or(&words).to_owned();
-        let message = format!("this is no XML that can be read: {words}");
-        self.diagnostics.push(Diagnostic::new(Code::BrokenXml, Span::new(at, end), message));
-    }
-
     fn refuse(&mut self, node: Node, help: &str) {
         let name = node.tag_name().name();
         let message = format!("{name}: only basic function blocks can be read");
@@ -128,14 +93,14 @@ impl Reader {
 
     /// An attribute that has to be there.
     fn needed(&mut self, node: Node, name: &str) -> Text {
-        let attribute = node.attributes().find(|attribute| attribute.name() == name);
+        let attribute = attribute(node, name);
         let Some(attribute) = attribute else {
             let message = format!("{} has no {name}", node.tag_name().name());
             let error = Diagnostic::new(Code::Incomplete, tag(node), message);
             self.diagnostics.push(error.help(format!("write {name}=\"...\"")));
             return Text { text: String::new(), span: tag(node) };
         };
-        Text { text: attribute.value().trim().to_owned(), span: span_of(&attribute) }
+        Text { text: attribute.value().trim().to_owned(), span: value(&attribute) }
     }
 
     fn root(&mut self, node: Node) -> Option<Block> {
@@ -231,17 +196,17 @@ impl Reader {
             self.diagnostics.push(error.help(format!("types are {}", names.join(", "))));
         }
         let size = self.size(node);
-        let initial = node.attributes().find(|one| one.name() == "InitialValue");
+        let initial = attribute(node, "InitialValue");
         let initial = initial
             .filter(|one| !one.value().trim().is_empty())
-            .map(|one| Text { text: one.value().trim().to_owned(), span: span_of(&one) });
+            .map(|one| Text { text: one.value().trim().to_owned(), span: value(&one) });
         // Its name is known all the same; no block is made of a file with errors.
         let of_type = of_type.unwrap_or(DataType::Bool);
         Variable { name, of_type, type_span: written.span, size, initial, comment: comment(node) }
     }
 
     fn size(&mut self, node: Node) -> Option<u32> {
-        let written = node.attributes().find(|one| one.name() == "ArraySize")?;
+        let written = attribute(node, "ArraySize")?;
         if written.value().trim().is_empty() {
             return None;
         }
@@ -249,7 +214,7 @@ impl Reader {
         if size.is_none() {
             let message =
                 format!("ArraySize is {}: a number of elements is needed", written.value());
-            self.diagnostics.push(Diagnostic::new(Code::DataType, span_of(&written), message));
+            self.diagnostics.push(Diagnostic::new(Code::DataType, value(&written), message));
         }
         size
     }
@@ -306,11 +271,11 @@ impl Reader {
     }
 
     fn number(&mut self, node: Node, name: &str) -> Option<f64> {
-        let written = node.attributes().find(|one| one.name() == name)?;
+        let written = attribute(node, name)?;
         let number = written.value().trim().parse().ok().filter(|number: &f64| number.is_finite());
         if number.is_none() {
             let message = format!("{name} is {}: a number is needed", written.value());
-            self.diagnostics.push(Diagnostic::new(Code::Incomplete, span_of(&written), message));
+            self.diagnostics.push(Diagnostic::new(Code::Incomplete, value(&written), message));
         }
         number
     }
@@ -350,8 +315,8 @@ fn understood(text: Text) -> Text {
 
 /// The text of an algorithm: an attribute, or in newer files the element's own text.
 fn statements(node: Node) -> Text {
-    if let Some(attribute) = node.attributes().find(|one| one.name() == "Text") {
-        return Text { text: lines(attribute.value()), span: span_of(&attribute) };
+    if let Some(attribute) = attribute(node, "Text") {
+        return Text { text: lines(attribute.value()), span: value(&attribute) };
     }
     let text: String = node.children().filter_map(|child| child.text()).collect();
     let range = node.range();
@@ -372,10 +337,6 @@ fn lines(text: &str) -> String {
     text.replace("\r\n", "\n").replace('\r', "\n")
 }
 
-fn elements<'a, 'i>(node: Node<'a, 'i>) -> impl Iterator<Item = Node<'a, 'i>> {
-    node.children().filter(Node::is_element)
-}
-
 fn comment(node: Node) -> String {
     lines(node.attribute("Comment").unwrap_or(""))
 }
@@ -385,7 +346,7 @@ fn pairs(node: Node) -> Vec<(String, String)> {
 }
 
 fn optional(node: Node, name: &str) -> Option<Text> {
-    let attribute = node.attributes().find(|one| one.name() == name)?;
+    let attribute = attribute(node, name)?;
     let text = attribute.value().trim().to_owned();
-    (!text.is_empty()).then(|| Text { text, span: span_of(&attribute) })
+    (!text.is_empty()).then(|| Text { text, span: value(&attribute) })
 }

@@ -1,18 +1,16 @@
 //! A block as XML, as the DTD of IEC 61499 has it. What is written gives the same block when it is
 //! read.
 
-use std::fmt::Write;
+use diagnostics::xml::Writer;
 
 use crate::model::{Algorithm, Block, Event, Place, State, Text, Transition, Variable};
 
 /// Writes a block.
 pub fn write(block: &Block) -> String {
-    let mut out = Writer { text: String::new(), depth: 0 };
-    out.text.push_str("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    out.text
-        .push_str("<!DOCTYPE FBType SYSTEM \"http://www.holobloc.com/xml/LibraryElement.dtd\">\n");
+    let mut out = Writer::default();
+    out.line("<!DOCTYPE FBType SYSTEM \"http://www.holobloc.com/xml/LibraryElement.dtd\">");
     let head = [("Name", block.name.text.as_str()), ("Comment", &block.comment)];
-    out.element("FBType", &head, |out| {
+    out.element("FBType", &said(&head), |out| {
         if !block.identification.is_empty() {
             out.empty("Identification", &borrowed(&block.identification));
         }
@@ -22,7 +20,7 @@ pub fn write(block: &Block) -> String {
         out.element("InterfaceList", &[], |out| interface(out, block));
         out.element("BasicFB", &[], |out| basic(out, block));
     });
-    out.text
+    out.finish()
 }
 
 fn borrowed(pairs: &[(String, String)]) -> Vec<(&str, &str)> {
@@ -30,14 +28,14 @@ fn borrowed(pairs: &[(String, String)]) -> Vec<(&str, &str)> {
 }
 
 fn interface(out: &mut Writer, block: &Block) {
-    out.list("EventInputs", &block.event_inputs, event);
-    out.list("EventOutputs", &block.event_outputs, event);
-    out.list("InputVars", &block.inputs, variable);
-    out.list("OutputVars", &block.outputs, variable);
+    list(out, "EventInputs", &block.event_inputs, event);
+    list(out, "EventOutputs", &block.event_outputs, event);
+    list(out, "InputVars", &block.inputs, variable);
+    list(out, "OutputVars", &block.outputs, variable);
 }
 
 fn basic(out: &mut Writer, block: &Block) {
-    out.list("InternalVars", &block.internals, variable);
+    list(out, "InternalVars", &block.internals, variable);
     out.element("ECC", &[], |out| {
         block.states.iter().for_each(|one| state(out, one));
         block.transitions.iter().for_each(|one| transition(out, one));
@@ -47,6 +45,7 @@ fn basic(out: &mut Writer, block: &Block) {
 
 fn event(out: &mut Writer, event: &Event) {
     let head = [("Name", event.name.text.as_str()), ("Comment", &event.comment), ("Type", "Event")];
+    let head = said(&head);
     if event.with.is_empty() {
         return out.empty("Event", &head);
     }
@@ -61,12 +60,12 @@ fn variable(out: &mut Writer, variable: &Variable) {
     head.extend(size.as_deref().map(|size| ("ArraySize", size)));
     head.extend(variable.initial.as_ref().map(|one| ("InitialValue", one.text.as_str())));
     head.push(("Comment", &variable.comment));
-    out.empty("VarDeclaration", &head);
+    out.empty("VarDeclaration", &said(&head));
 }
 
 fn state(out: &mut Writer, state: &State) {
     let head = [("Name", state.name.text.as_str()), ("Comment", &state.comment)];
-    let head = placed(&head, state.place);
+    let head = placed(&said(&head), state.place);
     let head = as_str(&head);
     if state.actions.is_empty() {
         return out.empty("ECState", &head);
@@ -87,13 +86,18 @@ fn transition(out: &mut Writer, transition: &Transition) {
         ("Condition", &transition.condition.text),
         ("Comment", &transition.comment),
     ];
-    out.empty("ECTransition", &as_str(&placed(&head, transition.place)));
+    out.empty("ECTransition", &as_str(&placed(&said(&head), transition.place)));
 }
 
 fn algorithm(out: &mut Writer, algorithm: &Algorithm) {
     let head = [("Name", algorithm.name.text.as_str()), ("Comment", &algorithm.comment)];
     let Text { text, .. } = &algorithm.text;
-    out.element("Algorithm", &head, |out| out.empty("ST", &[("Text", text)]));
+    out.element("Algorithm", &said(&head), |out| out.empty("ST", &[("Text", text)]));
+}
+
+/// Without a comment that says nothing: it is nothing without it, too.
+fn said<'a>(head: &[(&'a str, &'a str)]) -> Vec<(&'a str, &'a str)> {
+    head.iter().copied().filter(|(name, value)| *name != "Comment" || !value.is_empty()).collect()
 }
 
 fn placed<'a>(head: &[(&'a str, &'a str)], place: Option<Place>) -> Vec<(&'a str, String)> {
@@ -106,63 +110,9 @@ fn as_str<'a>(pairs: &'a [(&'a str, String)]) -> Vec<(&'a str, &'a str)> {
     pairs.iter().map(|(name, value)| (*name, value.as_str())).collect()
 }
 
-struct Writer {
-    text: String,
-    depth: usize,
-}
-
-impl Writer {
-    fn open(&mut self, name: &str, attributes: &[(&str, &str)]) {
-        let _ = write!(self.text, "{:1$}<{name}", "", self.depth * 2);
-        for (name, value) in attributes {
-            // A comment that says nothing is left out; it is nothing without it, too.
-            if *name != "Comment" || !value.is_empty() {
-                let _ = write!(self.text, " {name}=\"{}\"", escaped(value));
-            }
-        }
+/// Elements in one that is left out where there are none.
+fn list<T>(out: &mut Writer, name: &str, all: &[T], one: fn(&mut Writer, &T)) {
+    if !all.is_empty() {
+        out.element(name, &[], |out| all.iter().for_each(|each| one(out, each)));
     }
-
-    fn empty(&mut self, name: &str, attributes: &[(&str, &str)]) {
-        self.open(name, attributes);
-        self.text.push_str("/>\n");
-    }
-
-    fn element(
-        &mut self,
-        name: &str,
-        attributes: &[(&str, &str)],
-        inside: impl FnOnce(&mut Writer),
-    ) {
-        self.open(name, attributes);
-        self.text.push_str(">\n");
-        self.depth += 1;
-        inside(self);
-        self.depth -= 1;
-        let _ = writeln!(self.text, "{:1$}</{name}>", "", self.depth * 2);
-    }
-
-    /// Elements in one that is left out where there are none.
-    fn list<T>(&mut self, name: &str, all: &[T], one: fn(&mut Writer, &T)) {
-        if !all.is_empty() {
-            self.element(name, &[], |out| all.iter().for_each(|each| one(out, each)));
-        }
-    }
-}
-
-/// A text inside an attribute. Line ends and tabs as references: XML reads them as blanks.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for character in text.chars() {
-        match character {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\n' => out.push_str("&#10;"),
-            '\r' => out.push_str("&#13;"),
-            '\t' => out.push_str("&#9;"),
-            other => out.push(other),
-        }
-    }
-    out
 }

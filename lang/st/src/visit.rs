@@ -1,12 +1,10 @@
-//! Every expression and statement in a piece of Structured Text, the outer ones first.
+//! Every expression and statement in a part of a syntax tree, to look at or to change, the outer
+//! ones first.
 
-use st::tree::{Argument, Expression, ExpressionKind, Selector, Statement, StatementKind};
+use crate::tree::{Argument, Expression, ExpressionKind, Selector, Statement, StatementKind};
 
 /// Calls `found` with an expression and those in it. Where it says false, those in it are left out.
-pub(super) fn expressions(
-    expression: &mut Expression,
-    found: &mut dyn FnMut(&mut Expression) -> bool,
-) {
+pub fn expressions(expression: &mut Expression, found: &mut dyn FnMut(&mut Expression) -> bool) {
     if !found(expression) {
         return;
     }
@@ -48,7 +46,7 @@ fn in_arguments(arguments: &mut [Argument], found: &mut dyn FnMut(&mut Expressio
 }
 
 /// Calls `found` with each statement, those in others too.
-pub(super) fn statements(list: &mut [Statement], found: &mut dyn FnMut(&mut Statement)) {
+pub fn statements(list: &mut [Statement], found: &mut dyn FnMut(&mut Statement)) {
     for statement in list {
         found(statement);
         match &mut statement.kind {
@@ -64,16 +62,19 @@ pub(super) fn statements(list: &mut [Statement], found: &mut dyn FnMut(&mut Stat
             StatementKind::While(_, body) | StatementKind::Repeat(body, _) => {
                 statements(body, found);
             }
-            _ => {}
+            StatementKind::Assign(..)
+            | StatementKind::Call(..)
+            | StatementKind::Exit
+            | StatementKind::Continue
+            | StatementKind::Return
+            | StatementKind::Element(_)
+            | StatementKind::AddElapsed(_) => {}
         }
     }
 }
 
 /// Calls `found` with each expression of a statement itself, not of those in it.
-pub(super) fn in_statement(
-    statement: &mut Statement,
-    found: &mut dyn FnMut(&mut Expression) -> bool,
-) {
+pub fn in_statement(statement: &mut Statement, found: &mut dyn FnMut(&mut Expression) -> bool) {
     match &mut statement.kind {
         StatementKind::Assign(to, value) => {
             expressions(to, found);
@@ -86,7 +87,12 @@ pub(super) fn in_statement(
         StatementKind::If(arms, _) => {
             arms.iter_mut().for_each(|(condition, _)| expressions(condition, found));
         }
-        StatementKind::Case(selector, ..) => expressions(selector, found),
+        StatementKind::Case(selector, arms, _) => {
+            expressions(selector, found);
+            for (low, high) in arms.iter_mut().flat_map(|arm| &mut arm.labels) {
+                [low].into_iter().chain(high).for_each(|label| expressions(label, found));
+            }
+        }
         StatementKind::For(one) => {
             for part in
                 [&mut one.variable, &mut one.from, &mut one.to].into_iter().chain(&mut one.by)
@@ -106,9 +112,6 @@ pub(super) fn in_statement(
 }
 
 /// Calls `found` with every expression in statements.
-pub(super) fn in_statements(
-    list: &mut [Statement],
-    found: &mut dyn FnMut(&mut Expression) -> bool,
-) {
+pub fn in_statements(list: &mut [Statement], found: &mut dyn FnMut(&mut Expression) -> bool) {
     statements(list, &mut |statement| in_statement(statement, found));
 }
