@@ -29,11 +29,17 @@ pub(super) fn rows(program: &Program, texts: &[Source]) -> Rows {
         files.push((text.name.clone(), first..rows.len()));
     }
     for statement in &program.assembly.program.statements {
-        if let Statement::Unit(unit) = statement
-            && let Some((file, line, _)) = place(program, texts, unit.span.start)
-            && let Some(row) = lines_of(&mut rows, &files, file, line..line + 1).first_mut()
-        {
-            row.content = Content::Unit;
+        let (span, content) = match statement {
+            Statement::Network(network) => (network.span, Content::Network),
+            Statement::Unit(unit) => (unit.span, Content::Unit),
+            Statement::Instruction(_) => continue,
+        };
+        let Some((file, line, column)) = place(program, texts, span.start) else { continue };
+        // Networks that were made have no line of their own.
+        let is_written = content == Content::Unit || column.is_none();
+        let row = lines_of(&mut rows, &files, file, line..line + 1).first_mut();
+        if let Some(row) = row.filter(|_| is_written) {
+            row.content = content;
         }
     }
     let levels = rung_levels(program);

@@ -24,16 +24,18 @@ const MARK = /-(st|sfc|fbt)$/;
 async function example(name) {
   const stem = name.replace(MARK, "");
   const ending = MARK.exec(name)?.[1] ?? "awl";
-  const program = ending === "awl" ? `${stem}.awl` : `${ending}/${stem}.${ending}`;
+  const folder = ending === "awl" ? "" : `${ending}/`;
   const described = `${stem}.plant`;
-  const all = await readdir(EXAMPLES);
-  const beside = all.filter((file) => file === `${stem}.scn` || file === described);
+  const isIts = (file) => file === `${stem}.scn` || file === described;
+  const own = (await readdir(EXAMPLES + folder)).filter(isIts).map((file) => folder + file);
+  const beside = own.length > 0 ? own : (await readdir(EXAMPLES)).filter(isIts);
   const read = async (path) => ({
     name: path.split("/").pop(),
     text: await readFile(EXAMPLES + path, "utf8"),
   });
-  const files = await Promise.all([program, ...beside].map(read));
-  const plant = PLANTS[stem] ?? (all.includes(described) ? described : null);
+  const files = await Promise.all([`${folder}${stem}.${ending}`, ...beside].map(read));
+  const isSame = folder === "" || own.length === 0;
+  const plant = (isSame && PLANTS[stem]) || (beside.includes(described) ? described : null);
   return JSON.stringify({
     files,
     main: `${stem}.${ending}`,

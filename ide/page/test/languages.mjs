@@ -12,7 +12,6 @@ const tab = (name) => page.getByRole("tab", { name, exact: true }).click();
 const panel = (name) => page.getByRole("tabpanel", { name, exact: true });
 const mode = (wanted) => page.getByRole("status").first().filter({ hasText: wanted }).waitFor();
 const text = (name) => page.getByRole("textbox", { name });
-const speed = (factor) => page.getByRole("combobox", { name: "Speed" }).selectOption(factor);
 
 async function example(name) {
   await page.goto("about:blank");
@@ -58,10 +57,8 @@ for (const target of ["Simulator", "Virtual Uno"]) {
     target,
   );
   assert.equal(await values("PROGRAM Main").count(), 0);
-  await speed(target === "Simulator" ? "2" : "1");
-  await marks("Height := HeightNow", ["skipped", "on"]);
-  await marks("IF Settle.Q THEN", ["off", "on"]);
-  await speed("1");
+  await marks("Measure := TRUE;", ["skipped", "on"]);
+  await marks("IF HasPiece AND AtTop AND NOT Measured", ["off", "on"]);
   // A click forces.
   await values("Good := Measured").first().click();
   await page.getByRole("menuitem", { name: "Force Good to 1", exact: true }).click();
@@ -77,15 +74,28 @@ await text("mixing.sfc").waitFor();
 await page.getByRole("button", { name: /^FillA STEP/ }).waitFor();
 await tab("Tests");
 await button("Test all").click();
-await panel("Tests").getByText(/met, 0 failed/).first().waitFor();
+await panel("Tests")
+  .getByText(/met, 0 failed/)
+  .first()
+  .waitFor();
 await text("mixing.sfc").click();
 await page.keyboard.press("Control+End");
 await page.keyboard.type("\nTRANSITION FROM Nowhere TO Wait := TRUE; END_TRANSITION\n");
 await tab("Problems");
-await panel("Problems").getByText(/E03\d\d/).first().waitFor();
+await panel("Problems")
+  .getByText(/E03\d\d/)
+  .first()
+  .waitFor();
 await page.keyboard.press("Control+z");
 await text("mixing.sfc").click();
-for (let tries = 0; tries < 5 && (await panel("Problems").getByText(/E03\d\d/).count()) > 0; tries += 1) {
+for (
+  let tries = 0;
+  tries < 5 &&
+  (await panel("Problems")
+    .getByText(/E03\d\d/)
+    .count()) > 0;
+  tries += 1
+) {
   await page.keyboard.press("Control+z");
   await page.waitForTimeout(500);
 }
@@ -111,7 +121,10 @@ await page.getByRole("button", { name: /FUNCTION_BLOCK/ }).waitFor();
 await page.getByRole("button", { name: /^Control event/ }).waitFor();
 await tab("Tests");
 await button("Test all").click();
-await panel("Tests").getByText(/met, 0 failed/).first().waitFor();
+await panel("Tests")
+  .getByText(/met, 0 failed/)
+  .first()
+  .waitFor();
 for (const target of ["Simulator", "Virtual Uno"]) {
   await page.getByRole("combobox", { name: "Target" }).selectOption({ label: target });
   await button("Run").click();
