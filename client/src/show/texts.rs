@@ -1,5 +1,5 @@
-//! The rows of texts that became AWL, such as Structured Text: for each line what its statement came
-//! to in AWL, by the lines `//# source` there. Of the languages of the texts nothing is known here.
+//! The rows of texts that became AWL, such as Structured Text: for each line what its statement
+//! came to in AWL, by the lines `//# source` there. The languages of the texts are not known here.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -244,8 +244,8 @@ mod tests {
     use crate::show::model::{Flow, Model};
     use plc_isa::decode;
 
-    const TEXT: &str = "IF Go THEN // Halt\n  Halt := TRUE;\nEND_IF\nSum := One +\n  Other;\nA(IN := \
-        Sum);\nWHILE Go DO\n";
+    const TEXT: &str = "IF Go THEN // Halt\n  Halt := TRUE;\nEND_IF\nSum := One +\n  Other;\n\
+        A(IN := Sum);\nWHILE Go DO\n";
     const AWL: &str = "//# symbol Go I0.0\n//# symbol Halt Q0.0\n//# var Main.One INT\n\
         //# var Main.Other INT\n//# var Sum INT\n//# var Main.A.Q BOOL\n\
         //# source t.st:1:1\nLD Go\n//# source t.st:2:3\nS Halt, 1\n\

@@ -147,7 +147,7 @@ console.log("a function block: outline, tests, simulator and virtual Uno");
 await example("motor");
 await text("motor.awl").waitFor();
 await button("New file").click();
-await page.getByLabel("File name").fill("blink.sfc");
+await page.getByLabel("Name, with its ending").fill("blink.sfc");
 await page.keyboard.press("Enter");
 await text("blink.sfc").click();
 await page.keyboard.insertText(
