@@ -4,7 +4,7 @@
 use flash::{Cause, Flasher, Output, Phase};
 use plc_isa::{LineSettings, Parity, Settings};
 
-use crate::protocol::{Event, Loading};
+use crate::protocol::{Event, Loading, TargetKind};
 
 /// How a serial line is set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,8 +59,15 @@ pub struct Outside {
 }
 
 impl Outside {
-    /// Has the port open with this setting. True where it is; otherwise the page is asked.
-    pub fn is_ready(&mut self, setting: Setting, then: Then, errands: &mut Vec<Event>) -> bool {
+    /// Has the port of this kind of target open with this setting. True where it is; otherwise the
+    /// page is asked.
+    pub fn is_ready(
+        &mut self,
+        kind: TargetKind,
+        setting: Setting,
+        then: Then,
+        errands: &mut Vec<Event>,
+    ) -> bool {
         if self.open.is_some_and(|open| open.is_network || open.setting == setting) {
             return true;
         }
@@ -70,7 +77,7 @@ impl Outside {
             Parity::Even => "even",
             Parity::Odd => "odd",
         };
-        errands.push(Event::OpenPort { baud: setting.baud, parity: parity.to_owned() });
+        errands.push(Event::OpenPort { kind, baud: setting.baud, parity: parity.to_owned() });
         false
     }
 

@@ -216,11 +216,11 @@ pub enum Event {
     PowerOn { flash: Vec<u8> },
     /// The virtual Uno is unplugged.
     PowerOff,
-    /// The port to a target outside is to be opened, 8 bits and one stop bit; one that was opened
+    /// The port to a target of this kind is to be opened, 8 bits and one stop bit; one that was opened
     /// before, again. Opening it may reset a board, so people are asked before the first time.
     /// Answer: [`TargetWish::Plugged`] or [`TargetWish::Unplugged`]. `parity`: `none`, `even`,
     /// `odd`.
-    OpenPort { baud: u32, parity: String },
+    OpenPort { kind: TargetKind, baud: u32, parity: String },
     /// The port is to be closed.
     ClosePort,
     /// DTR and RTS of the port are to be switched.

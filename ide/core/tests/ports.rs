@@ -110,7 +110,7 @@ impl Page {
     fn take(&mut self, events: Vec<Event>) {
         for event in events {
             match event {
-                Event::OpenPort { baud, parity } => {
+                Event::OpenPort { kind: _, baud, parity } => {
                     self.asked.push("port");
                     if self.agrees {
                         self.open = Some((baud, parity));
@@ -280,7 +280,8 @@ fn a_plc_on_the_network_is_asked_and_not_written() {
     ask(Wish::Project(ProjectWish::Open { files, main: None }));
     ask(Wish::Target(TargetWish::Target { kind: TargetKind::Bridge }));
     let events = ask(Wish::Target(TargetWish::Connect));
-    assert!(events.iter().any(|event| matches!(event, Event::OpenPort { .. })), "{events:?}");
+    let opens = |event: &Event| matches!(event, Event::OpenPort { kind: TargetKind::Bridge, .. });
+    assert!(events.iter().any(opens), "{events:?}");
     let events = ask(Wish::Target(TargetWish::Plugged { network: true }));
     // Modbus TCP: a number, the protocol 0.
     let sent = events.iter().find_map(|event| match event {

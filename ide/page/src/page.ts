@@ -122,7 +122,7 @@ const tabs: Tabs = new Tabs("panels", [
     shown: (shown) => exercises.shown(shown),
   },
 ]);
-new Outside(core, bridge, () => header.status?.target ?? "simulator");
+new Outside(core, bridge);
 new LiveView(core, project, editors, ladder, header);
 
 header.onStatus((status) => watch.showStatus(status));

@@ -78,9 +78,13 @@ async function serve(...more) {
 const { browser, errors } = await open();
 const server = await serve();
 
-/** A page of a browser that knows nothing yet; what is done in it. */
+/**
+ * A page of a browser that knows nothing yet; what is done in it. Without the service worker, which
+ * would give files that a situation keeps away.
+ */
 async function situation(address, act, prepare = async () => {}) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
+  const viewport = { width: 1280, height: 800 };
+  const context = await browser.newContext({ viewport, serviceWorkers: "block" });
   const page = await context.newPage();
   page.setDefaultTimeout(60_000);
   page.on("pageerror", (error) => errors.push(error.message));

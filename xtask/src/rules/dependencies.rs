@@ -14,7 +14,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("awl-asm", &["plc-isa", "diagnostics"]),
     ("st", &["diagnostics", "awl-asm"]),
     ("chart", &["diagnostics", "awl-asm", "st"]),
-    ("fb", &["diagnostics", "st"]),
+    ("fb", &["diagnostics", "awl-asm", "st"]),
     ("project", &["diagnostics", "awl-asm", "st", "chart", "fb"]),
     ("analysis", &["plc-isa", "diagnostics", "awl-asm", "st", "chart", "fb", "project", "awl-sim"]),
     ("simavr", &[]),

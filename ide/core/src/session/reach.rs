@@ -45,7 +45,7 @@ impl Session {
                 Setting::of(build::settings(&build::program(&self.editor)?))
             }
         };
-        match self.outside.is_ready(setting, then, &mut self.errands) {
+        match self.outside.is_ready(self.kind, setting, then, &mut self.errands) {
             true => self.begin(then, START_MS),
             false => Ok(()),
         }

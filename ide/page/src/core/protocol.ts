@@ -267,7 +267,7 @@ interface Events {
   powerOn: { flash: number[] };
   powerOff: object;
   resetBoard: object;
-  openPort: { baud: number; parity: Parity };
+  openPort: { kind: TargetKind; baud: number; parity: Parity };
   closePort: object;
   lines: { on: boolean };
   askFirmware: object;

@@ -23,7 +23,6 @@ export class Outside {
   constructor(
     private core: Core,
     private bridge: Bridge | null,
-    private target: () => TargetKind,
   ) {
     core.on("openPort", (line) => this.then(() => this.open(line)));
     core.on("closePort", () => this.then(() => this.close()));
@@ -40,8 +39,8 @@ export class Outside {
     });
   }
 
-  private async open({ baud, parity }: EventOf<"openPort">): Promise<void> {
-    this.port ??= await this.choose();
+  private async open({ kind, baud, parity }: EventOf<"openPort">): Promise<void> {
+    this.port ??= await this.choose(kind);
     const { port } = this;
     const lost = (message: string) => {
       if (this.port !== port) return;
@@ -64,8 +63,8 @@ export class Outside {
     await this.port?.lines(true);
   }
 
-  private async choose(): Promise<Port> {
-    const port = this.target() === "usb" ? await chooseUsb() : await this.chooseOfBridge();
+  private async choose(kind: TargetKind): Promise<Port> {
+    const port = kind === "usb" ? await chooseUsb() : await this.chooseOfBridge();
     if (!port) throw new Cancelled();
     return port;
   }
