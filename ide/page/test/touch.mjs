@@ -24,18 +24,31 @@ for (const [device, [width, height]] of Object.entries(SIZES)) {
   const panel = (name) => page.getByRole("tabpanel", { name, exact: true });
   const status = page.getByRole("status").first();
 
+  await page.getByRole("textbox", { name: "station1.awl" }).waitFor();
   await button("Run").tap();
   await status.filter({ hasText: "RUN" }).waitFor();
 
-  // A value beside a line: its menu forces it, and the line shows that.
+  // A swipe leads to the instructions. A value beside a line: its menu forces it, the line shows it.
+  const touch = await context.newCDPSession(page);
+  const area = await page.locator(".cm-scroller").boundingBox();
   const value = page.locator(".live .value[title=AtTop]").first();
+  for (let swipes = 0; swipes < 20 && !(await value.isVisible()); swipes += 1) {
+    const x = area.x + area.width / 2;
+    const bottom = area.y + area.height - 20;
+    const finger = (type, y) =>
+      touch.send("Input.dispatchTouchEvent", { type, touchPoints: y === null ? [] : [{ x, y }] });
+    await finger("touchStart", bottom);
+    for (let y = bottom; y > area.y + 20; y -= 20) await finger("touchMove", y);
+    await finger("touchEnd", null);
+    await page.waitForTimeout(500);
+  }
   await value.tap();
   await page.getByRole("menuitem", { name: "Force AtTop to 1", exact: true }).tap();
   await page.locator(".live .value.forced").first().waitFor();
 
   // Another tab: what is forced is there, and is released by a tap.
   await tab("Watch");
-  await panel("Watch").getByRole("cell", { name: "AtTop" }).first().waitFor();
+  await panel("Watch").getByText("AtTop").first().waitFor();
   await button("Release all").tap();
   await page.locator(".live .value.forced").first().waitFor({ state: "detached" });
 
