@@ -322,8 +322,7 @@ impl Generator<'_> {
     fn place_of(&self, number: usize) -> Option<String> {
         let unit = self.program.units.get(number)?;
         let source = self.sources.get(unit.file?)?;
-        let (line, column) = source.position(unit.span.start as usize);
-        Some(format!("{}:{line}:{column}", source.name))
+        Some(writer::place_in(source, unit.span))
     }
 
     /// What follows in the AWL text belongs to a statement, if that is of a file.
@@ -333,6 +332,16 @@ impl Generator<'_> {
         }
         if let Some(source) = self.frame.file.and_then(|file| self.sources.get(file)) {
             self.writer.statement(source, span);
+        }
+    }
+
+    /// What follows in the network belongs to a statement, if that is of a file.
+    fn go_on(&mut self, span: Span) {
+        if span == Span::default() {
+            return;
+        }
+        if let Some(source) = self.frame.file.and_then(|file| self.sources.get(file)) {
+            self.writer.go_on_at(&writer::place_in(source, span));
         }
     }
 
