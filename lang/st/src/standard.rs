@@ -89,8 +89,8 @@ pub const FUNCTIONS: &[Standard] = rows! {
     LEN &[("IN", TEXT)], "INT", "How many characters a text has", "LEN('pump')";
     LEFT &[("IN", TEXT), ("L", "INT")], TEXT, "The first L characters", "LEFT('pump', 2)";
     RIGHT &[("IN", TEXT), ("L", "INT")], TEXT, "The last L characters", "RIGHT('pump', 2)";
-    MID &[("IN", TEXT), ("L", "INT"), ("P", "INT")], TEXT, "L characters from position P on, from 1",
-        "MID('pump', 2, 3)";
+    MID &[("IN", TEXT), ("L", "INT"), ("P", "INT")], TEXT,
+        "L characters from position P on, which counts from 1", "MID('pump', 2, 3)";
     CONCAT TWO_TEXTS, TEXT, "One text after the other, two or more", "CONCAT('pump', ' 1')";
     INSERT &[("IN1", TEXT), ("IN2", TEXT), ("P", "INT")], TEXT, "IN1 with IN2 after position P",
         "INSERT('pump', 'lum', 1)";

@@ -106,10 +106,12 @@ impl Generator<'_> {
             self.call_as_routine(frame, unit);
         } else {
             let around = std::mem::replace(&mut self.frame, frame.clone());
+            let place = self.writer.place();
             self.reset_temporaries(unit);
             self.body(&unit.body);
             self.end_of_unit();
             self.frame = around;
+            self.writer.go_on_at(&place);
         }
     }
 

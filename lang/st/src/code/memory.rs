@@ -2,7 +2,6 @@
 
 use super::Generator;
 use super::edges::M;
-use super::texts::{temporary_name, text_literal};
 use super::timers::Owner;
 use super::writer::Storage;
 use crate::model::{SectionKind, Type, UnitKind, Value, Variable};
@@ -46,6 +45,24 @@ pub(super) fn literal(value: &Value, kind: &Type) -> String {
         (Value::Text(text), _) => text_literal(text),
         (Value::List(_), _) => String::new(),
     }
+}
+
+/// A text as AWL writes it.
+pub(super) fn text_literal(text: &[u8]) -> String {
+    let mut all = String::from("\"");
+    for &byte in text {
+        match byte {
+            b'$' | b'"' => all.extend(['$', char::from(byte)]),
+            b' '..=b'~' => all.push(char::from(byte)),
+            _ => all.push_str(&format!("${byte:02X}")),
+        }
+    }
+    all + "\""
+}
+
+/// The variable that a temporary text is.
+pub(super) fn temporary_text(number: usize) -> String {
+    format!("text__{}", number + 1)
 }
 
 fn real(value: f32) -> String {
@@ -115,7 +132,7 @@ impl Generator<'_> {
         let texts = self.texts.iter().enumerate();
         lines
             .extend(texts.map(|(number, room)| {
-                format!("//# var {} STRING[{room}]", temporary_name(number))
+                format!("//# var {} STRING[{room}]", temporary_text(number))
             }));
         lines
     }

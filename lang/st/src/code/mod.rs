@@ -217,8 +217,8 @@ impl Generator<'_> {
         writer::block(place, "ORGANIZATION_BLOCK MAIN:OB1", "END_ORGANIZATION_BLOCK", &[], writer)
     }
 
-    /// What is written from now on is a text of its own. It is called while temporary texts of others
-    /// are in use.
+    /// What is written from now on is a text of its own, with temporary texts of its own: those of
+    /// its callers are in use.
     fn begin_text(&mut self) {
         self.writer = Writer::default();
         self.texts_before = self.texts.len();
@@ -340,8 +340,7 @@ impl Generator<'_> {
     fn place_of(&self, number: usize) -> Option<String> {
         let unit = self.program.units.get(number)?;
         let source = self.sources.get(unit.file?)?;
-        let (line, column) = source.position(unit.span.start as usize);
-        Some(format!("{}:{line}:{column}", source.name))
+        Some(writer::place_in(source, unit.span))
     }
 
     /// What follows in the AWL text belongs to a statement, if that is of a file.
@@ -351,6 +350,16 @@ impl Generator<'_> {
         }
         if let Some(source) = self.frame.file.and_then(|file| self.sources.get(file)) {
             self.writer.statement(source, span);
+        }
+    }
+
+    /// What follows in the network belongs to a statement, if that is of a file.
+    fn go_on(&mut self, span: Span) {
+        if span == Span::default() {
+            return;
+        }
+        if let Some(source) = self.frame.file.and_then(|file| self.sources.get(file)) {
+            self.writer.go_on_at(&writer::place_in(source, span));
         }
     }
 

@@ -2,22 +2,10 @@
 
 use super::Generator;
 use super::logic::Logic;
+use super::memory::{temporary_text, text_literal};
 use super::writer::Storage;
 use crate::model::{Expression, ExpressionKind, Function, Type, Unit, Value};
 use crate::names::{is_same, safe_name};
-
-/// A text as AWL writes it.
-pub(super) fn text_literal(text: &[u8]) -> String {
-    let mut all = String::from("\"");
-    for &byte in text {
-        match byte {
-            b'$' | b'"' => all.extend(['$', char::from(byte)]),
-            b' '..=b'~' => all.push(char::from(byte)),
-            _ => all.push_str(&format!("${byte:02X}")),
-        }
-    }
-    all + "\""
-}
 
 impl Generator<'_> {
     /// A constant text. AWL takes one that is called like a variable for that: its first character
@@ -59,7 +47,7 @@ impl Generator<'_> {
             Some(most) => *most = room.max(*most),
             None => self.texts.push(room),
         }
-        temporary_name(number)
+        temporary_text(number)
     }
 
     /// Computes a text into a variable with room for so many characters; the others are cut off.
@@ -254,9 +242,4 @@ impl Generator<'_> {
         let (a, b) = if is_constant { (b, a) } else { (a, b) };
         Logic::Compare('S', if is_equal { "=" } else { "<>" }, a, b)
     }
-}
-
-/// The variable that a temporary text is.
-pub(super) fn temporary_name(number: usize) -> String {
-    format!("text__{}", number + 1)
 }
