@@ -1,6 +1,6 @@
 //! Charts that are not sound: those that do not begin as their standard says, elements of the other
-//! standard, charts that depend on each other in a circle, situations that cannot be stable, actions
-//! that contradict each other.
+//! standard, charts that depend on each other in a circle, situations that cannot be stable,
+//! actions that contradict each other.
 
 use std::collections::BTreeSet;
 
