@@ -7,6 +7,7 @@ use awl_asm::ast::{DataLine, Symbol};
 use awl_asm::files::{read, read_program, read_source};
 use awl_asm::render::human;
 use awl_asm::report::ProgramErrors;
+use awl_asm::source::Source;
 use client::program::{Program, ProgramError, data_of, is_image, symbols_of};
 use project::{Findings, Language, join};
 
@@ -26,9 +27,11 @@ impl Files {
         let symbols = self.symbols()?;
         let is_awl = |path: &PathBuf| Language::of(&path.to_string_lossy()) == Language::Awl;
         if !paths.iter().all(is_awl) {
-            let sources = paths.iter().map(|path| read_source(path)).collect::<Result<_>>()?;
-            let joined = join(sources).map_err(told)?;
-            return Program::assembled(joined.awl, symbols).map_err(shown);
+            let sources: Vec<Source> =
+                paths.iter().map(|path| read_source(path)).collect::<Result<_>>()?;
+            let joined = join(sources.clone()).map_err(told)?;
+            let program = Program::assembled(joined.awl, symbols).map_err(shown)?;
+            return Ok(program.made_of(sources));
         }
         let [path] = paths else {
             let data = self.data_lines(&symbols)?;
@@ -83,7 +86,6 @@ pub fn shown(error: ProgramError) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use awl_asm::source::Source;
 
     #[test]
     fn several_files_are_one_program() {
