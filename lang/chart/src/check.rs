@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use diagnostics::Span;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::hierarchy::{Hierarchy, Role, exits};
+use crate::hierarchy::{Hierarchy, Key, Role, exits};
 use crate::model::{Action, ActionId, Body, Chart, Standard, Step, StepId, Transition};
 
 /// Situations that are looked at; a chart with more is not asked whether its branches join.
@@ -25,11 +25,12 @@ pub(crate) fn check(chart: &Chart, found: &mut Vec<Diagnostic>) {
 
 fn sfc(chart: &Chart, found: &mut Vec<Diagnostic>) {
     let reached = reached(chart);
+    let exits: BTreeSet<StepId> = exits(chart).collect();
     for (id, step) in &chart.steps {
         if !reached.contains(id) {
             let is_entered = chart.transitions.values().any(|one| one.to.contains(id));
             found.push(never_reached(step, is_entered));
-        } else if !chart.transitions.is_empty() && exits(chart).any(|exit| exit == *id) {
+        } else if !chart.transitions.is_empty() && exits.contains(id) {
             found.push(never_left(step));
         }
     }
@@ -54,6 +55,9 @@ fn grafcet(hierarchy: &Hierarchy, found: &mut Vec<Diagnostic>) {
         .map(|(at, _, one)| (hierarchy.before(at, one), hierarchy.after(at, one)))
         .collect();
     grow(&mut reached, ends.iter().map(|(from, to)| (from, to)));
+    let members = hierarchy.members.iter().enumerate();
+    let exits: BTreeSet<Key> =
+        members.flat_map(|(at, member)| exits(member.chart).map(move |id| (at, id))).collect();
     for (key, step) in hierarchy.steps() {
         let is_macro = hierarchy.expansion(key).is_some();
         if !is_macro && !reached.contains(&key) {
@@ -62,8 +66,7 @@ fn grafcet(hierarchy: &Hierarchy, found: &mut Vec<Diagnostic>) {
         let Some(member) = hierarchy.members.get(key.0) else { continue };
         let is_forced = orders.iter().any(|order| order.chart == key.0);
         let is_alone = member.role == Role::Partial && !is_forced;
-        let ends =
-            !member.chart.transitions.is_empty() && exits(member.chart).any(|exit| exit == key.1);
+        let ends = !member.chart.transitions.is_empty() && exits.contains(&key);
         if is_alone && ends && (is_macro || reached.contains(&key)) {
             found.push(never_left(step));
         }

@@ -17,6 +17,7 @@ diagnostics::codes! {
     NotInAction = "E0309";
     Hierarchy = "E0310";
     Contradiction = "E0311";
+    Unstable = "E0312";
     BrokenXml = "E0340";
     XmlStructure = "E0341";
     NotInStyle = "E0342";

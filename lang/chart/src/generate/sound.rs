@@ -1,11 +1,14 @@
 //! Charts that are not sound: those that do not begin as their standard says, elements of the other
-//! standard, charts that depend on each other in a circle, actions that contradict each other.
+//! standard, charts that depend on each other in a circle, situations that cannot be stable,
+//! actions that contradict each other.
+
+use std::collections::BTreeSet;
 
 use awl_asm::suggest::nearest;
 use diagnostics::Span;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::hierarchy::{Hierarchy, Role, Use, charts_of, exits};
+use crate::hierarchy::{Hierarchy, Key, Role, Use, charts_of, exits};
 use crate::model::{
     Action, Body, Chart, Forcing, Instance, Qualifier, Situation, Standard, Step, StepKind,
 };
@@ -112,6 +115,7 @@ fn grafcet(hierarchy: &Hierarchy, first: Span, found: &mut Vec<Diagnostic>) {
     {
         no_initial_step(member.chart, first, found);
     }
+    never_stable(hierarchy, found);
     for one in hierarchy.actions() {
         for (_, _, instance) in &one.instances {
             qualifier(one.action, instance, found);
@@ -218,6 +222,34 @@ fn circle(hierarchy: &Hierarchy, first: Span, found: &mut Vec<Diagnostic>) {
     };
     let one = Diagnostic::new(Code::Hierarchy, span, message);
     found.push(one.help("what a chart depends on must not depend on it"));
+}
+
+/// Transitions in a circle that are all crossed whenever one of their steps is active.
+fn never_stable(hierarchy: &Hierarchy, found: &mut Vec<Diagnostic>) {
+    let transitions = hierarchy.transitions().into_iter();
+    let mut always: Vec<_> = transitions
+        .filter(|(_, _, one)| one.condition.text.eq_ignore_ascii_case("TRUE"))
+        .map(|(at, _, one)| (hierarchy.before(at, one), hierarchy.after(at, one), one.origin.0))
+        .filter(|(before, _, _)| before.len() == 1)
+        .collect();
+    // What is no part of a circle, or of a way between two, comes from nowhere or goes nowhere.
+    loop {
+        let left: BTreeSet<Key> = always.iter().flat_map(|(before, ..)| before.clone()).collect();
+        let entered: BTreeSet<Key> =
+            always.iter().flat_map(|(_, after, _)| after.clone()).collect();
+        let count = always.len();
+        always.retain(|(before, after, _)| before.is_subset(&entered) && !after.is_disjoint(&left));
+        if always.len() == count {
+            break;
+        }
+    }
+    let Some((.., span)) = always.first() else { return };
+    let steps: BTreeSet<Key> = always.iter().flat_map(|(before, ..)| before.clone()).collect();
+    let names = steps.iter().filter_map(|key| hierarchy.step(*key)).map(|step| step.name.as_str());
+    let names = names.collect::<Vec<_>>().join(", ");
+    let message = format!("{names}: no situation with one of these steps is stable");
+    let one = Diagnostic::new(Code::Unstable, *span, message);
+    found.push(one.help("the transitions between them are always crossed; a condition ends that"));
 }
 
 /// Which qualifiers GRAFCET has depends on what the action is.

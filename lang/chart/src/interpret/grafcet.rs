@@ -11,6 +11,7 @@ use crate::model::{Body, Chart, Instance, Qualifier, StepId, Transition};
 #[derive(Debug, Clone)]
 pub struct Grafcet<'c> {
     hierarchy: Hierarchy<'c>,
+    actions: Vec<Use<'c>>,
     has_begun: bool,
     /// Of each chart.
     steps: Vec<BTreeMap<StepId, StepState>>,
@@ -24,7 +25,8 @@ impl<'c> Grafcet<'c> {
         let hierarchy = Hierarchy::of(chart);
         let steps = vec![BTreeMap::new(); hierarchy.members.len()];
         let samples = Samples::of(&hierarchy);
-        Grafcet { hierarchy, has_begun: false, steps, samples, is_unstable: false }
+        let actions = hierarchy.actions();
+        Grafcet { hierarchy, actions, has_begun: false, steps, samples, is_unstable: false }
     }
 
     /// One scan. `elapsed_ms` are the milliseconds since the start of the scan before.
@@ -161,7 +163,7 @@ impl<'c> Grafcet<'c> {
             }
         }
         let mut happens = false;
-        for one in self.hierarchy.actions() {
+        for one in &self.actions {
             let mut events = one.instances.iter().filter_map(|((chart, _), _, instance)| {
                 instance.event.as_ref().map(|event| self.samples.happens(*chart, event))
             });
@@ -170,13 +172,13 @@ impl<'c> Grafcet<'c> {
                 Body::Variable => {
                     for (qualifier, value) in [(Qualifier::S, true), (Qualifier::R, false)] {
                         let has_it = |one: &Instance| one.qualifier == qualifier;
-                        if self.is_now(&one, has_it, surroundings) {
+                        if self.is_now(one, has_it, surroundings) {
                             surroundings.write(&one.action.name, value);
                         }
                     }
                 }
                 Body::Code(code) => {
-                    if self.is_now(&one, |_| true, surroundings) {
+                    if self.is_now(one, |_| true, surroundings) {
                         surroundings.execute(code, &self.view_of(one.chart));
                     }
                 }
@@ -216,7 +218,7 @@ impl<'c> Grafcet<'c> {
 
     /// In a stable situation variables of continuous actions are written.
     fn continuous(&self, surroundings: &mut dyn Surroundings) {
-        for one in self.hierarchy.actions() {
+        for one in &self.actions {
             let mut levels =
                 one.instances.iter().filter(|(_, _, one)| one.qualifier.is_continuous()).peekable();
             if one.action.body != Body::Variable || levels.peek().is_none() {

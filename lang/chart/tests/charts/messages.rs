@@ -103,6 +103,21 @@ fn hierarchies_that_cannot_be_are_told() {
 }
 
 #[test]
+fn circles_that_are_never_stable_are_told() {
+    let text = "{grafcet}\n\
+        INITIAL_STEP S1: END_STEP\nSTEP S2 {macro Wash}: END_STEP\nSTEP S3: END_STEP\n\
+        TRANSITION FROM S1 TO S2 := true; END_TRANSITION\n\
+        TRANSITION FROM S2 TO (S1, S3) := TRUE; END_TRANSITION\n\
+        TRANSITION FROM S3 TO S1 := TRUE; END_TRANSITION\n\
+        ACTION Wash: INITIAL_STEP E: END_STEP STEP X: END_STEP\n\
+        TRANSITION FROM E TO X := TRUE; END_TRANSITION END_ACTION\n";
+    assert_eq!(told(text), ["E0312 4 TRANSITION"]);
+    // One condition is enough: it ends the circle.
+    let ends = text.replacen("FROM E TO X := TRUE", "FROM E TO X := a", 1);
+    assert_eq!(told(&ends), Vec::<String>::new());
+}
+
+#[test]
 fn warnings_know_the_hierarchy() {
     let text = "{grafcet}\n\
         INITIAL_STEP S1 {enclosing G2}: END_STEP\nSTEP S2: {force G3 (U2)} END_STEP\n\

@@ -213,6 +213,8 @@ impl Text<'_> {
             let condition = self.condition(steps, 0);
             // Fewer circles without a stable situation.
             let condition = match self.random.u8(..4) {
+                // TRUE alone would be said to be never stable.
+                0 if condition == "TRUE" => "NOT FALSE".to_owned(),
                 0 => condition,
                 1 => format!("R_EDGE({condition})"),
                 2 => input.to_owned(),
