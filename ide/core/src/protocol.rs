@@ -216,10 +216,10 @@ pub enum Event {
     PowerOn { flash: Vec<u8> },
     /// The virtual Uno is unplugged.
     PowerOff,
-    /// The port to a target of this kind is to be opened, 8 bits and one stop bit; one that was opened
-    /// before, again. Opening it may reset a board, so people are asked before the first time.
-    /// Answer: [`TargetWish::Plugged`] or [`TargetWish::Unplugged`]. `parity`: `none`, `even`,
-    /// `odd`.
+    /// The port to a target of this kind is to be opened, 8 bits and one stop bit; one that was
+    /// opened before, again. Opening it may reset a board, so people are asked before the first
+    /// time. Answer: [`TargetWish::Plugged`] or [`TargetWish::Unplugged`]. `parity`: `none`,
+    /// `even`, `odd`.
     OpenPort { kind: TargetKind, baud: u32, parity: String },
     /// The port is to be closed.
     ClosePort,
