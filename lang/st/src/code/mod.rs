@@ -7,6 +7,7 @@ mod candidates;
 mod compare;
 mod control;
 mod convert;
+mod edges;
 mod hardware;
 mod logic;
 mod memory;
@@ -24,6 +25,7 @@ use diagnostics::{Source, Span};
 use crate::around::Around;
 use crate::diagnostic::Diagnostic;
 use crate::model::{Element, ExpressionKind, Program, SectionKind, UnitKind};
+use edges::Edges;
 use hardware::Devices;
 use timers::Short;
 use writer::Writer;
@@ -58,6 +60,8 @@ struct Generator<'a> {
     program: &'a Program,
     sources: &'a [Source],
     short: Short,
+    /// Instances of R_TRIG and F_TRIG without a memory beside CLK.
+    edges: Edges,
     /// Instances that are timers and counters of the controller.
     devices: Devices,
     /// Blocks that are subroutines.
@@ -124,6 +128,7 @@ fn written(
         program,
         sources,
         short: timers::short_timers(program),
+        edges: edges::edges(program),
         devices,
         as_routines,
         located: located(program),

@@ -146,18 +146,30 @@ impl Writer {
         place.clone_into(&mut self.next_place);
     }
 
+    /// A statement in the network of the one before.
+    fn go_on(&mut self, head: &Head) {
+        self.mark(&head.place);
+        if !head.title.is_empty() {
+            self.lines.push(format!("// {}", head.title));
+        }
+    }
+
     fn line(&mut self, mnemonic: &str, operands: &str) {
         if self.next_place != self.place {
             self.mark(&self.next_place.clone());
         }
-        let text = format!("{mnemonic:<6} {operands}");
-        self.lines.push(text.trim_end().to_owned());
+        self.lines.push(text_of(mnemonic, operands));
     }
 
-    /// The first instruction of a rung. What loads the bit that is on top already is left out.
+    /// The first instruction of a rung. What loads the bit that is on top already is left out; a
+    /// statement that begins so, right after the coil, goes on in the network.
     fn rung(&mut self, mnemonic: &str, operands: &str) {
+        let is_coil = self.lines.last().is_some_and(|last| *last == text_of("=", operands));
         if let Some(head) = self.head.take() {
-            self.network(&head);
+            match is_coil && ["LD", "LDN"].contains(&mnemonic) {
+                true => self.go_on(&head),
+                false => self.network(&head),
+            }
         }
         let is_there = self.top.as_deref() == Some(operands);
         match mnemonic {
@@ -218,10 +230,7 @@ impl Writer {
         if !self.has_power {
             self.rung("LD", "SM0.0");
         } else if let Some(head) = self.head.take() {
-            self.mark(&head.place);
-            if !head.title.is_empty() {
-                self.lines.push(format!("// {}", head.title));
-            }
+            self.go_on(&head);
         }
     }
 
@@ -314,6 +323,10 @@ impl Writer {
 pub(super) fn place_in(source: &Source, span: Span) -> String {
     let (line, column) = source.position(span.start as usize);
     format!("{}:{line}:{column}", source.name)
+}
+
+fn text_of(mnemonic: &str, operands: &str) -> String {
+    format!("{mnemonic:<6} {operands}").trim_end().to_owned()
 }
 
 /// A block with its sections and lines.
