@@ -36,8 +36,8 @@ use crate::symbols::Symbols;
 ///
 /// A scenario belongs to the program that its line `program` names, otherwise to the one of the
 /// same folder with the same name (`motor.fast.scn` to `motor.awl`, else `motor.st`, `.sfc` or
-/// `.fbt`, as in `awl-sim test`); a symbol table to the one with the same name, a table `symbols.csv`
-/// or `symbols.txt` to all programs of its folder.
+/// `.fbt`, as in `awl-sim test`); a symbol table to the one with the same name, a table
+/// `symbols.csv` or `symbols.txt` to all programs of its folder.
 #[derive(Debug, Default)]
 pub struct Project {
     texts: BTreeMap<String, Entry>,

@@ -81,7 +81,8 @@ fn place(program: &Program, texts: &[Source], at: u32) -> Option<Place> {
 }
 
 /// What each statement has come to: the instructions from its place on, up to those of another
-/// one. What is written out several times, as the block of several instances, is there once.
+/// one. What is written out several times, as the block of several instances, is there once. One
+/// that goes on with the bit that was just written has the coil before it.
 fn statements(program: &Program, texts: &[Source]) -> BTreeMap<Place, Range<usize>> {
     let mut statements: BTreeMap<Place, Range<usize>> = BTreeMap::new();
     for (index, selected) in program.assembly.code.iter().enumerate() {
@@ -92,17 +93,49 @@ fn statements(program: &Program, texts: &[Source]) -> BTreeMap<Place, Range<usiz
             code.end = index + 1;
         }
     }
+    for (at, coil) in after_coils(program) {
+        if let Some(place) = place(program, texts, at) {
+            statements.entry(place).or_insert(coil..coil + 1);
+        }
+    }
     statements
+}
+
+/// The lines `//# source` that have a coil before them and nothing in between: where each is, and
+/// the number of the coil.
+fn after_coils(program: &Program) -> Vec<(u32, usize)> {
+    let Program { source, assembly, .. } = program;
+    let mut coils = BTreeMap::new();
+    for (index, selected) in assembly.code.iter().enumerate() {
+        let (line, _) = source.position(assembly.span_of(selected).start as usize);
+        coils.insert(line, (selected.op == Op::Assign).then_some(index));
+    }
+    let mut found = Vec::new();
+    let mut before = None;
+    for (line, text) in source.lines().enumerate().map(|(index, text)| (index + 1, text)) {
+        match (coils.get(&line), before) {
+            (Some(coil), _) => before = *coil,
+            (None, Some(coil)) if text.starts_with("//# source ") => {
+                found.push((source.line_span(line).start, coil));
+            }
+            (None, _) if text.starts_with("//") => {}
+            _ => before = None,
+        }
+    }
+    found
 }
 
 /// Shows a statement in its lines: what has become of it in each, and values where their names are.
 fn show(program: &Program, code: Range<usize>, lines: &mut [Row]) {
     let Some((decisive, says)) = decisive(program, code.clone()) else { return };
     let Some(decisive) = offset(program, decisive) else { return };
-    let says = match lines.first().map(code_of) {
+    let head = lines.first().map(code_of).unwrap_or_default();
+    let is = |word: &str| find(&head, word).is_some();
+    let says = match says {
         // Which of its cases it is, the statements in them say.
-        Some(text) if find(&text, "CASE").is_some() => Says::Executed,
-        _ => says,
+        _ if is("CASE") => Says::Executed,
+        Says::Executed if is("IF") || is("ELSIF") => Says::Flow,
+        says => says,
     };
     let parts: Vec<Part> = code.filter_map(|index| Part::of(program, index)).collect();
     let mut watched: Vec<&Watched> = Vec::new();
@@ -305,6 +338,22 @@ mod tests {
         );
         let not = Flow::NotExecuted;
         assert_eq!(seen(0), expected([Flow::Off, not, not, not, Flow::On, Flow::On]));
+    }
+
+    #[test]
+    fn a_condition_that_was_just_written_is_the_coil_before() {
+        let awl = "//# source t.st:1:1\nLD I0.0\n= Q0.0\n//# source t.st:2:1\n// IF\n\
+            //# source t.st:3:1\nS Q0.1, 1\n\nNETWORK 2\n//# source t.st:4:1\nLD I0.1\n= Q0.2\n";
+        let program = Program::assembled(Source::new("t.st", awl).unwrap(), Vec::new()).unwrap();
+        let text = "%Q0.0 := %I0.0;\nIF %Q0.0 THEN\n%Q0.1 := TRUE;\n%Q0.2 := %I0.1;\n";
+        let program = program.made_of(vec![Source::new("t.st", text).unwrap()]);
+        let model = Model::new(&program);
+        assert_eq!(names(&model.rows[1]), ["Q0.0"]);
+        let on = |row: usize, stack| {
+            let executed = Executed { is_executed: true, stack, value: 0 };
+            model.rows[row].instruction().unwrap().flow(&executed)
+        };
+        assert_eq!((on(0, 0), on(1, 0), on(1, 1)), (Flow::On, Flow::Off, Flow::On));
     }
 
     #[test]

@@ -41,14 +41,45 @@ async function marks(words, wanted) {
   for (const one of wanted) assert(seen.has(one), `${words}: ${[...seen]}`);
 }
 
+/** Runs the program on both targets, and looks at it on each. */
+async function onBoth(look) {
+  for (const target of ["Simulator", "Virtual Uno"]) {
+    await page.getByRole("combobox", { name: "Target" }).selectOption({ label: target });
+    await button("Run").click();
+    await mode("RUN");
+    await look(target);
+    await button("Stop").click();
+    await mode("STOP");
+  }
+}
+
+/** Waits until an operand of the watch table has a value. */
+async function watched(operand, value) {
+  const row = panel("Watch").getByRole("row").filter({ hasText: operand }).first();
+  await row.getByRole("cell", { name: value, exact: true }).waitFor();
+}
+
+async function watch(operand) {
+  await tab("Watch");
+  await page.getByLabel("Operand or symbol").fill(operand);
+  await page.keyboard.press("Enter");
+}
+
+/** The scenario of the example is green. */
+async function passes() {
+  await tab("Tests");
+  await button("Test all").click();
+  await panel("Tests")
+    .getByText(/met, 0 failed/)
+    .first()
+    .waitFor();
+}
+
 // The station in Structured Text sorts; beside its lines is what happens in them.
 await example("station1-st");
 await text("station1.st").waitFor();
 const arrives = "IF PieceThere AND AtBottom";
-for (const target of ["Simulator", "Virtual Uno"]) {
-  await page.getByRole("combobox", { name: "Target" }).selectOption({ label: target });
-  await button("Run").click();
-  await mode("RUN");
+await onBoth(async (target) => {
   await page.getByRole("button", { name: /Main/ }).first().click();
   await values(arrives).first().waitFor();
   assert.deepEqual(
@@ -63,21 +94,19 @@ for (const target of ["Simulator", "Virtual Uno"]) {
   await values("Good := Measured").first().click();
   await page.getByRole("menuitem", { name: "Force Good to 1", exact: true }).click();
   await page.locator(".live .value.forced").first().waitFor();
-  await button("Stop").click();
-  await mode("STOP");
-}
+});
 console.log("Structured Text: values, and what has become of its statements");
 
-// A chart: its outline, its tests, a mistake, both targets.
+// A chart: its outline, its tests, both targets, a mistake.
 await example("mixing-sfc");
 await text("mixing.sfc").waitFor();
 await page.getByRole("button", { name: /^FillA STEP/ }).waitFor();
-await tab("Tests");
-await button("Test all").click();
-await panel("Tests")
-  .getByText(/met, 0 failed/)
-  .first()
-  .waitFor();
+assert.equal(await line("STEP FillA").first().locator(".tok-keyword").first().innerText(), "STEP");
+await passes();
+await onBoth(async () => {
+  await watch("mixing.Wait");
+  await watched("mixing.Wait", "1");
+});
 await text("mixing.sfc").click();
 await page.keyboard.press("Control+End");
 await page.keyboard.type("\nTRANSITION FROM Nowhere TO Wait := TRUE; END_TRANSITION\n");
@@ -86,64 +115,25 @@ await panel("Problems")
   .getByText(/E03\d\d/)
   .first()
   .waitFor();
-await page.keyboard.press("Control+z");
-await text("mixing.sfc").click();
-for (
-  let tries = 0;
-  tries < 5 &&
-  (await panel("Problems")
-    .getByText(/E03\d\d/)
-    .count()) > 0;
-  tries += 1
-) {
-  await page.keyboard.press("Control+z");
-  await page.waitForTimeout(500);
-}
-assert.equal(await line("STEP FillA").first().locator(".tok-keyword").first().innerText(), "STEP");
-for (const target of ["Simulator", "Virtual Uno"]) {
-  await page.getByRole("combobox", { name: "Target" }).selectOption({ label: target });
-  await button("Run").click();
-  await mode("RUN");
-  await tab("Watch");
-  await page.getByLabel("Operand or symbol").fill("mixing.Wait");
-  await page.keyboard.press("Enter");
-  const row = panel("Watch").getByRole("row").filter({ hasText: "mixing.Wait" }).first();
-  await row.getByRole("cell", { name: "1", exact: true }).waitFor();
-  await button("Stop").click();
-  await mode("STOP");
-}
-console.log("a chart: outline, tests, a mistake, simulator and virtual Uno");
+console.log("a chart: outline, tests, simulator and virtual Uno, a mistake");
 
 // A function block: the same; an event is set by hand.
 await example("tank-fbt");
 await text("tank.fbt").waitFor();
 await page.getByRole("button", { name: /FUNCTION_BLOCK/ }).waitFor();
 await page.getByRole("button", { name: /^Control event/ }).waitFor();
-await tab("Tests");
-await button("Test all").click();
-await panel("Tests")
-  .getByText(/met, 0 failed/)
-  .first()
-  .waitFor();
-for (const target of ["Simulator", "Virtual Uno"]) {
-  await page.getByRole("combobox", { name: "Target" }).selectOption({ label: target });
-  await button("Run").click();
-  await mode("RUN");
-  await tab("Watch");
-  for (const name of ["Nivel", "Bomba.count", "Control"]) {
-    await page.getByLabel("Operand or symbol").fill(name);
-    await page.keyboard.press("Enter");
-  }
+assert((await page.locator(".cm-line .tok-typeName", { hasText: "Name" }).count()) > 0, "colours");
+await passes();
+await onBoth(async () => {
+  await watch("Bomba.count");
+  await watch("Control");
   await page.getByLabel("New value of Control").fill("1");
   await page.getByRole("button", { name: "Set Control" }).click();
-  const row = panel("Watch").getByRole("row").filter({ hasText: "Bomba.count" }).first();
-  await row.getByRole("cell", { name: "1", exact: true }).waitFor();
-  await button("Stop").click();
-  await mode("STOP");
-}
+  await watched("Bomba.count", "1");
+});
 console.log("a function block: outline, tests, simulator and virtual Uno");
 
-// A new chart is kept over a reload, and runs.
+// A new chart is kept over a reload.
 await example("motor");
 await text("motor.awl").waitFor();
 await button("New file").click();

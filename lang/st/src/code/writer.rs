@@ -326,14 +326,14 @@ impl Writer {
     }
 }
 
-fn text_of(mnemonic: &str, operands: &str) -> String {
-    format!("{mnemonic:<6} {operands}").trim_end().to_owned()
-}
-
 /// Where a statement begins, as `//# source` has it.
 pub(super) fn place_in(source: &Source, span: Span) -> String {
     let (line, column) = source.position(span.start as usize);
     format!("{}:{line}:{column}", source.name)
+}
+
+fn text_of(mnemonic: &str, operands: &str) -> String {
+    format!("{mnemonic:<6} {operands}").trim_end().to_owned()
 }
 
 /// A block with its sections and lines.
