@@ -33,7 +33,8 @@ mod tests {
         }
         assert_eq!(meant("-5--3").as_deref(), Some("-5..-3"));
         assert_eq!(meant("16#A0-16#FF").as_deref(), Some("16#A0..16#FF"));
-        for text in ["", "-", "9", "-9", "9..11", "9-", "a-b", "1s-2s", "2026-11-21", "1e-x", "ü"] {
+        for text in ["", "-", "9", "-9", "9..11", "9-", "a-b", "1s-2s", "2026-11-21", "1e-x", "ü"]
+        {
             assert_eq!(meant(text), None, "{text}");
         }
     }

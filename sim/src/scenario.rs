@@ -380,6 +380,8 @@ impl Scenario {
 }
 
 #[cfg(test)]
+mod mistake_tests;
+#[cfg(test)]
 mod reading_tests;
 #[cfg(test)]
 mod tests;

@@ -156,7 +156,8 @@ impl<'a> Cursor<'a> {
     fn number(&mut self, name: &str) -> Read<i64> {
         let word = self.word();
         // A word is what comes after a number that is not there.
-        if !word.text.starts_with(|c: char| c.is_ascii_digit() || !c.is_alphanumeric() && c != '"') {
+        if !word.text.starts_with(|c: char| c.is_ascii_digit() || !c.is_alphanumeric() && c != '"')
+        {
             return Err(self.expected(word, name));
         }
         number(word, word.text)
