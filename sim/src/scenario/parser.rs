@@ -42,8 +42,7 @@ struct Parser<'a, 'c> {
     refuses: &'c dyn Fn(Asked) -> Option<String>,
     scenario: Scenario,
     problems: Vec<Problem>,
-    /// Where the names of set operands are, and what is expected, parallel to those lists.
-    setting_spans: Vec<Range<usize>>,
+    /// Where is what is expected, parallel to those lists.
     expectation_spans: Vec<Range<usize>>,
     rule_spans: Vec<Range<usize>>,
     action_spans: Vec<Range<usize>>,
@@ -71,7 +70,6 @@ pub(super) fn read<'c>(
         refuses,
         scenario: Scenario { origin: origin.to_string(), ..Scenario::default() },
         problems: Vec::new(),
-        setting_spans: Vec::new(),
         expectation_spans: Vec::new(),
         rule_spans: Vec::new(),
         action_spans: Vec::new(),

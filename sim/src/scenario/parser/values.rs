@@ -95,9 +95,8 @@ impl<'a> Parser<'a, '_> {
     fn set(&mut self, name: Piece<'a>, times: Times, operand: Operand, value: i32) {
         let Times { at_ms, repeat } = times;
         self.ask(name, Asked::Set(operand));
-        self.setting_spans.push(name.span());
-        let for_scan = false;
-        self.scenario.settings.push(Setting { at_ms, repeat, operand, value, for_scan });
+        let (for_scan, span) = (false, name.span());
+        self.scenario.settings.push(Setting { at_ms, repeat, operand, value, for_scan, span });
     }
 
     /// `event Vote, Reset`: bits that are 1 for one scan.
@@ -112,9 +111,8 @@ impl<'a> Parser<'a, '_> {
                 continue;
             }
             self.ask(name, Asked::Set(operand));
-            self.setting_spans.push(name.span());
-            let (repeat, value, for_scan) = (None, 1, true);
-            self.scenario.settings.push(Setting { at_ms, repeat, operand, value, for_scan });
+            let (repeat, value, for_scan, span) = (None, 1, true, name.span());
+            self.scenario.settings.push(Setting { at_ms, repeat, operand, value, for_scan, span });
         }
     }
 
