@@ -85,8 +85,8 @@ mod tests {
             "LD I0.0\n= Q0.0\nMOVB QB0, MB3\n",
             "LD I0.0\n= Q0.0\nLD SM0.0\nMOVD &QB0, VD0\nMOVB *VD0, MB3\n",
             "LD I0.0\n= Q0.1\nLD I0.1\nEU\nSHRB I0.2, Q0.0, 4\n",
-            "LD I0.0\nCALL SBR0\nSUBROUTINE_BLOCK A:SBR0\nBEGIN\nLD I0.1\n= Q0.0\n\
-             END_SUBROUTINE_BLOCK\n",
+            "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nLD I0.0\nCALL A:SBR0\nEND_ORGANIZATION_BLOCK\n\
+             SUBROUTINE_BLOCK A:SBR0\nBEGIN\nLD I0.1\n= Q0.0\nEND_SUBROUTINE_BLOCK\n",
         ] {
             assert_eq!(of(text), [""; 0], "{text}");
         }
