@@ -5,6 +5,7 @@ use awl_asm::Address;
 use awl_asm::ast::{Symbol, Value};
 use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
+use awl_sim::open::overwritten;
 use awl_sim::operand::{Operand, stem};
 use awl_sim::plant::{PLANTS, PlantSpec};
 use awl_sim::problem;
@@ -32,12 +33,15 @@ impl Text for Scenario {
         if model.is_without_awl() {
             return Vec::new();
         }
-        let mut problems = reading(view).problems;
+        let Reading { scenario, mut problems, .. } = reading(view);
+        let lost = scenario.lost_settings(&overwritten(&model.assembly));
+        let lost = lost.into_iter().map(|warning| Problem::of(warning, view.text()));
         let no_plant = plant(view).err();
         // That it was not given says less than why.
         problems.retain(|problem| no_plant.as_ref().is_none_or(|one| one.span != problem.span));
         let problems = problems.into_iter().chain(no_plant);
-        problems.map(|problem| Problem::of(problem.diagnostic(), view.text())).collect()
+        let errors = problems.map(|problem| Problem::of(problem.diagnostic(), view.text()));
+        errors.chain(lost).collect()
     }
 
     fn mentions(&self, view: View<'_>) -> Vec<Mention> {

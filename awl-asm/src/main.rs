@@ -14,8 +14,8 @@ use awl_asm::data_block;
 use awl_asm::diagnostic::Code;
 use awl_asm::disassemble::disassemble;
 use awl_asm::files::{
-    ending, ensure_distinct, ensure_no_source, is_same_file, read, read_program, read_source,
-    write_whole,
+    ending, ensure_distinct, ensure_no_source, ensure_program, is_same_file, read, read_program,
+    read_source, write_whole,
 };
 use awl_asm::flash::{Firmware, flash};
 use awl_asm::for_tools::for_tools;
@@ -30,6 +30,7 @@ use awl_asm::source::Source;
 use awl_asm::symbols;
 use awl_asm::tools::image_in;
 use clap::Parser;
+use diagnostics::unknown_code;
 
 /// Errors in the program: reported already.
 const PROGRAM_ERRORS: u8 = 1;
@@ -72,10 +73,7 @@ fn report_for(arguments: &Arguments) -> Report {
 fn explain(code: &str) -> Result<bool> {
     match Code::find(code) {
         Some(code) => print(code.page().as_bytes()),
-        None => {
-            let known: Vec<&str> = Code::ALL.iter().map(|code| code.text()).collect();
-            bail!("{code} is no code of a diagnostic; known are {}", known.join(" "))
-        }
+        None => bail!("{}", unknown_code(code, Code::ALL.iter().map(|code| code.text()))),
     }
 }
 
@@ -205,6 +203,7 @@ fn translated(assembly: &mut Assembly) -> Result<Option<Vec<u8>>> {
 /// Returns whether the program has no errors of form and, with --check, is in canonical layout.
 fn format_file(path: &Path, arguments: &Arguments) -> Result<bool> {
     let bytes = read(path)?;
+    ensure_program(path, &bytes, &arguments.program)?;
     let source = Source::from_bytes(path.display().to_string(), &bytes)?;
     if source.encoding.encode(&source.text).as_ref() != Some(&bytes) {
         bail!(

@@ -124,6 +124,39 @@ fn files_that_are_no_text_are_told_what_they_are() {
 }
 
 #[test]
+fn files_that_are_no_program_are_told_their_place() {
+    let folder = Folder::with(&[
+        ("p.awl", "LD I0.0\n= Q0.0\n"),
+        ("lamp.scn", "at 1s I0.0 = 1\n"),
+        ("door.txt", "part Door 0..100\n"),
+        ("t.csv", "Lamp,Q0.0\n"),
+    ]);
+    let cases: [(&[&str], &str); 5] = [
+        (&["lamp.scn"], "lamp.scn is a scenario: `awl-sim lamp.awl --scenario lamp.scn`"),
+        (&["p.awl", "lamp.scn"], "lamp.scn is a scenario: `awl-sim p.awl --scenario lamp.scn`"),
+        (&["--fmt", "lamp.scn"], "lamp.scn is a scenario: "),
+        (&["door.txt"], "door.txt is a plant: `awl-sim door.awl --plant door.txt`"),
+        (
+            &["p.awl", "t.csv"],
+            "t.csv is a symbol table, which goes with a program: `--symbols t.csv`",
+        ),
+    ];
+    for (arguments, expected) in cases {
+        let (code, shown) = folder.asm(arguments);
+        assert_eq!(code, Some(2), "{arguments:?}: {shown}");
+        assert!(shown.starts_with(&format!("error: {expected}")), "{arguments:?}: {shown}");
+    }
+}
+
+#[test]
+fn a_code_that_there_is_not_is_asked_back() {
+    let folder = Folder::with(&[]);
+    let (code, shown) = folder.asm(&["--explain", "13"]);
+    let expected = "error: 13 is no code of an error or warning: did you mean E0013 or W0013?\n";
+    assert_eq!((code, &*shown), (Some(2), expected));
+}
+
+#[test]
 fn quiet_is_without_warnings_and_summary() {
     let folder = Folder::with(&[("p.awl", "LD I0.0\n= Q0.0\n= Q0.0\n"), ("bad.awl", "LD I0.9\n")]);
     assert_eq!(folder.asm(&["-q", "p.awl"]), (Some(0), String::new()));

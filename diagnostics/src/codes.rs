@@ -55,3 +55,43 @@ macro_rules! codes {
         }
     };
 }
+
+/// What is said of a text that is none of these codes: which of them it may mean, by its number.
+pub fn unknown_code(text: &str, known: impl IntoIterator<Item = &'static str>) -> String {
+    let number = |text: &str| {
+        let digits: String = text.chars().filter(char::is_ascii_digit).collect();
+        digits.parse::<u32>().ok()
+    };
+    // In any letter case, and within more: error[E0012].
+    let letter = text.chars().next().map(|c| c.to_ascii_uppercase());
+    let letter = letter.filter(|letter| ['E', 'W'].contains(letter));
+    let is_meant = |code: &&str| {
+        number(code) == number(text) && letter.is_none_or(|letter| code.starts_with(letter))
+    };
+    let meant: Vec<&str> = known.into_iter().filter(is_meant).collect();
+    let help = match meant.is_empty() {
+        true => "messages have them in brackets, such as E0012".to_string(),
+        false => format!("did you mean {}?", meant.join(" or ")),
+    };
+    format!("{text} is no code of an error or warning: {help}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::unknown_code;
+
+    #[test]
+    fn codes_that_may_be_meant() {
+        let told = |text: &str| {
+            let text = unknown_code(text, ["E0012", "E0013", "W0013"]);
+            text.split_once("warning: ").unwrap().1.to_string()
+        };
+        assert_eq!(told("13"), "did you mean E0013 or W0013?");
+        assert_eq!(told("e13"), "did you mean E0013?");
+        assert_eq!(told("warning[W0013]"), "did you mean W0013?");
+        assert_eq!(told("error[12]"), "did you mean E0012?");
+        for text in ["", "99", "E", "W12", "14.", "9999999999999"] {
+            assert_eq!(told(text), "messages have them in brackets, such as E0012", "{text}");
+        }
+    }
+}

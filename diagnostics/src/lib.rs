@@ -10,5 +10,6 @@ pub mod source;
 pub mod windows_1252;
 pub mod xml;
 
+pub use codes::unknown_code;
 pub use diagnostic::{Code, Diagnostic, Severity};
 pub use source::{At, Place, Source, Span};

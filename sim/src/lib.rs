@@ -19,6 +19,7 @@ mod piece;
 pub mod plant;
 pub mod problem;
 pub mod pulse;
+mod range;
 pub mod run;
 pub mod scenario;
 pub mod serve;

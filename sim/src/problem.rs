@@ -4,7 +4,7 @@
 use std::fmt;
 use std::ops::Range;
 
-use diagnostics::{Diagnostic, Source, Span, render};
+use diagnostics::{Code, Diagnostic, Severity, Source, Span, render};
 
 /// Something wrong at a place of a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -47,6 +47,24 @@ impl Problem {
     pub fn did_you_mean(mut self, suggestion: Option<impl fmt::Display>) -> Problem {
         self.suggestion = suggestion.map(|suggestion| suggestion.to_string());
         self
+    }
+}
+
+/// The code of a warning where there are no codes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Warning;
+
+impl Code for Warning {
+    fn text(self) -> Option<&'static str> {
+        None
+    }
+
+    fn severity(self) -> Severity {
+        Severity::Warning
+    }
+
+    fn page(self) -> Option<&'static str> {
+        None
     }
 }
 

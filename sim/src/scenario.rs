@@ -16,6 +16,7 @@
 //! ```
 
 pub mod condition;
+mod lost;
 mod parser;
 mod value;
 mod words;
@@ -126,6 +127,8 @@ pub struct Setting {
     pub value: i32,
     /// Whether it is there for one scan, and 0 after it.
     pub for_scan: bool,
+    /// Where the text names the operand.
+    pub span: Range<usize>,
 }
 
 impl Setting {
@@ -379,6 +382,8 @@ impl Scenario {
     }
 }
 
+#[cfg(test)]
+mod mistake_tests;
 #[cfg(test)]
 mod reading_tests;
 #[cfg(test)]

@@ -84,7 +84,9 @@ fn what_cannot_run_is_exit_2() {
             "cannot write none/x.svg",
         ),
         (&["bad.awl", "--serve", "127.0.0.1:0"], "bad.awl:2:5"),
-        (&["p.awl", "--serve", "1502"], "the port is missing"),
+        (&["p.awl", "--serve", "1502"], "the host is missing: 127.0.0.1:1502"),
+        (&["p.awl", "--serve", ":1502"], "the host is missing: 127.0.0.1:1502"),
+        (&["p.awl", "--serve", "localhost"], "the port is missing: localhost:1502"),
         (&["p.awl", "--serve", "127.0.0.1:what"], "is no address such as 127.0.0.1:1502"),
         (&["p.awl", "--serve", "0.0.0.0:0"], "--serve-anywhere"),
         (&["p.awl", "--serve", "[::]:0"], "Modbus has no passwords"),
@@ -103,6 +105,75 @@ fn what_cannot_run_is_exit_2() {
     for part in ["s.scn:1:1", "did you mean `scan`?", "s.scn:2:7", "did you mean `Lamp`?"] {
         assert!(errors.contains(part), "{errors}");
     }
+}
+
+/// Words that belong to an option, and files that are no program.
+#[test]
+fn arguments_in_the_wrong_place_are_told_their_place() {
+    let scenario = "at 1s I0.0 = 1\n";
+    let files = [
+        ("p.awl", COPY),
+        ("p.scn", scenario),
+        ("s.txt", scenario),
+        ("door.plant", "part Door 0..100\n"),
+        ("t.csv", "Lamp,Q0.0\n"),
+    ];
+    let folder = Folder::with_files("places", &files);
+    let cases: &[(&[&str], &str)] = &[
+        (&["p.awl", "p.scn"], "p.scn is a scenario: `awl-sim p.awl --scenario p.scn`"),
+        (&["p.scn"], "p.scn is a scenario: `awl-sim p.awl --scenario p.scn`"),
+        (&["p.awl", "s.txt"], "s.txt is a scenario: `awl-sim p.awl --scenario s.txt`"),
+        (&["p.awl", "door.plant"], "door.plant is a plant: `awl-sim p.awl --plant door.plant`"),
+        (
+            &["p.awl", "t.csv"],
+            "t.csv is a symbol table, which goes with a program: `--symbols t.csv`",
+        ),
+        (
+            &["p.scn", "--scenario", "p.awl"],
+            "p.scn is a scenario: `awl-sim p.awl --scenario p.scn`",
+        ),
+        (&["p.awl", "--scenario", "p.awl"], "p.awl is a program: `awl-sim p.awl --scenario F.scn`"),
+        (&["p.awl", "--trace", "I0.0", "Q0.0"], "Q0.0 is an operand: `--trace I0.0,Q0.0`"),
+        (
+            &["p.awl", "--trace", "I0.0,", "Q0.0,", "T37.cv"],
+            "Q0.0, T37.cv are operands: `--trace I0.0,Q0.0,T37.cv`",
+        ),
+        (&["p.awl", "--trace", "I0.0", "Lamp"], "Lamp is an operand: `--trace I0.0,Lamp`"),
+        (&["p.awl", "MW3"], "MW3 is an operand: `--trace MW3`"),
+        (
+            &["p.awl", "--plant", "tank", "level=20", "outflow=1"],
+            "level=20 is an option of the plant: `--plant \"tank level=20 outflow=1\"`",
+        ),
+        (&["p.awl", "level=20"], "level=20 is an option of the plant: `--plant \"tank level=20\"`"),
+        (&["p.awl", "I0.0=1"], "I0.0=1 sets a value: in a scenario, `at 0ms I0.0 = 1`"),
+        (&["p.awl", "5s"], "5s is a time: `--for 5s`"),
+        (&["p.awl", "motor"], "cannot read motor"),
+    ];
+    for (arguments, expected) in cases {
+        let (code, output, errors) = told(&folder.sim(arguments));
+        assert_eq!((code, &*output), (Some(2), ""), "{arguments:?}: {errors}");
+        assert!(errors.starts_with(&format!("error: {expected}")), "{arguments:?}: {errors}");
+    }
+    // A file that is there is a file, whatever its name.
+    fs::write(folder.0.join("MW3"), COPY).unwrap();
+    assert_eq!(told(&folder.sim(&["MW3", "--scans", "1"])).0, Some(0));
+}
+
+#[test]
+fn what_the_program_overwrites_is_warned_of() {
+    let scenario = "at 1ms Lamp = 1, MW3 = 2\nat 2ms expect Lamp = 0\n";
+    let folder = Folder::with_files("overwritten", &[("p.awl", COPY), ("p.scn", scenario)]);
+    let (code, _, errors) = told(&folder.sim(&["p.awl", "--scenario", "p.scn"]));
+    let warning = "warning: Q0.0 does not keep this value: the program writes it again";
+    assert_eq!(code, Some(0), "{errors}");
+    assert!(errors.contains(warning) && errors.contains("--> p.scn:1:8"), "{errors}");
+    assert_eq!(errors.matches("warning").count(), 1, "{errors}");
+    let (_, _, errors) = told(&folder.sim(&["p.awl", "--scenario", "p.scn", "--quiet"]));
+    assert_eq!(errors, "");
+    let (code, output, _) = told(&folder.sim(&["test", "p.scn"]));
+    assert_eq!(code, Some(0));
+    let warning = "warning: p.scn:1:8: Q0.0 does not keep this value";
+    assert!(output.contains(warning), "{output}");
 }
 
 #[cfg(not(feature = "simavr"))]

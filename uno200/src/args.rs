@@ -8,7 +8,7 @@ use awl_asm::report::Messages;
 use awl_sim::suite::Reports;
 use chart::set_reset::Target;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use plc_isa::LineSettings;
 
 const EXAMPLES: &str = "\
@@ -189,9 +189,10 @@ pub enum Ask {
         assignments: Vec<String>,
     },
     /// Ends forcing
+    #[command(group = ArgGroup::new("what").args(["operands", "all"]).required(true))]
     Unforce {
         /// Operands
-        #[arg(value_name = "OPERAND", required_unless_present = "all", conflicts_with = "all")]
+        #[arg(value_name = "OPERAND")]
         operands: Vec<String>,
         /// All that is forced
         #[arg(long)]

@@ -4,10 +4,9 @@ use std::path::PathBuf;
 
 use anyhow::{Error, Result, bail};
 use awl_asm::ast::{DataLine, Symbol};
-use awl_asm::files::{read, read_program, read_source};
+use awl_asm::files::{ensure_program, read, read_program, read_program_texts, read_source};
 use awl_asm::render::human;
 use awl_asm::report::ProgramErrors;
-use awl_asm::source::Source;
 use client::program::{Program, ProgramError, data_of, is_image, symbols_of};
 use project::{Findings, Language, join};
 
@@ -27,8 +26,7 @@ impl Files {
         let symbols = self.symbols()?;
         let is_awl = |path: &PathBuf| Language::of(&path.to_string_lossy()) == Language::Awl;
         if !paths.iter().all(is_awl) {
-            let sources: Vec<Source> =
-                paths.iter().map(|path| read_source(path)).collect::<Result<_>>()?;
+            let sources = read_program_texts(paths)?;
             let joined = join(sources.clone()).map_err(told)?;
             let program = Program::assembled(joined.awl, symbols).map_err(shown)?;
             return Ok(program.made_of(sources));
@@ -39,6 +37,7 @@ impl Files {
                 .map_err(shown);
         };
         let bytes = read(path)?;
+        ensure_program(path, &bytes, paths)?;
         if let Some(block) = self.data.as_ref().filter(|_| is_image(&bytes)) {
             bail!(
                 "{}: a data block goes with AWL text; in an image such as {} there is one already",

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 
+pub use super::mistaken::ensure_program;
 use crate::source::Source;
 
 /// Reads a file as bytes.
@@ -22,8 +23,17 @@ pub fn read_source(path: &Path) -> Result<Source> {
 
 /// Reads a program: a text, or several that make one.
 pub fn read_program(paths: &[PathBuf]) -> Result<Source> {
-    let sources = paths.iter().map(|path| read_source(path)).collect::<Result<_>>()?;
-    Ok(Source::joined(sources)?)
+    Ok(Source::joined(read_program_texts(paths)?)?)
+}
+
+/// Reads the texts of a program. What is something else, such as a scenario, is refused.
+pub fn read_program_texts(paths: &[PathBuf]) -> Result<Vec<Source>> {
+    let text = |path: &PathBuf| {
+        let bytes = read(path)?;
+        ensure_program(path, &bytes, paths)?;
+        Ok(Source::from_bytes(path.display().to_string(), &bytes)?)
+    };
+    paths.iter().map(text).collect()
 }
 
 /// Writes a file by way of a temporary one beside it, so that a failure leaves the old file as it

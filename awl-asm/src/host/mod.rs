@@ -5,4 +5,5 @@ pub mod args;
 pub mod files;
 pub mod firmware;
 pub mod flash;
+mod mistaken;
 pub mod report;

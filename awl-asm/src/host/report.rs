@@ -150,8 +150,8 @@ pub fn human<'d, C: Code + 'd>(
                     (file, line) if source.has_files() => format!("{file}:{line}"),
                     (_, line) => format!("line {line}"),
                 };
-                let code = code.unwrap_or_default();
-                warnings += &format!("warning[{code}]: and {more} more, from {line} on\n\n");
+                let code = code.map_or_else(String::new, |code| format!("[{code}]"));
+                warnings += &format!("warning{code}: and {more} more, from {line} on\n\n");
             }
             _ => {}
         }

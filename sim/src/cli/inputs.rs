@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use awl_asm::ast::Symbol;
+use awl_asm::report::Report;
 use awl_asm::source::Source;
 use awl_sim::machine::{Machine, MachineError};
 use awl_sim::open::{ProgramFiles, read_input};
@@ -30,23 +31,46 @@ pub fn parse_plant(text: &str) -> Result<PlantSpec> {
     })
 }
 
+/// What is known of a program when its scenario is read.
+#[derive(Clone, Copy)]
+pub struct Known<'a> {
+    pub symbols: &'a [Symbol],
+    /// Bits that it writes in every scan and never reads.
+    pub overwritten: &'a [Operand],
+}
+
+/// Reads the scenario, and shows warnings of it.
 pub fn read_scenario(
     args: &Args,
-    symbols: &[Symbol],
+    known: Known<'_>,
     plant: Option<&PlantSpec>,
     machine: &mut dyn Machine,
 ) -> Result<Scenario> {
     let Some(path) = &args.scenario else { return Ok(Scenario::default()) };
+    if is_program(path) {
+        let program = path.display();
+        bail!("{program} is a program: `awl-sim {program} --scenario F.scn`");
+    }
     // The same encodings as for programs.
     let file = read_input(path)?;
-    let text = Source::from_bytes(file.name.as_str(), &file.bytes)?.text;
-    let own = if plant.is_none() { plant_for(path, &file.name, &text)? } else { None };
+    let source = Source::from_bytes(file.name.as_str(), &file.bytes)?;
+    let own = if plant.is_none() { plant_for(path, &file.name, &source.text)? } else { None };
     let mut has_operand = |operand| access(machine, operand);
-    Ok(Scenario::parse(
-        &file.name,
-        &text,
-        Context { symbols, plant: plant.or(own.as_ref()), has_operand: &mut has_operand },
-    )?)
+    let context = Context {
+        symbols: known.symbols,
+        plant: plant.or(own.as_ref()),
+        has_operand: &mut has_operand,
+    };
+    let scenario = Scenario::parse(&file.name, &source.text, context)?;
+    let warnings = scenario.lost_settings(known.overwritten);
+    Report::new(args.messages, false).show(&source, &warnings);
+    Ok(scenario)
+}
+
+/// Whether the ending is that of a program.
+fn is_program(path: &Path) -> bool {
+    let ending = path.extension().unwrap_or_default();
+    ["awl", "bin", "st"].iter().any(|known| ending.eq_ignore_ascii_case(known))
 }
 
 /// Whether a machine has an operand.

@@ -1,6 +1,7 @@
 //! The command line of `awl-sim`: from arguments to an exit code.
 
 mod inputs;
+mod mistaken;
 mod output;
 mod report;
 mod serve;
@@ -26,7 +27,7 @@ use awl_sim::suite::errors::{self, CANNOT_RUN, told};
 use awl_sim::trace::Signal;
 use clap::Parser;
 
-use inputs::{access, parse_plant, program_files, read_scenario};
+use inputs::{Known, access, parse_plant, program_files, read_scenario};
 
 /// Runs that take longer than this show how far they are.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -54,17 +55,19 @@ fn simulate(args: &Args) -> Result<u8> {
     let inputs: Vec<&Path> = inputs.map(PathBuf::as_path).collect();
     let from_stdin = inputs.iter().filter(|path| **path == Path::new("-")).count();
     ensure!(from_stdin <= 1, "only one file can be read from standard input");
+    mistaken::ensure_files(args)?;
     ensure_distinct(&inputs, args.output.as_deref().as_slice())?;
     output::format(args)?;
     if let Some(address) = &args.serve {
         serve::serve(args, address)?;
         return Ok(0);
     }
-    let Opened { mut machine, symbols, default_signals, scan_ms, warnings, .. } =
+    let Opened { mut machine, symbols, default_signals, scan_ms, warnings, overwritten, .. } =
         program_files(args).open(args.on.into())?;
     errors::show(&warnings, args.messages);
     let plant = args.plant.as_deref().map(parse_plant).transpose()?;
-    let scenario = read_scenario(args, &symbols, plant.as_ref(), &mut *machine)?;
+    let known = Known { symbols: &symbols, overwritten: &overwritten };
+    let scenario = read_scenario(args, known, plant.as_ref(), &mut *machine)?;
     let signals = signals(args, &symbols, &default_signals, &mut *machine)?;
     let spec = plant.or_else(|| scenario.plant.clone());
     let job = Job {

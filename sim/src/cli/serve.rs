@@ -11,7 +11,7 @@ use awl_sim::run::Course;
 use awl_sim::serve::{Access, Change, Server, is_here};
 use awl_sim::time::format_time;
 
-use super::inputs::{parse_plant, program_files, read_scenario};
+use super::inputs::{Known, parse_plant, program_files, read_scenario};
 use super::report;
 use awl_sim::args::{Args, On};
 use awl_sim::suite::errors;
@@ -23,10 +23,12 @@ pub fn serve(args: &Args, address: &str) -> Result<()> {
     }
     let access = Access { anywhere: args.serve_anywhere, writes: args.serve_writes };
     let addresses = resolve(address, access)?;
-    let Opened { mut machine, symbols, scan_ms, warnings, .. } = program_files(args).open_host()?;
+    let Opened { mut machine, symbols, scan_ms, warnings, overwritten, .. } =
+        program_files(args).open_host()?;
     errors::show(&warnings, args.messages);
     let plant = args.plant.as_deref().map(parse_plant).transpose()?;
-    let scenario = read_scenario(args, &symbols, plant.as_ref(), &mut *machine)?;
+    let known = Known { symbols: &symbols, overwritten: &overwritten };
+    let scenario = read_scenario(args, known, plant.as_ref(), &mut *machine)?;
     let spec = plant.or_else(|| scenario.plant.clone());
     let model = spec
         .as_ref()
@@ -50,7 +52,13 @@ pub fn serve(args: &Args, address: &str) -> Result<()> {
 /// The socket addresses of `--serve`, all of which may be listened at.
 fn resolve(text: &str, access: Access) -> Result<Vec<SocketAddr>> {
     if !text.contains(':') {
-        bail!("--serve {text}: the port is missing: 127.0.0.1:1502");
+        match text.parse::<u16>() {
+            Ok(port) => bail!("--serve {text}: the host is missing: 127.0.0.1:{port}"),
+            Err(_) => bail!("--serve {text}: the port is missing: {text}:1502"),
+        }
+    }
+    if text.starts_with(':') {
+        bail!("--serve {text}: the host is missing: 127.0.0.1{text}");
     }
     let addresses = text
         .to_socket_addrs()

@@ -4,7 +4,7 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use awl_asm::files::read;
+use awl_asm::files::{ensure_program, read};
 
 use super::{File, Opened, Read, ensure_no_hex};
 use crate::machine::host::Host;
@@ -54,7 +54,11 @@ impl ProgramFiles<'_> {
         for path in self.program {
             ensure_no_hex(&path.display().to_string())?;
         }
-        let program = self.program.iter().map(|path| read_input(path));
+        let program = self.program.iter().map(|path| {
+            let file = read_input(path)?;
+            ensure_program(path, &file.bytes, self.program)?;
+            Ok(file)
+        });
         let program: Vec<File> = program.collect::<Result<_>>()?;
         let tables = self.symbols.iter().map(|path| read_input(path));
         let tables: Vec<File> = tables.collect::<Result<_>>()?;

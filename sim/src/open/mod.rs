@@ -3,6 +3,7 @@
 
 #[cfg(feature = "cli")]
 mod files;
+mod overwritten;
 
 use std::fmt;
 use std::path::Path;
@@ -26,6 +27,7 @@ use crate::machine::{Machine, PlaceOf};
 use crate::operand::{Operand, Width};
 #[cfg(feature = "cli")]
 pub use files::{ProgramFiles, Target, open_host, open_machine, read_input};
+pub use overwritten::overwritten;
 
 /// What is in a file, wherever it comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -55,6 +57,8 @@ pub struct Opened<M: ?Sized = dyn Machine> {
     pub default_signals: Vec<Operand>,
     /// The program's fixed scan period (`//# scan`) in milliseconds.
     pub scan_ms: Option<u64>,
+    /// Bits that the program writes in every scan and never reads.
+    pub overwritten: Vec<Operand>,
     /// The networks with their instructions, for coverage.
     pub networks: Vec<Network>,
     /// Warnings, by text.
@@ -186,6 +190,7 @@ impl About {
         default_signals.retain(|&signal| machine.read(signal).is_ok());
         Opened {
             machine,
+            overwritten: overwritten(&self.assembly),
             symbols: self.assembly.program.symbols,
             default_signals,
             scan_ms: (scan_ms > 0).then_some(scan_ms),

@@ -25,6 +25,17 @@ pub(crate) fn is_related<T: PartialOrd>(relation: Relation, value: T, low: T, hi
     }
 }
 
+/// The relation that a sign of another language means: `==`, `!=`, `=>`.
+pub(crate) fn foreign_relation(sign: &str) -> Option<Relation> {
+    Some(match sign {
+        "==" | "===" | ":=" => Relation::Equal,
+        "!=" | "!==" | "=/=" | "><" => Relation::NotEqual,
+        "=>" => Relation::GreaterOrEqual,
+        "=<" => Relation::LessOrEqual,
+        _ => return None,
+    })
+}
+
 /// An operand beside the values that it is compared with.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Comparison {

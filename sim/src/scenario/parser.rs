@@ -2,6 +2,7 @@
 
 mod actions;
 mod conditions;
+mod misplaced;
 mod plant;
 mod sign;
 mod values;
@@ -14,7 +15,6 @@ use super::{Asked, Context, Reading, Repeat, SCAN_MS, Scenario};
 use crate::piece::{Piece, lines};
 use crate::problem::Problem;
 use crate::time::{TIME_MAX_MS, parse_time};
-use awl_asm::suggest::nearest;
 use plant::is_about_plant;
 
 const STATEMENTS: [&str; 10] = names(&words::STATEMENTS);
@@ -42,8 +42,7 @@ struct Parser<'a, 'c> {
     refuses: &'c dyn Fn(Asked) -> Option<String>,
     scenario: Scenario,
     problems: Vec<Problem>,
-    /// Where the names of set operands are, and what is expected, parallel to those lists.
-    setting_spans: Vec<Range<usize>>,
+    /// Where is what is expected, parallel to those lists.
     expectation_spans: Vec<Range<usize>>,
     rule_spans: Vec<Range<usize>>,
     action_spans: Vec<Range<usize>>,
@@ -54,6 +53,10 @@ struct Parser<'a, 'c> {
     seen: Vec<&'a str>,
     /// The time of the last `at`, from which relative times count.
     at_ms: u64,
+    /// How the statement begins, for errors: `at 2s`, `every 500ms`.
+    opening: String,
+    /// The time of a wait, as other languages have it, in the line before.
+    waited: Option<&'a str>,
 }
 
 pub(super) fn read<'c>(
@@ -67,7 +70,6 @@ pub(super) fn read<'c>(
         refuses,
         scenario: Scenario { origin: origin.to_string(), ..Scenario::default() },
         problems: Vec::new(),
-        setting_spans: Vec::new(),
         expectation_spans: Vec::new(),
         rule_spans: Vec::new(),
         action_spans: Vec::new(),
@@ -76,6 +78,8 @@ pub(super) fn read<'c>(
         operand_spans: Vec::new(),
         seen: Vec::new(),
         at_ms: 0,
+        opening: String::new(),
+        waited: None,
     };
     for (number, code) in (1..).zip(lines(text)) {
         match code.text.find("//") {
@@ -133,6 +137,7 @@ impl<'a> Parser<'a, '_> {
 
     fn statement(&mut self, code: Piece<'a>, line: usize) {
         let (word, rest) = code.split_word();
+        let waited = self.waited.take();
         match word.text.to_ascii_lowercase().as_str() {
             "at" => self.at(rest, line),
             "every" => self.every(rest),
@@ -145,17 +150,7 @@ impl<'a> Parser<'a, '_> {
             "program" if self.is_first(word) => self.program(rest),
             "goal" if self.is_first(word) => self.goal(rest),
             "scan" | "run" | "until" | "plant" | "program" | "goal" => {}
-            _ => {
-                let problem = Problem::new(word.span(), format!("unknown statement {}", word.text));
-                let [first @ .., last] = STATEMENTS;
-                let help = format!("the statements are {} and {last}", first.join(", "));
-                let is_time = word.text.starts_with(|c: char| c.is_ascii_digit());
-                let problem = problem.help(match is_time {
-                    true => format!("a time is after at: at {} {}", word.text, rest.text),
-                    false => help,
-                });
-                self.problems.push(problem.did_you_mean(nearest(word.text, STATEMENTS)));
-            }
+            _ => self.unknown_statement(code, waited),
         }
     }
 
@@ -227,6 +222,7 @@ impl<'a> Parser<'a, '_> {
         // With a wrong time the rest is still checked; the time is reported already.
         let at_ms = self.at_time(time_word).unwrap_or(0);
         self.at_ms = at_ms;
+        self.opening = format!("at {}", time_word.text);
         let (word, after_word) = rest.split_word();
         let moment = Moment { line, at_ms, within_ms: 0 };
         let asked = [("pulse", Asked::Pulse), ("clock", Asked::Clock), ("receive", Asked::Receive)];

@@ -245,7 +245,7 @@ fn all_errors_in_one_run_with_their_places() {
         "2:6 5: a time needs its unit: 5ms or 5s",
         "3:7 I0.9: a byte has bits 0 to 7",
         "4:20 70000 is out of range: MW3 is a word, -32768 to 32767 or a bit pattern up to 16#FFFF",
-        "4:27 write operand = value, several separated by commas",
+        "4:32 == is no sign of a comparison",
         "5:8 nothing may follow the time in this statement",
         "6:1 there is a run statement above already",
     ];
@@ -256,8 +256,8 @@ fn all_errors_in_one_run_with_their_places() {
 fn words_of_other_languages_are_answered() {
     let text = "at 0s I0.0 := 1\nat 0s set I0.0 = 1\n1s I0.0 = 1\nat 1s expect C1 > 10\n";
     let expected = [
-        "1:7 a value is set by = alone, without a colon",
-        "2:7 a value is set without a word: write at 2s I0.0 = 1",
+        "1:12 := sets no value: a value is set by = alone",
+        "2:7 a value is set without a word",
         "3:1 unknown statement 1s",
         "4:19 10 is out of range: C1 is a bit, 0 or 1; the current value is C1.cv",
     ];
@@ -413,7 +413,7 @@ fn malformed_conditions() {
         "4:21 a text is compared by = and not by <>",
         "5:26 write operand = value, several joined by and, or",
         "6:14 write operand = value, several separated by commas",
-        "7:17 expect is missing: write at 2s within 500ms expect Q0.0 = 1",
+        "7:17 expect is missing",
         "8:24 what is sent is looked at by at 2s expect sent \"text\" alone",
         "9:14 write operand = value, several joined by and, or",
     ];

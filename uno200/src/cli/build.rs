@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use awl_asm::assemble::{Assembly, assemble};
-use awl_asm::files::{ending, ensure_distinct, ensure_no_source, read_source, write_whole};
+use awl_asm::files::{ending, ensure_distinct, ensure_no_source, read_program_texts, write_whole};
 use awl_asm::for_tools::for_tools;
 use awl_asm::hex::intel_hex;
 use awl_asm::native::translate;
@@ -23,8 +23,7 @@ pub(super) fn build(arguments: &Build) -> Result<bool> {
     if let Some(output) = &arguments.output {
         ensure_distinct(&files, &[output.as_path()])?;
     }
-    let sources = files.iter().map(|path| read_source(path)).collect::<Result<Vec<Source>>>()?;
-    let joined = match join(sources) {
+    let joined = match join(read_program_texts(&arguments.files)?) {
         Ok(joined) => joined,
         Err(findings) => return Ok(told(&findings, arguments.messages)),
     };

@@ -1,6 +1,7 @@
 //! `explain`: the page of a code, of whichever language.
 
 use anyhow::{Result, bail};
+use diagnostics::unknown_code;
 use project::Code;
 
 use super::output::print;
@@ -9,9 +10,6 @@ use super::output::print;
 pub(super) fn explain(code: &str) -> Result<()> {
     match Code::find(code) {
         Some(found) => print(found.page().as_bytes()),
-        None => {
-            let known: Vec<&str> = Code::all().map(Code::text).collect();
-            bail!("{code} is no code of an error or warning; known are {}", known.join(" "))
-        }
+        None => bail!("{}", unknown_code(code, Code::all().map(Code::text))),
     }
 }

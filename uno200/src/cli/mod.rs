@@ -8,6 +8,7 @@ mod explain;
 mod flash;
 mod force;
 mod layout;
+mod mistaken;
 mod output;
 mod program;
 mod retained;
@@ -38,7 +39,15 @@ const NOT_DONE: u8 = 2;
 
 /// Runs the command and gives its exit code.
 pub fn main() -> u8 {
-    match run(Arguments::parse()) {
+    let arguments = Arguments::try_parse().unwrap_or_else(|error| {
+        let arguments: Vec<String> = std::env::args().skip(1).collect();
+        if let Some(text) = mistaken::told(&error, &arguments) {
+            anstream::eprintln!("error: {text}");
+            std::process::exit(NOT_DONE.into());
+        }
+        error.exit()
+    });
+    match run(arguments) {
         Ok(code) => code,
         Err(error) => {
             anstream::eprintln!("error: {error:#}");

@@ -11,7 +11,7 @@ use anyhow::{Context as _, Result, bail};
 use clap::{Parser, Subcommand};
 
 use super::context::Context;
-use super::execute;
+use super::{execute, mistaken};
 use uno200::args::{Ask, time};
 
 /// A line of the shell.
@@ -90,13 +90,16 @@ fn obey(context: &mut Context, line: &str) -> Result<(Next, bool)> {
     if words.is_empty() {
         return Ok((Next::Line, true));
     }
-    let command = match Line::try_parse_from(words) {
+    let command = match Line::try_parse_from(&words) {
         Ok(line) => line.command,
         Err(error) if !error.use_stderr() => {
             error.print()?;
             return Ok((Next::Line, true));
         }
-        Err(error) => bail!("{}", error.to_string().trim_start_matches("error: ").trim_end()),
+        Err(error) => {
+            let text = mistaken::told(&error, &words).unwrap_or_else(|| error.to_string());
+            bail!("{}", text.trim_start_matches("error: ").trim_end())
+        }
     };
     match command {
         Command::Exit => return Ok((Next::End, true)),

@@ -29,6 +29,7 @@ pub(super) fn check_output(output: Option<&Path>) -> Result<()> {
 }
 
 pub(super) fn trace(context: &mut Context, arguments: &Trace) -> Result<bool> {
+    ensure_quoted(context, arguments)?;
     let operands = context.operands(&arguments.operands)?;
     let trigger = arguments
         .trigger
@@ -96,18 +97,63 @@ fn refusal(error: client::Error) -> Error {
     Error::new(error).context(why)
 }
 
-/// `I0.0 rising`.
-fn condition(context: &Context, text: &str) -> Result<Trigger> {
-    let (name, edge) = text.trim().rsplit_once(char::is_whitespace).unwrap_or((text, ""));
-    let make = match edge.to_ascii_lowercase().as_str() {
+/// What follows the bit of a trigger.
+fn edge_of(word: &str) -> Option<fn(Reference) -> Trigger> {
+    Some(match word.to_ascii_lowercase().as_str() {
         "rising" => Trigger::Rising,
         "falling" => Trigger::Falling,
         "on" | "1" => Trigger::High,
         "off" | "0" => Trigger::Low,
-        _ => bail!(
-            "--trigger {text:?}: write a bit and rising, falling, on or off, such as \"I0.0 \
-                rising\""
-        ),
+        _ => return None,
+    })
+}
+
+/// `--trigger I0.0 rising` takes the second word for an operand.
+fn ensure_quoted(context: &Context, arguments: &Trace) -> Result<()> {
+    let is_symbol =
+        |word: &str| context.symbols.iter().any(|symbol| symbol.name.eq_ignore_ascii_case(word));
+    let is_edge = |word: &&String| edge_of(word).is_some() && !is_symbol(word);
+    match (&arguments.trigger, arguments.operands.iter().find(is_edge)) {
+        (Some(bit), Some(edge)) => {
+            bail!("a trigger is one argument, in quotes: --trigger \"{bit} {edge}\"")
+        }
+        _ => Ok(()),
+    }
+}
+
+/// What is to be written for `I0.0 = 1`, `rising I0.0`, `I0.0`.
+fn trigger_meant(text: &str) -> String {
+    let separators = |c: char| c.is_whitespace() || "=<>!".contains(c);
+    let words: Vec<&str> = text.split(separators).filter(|word| !word.is_empty()).collect();
+    let (edges, names): (Vec<&str>, Vec<&str>) =
+        words.into_iter().partition(|word| meant_edge(word).is_some());
+    let edge = edges.first().and_then(|edge| meant_edge(edge));
+    match (names.first(), edge, text.contains(['<', '>', '!'])) {
+        (Some(name), edge, false) if names.len() == 1 => {
+            format!("{name} {}", edge.unwrap_or("rising"))
+        }
+        _ => "I0.0 rising".to_string(),
+    }
+}
+
+/// The word for what others call a value or an edge.
+fn meant_edge(word: &str) -> Option<&'static str> {
+    Some(match word.to_ascii_lowercase().as_str() {
+        "1" | "true" | "on" | "high" | "set" => "on",
+        "0" | "false" | "off" | "low" | "reset" => "off",
+        "rising" | "rise" | "rises" | "up" | "positive" | "edge" => "rising",
+        "falling" | "fall" | "falls" | "down" | "negative" => "falling",
+        _ => return None,
+    })
+}
+
+/// `I0.0 rising`.
+fn condition(context: &Context, text: &str) -> Result<Trigger> {
+    let (name, edge) = text.trim().rsplit_once(char::is_whitespace).unwrap_or((text, ""));
+    let make = edge_of(edge).filter(|_| !text.contains(['=', '<', '>']));
+    let Some(make) = make else {
+        let meant = trigger_meant(text);
+        bail!("--trigger {text:?}: a trigger is a bit and rising, falling, on or off: {meant:?}");
     };
     let operand = context.operands(&[name.to_string()])?;
     match operand.first() {
@@ -203,5 +249,28 @@ impl Measure {
             self.is_running && identity.is_running && scans > 0 && identity.scans >= self.scans;
         let told = f64::from(identity.last) * 1000.0 / f64::from(identity.counts_per_ms.max(1));
         Ok(if is_usable { measured } else { told })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::trigger_meant;
+
+    #[test]
+    fn triggers_that_were_meant() {
+        for (text, meant) in [
+            ("I0.0 = 1", "I0.0 on"),
+            ("I0.0==0", "I0.0 off"),
+            ("Start = TRUE", "Start on"),
+            ("rising I0.1", "I0.1 rising"),
+            ("I0.1 down", "I0.1 falling"),
+            ("I0.1 rising edge", "I0.1 rising"),
+            ("I0.1", "I0.1 rising"),
+            ("MW3 > 5", "I0.0 rising"),
+            ("I0.0 = 1 and I0.1 = 1", "I0.0 rising"),
+            ("", "I0.0 rising"),
+        ] {
+            assert_eq!(trigger_meant(text), meant, "{text}");
+        }
     }
 }

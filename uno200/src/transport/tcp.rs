@@ -28,6 +28,11 @@ pub fn connect(address: &str) -> Result<TcpStream, Error> {
         let hint = match error.kind() {
             ErrorKind::ConnectionRefused => ": nothing listens there; does `awl-sim --serve` run?",
             ErrorKind::TimedOut => ": nobody answers at this address",
+            ErrorKind::InvalidInput if address.parse::<u16>().is_ok() => {
+                return Error::NotConnected(format!(
+                    "{address}: the host is missing: 127.0.0.1:{address}"
+                ));
+            }
             ErrorKind::InvalidInput => ": an address is HOST:PORT, such as 127.0.0.1:1502",
             _ => "",
         };

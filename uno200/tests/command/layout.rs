@@ -55,5 +55,10 @@ fn codes_of_all_languages_are_explained() {
     assert!(uno200(folder.path(), &["explain", "E0012"]).1.starts_with("# E0012: "));
     let (code, _, errors) = uno200(folder.path(), &["explain", "E9999"]);
     assert!(code == Some(2) && errors.contains("E9999 is no code"), "{errors}");
-    assert!(errors.contains("E0001") && errors.contains("W0202"), "{errors}");
+    assert_eq!(errors.lines().count(), 1, "no wall of codes: {errors}");
+    for (text, meant) in [("202", "E0202 or W0202"), ("w202", "W0202"), ("error[E1]", "E0001")] {
+        let (code, _, errors) = uno200(folder.path(), &["explain", text]);
+        let asked = format!("did you mean {meant}?");
+        assert!(code == Some(2) && errors.contains(&asked), "{errors}");
+    }
 }

@@ -382,6 +382,7 @@ fn several_commands_over_one_connection() {
     for (line, expected, part) in [
         ("watch IO.0", 2, "bad.txt:2: IO.0 is no address"),
         ("rubbish", 2, "unrecognized subcommand 'rubbish'"),
+        ("monitor", 2, "there is no command monitor: `uno200 show"),
         ("force T37=1", 1, "T37 cannot be forced"),
         ("set \"MW4", 2, "a quote is not closed"),
     ] {
@@ -417,6 +418,7 @@ fn without_a_plc_it_is_said_what_to_try() {
     let run = |arguments: &[&str]| {
         told(&Command::new(env!("CARGO_BIN_EXE_uno200")).args(arguments).output().unwrap())
     };
+    let folder = tempfile::tempdir().unwrap();
     let closed =
         std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().to_string();
     let (code, _, errors) = run(&["--tcp", &closed, "status"]);
@@ -433,6 +435,26 @@ fn without_a_plc_it_is_said_what_to_try() {
         let (code, _, errors) = run(&[&["--tcp", &closed], arguments].concat());
         assert!(code == Some(2) && errors.contains(part), "{arguments:?}: {errors}");
     }
+    fs::write(folder.path().join("lamp.scn"), "at 1s I0.0 = 1\n").unwrap();
+    let scenario = folder.path().join("lamp.scn").display().to_string();
+    for (arguments, part) in [
+        (&["unforce"][..], "<OPERAND|--all>"),
+        (&["unforce", "I0.0", "--all"], "cannot be used with"),
+        (&["upload", "lamp.awl"], "`uno200 flash lamp.awl` writes a program to the board"),
+        (
+            &["run", "lamp.awl"],
+            "run starts what the board holds; `uno200 flash lamp.awl` writes it",
+        ),
+        (&["trace", "I0.0", "--trigger", "I0.0 = 1"], "rising, falling, on or off: \"I0.0 on\""),
+        (&["trace", "I0.0", "--trigger", "I0.0", "rising"], "--trigger \"I0.0 rising\""),
+        (&["flash", &scenario], "lamp.scn is a scenario: `awl-sim "),
+        (&["build", &scenario], "lamp.scn is a scenario: `awl-sim "),
+    ] {
+        let (code, _, errors) = run(&[&["--tcp", &closed], arguments].concat());
+        assert!(code == Some(2) && errors.contains(part), "{arguments:?}: {errors}");
+    }
+    let (code, _, errors) = run(&["--tcp", "1502", "status"]);
+    assert!(code == Some(2) && errors.contains("the host is missing: 127.0.0.1:1502"), "{errors}");
     let (code, _, errors) = run(&["--tcp", "localhost", "status"]);
     assert!(code == Some(2) && errors.contains("HOST:PORT"), "{errors}");
     let (code, _, errors) = run(&["--port", "/dev/none", "status"]);

@@ -11,19 +11,22 @@ use std::time::Instant;
 use anyhow::{Error, Result, ensure};
 use awl_asm::ast::{Symbol, Value};
 use awl_asm::files::read_source;
+use awl_asm::source::Source;
 use awl_sim::coverage::Coverage;
 use awl_sim::machine::Machine;
 use awl_sim::open::{Opened, ProgramFiles};
 use awl_sim::operand::{Operand, Width};
 use awl_sim::plant::PlantSpec;
+use awl_sim::problem::Warning;
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
 use awl_sim::suite::{self, TestResult};
 use awl_sim::trace::Signal;
 
-use super::inputs::access;
+use super::inputs::{Known, access};
 use awl_sim::args::{On, TestArgs};
 use awl_sim::suite::errors::shown;
+use diagnostics::Diagnostic;
 
 /// What is known of the programs that were tested, by their real paths.
 type Programs = BTreeMap<Vec<PathBuf>, (String, Coverage)>;
@@ -76,20 +79,33 @@ fn simulate(
         ProgramFiles { program: &program, symbols: &args.symbols, data: args.data.as_deref() };
     let job = |scan_ms, signals| Case { path, text: &text, scan_ms, signals };
     if args.on != On::Host {
-        let Opened { mut machine, symbols, scan_ms, warnings, .. } = files.open(args.on.into())?;
+        let Opened { mut machine, symbols, scan_ms, warnings, overwritten, .. } =
+            files.open(args.on.into())?;
         result.warnings = shown(&warnings);
-        return job(scan_ms, Vec::new()).run(&mut *machine, &symbols, result);
+        return job(scan_ms, Vec::new()).run(
+            &mut *machine,
+            Known { symbols: &symbols, overwritten: &overwritten },
+            result,
+        );
     }
-    let Opened { mut machine, symbols, scan_ms, warnings, networks, default_signals } =
+    let Opened { mut machine, symbols, scan_ms, warnings, networks, default_signals, overwritten } =
         files.open_host()?;
     result.warnings = shown(&warnings);
     if !args.coverage {
-        return job(scan_ms, Vec::new()).run(&mut *machine, &symbols, result);
+        return job(scan_ms, Vec::new()).run(
+            &mut *machine,
+            Known { symbols: &symbols, overwritten: &overwritten },
+            result,
+        );
     }
     machine.note_executed();
     let bits = default_signals.into_iter().filter(|operand| operand.width() == Width::Bit);
     let bits = bits.map(|operand| named(operand, &symbols)).collect();
-    let outcome = job(scan_ms, bits).run(&mut *machine, &symbols, result)?;
+    let outcome = job(scan_ms, bits).run(
+        &mut *machine,
+        Known { symbols: &symbols, overwritten: &overwritten },
+        result,
+    )?;
     let real = program.into_iter().map(|path| fs::canonicalize(&path).unwrap_or(path));
     let (_, coverage) = programs
         .entry(real.collect())
@@ -120,14 +136,24 @@ impl Case<'_> {
     fn run(
         self,
         machine: &mut dyn Machine,
-        symbols: &[Symbol],
+        known: Known<'_>,
         result: &mut TestResult,
     ) -> Result<Outcome> {
         let mut has_operand = |operand| access(machine, operand);
         let origin = self.path.display().to_string();
         let plant = suite::plant_for(self.path, &origin, self.text)?;
-        let context = Context { symbols, plant: plant.as_ref(), has_operand: &mut has_operand };
+        let context = Context {
+            symbols: known.symbols,
+            plant: plant.as_ref(),
+            has_operand: &mut has_operand,
+        };
         let scenario = Scenario::parse(&origin, self.text, context)?;
+        let warnings = scenario.lost_settings(known.overwritten);
+        let source = Source::new(origin.as_str(), self.text)?;
+        let note = |one: &Diagnostic<Warning>| {
+            format!("{}: {}", source.place(one.span.start as usize), one.message)
+        };
+        result.notes.extend(warnings.iter().map(note));
         result.goal = scenario.goal.as_ref().map(|goal| goal.en.clone());
         result.expects_something = scenario.expects_something();
         let plant = scenario.plant.as_ref().map(PlantSpec::build).transpose();

@@ -6,7 +6,7 @@ use super::cursor::{Read, number, wrong};
 use super::diagnostic::Code;
 use super::model::{Condition, Description, Subject, Term};
 use crate::piece::Piece;
-use crate::scenario::condition::is_order;
+use crate::scenario::condition::{foreign_relation, is_order};
 
 /// Most terms of a condition.
 const TERMS_MAX: usize = 32;
@@ -50,8 +50,15 @@ fn term(names: &Description, tokens: &mut Tokens<'_>) -> Read<Term> {
     if name.text.is_empty() {
         return Err(wrong(Code::Statement, name, "a condition is missing").help(FORM));
     }
+    if name.is("!") {
+        return Err(wrong(Code::Statement, name, "! negates nothing").suggest("not "));
+    }
     let subject = names.subject(name)?;
     let sign = tokens.peek();
+    if let Some(meant) = foreign_relation(sign.text) {
+        let message = format!("{} is no sign of a comparison", sign.text);
+        return Err(wrong(Code::Statement, sign, message).suggest(meant.symbol()));
+    }
     let Some(relation) = Relation::ALL.into_iter().find(|one| one.symbol() == sign.text) else {
         if let Subject::Part(_) = subject {
             let message = format!("{} is a number: with what is it compared?", name.text);
@@ -108,7 +115,7 @@ impl<'a> Tokens<'a> {
 
     fn cut(&mut self) -> Piece<'a> {
         let piece = self.rest.trim();
-        let is_sign = |c: char| ['=', '<', '>'].contains(&c);
+        let is_sign = |c: char| ['=', '<', '>', '!'].contains(&c);
         let begins_with_sign = piece.text.starts_with(is_sign);
         let ends = |c: char| match begins_with_sign {
             true => !is_sign(c),

@@ -5,6 +5,7 @@ use diagnostics::Span;
 use super::diagnostic::{Code, Diagnostic};
 use crate::piece::Piece;
 use crate::plant::Words;
+use crate::range;
 use crate::time::parse_time;
 
 /// Greatest number that can be written, and least but for its sign.
@@ -151,19 +152,26 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// A whole number.
-    pub(super) fn number(&mut self) -> Read<i64> {
+    /// A whole number, which the form calls so.
+    fn number(&mut self, name: &str) -> Read<i64> {
         let word = self.word();
-        if word.text.is_empty() {
-            return Err(self.expected(word, "a number"));
+        // A word is what comes after a number that is not there.
+        if !word.text.starts_with(|c: char| c.is_ascii_digit() || !c.is_alphanumeric() && c != '"')
+        {
+            return Err(self.expected(word, name));
         }
         number(word, word.text)
     }
 
     /// A whole number between these.
     pub(super) fn number_in(&mut self, low: i64, high: i64) -> Read<i64> {
+        self.named_in("a number", low, high)
+    }
+
+    /// The same for a number that the form calls so.
+    pub(super) fn named_in(&mut self, name: &str, low: i64, high: i64) -> Read<i64> {
         let before = self.rest;
-        let number = self.number()?;
+        let number = self.number(name)?;
         if (low..=high).contains(&number) {
             return Ok(number);
         }
@@ -174,8 +182,9 @@ impl<'a> Cursor<'a> {
     /// `0..100`, the first one smaller.
     pub(super) fn range(&mut self) -> Read<(i64, i64)> {
         let word = self.word();
-        let Some((low, high)) = word.text.split_once("..") else {
-            return Err(self.expected(word, "a range such as 0..100"));
+        let Some((low, high)) = word.text.split_once("..").filter(|_| !word.text.contains("..."))
+        else {
+            return Err(self.no_range(word));
         };
         let (low, high) = (number(word, low)?, number(word, high)?);
         if low >= high {
@@ -183,6 +192,24 @@ impl<'a> Cursor<'a> {
             return Err(wrong(Code::Number, word, message));
         }
         Ok((low, high))
+    }
+
+    /// What is wrong with a word that is to be a range, or to begin one: `0-100`, `0 to 100`.
+    fn no_range(&self, word: Piece<'a>) -> Diagnostic {
+        let (joint, rest) = self.rest.split_word();
+        let end = rest.split_word().0;
+        let ends = [word, joint, end].map(|piece| piece.start + piece.text.len() - word.start);
+        let texts = [
+            word.text.to_string(),
+            format!("{}{}", word.text, joint.text),
+            format!("{} {} {}", word.text, joint.text, end.text),
+        ];
+        let found = texts.iter().zip(ends).find_map(|(text, end)| Some((range::meant(text)?, end)));
+        let Some((meant, end)) = found else {
+            return self.expected(word, "a range such as 0..100");
+        };
+        let span = Span::new(word.start, word.start + end);
+        Diagnostic::new(Code::Statement, span, "a range is written with two points").suggest(meant)
     }
 
     /// `+500/s`, in thousandths.
@@ -222,8 +249,11 @@ pub(super) fn number(at: Piece<'_>, text: &str) -> Read<i64> {
     let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
     if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
         let what = if text.is_empty() { at.text } else { text };
-        let message = format!("{what} is no whole number");
-        return Err(wrong(Code::Number, at, message));
+        let error = wrong(Code::Number, at, format!("{what} is no whole number"));
+        return Err(match range::meant(at.text) {
+            Some(range) => error.suggest(range),
+            None => error,
+        });
     }
     match text.parse::<i64>() {
         Ok(number) if number.abs() <= NUMBER_MAX => Ok(number),

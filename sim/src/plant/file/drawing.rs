@@ -27,7 +27,7 @@ pub(super) fn shape(names: &Description, mut line: Cursor<'_>) -> Read<Shape> {
         });
     };
     line.form = form;
-    let at = place(&mut line)?;
+    let at = place(&mut line, "X", "Y")?;
     let kind = kind(names, &word.text.to_ascii_lowercase(), &mut line)?;
     let mut shape =
         Shape { at, colour: usual_colour(&kind), kind, when: Condition::default(), moved: None };
@@ -36,7 +36,7 @@ pub(super) fn shape(names: &Description, mut line: Cursor<'_>) -> Read<Shape> {
     }
     if line.takes("move") {
         let part = names.part(line.word())?;
-        shape.moved = Some((part, place(&mut line)?));
+        shape.moved = Some((part, place(&mut line, "DX", "DY")?));
     }
     if line.takes("if") {
         shape.when = condition(names, line.rest)?;
@@ -61,23 +61,26 @@ pub(super) fn shape(names: &Description, mut line: Cursor<'_>) -> Read<Shape> {
 
 fn kind(names: &Description, word: &str, line: &mut Cursor<'_>) -> Read<ShapeKind> {
     Ok(match word {
-        "box" => ShapeKind::Box(size(line)?, size(line)?),
-        "circle" => ShapeKind::Circle(size(line)?),
+        "box" => ShapeKind::Box(size(line, "WIDTH")?, size(line, "HEIGHT")?),
+        "circle" => ShapeKind::Circle(size(line, "RADIUS")?),
         "line" => {
-            let (x, y) = place(line)?;
+            let (x, y) = place(line, "X2", "Y2")?;
             ShapeKind::Line(x, y)
         }
-        "lamp" => ShapeKind::Lamp(size(line)?),
+        "lamp" => ShapeKind::Lamp(size(line, "RADIUS")?),
         "text" => ShapeKind::Text(line.words()?),
         "value" => {
             let subject = names.subject(line.word())?;
             ShapeKind::Value(line.words()?, subject)
         }
-        "level" => ShapeKind::Level(size(line)?, size(line)?, names.part(line.word())?),
+        "level" => {
+            let (width, height) = (size(line, "WIDTH")?, size(line, "HEIGHT")?);
+            ShapeKind::Level(width, height, names.part(line.word())?)
+        }
         _ => {
-            let to = place(line)?;
+            let to = place(line, "X2", "Y2")?;
             let belt = names.belt(line.word())?;
-            ShapeKind::Pieces(to, belt, (size(line)?, size(line)?))
+            ShapeKind::Pieces(to, belt, (size(line, "WIDTH")?, size(line, "HEIGHT")?))
         }
     })
 }
@@ -93,11 +96,12 @@ fn usual_colour(kind: &ShapeKind) -> Colour {
     }
 }
 
-fn place(line: &mut Cursor<'_>) -> Read<(i32, i32)> {
-    let mut one = || line.number_in(-PLACE_MAX, PLACE_MAX).map(|number| number as i32);
-    Ok((one()?, one()?))
+/// Two numbers, with the names that the form has for them.
+fn place(line: &mut Cursor<'_>, x: &str, y: &str) -> Read<(i32, i32)> {
+    let mut one = |name| line.named_in(name, -PLACE_MAX, PLACE_MAX).map(|number| number as i32);
+    Ok((one(x)?, one(y)?))
 }
 
-fn size(line: &mut Cursor<'_>) -> Read<i32> {
-    line.number_in(1, PLACE_MAX).map(|number| number as i32)
+fn size(line: &mut Cursor<'_>, name: &str) -> Read<i32> {
+    line.named_in(name, 1, PLACE_MAX).map(|number| number as i32)
 }

@@ -249,7 +249,8 @@ fn define(plant: &mut Description, line: &Line<'_>) -> Read<()> {
             let word = rest.word();
             let input = point_of(word, "I0.")?;
             if plant.inputs.iter().any(|(known, _)| *known == input) {
-                return Err(driven(word));
+                let help = "join what switches it by or, in one line";
+                return Err(driven(word).help(help).help("or another input is meant here"));
             }
             rest.needs("if")?;
             let when = condition(plant, rest.rest)?;
@@ -270,7 +271,7 @@ fn define(plant: &mut Description, line: &Line<'_>) -> Read<()> {
 
 fn driven(word: Piece<'_>) -> Diagnostic {
     let message = format!("{} is driven by a line above already", word.text);
-    wrong(Code::Duplicate, word, message).help("join what switches it by or, in one line")
+    wrong(Code::Duplicate, word, message)
 }
 
 fn motion(plant: &Description, word: &str, mut rest: Cursor<'_>) -> Read<Motion> {
@@ -334,7 +335,8 @@ fn analog(plant: &Description, mut rest: Cursor<'_>) -> Read<Analog> {
     let word = rest.word();
     let channel = point_of(word, "Ain")?;
     if plant.analogs.iter().any(|known| known.channel == channel) {
-        return Err(driven(word));
+        let help = "it follows one part or slider: perhaps another analog input is meant here";
+        return Err(driven(word).help(help));
     }
     let name = rest.word();
     let subject = plant.subject(name)?;

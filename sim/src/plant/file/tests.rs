@@ -182,6 +182,54 @@ error[E0601]: there is no Dor
     assert_eq!(shown.render(false), expected);
 }
 
+/// Texts, and the code, message and suggestion or help of the last problem.
+#[test]
+fn words_of_other_languages_are_answered() {
+    let door = "part Door 0..2200\ninput I0.1 if Door = 0\nanalog Ain0 Door\n";
+    let cases = [
+        (
+            "draw box 10 10 50 blue",
+            "E0600 HEIGHT is missing before blue | write draw box X Y WIDTH HEIGHT",
+        ),
+        ("draw line 1 2 3", "E0600 Y2 is missing | write draw line X Y X2 Y2"),
+        (
+            "draw circle 1 2 if Q0.0",
+            "E0600 RADIUS is missing before if | write draw circle X Y RADIUS",
+        ),
+        ("draw text 1 \"a\"", "E0600 Y is missing before \"a\" | write draw text X Y \"WORDS\""),
+        ("draw box 1 2 3 4 move Door 5", "E0600 DY is missing | write draw box X Y WIDTH HEIGHT"),
+        ("draw box 1 2 3 4O", "E0603 4O is no whole number | "),
+        ("part Lift 0-2200", "E0600 a range is written with two points | 0..2200"),
+        ("part Lift 0 - 2200 start 5", "E0600 a range is written with two points | 0..2200"),
+        ("part Lift -5 to 5", "E0600 a range is written with two points | -5..5"),
+        ("part Lift 0...2200", "E0600 a range is written with two points | 0..2200"),
+        ("belt Line 0-500 pieces 3", "E0600 a range is written with two points | 0..500"),
+        (
+            "part Lift from 0",
+            "E0600 a range such as 0..100 is missing before from | write part NAME A..B [start N]",
+        ),
+        ("input I0.2 if Door = 0-20", "E0603 0-20 is no whole number | 0..20"),
+        ("input I0.2 if Door == 0", "E0600 == is no sign of a comparison | ="),
+        ("input I0.2 if Door != 0", "E0600 != is no sign of a comparison | <>"),
+        ("input I0.2 if !Q0.0", "E0600 ! negates nothing | not "),
+        (
+            "input I0.1 if Door = 2200",
+            "E0602 I0.1 is driven by a line above already | \
+             join what switches it by or, in one line; or another input is meant here",
+        ),
+        (
+            "analog Ain0 Door",
+            "E0602 Ain0 is driven by a line above already | \
+             it follows one part or slider: perhaps another analog input is meant here",
+        ),
+    ];
+    for (line, expected) in cases {
+        let problem = problems(&format!("{door}{line}\n")).pop().unwrap();
+        let meant = problem.suggestion.unwrap_or_else(|| problem.help.join("; "));
+        assert_eq!(format!("{} {} | {meant}", problem.code.text(), problem.message), expected);
+    }
+}
+
 #[test]
 fn sizes_are_limited() {
     assert_eq!(errors(&"draw box 1 1 1 1\n".repeat(501)).last().unwrap(), "E0605:501:1");

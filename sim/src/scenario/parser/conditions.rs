@@ -1,6 +1,6 @@
 //! Conditions and the statements that check them: `expect`, `within`, `always`, `never`, `until`.
 
-use super::super::condition::{Comparison, Condition, Relation};
+use super::super::condition::{Comparison, Condition, Relation, is_order};
 use super::super::value::{meant, parse_compared};
 use super::super::{Asked, Expectation, Rule, Until};
 use super::plant::is_about_plant;
@@ -8,6 +8,7 @@ use super::sign::sign;
 use super::{LIST_FORM, Moment, Parser};
 use crate::piece::Piece;
 use crate::problem::Problem;
+use crate::range;
 
 const CONDITION_FORM: &str = "write operand = value, several joined by and, or";
 const UNTIL_FORM: &str = "write until Q0.0 = 1 or 10s";
@@ -25,6 +26,9 @@ impl<'a> Parser<'a, '_> {
     pub(super) fn expect(&mut self, list: Piece<'a>, moment: Moment) {
         if list.text.is_empty() {
             return self.fail(list, format!("nothing is expected here: {LIST_FORM}"));
+        }
+        if self.is_time_behind(list, moment) {
+            return;
         }
         for piece in list.split(',') {
             let (word, rest) = piece.split_word();
@@ -68,7 +72,9 @@ impl<'a> Parser<'a, '_> {
         let Some(within_ms) = self.time(limit) else { return };
         let (word, list) = rest.split_word();
         if !word.is("expect") {
-            return self.fail(word, "expect is missing: write at 2s within 500ms expect Q0.0 = 1");
+            let list = if rest.text.is_empty() { "Q0.0 = 1" } else { rest.text };
+            let help = format!("write {} within {} expect {list}", self.opening, limit.text);
+            return self.problems.push(Problem::new(word.span(), "expect is missing").help(help));
         }
         self.expect(list, Moment { within_ms, ..moment });
     }
@@ -159,6 +165,9 @@ impl<'a> Parser<'a, '_> {
             self.fail_list(piece, CONDITION_FORM);
             return None;
         };
+        if self.is_foreign_sign(piece, "is no sign of a comparison") {
+            return None;
+        }
         let (name, value) = (piece.part(0..at).trim(), piece.behind(behind).trim());
         if sign(value).is_some() {
             let is_list = piece.split(',').len() > 1;
@@ -183,7 +192,12 @@ impl<'a> Parser<'a, '_> {
                 Some(vec![Comparison { operand, name, relation, values }])
             }
             Err(message) => {
-                self.fail(value, message);
+                let range = range::meant(value.text).filter(|_| !is_order(relation));
+                let message = match range {
+                    Some(_) => format!("{} is no value and no range", value.text),
+                    None => message,
+                };
+                self.problems.push(Problem::new(value.span(), message).did_you_mean(range));
                 None
             }
         }

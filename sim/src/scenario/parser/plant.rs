@@ -13,6 +13,7 @@ use super::{Moment, Parser};
 use crate::piece::Piece;
 use crate::plant::{self, Control, Plant};
 use crate::problem::Problem;
+use crate::range;
 
 const SET_FORM: &str = "write at 5s plant Jam = 1";
 const EXPECT_FORM: &str = "write at 5s expect plant good = 3, or a range such as 3..5";
@@ -64,6 +65,9 @@ impl<'a> Parser<'a, '_> {
                 self.fail(piece, SET_FORM);
                 continue;
             };
+            if self.is_foreign_sign(piece, "sets no value: a value is set by = alone") {
+                continue;
+            }
             let (name, value) = (piece.part(0..at).trim(), piece.behind(behind).trim());
             if relation != Relation::Equal || name.text.is_empty() {
                 self.fail(piece, SET_FORM);
@@ -84,6 +88,9 @@ impl<'a> Parser<'a, '_> {
         let Some((relation, at, behind)) = sign(piece) else {
             return self.fail(piece, EXPECT_FORM);
         };
+        if self.is_foreign_sign(piece, "is no sign of a comparison") {
+            return;
+        }
         let (name, value) = (piece.part(0..at).trim(), piece.behind(behind).trim());
         if name.text.is_empty() {
             return self.fail(piece, EXPECT_FORM);
@@ -91,7 +98,9 @@ impl<'a> Parser<'a, '_> {
         let ends = value.text.split_once("..").unwrap_or((value.text, value.text));
         let part = |text| number(Piece { text, start: value.start });
         let (Some(low), Some(high)) = (part(ends.0), part(ends.1)) else {
-            return self.fail(value, format!("{} is no whole number and no range", value.text));
+            let message = format!("{} is no whole number and no range", value.text);
+            let problem = Problem::new(value.span(), message);
+            return self.problems.push(problem.did_you_mean(range::meant(value.text)));
         };
         if low > high || (low < high && is_order(relation)) {
             return self.fail(value, EXPECT_FORM);

@@ -8,11 +8,13 @@ use super::super::condition::{Comparison, Relation};
 use super::super::value::{meant, parse_value, text_bytes};
 use super::super::words::{AFTER_TIME, names};
 use super::super::{Asked, Repeat, Setting};
+use super::misplaced::is_expect;
 use super::sign::sign;
 use super::{LIST_FORM, Parser, Times};
 use crate::operand::{Operand, Width};
 use crate::piece::Piece;
 use crate::problem::Problem;
+use crate::range;
 
 const EVERY_FORM: &str = "write every 2s I0.0 = 1 from 1s to 9s";
 /// What can follow a time beside an assignment.
@@ -20,18 +22,14 @@ const WORDS_AFTER_TIME: [&str; 7] = names(&AFTER_TIME);
 /// Most characters of a string.
 const TEXT_MAX: usize = 254;
 
-/// `set I0.0`, in the words of other languages.
-fn is_set(name: Piece<'_>) -> bool {
-    let (word, rest) = name.split_word();
-    let is_word = ["set", "let", "write", "force", "put"].iter().any(|known| word.is(known));
-    is_word && !rest.text.is_empty()
-}
-
 impl<'a> Parser<'a, '_> {
     /// `I0.0 = 1, Ain0 = 207`.
     pub(super) fn assignments(&mut self, list: Piece<'a>, times: Times) {
         if list.text.is_empty() {
             return self.fail(list, "nothing is set here: write operand = value");
+        }
+        if self.is_length_behind(list, times) {
+            return;
         }
         for piece in list.split(',') {
             self.assignment(piece, times);
@@ -52,6 +50,7 @@ impl<'a> Parser<'a, '_> {
             let problem = Problem::new(word.span(), "every repeats values that are set");
             return self.problems.push(problem.help(EVERY_FORM));
         }
+        self.opening = format!("every {}", period.text);
         let (list, window) = self.window(rest);
         let (at_ms, to_ms) = window.unwrap_or((0, None));
         let repeat = Repeat { period_ms: period_ms.unwrap_or(1), to_ms };
@@ -63,11 +62,13 @@ impl<'a> Parser<'a, '_> {
             return self.fail_list(piece, LIST_FORM);
         };
         let (name, value) = (piece.part(0..at).trim(), piece.behind(behind).trim());
+        let is_told = self.is_set_by_a_word(piece, name)
+            || self.is_foreign_sign(piece, "sets no value: a value is set by = alone");
+        if is_told {
+            return;
+        }
         if sign(value).is_some() {
             return self.fail(piece, LIST_FORM);
-        }
-        if name.text.ends_with(':') {
-            return self.fail(piece, "a value is set by = alone, without a colon");
         }
         let Some(operand) = self.operand(name) else { return };
         if relation != Relation::Equal {
@@ -83,7 +84,7 @@ impl<'a> Parser<'a, '_> {
         let operand = meant(value.text, operand);
         match parse_value(value.text, operand) {
             Ok(value) => self.set(name, times, operand, value),
-            Err(message) if value.text.contains("..") => {
+            Err(message) if value.text.contains("..") || range::meant(value.text).is_some() => {
                 self.problems
                     .push(Problem::new(value.span(), message).help("only expect takes a range"));
             }
@@ -94,9 +95,8 @@ impl<'a> Parser<'a, '_> {
     fn set(&mut self, name: Piece<'a>, times: Times, operand: Operand, value: i32) {
         let Times { at_ms, repeat } = times;
         self.ask(name, Asked::Set(operand));
-        self.setting_spans.push(name.span());
-        let for_scan = false;
-        self.scenario.settings.push(Setting { at_ms, repeat, operand, value, for_scan });
+        let (for_scan, span) = (false, name.span());
+        self.scenario.settings.push(Setting { at_ms, repeat, operand, value, for_scan, span });
     }
 
     /// `event Vote, Reset`: bits that are 1 for one scan.
@@ -106,13 +106,13 @@ impl<'a> Parser<'a, '_> {
             if operand.width() != Width::Bit {
                 let problem =
                     Problem::new(name.span(), format!("{}: an event is a bit", name.text));
-                self.problems.push(problem.help("values are set by =, as in at 2s MW3 = 5"));
+                let help = format!("a value is set by =: {} {} = 5", self.opening, name.text);
+                self.problems.push(problem.help(help));
                 continue;
             }
             self.ask(name, Asked::Set(operand));
-            self.setting_spans.push(name.span());
-            let (repeat, value, for_scan) = (None, 1, true);
-            self.scenario.settings.push(Setting { at_ms, repeat, operand, value, for_scan });
+            let (repeat, value, for_scan, span) = (None, 1, true, name.span());
+            self.scenario.settings.push(Setting { at_ms, repeat, operand, value, for_scan, span });
         }
     }
 
@@ -125,7 +125,11 @@ impl<'a> Parser<'a, '_> {
 
     fn fail_misspelt(&mut self, piece: Piece<'a>) -> bool {
         let (first, rest) = piece.split_word();
-        let meant = if rest.text.is_empty() { None } else { nearest(first.text, WORDS_AFTER_TIME) };
+        let meant = match rest.text {
+            "" => None,
+            _ if is_expect(first) => Some("expect"),
+            _ => nearest(first.text, WORDS_AFTER_TIME),
+        };
         if let Some(word) = meant {
             let problem = Problem::new(first.span(), format!("unknown word {}", first.text));
             self.problems.push(problem.did_you_mean(Some(word)));
@@ -146,8 +150,6 @@ impl<'a> Parser<'a, '_> {
                 }
                 Err(error) => self.fail(name, error.to_string()),
             },
-            Err(_) if is_set(name) => self
-                .fail(name.split_word().0, "a value is set without a word: write at 2s I0.0 = 1"),
             Err(_) if self.fail_misspelt(name) => {}
             Err(error) => self
                 .problems

@@ -39,10 +39,10 @@ impl Parser<'_, '_> {
         let Ok(plant) = spec.build() else { return };
         let signals: Signals = plant.signals();
         let mut driven = Vec::new();
-        for (setting, span) in self.scenario.settings.iter().zip(&self.setting_spans) {
+        for setting in &self.scenario.settings {
             if signals.contain(setting.operand) {
                 let message = format!("{} is driven by the plant {}", setting.operand, spec.name());
-                driven.push(Problem::new(span.clone(), message));
+                driven.push(Problem::new(setting.span.clone(), message));
             }
         }
         for (action, span) in self.scenario.actions.iter().zip(&self.action_spans) {
