@@ -14,6 +14,10 @@ pub enum Language {
     Awl,
     /// A program in Structured Text.
     StructuredText,
+    /// A program whose units are charts.
+    Chart,
+    /// A function block of IEC 61499.
+    Block,
     /// A scenario of the simulator.
     Scenario,
     /// A symbol table.
@@ -23,13 +27,15 @@ pub enum Language {
 }
 
 impl Language {
-    /// The language of a text of this name, by its ending: `.awl`, `.st`, `.scn`, `.plant`; `.csv`
-    /// and `.txt` are symbol tables.
+    /// The language of a text of this name, by its ending: `.awl`, `.st`, `.sfc`, `.fbt`, `.scn`,
+    /// `.plant`; `.csv` and `.txt` are symbol tables.
     pub fn of_name(name: &str) -> Option<Language> {
         let (_, ending) = name.rsplit_once('.')?;
         match ending.to_ascii_lowercase().as_str() {
             "awl" => Some(Language::Awl),
             "st" => Some(Language::StructuredText),
+            "sfc" => Some(Language::Chart),
+            "fbt" => Some(Language::Block),
             "scn" => Some(Language::Scenario),
             "plant" => Some(Language::Plant),
             "csv" | "txt" => Some(Language::Symbols),
@@ -39,7 +45,8 @@ impl Language {
 
     /// Whether its texts are programs, or parts of one.
     pub fn is_program(self) -> bool {
-        matches!(self, Language::Awl | Language::StructuredText)
+        use Language::{Awl, Block, Chart, StructuredText};
+        matches!(self, Awl | StructuredText | Chart | Block)
     }
 }
 

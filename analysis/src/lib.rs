@@ -8,6 +8,8 @@
 
 mod answer;
 mod awl;
+mod block;
+mod charts;
 mod explain;
 pub mod ladder;
 mod language;

@@ -111,13 +111,16 @@ impl Model {
         let found = self.st().into_iter().flat_map(|st| &st.compiled.diagnostics);
         let of_st = found.filter(|(file, _)| Some(*file) == number);
         let of_st = of_st.map(|(_, one)| Problem::of(one.clone(), text));
+        let others = self.st().into_iter().flat_map(|st| &st.others);
+        let others = others.filter(|(file, _)| Some(*file) == number);
+        let others = others.map(|(_, one)| Problem::of(one.clone(), text));
         // Calls of what has no AWL yet would be errors.
         let all = match self.is_without_awl() {
             true => &[][..],
             false => &self.assembly.diagnostics,
         };
         let placed = all.iter().filter_map(|one| self.placed(one.clone(), name));
-        of_st.chain(placed.map(|one| Problem::of(one, text))).collect()
+        others.chain(of_st).chain(placed.map(|one| Problem::of(one, text))).collect()
     }
 
     /// One of the assembler's with its places in a file, if it is about that.

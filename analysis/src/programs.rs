@@ -18,8 +18,8 @@ pub(crate) struct Known<'p> {
 /// The programs of a project: the names of their texts, the main one first.
 ///
 /// The files that a scenario names together are a program. Every other one is a program by itself;
-/// one in Structured Text with the files of its folder that have blocks, functions, types and
-/// variables but no PROGRAM.
+/// one in Structured Text or of charts with the files of its folder in Structured Text that have
+/// blocks, functions, types and variables but no PROGRAM.
 pub(crate) fn programs(texts: &BTreeMap<&str, Known<'_>>) -> Vec<Vec<String>> {
     let is_program = |name: &str| texts.get(name).is_some_and(|one| one.language.is_program());
     let mut programs: Vec<Vec<String>> = Vec::new();
@@ -42,7 +42,7 @@ pub(crate) fn programs(texts: &BTreeMap<&str, Known<'_>>) -> Vec<Vec<String>> {
     let alone: Vec<Vec<String>> = mains
         .map(|(name, one)| {
             let beside = match one.language {
-                Language::StructuredText => libraries(split(name).0),
+                Language::StructuredText | Language::Chart => libraries(split(name).0),
                 _ => Vec::new(),
             };
             [vec![(*name).to_owned()], beside].concat()
@@ -85,6 +85,8 @@ mod tests {
             ("b/blocks.st", "library"),
             ("b/main.st", ""),
             ("b/other.st", ""),
+            ("b/seq.sfc", ""),
+            ("b/tank.fbt", ""),
             ("b/x.st", ""),
             ("c/lonely.st", "library"),
             ("c/more.st", "library"),
@@ -94,6 +96,8 @@ mod tests {
             "a/n.awl",
             "b/main.st b/blocks.st",
             "b/other.st b/blocks.st",
+            "b/seq.sfc b/blocks.st",
+            "b/tank.fbt",
             "c/lonely.st c/more.st",
         ];
         assert_eq!(found(&texts), expected);

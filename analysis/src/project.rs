@@ -13,6 +13,8 @@ use crate::answer::{
     Completion, Edit, FileEdit, Hover, Location, Outline, Problem, Refusal, Signature, floor,
 };
 use crate::awl::Awl;
+use crate::block::Block;
+use crate::charts::Charts;
 use crate::explain::explain;
 use crate::ladder::{Drawing, drawing_at};
 use crate::language::{Language, Text, View};
@@ -29,13 +31,13 @@ use crate::symbols::Symbols;
 /// A set of named texts. Names are paths with `/`, from wherever they are counted.
 ///
 /// The files that a scenario names in its line `program A, B` are one program. Every other file in
-/// AWL or Structured Text is a program by itself; files in Structured Text without a PROGRAM belong
-/// to each program in Structured Text of their folder.
+/// AWL, Structured Text, of charts or with a block is a program by itself; files in Structured Text
+/// without a PROGRAM belong to each program in Structured Text or of charts of their folder.
 ///
 /// A scenario belongs to the program that its line `program` names, otherwise to the one of the
-/// same folder with the same name (`motor.fast.scn` to `motor.awl`, else `motor.st`, as in `awl-sim
-/// test`); a symbol table to the one with the same name, a table `symbols.csv` or `symbols.txt` to
-/// all programs of its folder.
+/// same folder with the same name (`motor.fast.scn` to `motor.awl`, else `motor.st`, `.sfc` or
+/// `.fbt`, as in `awl-sim test`); a symbol table to the one with the same name, a table `symbols.csv`
+/// or `symbols.txt` to all programs of its folder.
 #[derive(Debug, Default)]
 pub struct Project {
     texts: BTreeMap<String, Entry>,
@@ -372,7 +374,7 @@ impl Project {
         let Some(entry) = self.texts.get(name) else { return Vec::new() };
         let mut all = self.programs().to_vec();
         match entry.language {
-            Language::Awl | Language::StructuredText => {
+            Language::Awl | Language::StructuredText | Language::Chart | Language::Block => {
                 all.retain(|program| program.iter().any(|file| file == name));
             }
             Language::Scenario => {
@@ -422,7 +424,8 @@ impl Project {
         let mut stem = file;
         while let Some((shorter, _)) = stem.rsplit_once('.') {
             stem = shorter;
-            let programs = ["awl", "st"].map(|ending| format!("{folder}{stem}.{ending}"));
+            let programs =
+                ["awl", "st", "sfc", "fbt"].map(|ending| format!("{folder}{stem}.{ending}"));
             let is_there =
                 |file: &String| self.language(file).is_some_and(|language| language.is_program());
             if let Some(program) = programs.into_iter().find(is_there) {
@@ -474,6 +477,8 @@ fn text_of(language: Language) -> &'static dyn Text {
     match language {
         Language::Awl => &Awl,
         Language::StructuredText => &StructuredText,
+        Language::Chart => &Charts,
+        Language::Block => &Block,
         Language::Scenario => &Scenario,
         Language::Symbols => &Symbols,
         Language::Plant => &Plant,

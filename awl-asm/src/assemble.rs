@@ -8,7 +8,8 @@ use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::image::encode::{Checked, Encoding, Line, encode};
 use crate::meaning::check::{
     Control, Depths, Usage, control, counting, intervals, labels, local_reads, mixed_coils,
-    no_result, overlap, permission, placement, presets, sequence, stack, steps, usage,
+    no_result, overlap, permission, placement, presets, same_answer, sequence, stack, steps, usage,
+    whole_reals,
 };
 use crate::meaning::free_places;
 use crate::meaning::hardware;
@@ -214,6 +215,8 @@ fn understood(mut program: Program, name: &str, mut diagnostics: Vec<Diagnostic>
     presets(&program, &code, &mut diagnostics);
     no_result(&program, &code, &mut diagnostics);
     local_reads(&program, &code, &units, &mut diagnostics);
+    whole_reals(&program, &code, &mut diagnostics);
+    same_answer(&program, &code, &mut diagnostics);
     diagnostics.extend(empty(&program));
     let meaning = Meaning { program: &program, code: &code, units: &units, control: &control };
     let is_sound = !has_errors(&diagnostics);

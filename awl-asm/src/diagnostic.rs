@@ -75,6 +75,8 @@ diagnostics::codes! {
     UnseenTimer = "W0023";
     NoInterval = "W0024";
     NeverWritten = "W0025";
+    WholeReal = "W0026";
+    SameAnswer = "W0027";
     MixedMnemonics = "W0030";
     NoEffect = "W0032";
     NotForBoard = "W0033";

@@ -21,6 +21,8 @@ pub struct Program {
     pub assembly: Assembly,
     /// The image.
     pub image: Vec<u8>,
+    /// The texts that its own was made of, where it was made: what their author sees.
+    pub texts: Vec<Source>,
     /// What the file of an image says besides.
     tools: Tools,
 }
@@ -82,9 +84,17 @@ impl Program {
         Program::of_assembly(source, assembly)
     }
 
+    /// The same program, whose text was made of these: its lines `//# source` lead to them.
+    pub fn made_of(self, texts: Vec<Source>) -> Program {
+        Program { texts, ..self }
+    }
+
     fn of_assembly(source: Source, mut assembly: Assembly) -> Result<Program, ProgramError> {
         match assembly.image.take() {
-            Some(image) => Ok(Program { source, assembly, image, tools: Tools::default() }),
+            Some(image) => {
+                let (texts, tools) = (Vec::new(), Tools::default());
+                Ok(Program { source, assembly, image, texts, tools })
+            }
             None => Err(ProgramError::of(source, assembly.diagnostics)),
         }
     }

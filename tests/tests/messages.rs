@@ -267,7 +267,8 @@ fn a_program_that_is_too_large_is_told_what_would_help() {
         error
     };
     let lines = "= M0.0\n".repeat(2100);
-    let one = error(format!("//# board uno\nLD I0.0\nMOVD 5, VD0\nRTS VD0, 16#A2, VB10\n{lines}"));
+    let modules = "MOVD 16#40A00000, VD0\nRTS VD0, 16#A2, VB10";
+    let one = error(format!("//# board uno\nLD I0.0\n{modules}\n{lines}"));
     assert!(one.message.ends_with("bytes too many"), "{}", one.message);
     let help = one.help.join("\n");
     assert!(help.contains("without the instruction of "), "{help}");

@@ -26,8 +26,10 @@ impl Files {
         let symbols = self.symbols()?;
         let is_awl = |path: &PathBuf| Language::of(&path.to_string_lossy()) == Language::Awl;
         if !paths.iter().all(is_awl) {
-            let joined = join(read_program_texts(paths)?).map_err(told)?;
-            return Program::assembled(joined.awl, symbols).map_err(shown);
+            let sources = read_program_texts(paths)?;
+            let joined = join(sources.clone()).map_err(told)?;
+            let program = Program::assembled(joined.awl, symbols).map_err(shown)?;
+            return Ok(program.made_of(sources));
         }
         let [path] = paths else {
             let data = self.data_lines(&symbols)?;

@@ -2,8 +2,8 @@
 //! tables of the language. They know words, not meanings.
 
 use serde_json::{Value, json};
+use st::keywords::{KEYWORDS, OPERATOR_WORDS};
 use st::model::{ELEMENTARY, UnitKind};
-use st::parser::{KEYWORDS, OPERATOR_WORDS};
 use st::standard::FUNCTIONS;
 
 /// The grammar as a file.

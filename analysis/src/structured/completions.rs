@@ -160,7 +160,7 @@ impl Place<'_, '_> {
         }));
         all.extend(self.words(words::VALUES));
         // Operators have words of their own.
-        let functions = FUNCTIONS.iter().filter(|one| !st::parser::is_keyword(one.name));
+        let functions = FUNCTIONS.iter().filter(|one| !st::keywords::is_keyword(one.name));
         all.extend(functions.map(|one| {
             let holes: Vec<&str> = one.parameters.iter().map(|_| "|").collect();
             let names: Vec<&str> = one.parameters.iter().map(|(name, _)| *name).collect();

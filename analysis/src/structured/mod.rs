@@ -10,8 +10,9 @@ mod words;
 use awl_asm::Address;
 use diagnostics::{Source, Span};
 use st::format::format;
+use st::keywords::is_keyword;
 use st::names::{Named, is_same, safe_name};
-use st::parser::{is_keyword, parse};
+use st::parser::parse;
 use st::tree::UnitKind;
 
 use crate::answer::{Completion, Outline, Problem, Refusal, Signature};

@@ -40,6 +40,11 @@ fn of_value(quoted: Quoted<'_>, position: usize, constant: Constant) -> Option<S
             Some(format!("a byte is one character; two are a word: `MOVW {text}, VW0`"))
         }
         ("LDB" | "AB" | "OB", _) => Some(byte_compared(quoted, position)),
+        ("MOVB", 0) if fits(0, 0xFFFF) && is_interval(quoted) => Some(
+            "the interval of a timed interrupt has 1 to 255 ms: for more the routine counts, such \
+             as 5 of 100 ms, or T32 and T96 bring one: events 21 and 22"
+                .to_owned(),
+        ),
         ("MOVB", 0) if fits(-0x8000, 0xFFFF) => {
             Some(format!("a byte has 0 to 255; a word takes it: `MOVW {written}, VW0`"))
         }
@@ -128,11 +133,19 @@ fn of_preset(quoted: Quoted<'_>, position: usize, value: i64) -> Option<String> 
                 .to_owned(),
         ),
         ("TON" | "TOF" | "TONR", 1) => Some(
-            "a preset is at most 32767 counts, of 100 ms 3276.7 s: 60 s are `TON T37, 600`"
+            "a preset is at most 32767 counts, of 100 ms 3276.7 s: 60 s are `TON T37, 600`; longer \
+             is a timer that starts itself again, `LDN T37`, `TON T37, 600`, and a counter of it: \
+             `LD T37`, `LDN I0.0`, `CTU C1, 60` is an hour"
                 .to_owned(),
         ),
         _ => None,
     }
+}
+
+/// Whether it goes to the interval of timed interrupt 0 or 1.
+fn is_interval(quoted: Quoted<'_>) -> bool {
+    let target = quoted.source.operands.get(1).map(|operand| &operand.value);
+    matches!(target, Some(Value::Address(Address::Byte { area: plc_isa::Area::Sm, byte: 34 | 35 })))
 }
 
 /// `FILL VW0, 0, 10`: the value is first.

@@ -92,6 +92,18 @@ fn of_presets(
     }
 }
 
+/// How a high-speed counter gets another value.
+fn new_value(counter: u8) -> String {
+    let (control, value) = match counter {
+        3 => (137, 138),
+        _ => (37, 38),
+    };
+    format!(
+        "a program only reads it: its new value is written by `MOVD 0, SMD{value}`, `MOVB \
+         16#C0, SMB{control}`, `HSC {counter}`"
+    )
+}
+
 /// What instructions on bytes, words and double words take.
 fn of_values(
     quoted: Quoted<'_>,
@@ -101,6 +113,13 @@ fn of_values(
 ) -> Option<String> {
     let name = quoted.source.mnemonic();
     match (name, address) {
+        ("MOVD", Address::HighSpeedCounter(number)) if position == 1 => Some(new_value(number)),
+        ("ROUND" | "TRUNC", Address::Word { .. }) if position == 1 => {
+            let from = quoted.operand(0)?;
+            Some(format!(
+                "a double word becomes a word: `{name} {from}, AC0`, `DTI AC0, {written}`"
+            ))
+        }
         ("MUL" | "DIV", Address::Word { .. }) if position == 1 => {
             let (sign, what) = if name == "MUL" { ('*', "product") } else { ('/', "quotient") };
             let other = quoted.operand(0).unwrap_or_else(|| "VW0".to_owned());

@@ -284,8 +284,11 @@ fn in_area(text: &str, area: Area, size: Size, number: &str) -> Result<Address, 
         }
         (Size::Bit, None) => Err(out_of_range(
             format!(
-                "{text}: a bit address has a byte and a bit number, such as {name}{}.0",
-                byte.min(last)
+                "{text}: a bit address has a byte and a bit number, such as {name}{}",
+                match (area, byte) {
+                    (Area::I | Area::Q, 0..=7) => format!("0.{byte}"),
+                    _ => format!("{}.0", byte.min(last)),
+                }
             ),
             without_point(number, last).map(|bit| format!("{name}{bit}")),
         )),

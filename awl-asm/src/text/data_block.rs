@@ -174,10 +174,10 @@ impl DataBlock {
                     return Err(diagnostic);
                 }
                 Err(AddressError::NotAnAddress) => {
-                    return Err(error(
-                        Code::DataBlock,
-                        format!("{word}: neither an address nor a value"),
-                    ));
+                    let why = format!("{word}: neither an address nor a value");
+                    let help = "a data block has addresses: `VW0 5`; a variable with a name is \
+                                declared outside of it: `//# var Speed INT := 5`";
+                    return Err(Box::new((*error(Code::DataBlock, why)).help(help)));
                 }
             },
         };
@@ -188,7 +188,14 @@ impl DataBlock {
             _ => {
                 let message =
                     format!("{word}: a data block gives bytes, words and double words of V memory");
-                Err(error(Code::DataBlock, message))
+                let here = match address {
+                    Address::Bit { .. } => "such as `VB0 1`: bits are set in a byte".to_owned(),
+                    _ => format!(
+                        "such as `VW0 5`; other memory is written in the first scan: `LD SM0.1`, \
+                         `MOVW 5, {word}`"
+                    ),
+                };
+                Err(Box::new((*error(Code::DataBlock, message)).help(here)))
             }
         }
     }

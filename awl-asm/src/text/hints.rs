@@ -292,6 +292,9 @@ pub(super) fn number(text: &str, op: Op, diagnostic: &Diagnostic) -> Option<Stri
             address.0, address.1
         ));
     }
+    if let Some(inside) = text.strip_prefix('\'').and_then(|rest| rest.strip_suffix('\'')) {
+        return Some(format!("a text is in double quotes: `\"{inside}\"`"));
+    }
     if TimerKind::started_by(op).is_some() {
         return Some(
             "a preset is a number of counts, such as 50: of T37, which counts 100 ms, these are 5 s"
@@ -313,7 +316,22 @@ pub(super) fn out_of_range(text: &str) -> Option<String> {
                 .to_owned(),
         );
     }
-    foreign::operands::way(text).map(str::to_owned)
+    counted_from_one(&upper).or_else(|| foreign::operands::way(text).map(str::to_owned))
+}
+
+/// `I1` and `Q3`, as a LOGO! has them.
+fn counted_from_one(upper: &str) -> Option<String> {
+    let (letter, number) = upper.split_at_checked(1)?;
+    let number = number.parse::<u8>().ok().filter(|number| (1..=24).contains(number))?;
+    let point = number - 1;
+    matches!(letter, "I" | "Q").then(|| {
+        format!(
+            "points are counted from `{letter}0.0` on, eight a byte: {upper} of a LOGO! is \
+             `{letter}{}.{}`",
+            point / 8,
+            point % 8
+        )
+    })
 }
 
 /// `LDI X0` of other makers is a contact that is inverted.

@@ -148,7 +148,8 @@ pub fn check_name(name: &str, place: Span) -> Result<(), Box<Diagnostic>> {
     // such.
     if Address::parse(name).is_ok_and(|address| !address.is_german(name)) {
         let message = format!("{name}: a symbol cannot be named like an address");
-        let help = format!("the name is first, then what it stands for: `Start {name}`");
+        let other = format!("another name can be `{}_`", name.replace('.', "_"));
+        let help = format!("{other}; the name is first, then what it stands for: `Start {name}`");
         return Err(Box::new(Diagnostic::new(Code::SymbolDefinition, place, message).help(help)));
     }
     if literal::truth_value(name).is_some()

@@ -8,6 +8,7 @@ pub mod operands;
 pub mod rounds;
 mod single_scan;
 pub mod state;
+mod texts;
 
 pub use keys::{Action, Key};
 pub use rounds::Rounds;

@@ -1,14 +1,16 @@
-//! The program as the view shows it: a row for each line of the source, with what is asked from the
-//! PLC for it. Which values there are at present is not known here.
+//! The program as the view shows it: a row for each line of its text, with what is asked from the
+//! PLC for it. Which values there are at present is not known here. What the lines of a text have
+//! that became AWL is in `texts`.
 
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 
-use awl_asm::ast::Statement;
+use awl_asm::ast::{Span, Statement};
 use awl_asm::selected::Selected;
 use plc_isa::{Op, decode, verify};
 
 use super::operands::{Watched, operands};
+use super::texts;
 use crate::program::Program;
 use crate::service::Executed;
 
@@ -50,9 +52,26 @@ pub struct Instruction {
     pub levels: u8,
     /// The operands with a value, in the order of the text.
     pub operands: Vec<Watched>,
-    /// Which of them has its value taken right after the instruction; the others have theirs at
-    /// the end of the scan.
+    /// Which of them is looked at first: what the line is there for.
     pub result: usize,
+    /// Which of them have their values taken right after an instruction, and the offset of that;
+    /// the others have theirs at the end of the scan.
+    pub taken: Vec<(u16, usize)>,
+    /// What the power flow after the instruction says of the line.
+    pub says: Says,
+}
+
+/// What the power flow after an instruction says of its line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Says {
+    /// Itself: of a condition, that it is true.
+    Flow,
+    /// Nothing: the line is executed with it and without.
+    Executed,
+    /// That the line is executed, which it is not without.
+    Powered,
+    /// That the condition is false, and what hangs on it is jumped over.
+    Jumped,
 }
 
 /// A program.
@@ -60,8 +79,10 @@ pub struct Instruction {
 pub struct Model {
     /// Its name.
     pub name: String,
-    /// Its lines.
+    /// The lines of its files, one after the other.
     pub rows: Vec<Row>,
+    /// Its files, and which rows are theirs.
+    pub files: Vec<(String, Range<usize>)>,
     /// Checksum and length of its image.
     pub image: (u32, u16),
     /// The same of the image in machine code, where there can be one.
@@ -90,6 +111,18 @@ impl Flow {
     }
 }
 
+impl Instruction {
+    /// What has become of the line, after what its instruction did.
+    pub fn flow(&self, executed: &Executed) -> Flow {
+        match (self.says, Flow::of(executed)) {
+            (Says::Executed, Flow::Off) | (Says::Jumped, Flow::Off) => Flow::On,
+            (Says::Powered, Flow::Off) => Flow::NotExecuted,
+            (Says::Jumped, Flow::On) => Flow::Off,
+            (_, flow) => flow,
+        }
+    }
+}
+
 impl Row {
     /// Its instruction.
     pub fn instruction(&self) -> Option<&Instruction> {
@@ -103,35 +136,65 @@ impl Row {
 impl Model {
     /// The rows of a program.
     pub fn new(program: &Program) -> Model {
-        let Program { source, assembly, image, .. } = program;
-        let mut rows: Vec<Row> = source.lines().map(row).collect();
-        for (row, line) in rows.iter_mut().zip(1..) {
-            row.number = source.line_in_file(line).1;
-        }
-        for statement in &assembly.program.statements {
-            let (span, content) = match statement {
-                Statement::Network(network) => (network.span, Content::Network),
-                Statement::Unit(unit) => (unit.span, Content::Unit),
-                Statement::Instruction(_) => continue,
-            };
-            if let Some(row) = rows.get_mut(source.position(span.start as usize).0 - 1) {
-                row.content = content;
-            }
-        }
-        let levels = rung_levels(program);
-        for (line, code) in by_line(program) {
-            if let Some(row) = rows.get_mut(line - 1) {
-                row.content = Content::Instruction(instruction(program, code, &levels));
-            }
-        }
+        let (rows, files) = match program.texts.as_slice() {
+            [] => (rows(program), files(program)),
+            texts => texts::rows(program, texts),
+        };
         let native = program.native_image().map(|image| identity(&image));
-        Model { name: name(program), rows, image: identity(image), native }
+        let (name, image) = (name(program), identity(&program.image));
+        Model { name, rows, files, image, native }
+    }
+
+    /// The rows of a file; `None` where it is none of the program's.
+    pub fn rows_of(&self, file: &str) -> Option<Range<usize>> {
+        let (_, rows) = self.files.iter().find(|(name, _)| name == file)?;
+        Some(rows.clone())
     }
 
     /// What each row's instruction has done to the power flow, from the answers by offset.
     pub fn power_flow(&self, answers: &HashMap<u16, Executed>) -> Vec<Option<Flow>> {
-        self.rows.iter().map(|row| answers.get(&row.instruction()?.offset?).map(Flow::of)).collect()
+        let flow = |row: &Row| {
+            let instruction = row.instruction()?;
+            answers.get(&instruction.offset?).map(|executed| instruction.flow(executed))
+        };
+        self.rows.iter().map(flow).collect()
     }
+}
+
+/// The rows of AWL.
+fn rows(program: &Program) -> Vec<Row> {
+    let Program { source, assembly, .. } = program;
+    let mut rows: Vec<Row> = source.lines().map(row).collect();
+    for (row, line) in rows.iter_mut().zip(1..) {
+        row.number = source.line_in_file(line).1;
+    }
+    for statement in &assembly.program.statements {
+        let (span, content) = match statement {
+            Statement::Network(network) => (network.span, Content::Network),
+            Statement::Unit(unit) => (unit.span, Content::Unit),
+            Statement::Instruction(_) => continue,
+        };
+        if let Some(row) = rows.get_mut(source.position(span.start as usize).0 - 1) {
+            row.content = content;
+        }
+    }
+    let levels = rung_levels(program);
+    for (line, code) in by_line(program) {
+        if let Some(row) = rows.get_mut(line - 1) {
+            row.content = Content::Instruction(instruction(program, code, &levels));
+        }
+    }
+    rows
+}
+
+/// The files of AWL, and which rows are theirs.
+fn files(program: &Program) -> Vec<(String, Range<usize>)> {
+    let source = &program.source;
+    let first = |(_, span): (&str, Span)| source.position(span.start as usize).0 - 1;
+    let firsts: Vec<usize> = source.files().map(first).collect();
+    let ends = firsts.iter().skip(1).copied().chain([source.line_count()]);
+    let names = source.files().map(|(name, _)| name.to_owned());
+    names.zip(firsts.iter().zip(ends)).map(|(name, (&from, to))| (name, from..to)).collect()
 }
 
 /// The name that the image carries.
@@ -147,7 +210,8 @@ fn identity(image: &[u8]) -> (u32, u16) {
     (crc, image.len() as u16)
 }
 
-fn row(line: &str) -> Row {
+/// A line without instructions.
+pub(super) fn row(line: &str) -> Row {
     let mut text = String::new();
     let mut column = 0;
     for character in line.chars() {
@@ -184,26 +248,35 @@ fn by_line(program: &Program) -> BTreeMap<usize, Range<usize>> {
     lines
 }
 
-fn instruction(program: &Program, code: Range<usize>, levels: &[u8]) -> Instruction {
+/// What a line of AWL has whose code this is.
+pub(super) fn instruction(program: &Program, code: Range<usize>, levels: &[u8]) -> Instruction {
     let assembly = &program.assembly;
     let selected = assembly.code.get(code.clone()).unwrap_or(&[]);
-    let last_statement = selected.last().map(|selected| selected.statement);
-    let of_last = || selected.iter().filter(|selected| Some(selected.statement) == last_statement);
-    // A call with parameters goes on after its copies; whether it is made, its beginning tells.
-    let begin = of_last().position(|selected| selected.op == Op::CallBegin);
-    let shown =
-        begin.map_or(code.end.saturating_sub(1), |place| code.end - of_last().count() + place);
+    let shown = shown(program, code.clone());
     let is_call = assembly.code.get(shown).is_some_and(|selected| selected.op == Op::Call);
     // The levels after a call are those of the routine.
     let levels = if is_call { 1 } else { levels.get(shown).copied().unwrap_or(1) };
     let unit = assembly.units.of(code.start);
     let (operands, result) = operands(&program.source, assembly, unit, selected);
-    Instruction { offset: offset(program, shown), levels, operands, result }
+    let offset = offset(program, shown);
+    let taken = offset.filter(|_| !operands.is_empty()).map(|offset| (offset, result));
+    let taken = taken.into_iter().collect();
+    Instruction { offset, levels, operands, result, taken, says: Says::Flow }
+}
+
+/// Which instruction of some tells what they have done: the last one. A call with parameters goes
+/// on after its copies; whether it is made, its beginning tells.
+pub(super) fn shown(program: &Program, code: Range<usize>) -> usize {
+    let selected = program.assembly.code.get(code.clone()).unwrap_or(&[]);
+    let last_statement = selected.last().map(|selected| selected.statement);
+    let of_last = || selected.iter().filter(|selected| Some(selected.statement) == last_statement);
+    let begin = of_last().position(|selected| selected.op == Op::CallBegin);
+    begin.map_or(code.end.saturating_sub(1), |place| code.end - of_last().count() + place)
 }
 
 /// The offset at whose instruction the power flow of a line is to be seen. In a segment of a
 /// sequence that is the hidden one which combines it with the segment's bit.
-fn offset(program: &Program, index: usize) -> Option<u16> {
+pub(super) fn offset(program: &Program, index: usize) -> Option<u16> {
     let line = program.assembly.lines.get(index).filter(|line| line.len > 0)?;
     let image = &program.image;
     let own = u16::try_from(line.at + u32::from(line.hidden_len)).ok()?;
@@ -216,7 +289,7 @@ fn offset(program: &Program, index: usize) -> Option<u16> {
 
 /// For each instruction how many levels its rung has after it: what a rung before it left is not
 /// counted.
-fn rung_levels(program: &Program) -> Vec<u8> {
+pub(super) fn rung_levels(program: &Program) -> Vec<u8> {
     let assembly = &program.assembly;
     let mut below = 0;
     let mut before: Option<&Selected> = None;

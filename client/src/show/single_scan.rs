@@ -1,7 +1,8 @@
 //! Which instructions are asked about: in RUN those that are visible, in a single scan as many of
 //! them as go into one window. How answers are shown is not known here.
 
-use super::model::Instruction;
+use std::collections::BTreeMap;
+
 use super::state::{Order, State};
 use crate::reference::Reference;
 use crate::service::{window_max, windows};
@@ -14,9 +15,17 @@ impl State {
             return Vec::new();
         }
         let rows = self.model.rows.get(self.visible()).unwrap_or(&[]);
-        let mut visible: Vec<_> = rows.iter().filter_map(|row| asked(row.instruction()?)).collect();
-        visible.sort_by_key(|&(offset, _)| offset);
-        visible
+        let mut asked = BTreeMap::new();
+        for instruction in rows.iter().filter_map(|row| row.instruction()) {
+            if let Some(offset) = instruction.offset {
+                asked.entry(offset).or_insert(Reference::NONE);
+            }
+            for &(offset, index) in &instruction.taken {
+                let watched = instruction.operands.get(index);
+                asked.extend(watched.map(|watched| (offset, watched.operand.reference)));
+            }
+        }
+        asked.into_iter().collect()
     }
 
     /// A single scan, with as many of the visible instructions as go into one window: a scan cannot
@@ -61,11 +70,4 @@ impl State {
         self.executed.clear();
         self.scanned = None;
     }
-}
-
-/// What is asked about an instruction: its offset in the image and its result.
-fn asked(instruction: &Instruction) -> Option<(u16, Reference)> {
-    let watched = instruction.operands.get(instruction.result);
-    let result = watched.map_or(Reference::NONE, |watched| watched.operand.reference);
-    Some((instruction.offset?, result))
 }

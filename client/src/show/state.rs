@@ -291,9 +291,9 @@ impl State {
         Wishes { status, watch }
     }
 
-    /// The power flow after the instruction of a row.
+    /// The power flow after the instruction of a row, or what has become of its statement.
     pub fn flow(&self, instruction: &Instruction) -> Option<Flow> {
-        Some(Flow::of(self.executed.get(&instruction.offset?)?))
+        Some(instruction.flow(self.executed.get(&instruction.offset?)?))
     }
 
     /// The value of an operand of an instruction: right after it where that is known, otherwise at
@@ -301,9 +301,9 @@ impl State {
     pub fn value(&self, instruction: &Instruction, index: usize) -> Option<u32> {
         let watched = instruction.operands.get(index)?;
         let at_once = || {
-            let executed =
-                self.executed.get(&instruction.offset?).filter(|executed| executed.is_executed)?;
-            (index == instruction.result).then_some(executed.value)
+            let (offset, _) = instruction.taken.iter().find(|(_, taken)| *taken == index)?;
+            let executed = self.executed.get(offset)?;
+            executed.is_executed.then_some(executed.value)
         };
         let at_end = || self.values.get(&watched.operand.reference).copied();
         // Inputs are read in STOP, too: what they are now is not what the scan saw.

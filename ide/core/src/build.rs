@@ -55,9 +55,11 @@ pub fn program(editor: &Editor) -> Result<Program, String> {
     let tables = editor.tables(&names).into_iter().map(symbols_of);
     let symbols: Result<Vec<_>, ProgramError> = tables.collect();
     let symbols = symbols.map_err(|error| error.to_string())?.into_iter().flatten().collect();
-    let sources = names.iter().filter_map(|name| editor.source(name).cloned()).collect();
-    let joined = join(sources).map_err(|_| errors(editor, &names))?;
-    Program::assembled(joined.awl, symbols).map_err(|_| errors(editor, &names))
+    let sources: Vec<_> = names.iter().filter_map(|name| editor.source(name).cloned()).collect();
+    let joined = join(sources.clone()).map_err(|_| errors(editor, &names))?;
+    let texts = if joined.is_generated { sources } else { Vec::new() };
+    let program = Program::assembled(joined.awl, symbols).map_err(|_| errors(editor, &names))?;
+    Ok(program.made_of(texts))
 }
 
 /// The program as a board takes it: what the board has no room or no hardware for is an error.
@@ -117,8 +119,14 @@ pub fn summary(program: &Program) -> Summary {
         })
         .collect();
     operands.sort();
+    let of_awl = program.source.files().map(|(name, _)| name.to_owned());
+    let files = match program.texts.as_slice() {
+        [] => of_awl.collect(),
+        texts => texts.iter().map(|text| text.name.clone()).collect(),
+    };
     Summary {
         file: program.source.name.clone(),
+        files,
         instructions: assembly.code.len() as u32,
         bytes: program.image.len() as u32,
         bytes_max: u32::from(UNO.slot_len),

@@ -45,8 +45,9 @@ impl Shown {
 
     /// The power flow in it, as far as the PLC has told what it depends on.
     pub fn power(&self, state: &State) -> Vec<page::Power> {
+        let first = state.model.rows_of(&self.file).map_or(usize::MAX, |rows| rows.start);
         let power = |(rung, picture): (&Rung, &Result<Picture, _>)| match picture {
-            Ok(picture) => Live { state, rung, picture }.power(),
+            Ok(picture) => Live { state, first, rung, picture }.power(),
             Err(_) => page::Power { nets: Vec::new(), elements: Vec::new() },
         };
         self.drawing.rungs().map(power).collect()
@@ -148,6 +149,8 @@ fn is_switch(element: &Element) -> bool {
 /// A rung and what is known of it.
 struct Live<'s> {
     state: &'s State,
+    /// The row of the first line of its file.
+    first: usize,
     rung: &'s Rung,
     picture: &'s Picture,
 }
@@ -180,7 +183,7 @@ impl Live<'_> {
     }
 
     fn instruction(&self, line: usize) -> Option<&Instruction> {
-        self.state.model.rows.get(line.checked_sub(1)?)?.instruction()
+        self.state.model.rows.get(self.first.checked_add(line.checked_sub(1)?)?)?.instruction()
     }
 
     /// The power flow after a line, where it was executed.

@@ -24,6 +24,17 @@ struct Watched {
     operand: Result<Operand, OperandError>,
 }
 
+/// Lines of a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Lines {
+    /// The file.
+    pub file: String,
+    /// The first one, from 1.
+    pub from: u32,
+    /// The last one.
+    pub to: u32,
+}
+
 /// Whose request is on its way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Asking {
@@ -44,8 +55,8 @@ pub struct Plc {
     sampler: Sampler,
     asking: Option<Asking>,
     next_round_ms: u64,
-    /// First and last line that can be seen, from 1.
-    view: Option<(u32, u32)>,
+    /// The lines that can be seen; `None`: none.
+    view: Option<Lines>,
 }
 
 impl Plc {
@@ -108,17 +119,26 @@ impl Plc {
         self.sampler.take()
     }
 
-    /// Which lines can be seen; none are `(0, 0)`.
-    pub fn view(&mut self, from: u32, to: u32) {
-        self.view = (from > 0).then_some((from, to));
+    /// Which lines can be seen.
+    pub fn view(&mut self, lines: Option<Lines>) {
+        self.view = lines;
         self.look();
         self.hurry();
     }
 
     fn look(&mut self) {
-        let Some((from, to)) = self.view else { return };
-        self.state.resize((to.saturating_sub(from) + 1) as usize);
-        self.state.go_to(from as usize - 1);
+        let Some((first, len)) = self.visible() else { return };
+        self.state.resize(len.max(1));
+        self.state.go_to(first);
+    }
+
+    /// The first row of the program that can be seen, and how many; `None` where there are none.
+    fn visible(&self) -> Option<(usize, usize)> {
+        let Lines { file, from, to } = self.view.as_ref()?;
+        let rows = self.state.model.rows_of(file)?;
+        let first = rows.start + (*from as usize).checked_sub(1)?;
+        let end = (rows.start + *to as usize).min(rows.end);
+        (first < end).then_some((first, end - first))
     }
 
     /// Has something done.
@@ -209,7 +229,7 @@ impl Plc {
     }
 
     fn begin(&mut self, now_ms: u64) {
-        let mut wishes = match self.view {
+        let mut wishes = match self.visible() {
             Some(_) => self.state.wishes(),
             None => Default::default(),
         };
@@ -236,11 +256,10 @@ impl Plc {
     /// Live values beside the lines that can be seen.
     pub fn live(&self) -> Event {
         let mut lines = Vec::new();
-        if self.view.is_some() && self.state.link == Link::Up {
-            let first = self.state.visible().start;
-            for (number, row) in
-                (first as u32 + 1..).zip(&self.state.model.rows[self.state.visible()])
-            {
+        if let Some((first, len)) = self.visible().filter(|_| self.state.link == Link::Up) {
+            let rows = self.state.model.rows.iter().skip(first).take(len);
+            for row in rows {
+                let number = row.number as u32;
                 let Some(instruction) = row.instruction() else { continue };
                 let flow = self.state.flow(instruction).map(|flow| match flow {
                     Flow::On => "on",
@@ -256,7 +275,8 @@ impl Plc {
                 lines.push(Live { line: number, flow: flow.map(str::to_owned), values });
             }
         }
-        Event::Live { lines }
+        let file = self.view.as_ref().map_or(String::new(), |lines| lines.file.clone());
+        Event::Live { file, lines }
     }
 
     /// The watch table.

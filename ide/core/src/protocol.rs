@@ -141,9 +141,9 @@ pub enum TargetWish {
 pub enum LookWish {
     /// What the watch table shows.
     Watch { operands: Vec<String> },
-    /// Which lines of the program can be seen, from 1; live values come for these alone. Both 0:
-    /// none.
-    View { from: u32, to: u32 },
+    /// Which lines of a file of the program can be seen, from 1; live values come for these alone.
+    /// Both 0: none.
+    View { file: String, from: u32, to: u32 },
     /// What the oscilloscope shows, and how often a sample is taken; 0: after each scan, or as
     /// often as the line can.
     Scope { signals: Vec<String>, every_ms: u32 },
@@ -193,8 +193,8 @@ pub enum Event {
     Program { program: Option<Summary> },
     /// How the target is.
     Status { status: Status },
-    /// Live values beside the lines that can be seen.
-    Live { lines: Vec<Line> },
+    /// Live values beside the lines of a file that can be seen.
+    Live { file: String, lines: Vec<Line> },
     /// Power flow in the ladder with this number, the one that was asked for last, rung by rung.
     Power { id: u32, rungs: Vec<ladder::Power> },
     /// The watch table, in its order.
@@ -216,10 +216,10 @@ pub enum Event {
     PowerOn { flash: Vec<u8> },
     /// The virtual Uno is unplugged.
     PowerOff,
-    /// The port to a target of this kind is to be opened, 8 bits and one stop bit; one that was opened
-    /// before, again. Opening it may reset a board, so people are asked before the first time.
-    /// Answer: [`TargetWish::Plugged`] or [`TargetWish::Unplugged`]. `parity`: `none`, `even`,
-    /// `odd`.
+    /// The port to a target of this kind is to be opened, 8 bits and one stop bit; one that was
+    /// opened before, again. Opening it may reset a board, so people are asked before the first
+    /// time. Answer: [`TargetWish::Plugged`] or [`TargetWish::Unplugged`]. `parity`: `none`,
+    /// `even`, `odd`.
     OpenPort { kind: TargetKind, baud: u32, parity: String },
     /// The port is to be closed.
     ClosePort,
@@ -335,6 +335,8 @@ pub struct Item {
 pub struct Summary {
     /// The main file.
     pub file: String,
+    /// All of its files.
+    pub files: Vec<String>,
     /// Instructions.
     pub instructions: u32,
     /// Bytes of the image.
@@ -397,7 +399,8 @@ pub struct Loading {
 pub struct Line {
     /// From 1.
     pub line: u32,
-    /// Power flow after it: `on`, `off`, `skipped`; none where it is not known.
+    /// Power flow after it: `on`, `off`, `skipped`; none where it is not known. Of a statement
+    /// whether it was executed, of a condition whether it was true.
     pub flow: Option<String>,
     /// The values of its operands.
     pub values: Vec<Value>,

@@ -5,7 +5,6 @@ mod plants;
 mod reach;
 mod status;
 
-use analysis::Language;
 use awl_sim::operand::Operand;
 use awl_sim::plant::file;
 use client::line::Framing;
@@ -18,7 +17,7 @@ use crate::build;
 use crate::editor::Editor;
 use crate::ladder::Shown;
 use crate::outside::{Outside, Then};
-use crate::plc::Plc;
+use crate::plc::{Lines, Plc};
 use crate::protocol::{
     ApartWish, Event, LookWish, ProjectWish, Request, TargetKind, TargetWish, TextWish, Wish,
 };
@@ -53,7 +52,7 @@ pub struct Session {
     scope: Scope,
     scope_names: (Vec<String>, u32),
     watched: Vec<String>,
-    view: (u32, u32),
+    view: Option<Lines>,
     /// The ladder that the page shows, until a text changes.
     ladder: Option<Shown>,
     /// How many were shown.
@@ -208,7 +207,6 @@ impl Session {
         if let Some(plc) = &self.plc {
             events.extend([plc.live(), plc.watched(), plc.forced()]);
             let shown = self.ladder.as_ref();
-            let shown = shown.filter(|shown| self.editor.main() == Some(&shown.file));
             let is_up = plc.state.link == Link::Up && self.has_program();
             events.extend(
                 shown
@@ -362,11 +360,10 @@ impl Session {
                     plc.watch(&self.watched);
                 }
             }
-            LookWish::View { from, to } => {
-                self.view = (from, to);
-                let (from, to) = self.lines();
+            LookWish::View { file, from, to } => {
+                self.view = (from > 0).then_some(Lines { file, from, to });
                 if let Some(plc) = &mut self.plc {
-                    plc.view(from, to);
+                    plc.view(self.view.clone());
                 }
             }
             LookWish::Scope { signals, every_ms } => {
@@ -375,15 +372,6 @@ impl Session {
             }
         }
         Ok(())
-    }
-
-    /// The lines that can be seen and that are those of the program; `(0, 0)` where there are
-    /// none. What became AWL of other texts has no lines that its author sees.
-    fn lines(&self) -> (u32, u32) {
-        let main = self.editor.main().unwrap_or_default();
-        let has_lines =
-            Language::of_name(main) == Some(Language::Awl) && self.editor.files_of(main).len() == 1;
-        if has_lines { self.view } else { (0, 0) }
     }
 
     fn connected(&mut self) -> Result<&mut Plc, String> {
@@ -449,8 +437,7 @@ impl Session {
     /// A PLC is at the other end of the line: it is asked from now on for what is to be seen.
     fn attach(&mut self, mut plc: Plc) {
         plc.watch(&self.watched);
-        let (from, to) = self.lines();
-        plc.view(from, to);
+        plc.view(self.view.clone());
         self.plc = Some(plc);
         self.scope.restart();
         // Signals of the last program may not be in this one.

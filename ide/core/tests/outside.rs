@@ -126,7 +126,7 @@ impl Page {
 fn run_brings_firmware_and_program_to_the_chip_and_the_plant_runs_with_it() {
     let mut page = Page::with("station1.awl", STATION);
     page.target(TargetWish::Plant { spec: Some(PLANT.to_owned()) });
-    page.wish(Wish::Look(LookWish::View { from: 1, to: 60 }));
+    page.wish(Wish::Look(LookWish::View { file: "station1.awl".to_owned(), from: 1, to: 60 }));
     page.target(TargetWish::Run);
     page.pass(40_000);
     let status = page.status();
@@ -141,7 +141,7 @@ fn run_brings_firmware_and_program_to_the_chip_and_the_plant_runs_with_it() {
     let value = |name: &str| state.iter().find(|(key, _)| key == name).unwrap().1;
     assert_eq!((value("good"), value("rejected")), (2.0, 1.0));
     let flows = page.last(|event| match event {
-        Event::Live { lines } => Some(lines.iter().filter(|line| line.flow.is_some()).count()),
+        Event::Live { lines, .. } => Some(lines.iter().filter(|line| line.flow.is_some()).count()),
         _ => None,
     });
     assert!(flows.unwrap() > 10);

@@ -2,10 +2,12 @@
 
 mod recorded;
 
+use std::collections::BTreeMap;
+
 use ide_core::protocol::ladder::Ladder;
 use ide_core::protocol::{
-    ApartWish, Event, File, LookWish, Problem, ProjectWish, Recording, Request, Status, TargetWish,
-    TestResult, TextWish, Value, Wish,
+    ApartWish, Event, File, Line, LookWish, Problem, ProjectWish, Recording, Request, Status,
+    TargetWish, TestResult, TextWish, Value, Wish,
 };
 use recorded::Recorded;
 
@@ -85,6 +87,17 @@ impl Page {
         self.last(status).unwrap()
     }
 
+    /// The lines with live values.
+    fn live(&self) -> BTreeMap<u32, Line> {
+        let lines = |event: &Event| match event {
+            Event::Live { lines, .. } => {
+                Some(lines.iter().map(|line| (line.line, line.clone())).collect())
+            }
+            _ => None,
+        };
+        self.last(lines).unwrap()
+    }
+
     fn watched(&self) -> Vec<Value> {
         let values = |event: &Event| match event {
             Event::Watched { values } => Some(values.clone()),
@@ -102,6 +115,10 @@ impl Page {
     }
 }
 
+fn view(file: &str, from: u32, to: u32) -> Wish {
+    Wish::Look(LookWish::View { file: file.to_owned(), from, to })
+}
+
 fn look(operands: &[&str]) -> Wish {
     let operands = operands.iter().map(|name| (*name).to_owned()).collect();
     Wish::Look(LookWish::Watch { operands })
@@ -113,7 +130,7 @@ fn the_station_sorts_six_pieces_while_it_is_looked_at() {
     assert_eq!(page.problems(), []);
     page.target(TargetWish::Plant { spec: Some(PLANT.to_owned()) });
     page.wish(look(&["Push", "Height"]));
-    page.wish(Wish::Look(LookWish::View { from: 1, to: 60 }));
+    page.wish(view("station1.awl", 1, 60));
     page.target(TargetWish::Run);
     page.target(TargetWish::Speed { factor: 10.0 });
     page.pass(6_400);
@@ -129,7 +146,7 @@ fn the_station_sorts_six_pieces_while_it_is_looked_at() {
     assert_eq!((value("good"), value("rejected"), value("collisions")), (3.0, 3.0, 0.0));
     let flows: Vec<String> = page
         .last(|event| match event {
-            Event::Live { lines } => {
+            Event::Live { lines, .. } => {
                 Some(lines.iter().filter_map(|line| line.flow.clone()).collect())
             }
             _ => None,
@@ -279,7 +296,7 @@ fn what_is_not_right_is_answered() {
 fn an_edit_that_changes_nothing_keeps_the_values_and_another_program_ends_them() {
     let mut page = Page::with("lamp.awl", "LD I0.0\n= Q0.1\n");
     page.target(TargetWish::Run);
-    page.wish(Wish::Look(LookWish::View { from: 1, to: 3 }));
+    page.wish(view("lamp.awl", 1, 3));
     page.pass(300);
     let mut edit = |text: &str| {
         let file = "lamp.awl".to_owned();
@@ -311,7 +328,7 @@ fn the_network_at_the_cursor_is_a_ladder_with_power_flow() {
     );
     assert!(rung.elements.iter().all(|one| (shown.lines.0..=shown.lines.1).contains(&one.line)));
     page.target(TargetWish::Plant { spec: Some(PLANT.to_owned()) });
-    page.wish(Wish::Look(LookWish::View { from: shown.lines.0, to: shown.lines.1 }));
+    page.wish(view("station1.awl", shown.lines.0, shown.lines.1));
     page.target(TargetWish::Run);
     // What was told at any time, contact by contact.
     let mut seen = vec![Vec::new(); rung.elements.len()];
@@ -344,7 +361,7 @@ fn power_flow_in_a_ladder_is_that_of_the_program() {
     let wish = TextWish::Ladder { file: "lamp.awl".to_owned(), at: 0 };
     let ladder: Option<Ladder> = page.answer(Wish::Text(wish));
     assert_eq!(ladder.unwrap().rungs[0].elements.len(), 5);
-    page.wish(Wish::Look(LookWish::View { from: 1, to: 6 }));
+    page.wish(view("lamp.awl", 1, 6));
     page.target(TargetWish::Run);
     let elements = |page: &Page| -> Vec<Option<bool>> {
         let power = page.last(|event| match event {
@@ -390,18 +407,32 @@ fn structured_text_of_two_files() {
     assert_eq!(edits.len(), 0, "it has its layout");
     let code: String = page.answer(Wish::Text(TextWish::Explain { code: "E0205".to_owned() }));
     assert!(code.starts_with("# E0205"));
-    // Both files run; the lines of AWL that they became are shown beside no other text.
+    // Both files run, and each has its values: those of a function right after its statements.
     page.wish(look(&["Main.n"]));
-    page.wish(Wish::Look(LookWish::View { from: 1, to: 7 }));
+    page.wish(view("main.st", 1, 7));
     page.target(TargetWish::Run);
     page.pass(300);
     assert_eq!(page.status().mode, "RUN");
     assert!(page.watched()[0].number.is_some_and(|n| n > 100.0), "{:?}", page.watched());
-    let lines = |event: &Event| match event {
-        Event::Live { lines } => Some(lines.len()),
-        _ => None,
+    let live = page.live();
+    assert_eq!(live.keys().copied().collect::<Vec<_>>(), [5]);
+    let number = |line: &Line, name: &str| {
+        let value = line.values.iter().find(|value| value.name == name);
+        value.unwrap_or_else(|| panic!("{name} in {line:?}")).number.unwrap()
     };
-    assert_eq!(page.last(lines).unwrap_or(0), 0);
+    assert!(number(&live[&5], "Main.n") > 100.0, "{live:?}");
+    page.wish(view("blocks.st", 1, 6));
+    page.pass(300);
+    let line = &page.live()[&5];
+    assert_eq!(line.flow.as_deref(), Some("on"));
+    assert_eq!(
+        line.values.iter().map(|one| one.name.as_str()).collect::<Vec<_>>(),
+        ["#Next", "#x"]
+    );
+    assert_eq!(number(line, "#Next"), number(line, "#x") + 1.0);
+    page.wish(view("main.scn", 1, 6));
+    page.pass(300);
+    assert!(page.live().is_empty(), "it is no part of the program");
     let result: TestResult =
         page.answer(Wish::Apart(ApartWish::Test { file: "main.scn".to_owned() }));
     assert_eq!(result.failures.len(), 1, "{result:?}");
@@ -410,4 +441,47 @@ fn structured_text_of_two_files() {
     page.wish(Wish::Project(ProjectWish::Edit { file: "blocks.st".to_owned(), text }));
     assert_eq!(page.problems()[0].file, "blocks.st");
     assert_eq!(page.refusal(Wish::Target(TargetWish::Download)), "main.st has an error");
+}
+
+#[test]
+fn beside_a_statement_stands_what_has_become_of_it() {
+    let text = "PROGRAM Main\nVAR\n    Lamp AT %Q0.0 : BOOL;\n    n : INT;\nEND_VAR\n\
+        IF %I0.0 THEN\n    Lamp := TRUE;\nELSIF %I0.1 THEN\n    Lamp := FALSE;\nELSE\n    \
+        n := 7;\nEND_IF\nWHILE n > 3\n  AND %I0.2 DO\n    n := n - 1;\nEND_WHILE\nCASE n OF\n  \
+        7: n := 8;\n  3: n := 9;\n  9: n := 7;\nEND_CASE\nEND_PROGRAM\n";
+    let mut page = Page::with("lamp.st", text);
+    assert_eq!(page.problems(), []);
+    page.wish(view("lamp.st", 1, 40));
+    page.target(TargetWish::Run);
+    page.pass(300);
+    let flow = |page: &Page, line: u32| page.live().get(&line).and_then(|one| one.flow.clone());
+    let flows = |page: &Page, lines: &[u32]| -> Vec<String> {
+        lines.iter().map(|&line| flow(page, line).unwrap_or_default()).collect()
+    };
+    let branches = [6, 7, 8, 9, 11];
+    assert_eq!(flows(&page, &branches), ["off", "skipped", "off", "skipped", "on"]);
+    assert_eq!(flows(&page, &[13, 14, 15]), ["off", "off", "skipped"], "a condition of two lines");
+    assert_eq!(flows(&page, &[17, 18, 19, 20]), ["on", "on", "skipped", "skipped"]);
+    let names = |page: &Page, line: u32| -> Vec<String> {
+        page.live()[&line].values.iter().map(|value| value.name.clone()).collect()
+    };
+    assert_eq!(
+        (names(&page, 7), names(&page, 13)),
+        (vec!["Main.Lamp".into()], vec!["Main.n".into()])
+    );
+    assert_eq!(names(&page, 14), ["I0.2"]);
+    let drive = |page: &mut Page, operand: &str| {
+        page.target(TargetWish::Drive { operand: operand.to_owned(), value: 1 });
+        page.pass(300);
+    };
+    drive(&mut page, "I0.1");
+    assert_eq!(flows(&page, &branches), ["off", "skipped", "on", "on", "skipped"]);
+    drive(&mut page, "I0.0");
+    assert_eq!(flows(&page, &branches), ["on", "on", "off", "skipped", "skipped"]);
+    let lamp = page.live()[&7].values[0].clone();
+    assert_eq!((lamp.number, lamp.can_force), (Some(1.0), true));
+    // Other lines than those of the program have none.
+    page.wish(view("lamp.st", 9, 10));
+    page.pass(300);
+    assert_eq!(page.live().keys().copied().collect::<Vec<_>>(), [9]);
 }

@@ -18,22 +18,24 @@ const POLICY =
 const EXAMPLES = at("../../../examples/");
 const PLANTS = { station1: "station1", tank: "tank" };
 
-/** The examples in Structured Text have a mark at their names. */
-const ST = /-st$/;
+/** The examples in other languages than AWL have a mark at their names. */
+const MARK = /-(st|sfc|fbt)$/;
 
 async function example(name) {
-  const stem = name.replace(ST, "");
-  const ending = ST.test(name) ? "st" : "awl";
-  const program = ST.test(name) ? `st/${stem}.st` : `${stem}.awl`;
+  const stem = name.replace(MARK, "");
+  const ending = MARK.exec(name)?.[1] ?? "awl";
+  const folder = ending === "awl" ? "" : `${ending}/`;
   const described = `${stem}.plant`;
-  const all = await readdir(EXAMPLES);
-  const beside = all.filter((file) => file === `${stem}.scn` || file === described);
+  const isIts = (file) => file === `${stem}.scn` || file === described;
+  const own = (await readdir(EXAMPLES + folder)).filter(isIts).map((file) => folder + file);
+  const beside = own.length > 0 ? own : (await readdir(EXAMPLES)).filter(isIts);
   const read = async (path) => ({
     name: path.split("/").pop(),
     text: await readFile(EXAMPLES + path, "utf8"),
   });
-  const files = await Promise.all([program, ...beside].map(read));
-  const plant = PLANTS[stem] ?? (all.includes(described) ? described : null);
+  const files = await Promise.all([`${folder}${stem}.${ending}`, ...beside].map(read));
+  const isSame = folder === "" || own.length === 0;
+  const plant = (isSame && PLANTS[stem]) || (beside.includes(described) ? described : null);
   return JSON.stringify({
     files,
     main: `${stem}.${ending}`,
@@ -47,7 +49,8 @@ async function exampleNames() {
     (await readdir(EXAMPLES + folder))
       .filter((file) => file.endsWith(ending))
       .map((file) => file.replace(ending, mark));
-  return JSON.stringify([...(await named("", ".awl", "")), ...(await named("st", ".st", "-st"))]);
+  const others = ["st", "sfc", "fbt"].map((one) => named(one, `.${one}`, `-${one}`));
+  return JSON.stringify([...(await named("", ".awl", "")), ...(await Promise.all(others)).flat()]);
 }
 
 async function answer(path) {

@@ -50,6 +50,26 @@ await tab("Watch");
 await page.getByLabel("Operand or symbol").fill("Ready");
 await page.keyboard.press("Enter");
 await panel("Watch").getByRole("cell", { name: "0", exact: true }).first().waitFor();
+await page.getByLabel("New value of Ready").fill("1");
+await page.getByRole("button", { name: "Force Ready" }).click();
+await panel("Watch").getByRole("cell", { name: "1", exact: true }).first().waitFor();
+await page.getByRole("button", { name: "Release all" }).click();
+await panel("Watch").getByRole("cell", { name: "0", exact: true }).first().waitFor();
+
+// Four signals are plotted, one below the other.
+const SIGNALS = ["Push", "Height", "Raise", "Lower"];
+await tab("Oscilloscope");
+for (const signal of SIGNALS) {
+  await panel("Oscilloscope").getByLabel("Signal", { exact: true }).fill(signal);
+  await page.keyboard.press("Enter");
+}
+for (const signal of SIGNALS)
+  await panel("Oscilloscope").locator(".uplot").filter({ hasText: signal }).first().waitFor();
+assert.equal(await panel("Oscilloscope").locator(".uplot").count(), SIGNALS.length);
+for (const signal of SIGNALS)
+  await panel("Oscilloscope")
+    .getByRole("button", { name: `Take ${signal} out`, exact: true })
+    .click();
 
 // The network with the cursor as a ladder: contacts are open or closed, a click leads to the line.
 await page
@@ -73,7 +93,7 @@ await page.keyboard.press("Escape");
 
 // The same figures as awl-sim.
 await tab("Capture");
-for (const signal of ["Push", "Height"]) {
+for (const signal of SIGNALS) {
   await panel("Capture").getByLabel("Signal", { exact: true }).fill(signal);
   await page.keyboard.press("Enter");
 }

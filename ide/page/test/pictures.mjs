@@ -77,6 +77,14 @@ async function look(page, name) {
     breaches.push(...nodes.map(({ html }) => `${name}: ${id}: ${html.slice(0, 120)}`));
 }
 
+/** Opens an example and runs it. */
+async function run(page, example) {
+  await page.goto("about:blank");
+  await page.goto(`${address.replace(/\?.*/, "")}#example=${example}`);
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  await page.getByRole("status").first().filter({ hasText: "RUN" }).waitFor();
+}
+
 for (const colorScheme of ["light", "dark"])
   for (const [width, height] of Object.entries(WIDTHS)) {
     const viewport = { width: Number(width), height };
@@ -84,9 +92,7 @@ for (const colorScheme of ["light", "dark"])
     const page = await context.newPage();
     page.setDefaultTimeout(60_000);
     page.on("pageerror", (error) => errors.push(error.message));
-    await page.goto(`${address.replace(/\?.*/, "")}#example=station1`);
-    await page.getByRole("button", { name: "Run", exact: true }).click();
-    await page.getByRole("status").first().filter({ hasText: "RUN" }).waitFor();
+    await run(page, "station1");
     await page.waitForTimeout(4000);
     for (const [panel, prepare] of Object.entries(PANELS)) {
       await page.getByRole("tab", { name: panel, exact: true }).click();
@@ -95,6 +101,11 @@ for (const colorScheme of ["light", "dark"])
     }
     await page.getByRole("button", { name: "Help" }).click();
     await look(page, `help-${colorScheme}-${width}`);
+    await run(page, "station1-st");
+    await page.getByRole("textbox", { name: "station1.st" }).focus();
+    for (let line = 1; line < 70; line += 1) await page.keyboard.press("ArrowDown");
+    await page.waitForTimeout(4000);
+    await look(page, `structured-${colorScheme}-${width}`);
     // Nothing is wider than the window.
     const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert(wide <= 0, `${wide} pixels too wide at ${width}`);

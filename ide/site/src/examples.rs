@@ -19,7 +19,13 @@ pub fn plant_of(name: &str) -> Option<&'static str> {
 
 /// Each project as JSON with its name, and `list` with the names.
 pub fn projects() -> Vec<(String, String)> {
-    let mut projects = [of_language("", "awl", ""), of_language("st/", "st", "-st")].concat();
+    let mut projects = [
+        of_language("", "awl", ""),
+        of_language("st/", "st", "-st"),
+        of_language("sfc/", "sfc", "-sfc"),
+        of_language("fbt/", "fbt", "-fbt"),
+    ]
+    .concat();
     projects.sort();
     let names: Vec<&str> = projects.iter().map(|(name, _)| name.as_str()).collect();
     let list = ("list".to_owned(), json!(names).to_string());
@@ -50,8 +56,9 @@ fn project(folder: &str, stem: &str, ending: &str) -> String {
         EXAMPLES.iter().filter(|(path, _)| is_its(path)).collect::<Vec<_>>()
     };
     let mut own = beside(folder);
-    // What an example does in AWL it does in another language, too.
-    if own.len() == 1 && !folder.is_empty() {
+    // What an example does in AWL it does in another language, too, unless it has a scenario.
+    let is_same = own.len() == 1 || folder.is_empty();
+    if is_same && !folder.is_empty() {
         own.extend(beside("").into_iter().filter(|(path, _)| !path.ends_with(".awl")));
     }
     // The shorter ones first: the program and the scenario that is called like it.
@@ -64,6 +71,7 @@ fn project(folder: &str, stem: &str, ending: &str) -> String {
     let files: Vec<_> = own.iter().map(file).collect();
     let described = format!("{stem}.plant");
     let has_plant = own.iter().any(|(path, _)| name(path) == described);
-    let plant = plant_of(stem).or_else(|| has_plant.then_some(described.as_str()));
+    let known = plant_of(stem).filter(|_| is_same);
+    let plant = known.or_else(|| has_plant.then_some(described.as_str()));
     json!({ "files": files, "main": format!("{stem}.{ending}"), "plant": plant }).to_string()
 }

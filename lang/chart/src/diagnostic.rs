@@ -15,6 +15,8 @@ diagnostics::codes! {
     Unit = "E0307";
     Pragma = "E0308";
     NotInAction = "E0309";
+    Hierarchy = "E0310";
+    Contradiction = "E0311";
     BrokenXml = "E0340";
     XmlStructure = "E0341";
     NotInStyle = "E0342";

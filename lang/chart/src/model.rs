@@ -286,6 +286,12 @@ impl Qualifier {
         matches!(self, P | P0 | P1)
     }
 
+    /// Whether the action is active with the step alone.
+    pub fn is_continuous(self) -> bool {
+        use Qualifier::*;
+        matches!(self, N | L | D)
+    }
+
     /// Whether the action goes on when the step is no longer active.
     pub fn is_stored(self) -> bool {
         use Qualifier::*;

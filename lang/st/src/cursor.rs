@@ -4,8 +4,8 @@
 use diagnostics::Span;
 
 use crate::diagnostic::Diagnostic;
+use crate::keywords::is_keyword;
 use crate::lexer::{Kind, Token, cut};
-use crate::parser::is_keyword;
 
 /// What can be written at a place.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -4,6 +4,9 @@
 use diagnostics::Span;
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::durations::duration;
+use crate::habits;
+use crate::keywords::is_keyword;
 
 /// What a token is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,6 +25,10 @@ pub enum Kind {
     Address,
     /// An operator or separator.
     Sign(&'static str),
+    /// A word of another language that is taken for this keyword; it is reported already.
+    Keyword(&'static str),
+    /// Something that is reported already.
+    Unknown,
     /// The pragma that the statement after it belongs to the start of the scan (standard blocks).
     EveryScan,
     /// The end of the text.
@@ -129,13 +136,14 @@ impl<'t> Lexer<'t> {
         match first {
             '{' => self.pragma(),
             '\'' | '"' => Some(self.quoted(first)),
-            '%' => {
+            '%' if is_address(rest) => {
                 self.at += 1;
                 self.take_while(|c| c.is_ascii_alphanumeric() || c == '.');
                 Some(Kind::Address)
             }
             c if c.is_alphabetic() || c == '_' => Some(self.word()),
             c if c.is_ascii_digit() => Some(self.number()),
+            '.' if is_fraction(rest) && !self.is_after_name() => Some(self.bare_fraction()),
             _ => self.sign(first),
         }
     }
@@ -274,16 +282,79 @@ impl<'t> Lexer<'t> {
     }
 
     fn number(&mut self) -> Kind {
+        let start = self.at;
         self.take_while(|c| c.is_ascii_digit() || c == '_');
         if self.rest().starts_with('#') {
             return self.after_hash(Kind::Integer);
         }
         let is_real = self.fraction() || self.exponent();
+        let end = self.at;
+        self.take_while(|c| c.is_alphanumeric() || c == '_');
+        let letters = Span::new(end, self.at).text(self.text);
+        if !letters.is_empty() && !is_keyword(letters) {
+            return self.bad_number(start);
+        }
+        self.at = end;
+        let rest = self.rest();
+        let is_cut = rest.starts_with('.')
+            && !rest.get(1..).unwrap_or("").starts_with(|c: char| c == '.' || c.is_alphanumeric());
+        if is_cut && !is_real {
+            let digits = Span::new(start, end).text(self.text);
+            self.at += 1;
+            return self.instead(start, "a number goes on after the point", format!("{digits}.0"));
+        }
         if is_real { Kind::Real } else { Kind::Integer }
+    }
+
+    /// Digits with letters after them: `2s`, `0xFF`.
+    fn bad_number(&mut self, start: usize) -> Kind {
+        let text = Span::new(start, self.at).text(self.text);
+        let based = |prefix: [&str; 2], base: &str| {
+            let digits = prefix.iter().find_map(|prefix| text.strip_prefix(prefix))?;
+            Some(format!("{base}#{digits}"))
+        };
+        if duration(text).is_some() {
+            let meant = format!("T#{text}");
+            return self.instead(start, "a duration begins with `T#`", meant);
+        }
+        match based(["0x", "0X"], "16").or_else(|| based(["0b", "0B"], "2")) {
+            Some(meant) => self.instead(start, "the base is before `#`", meant),
+            None => {
+                let message = format!("{text}: a name begins with a letter, a number has none");
+                self.error(Span::new(start, self.at), message);
+                Kind::Unknown
+            }
+        }
+    }
+
+    /// `.5`
+    fn bare_fraction(&mut self) -> Kind {
+        let start = self.at;
+        self.fraction();
+        let meant = format!("0{}", Span::new(start, self.at).text(self.text));
+        self.instead(start, "a number begins with a digit", meant)
+    }
+
+    /// Reports what a number is written like.
+    fn instead(&mut self, start: usize, why: &str, meant: String) -> Kind {
+        let span = Span::new(start, self.at);
+        let message = format!("{}: {why}", span.text(self.text));
+        self.diagnostics.push(Diagnostic::new(Code::Syntax, span, message).suggest(meant));
+        Kind::Unknown
+    }
+
+    fn is_after_name(&self) -> bool {
+        let before = self.text.get(..self.at).unwrap_or("");
+        before.ends_with(|c: char| c.is_alphanumeric() || matches!(c, '_' | ']' | ')' | '.'))
     }
 
     fn sign(&mut self, first: char) -> Option<Kind> {
         let start = self.at;
+        if let Some((length, meant, found)) = habits::sign(self.rest(), start) {
+            self.at += length;
+            self.diagnostics.push(found);
+            return Some(meant.map_or(Kind::Unknown, Kind::Sign));
+        }
         match SIGNS.into_iter().find(|sign| self.rest().starts_with(sign)) {
             Some(sign) => {
                 self.at += sign.len();
@@ -293,8 +364,18 @@ impl<'t> Lexer<'t> {
                 self.at += first.len_utf8();
                 let message = format!("`{first}` is no sign of Structured Text");
                 self.error(Span::new(start, self.at), message);
-                None
+                Some(Kind::Unknown)
             }
         }
     }
+}
+
+/// Whether a text that begins with `%` begins with an address, or ends there.
+fn is_address(rest: &str) -> bool {
+    rest.len() == 1 || rest.get(1..).is_some_and(|rest| rest.starts_with(char::is_alphabetic))
+}
+
+/// Whether a text that begins with a point goes on with a digit.
+fn is_fraction(rest: &str) -> bool {
+    rest.get(1..).is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
 }

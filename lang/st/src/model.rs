@@ -159,6 +159,13 @@ impl fmt::Display for Type {
 }
 
 impl Type {
+    /// Its name in a sentence: `a BOOL`, `an INT`.
+    pub(crate) fn with_article(&self) -> String {
+        let name = self.to_string();
+        let article = if name.starts_with(['A', 'E', 'I', 'O']) { "an" } else { "a" };
+        format!("{article} {name}")
+    }
+
     /// The type of the values: of a part of a type's numbers that type.
     pub fn base(&self) -> &Type {
         match self {
@@ -205,6 +212,22 @@ impl Type {
     /// Whether it has neither elements nor members.
     pub fn is_elementary(&self) -> bool {
         !matches!(self, Type::Array(_) | Type::Struct(_) | Type::Block(..))
+    }
+
+    /// The unit of the instance that it is, or of those in an array.
+    pub(crate) fn block(&self) -> Option<usize> {
+        match self {
+            Type::Block(number, _) => Some(*number),
+            _ => self.block_of_array(),
+        }
+    }
+
+    /// The unit of the instances in an array.
+    pub(crate) fn block_of_array(&self) -> Option<usize> {
+        match self {
+            Type::Array(array) => array.of.block(),
+            _ => None,
+        }
     }
 
     /// Whether every value of `self` is one of `wider`, or is taken for it.

@@ -55,6 +55,7 @@ fn programs_do_what_their_scenarios_expect() {
         ("../../examples/st", "../../examples"),
         ("../../examples/st/tutorial", "../../examples/tutorial"),
         ("../../examples/sfc", "../../examples"),
+        ("../../examples/grafcet", "../../examples"),
         ("tests/cases", "tests/cases"),
     ] {
         for program in programs(&here.join(folder)) {

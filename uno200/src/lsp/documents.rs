@@ -148,9 +148,7 @@ impl Documents {
         let is_wanted = match Language::of_name(&name) {
             None => false,
             Some(Language::Symbols) => self.project.is_table(&name),
-            Some(
-                Language::Awl | Language::StructuredText | Language::Scenario | Language::Plant,
-            ) => true,
+            Some(_) => true,
         };
         let is_file =
             fs::metadata(path).is_ok_and(|about| about.is_file() && about.len() <= FILE_LEN_MAX);

@@ -54,8 +54,11 @@ pub fn check() -> Result<()> {
     figures()?;
     let mut server = Serving::page(&folder, &[])?;
     let address = server.line()?;
+    run(node("test/first_steps.mjs").arg(&address))?;
     run(node("test/page.mjs").arg(&address).arg(root().join(FIGURES)))?;
     run(node("test/plants.mjs").arg(&address))?;
+    run(node("test/languages.mjs").arg(&address))?;
+    run(node("test/touch.mjs").arg(&address))?;
     run(node("test/budgets.mjs").arg(&address).arg(&folder))?;
     run(node("test/reload.mjs").arg(&address))?;
     run(node("test/errors.mjs").arg(root().join(UNO200)).arg(&folder))?;
@@ -130,7 +133,7 @@ fn figures() -> Result<()> {
             "--scan-time",
             "1ms",
             "--trace",
-            "Push,Height",
+            "Push,Height,Raise,Lower",
             "-o",
             FIGURES,
         ]))

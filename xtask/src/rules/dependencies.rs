@@ -16,7 +16,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("chart", &["diagnostics", "awl-asm", "st"]),
     ("fb", &["diagnostics", "awl-asm", "st"]),
     ("project", &["diagnostics", "awl-asm", "st", "chart", "fb"]),
-    ("analysis", &["plc-isa", "diagnostics", "awl-asm", "st", "project", "awl-sim"]),
+    ("analysis", &["plc-isa", "diagnostics", "awl-asm", "st", "chart", "fb", "project", "awl-sim"]),
     ("simavr", &[]),
     ("awl-sim", &["plc-isa", "plc-vm", "plc-link", "diagnostics", "awl-asm", "project", "simavr"]),
     ("virtual-uno", &["simavr"]),

@@ -1,10 +1,11 @@
-//! Words and double words that share some of their bytes: VW0 and VW1. That a value has parts with
+//! Words and double words that share some of their bytes: VW0 and VW1; bits that are written inside
+//! of a number that is counted: M0.0 and MW0. That a value has parts with
 //! names of their own, VD0 and VW2, is common and no mistake.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 
-use plc_isa::Area;
+use plc_isa::{Area, Op};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::meaning::check::usage::{Access, Usage};
@@ -39,6 +40,7 @@ pub fn overlap(
             areas.entry(area).or_default().push(Named { address, bytes, access });
         }
     }
+    counted_bits(program, code, usage, diagnostics);
     let span = |of: &Named| operand_span(program, &code[of.access.instruction], of.access.operand);
     let name = |of: &Named| told(program, span(of), of.address);
     for named in areas.values_mut() {
@@ -72,4 +74,51 @@ pub fn overlap(
             );
         }
     }
+}
+
+/// Warns of a bit that is written inside of a value that is counted with.
+fn counted_bits(
+    program: &Program,
+    code: &[Selected],
+    usage: &Usage,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let mut counted: HashMap<(Area, u16), (Address, Access)> = HashMap::new();
+    for (&address, accesses) in &usage.accesses {
+        let (area, bytes) = match address {
+            Address::Byte { area, byte } => (area, byte..byte + 1),
+            Address::Word { area, byte } => (area, byte..byte + 2),
+            Address::Double { area, byte } => (area, byte..byte + 4),
+            _ => continue,
+        };
+        let counts = |access: &&Access| {
+            access.writes && access.reads && is_counting(code[access.instruction].op)
+        };
+        if let (Area::V | Area::M, Some(&access)) = (area, accesses.iter().find(counts)) {
+            counted.extend(bytes.map(|byte| ((area, byte), (address, access))));
+        }
+    }
+    for (&bit, accesses) in usage.accesses.iter().filter(|_| !counted.is_empty()) {
+        let Address::Bit { area, byte, .. } = bit else { continue };
+        let written = accesses.iter().find(|access| access.writes);
+        let around = counted.get(&(area, byte));
+        let (Some(written), Some((value, counting))) = (written, around) else { continue };
+        let span = operand_span(program, &code[written.instruction], written.operand);
+        let there = operand_span(program, &code[counting.instruction], counting.operand);
+        let (a, b) = (told(program, there, *value), told(program, span, bit));
+        let message = format!(
+            "{b} is a bit of {a}, which is a number: what is written to one changes the other"
+        );
+        diagnostics.push(
+            Diagnostic::new(Code::Overlap, span, message)
+                .related(there, format!("{a} is counted with here"))
+                .help("a bit of its own is in a byte that no number takes"),
+        );
+    }
+}
+
+/// Whether an instruction takes its operand for a number, and changes it.
+fn is_counting(op: Op) -> bool {
+    let name = op.instruction().mnemonic();
+    ["INC", "DEC", "+", "-", "*", "/"].iter().any(|start| name.starts_with(start))
 }

@@ -24,6 +24,7 @@ pub fn stack(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
         loads: Vec::new(),
         taken: 0,
         copies: 0,
+        last: None,
         kept: Vec::new(),
     };
     let mut depths = Vec::with_capacity(code.len());
@@ -40,6 +41,7 @@ pub fn stack(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
         statement = selected.statement as usize;
         depths.push(follow.instruction(selected));
     }
+    follow.untaken_contact();
     follow.end_of_rung();
     depths
 }
@@ -65,12 +67,15 @@ struct Follow<'a> {
     taken: usize,
     /// How many of them LPS made.
     copies: usize,
+    /// The contact that is the last instruction so far, which no output has taken up.
+    last: Option<Span>,
     /// The copies of LPS that LPP has not taken back, and where LRD has read them last.
     kept: Vec<(Span, Option<Span>)>,
 }
 
 impl Follow<'_> {
     fn network(&mut self, span: Span, number: u32) {
+        self.untaken_contact();
         self.end_of_rung();
         (self.total, self.fresh) = (0, 0);
         (self.after_output, self.after_label, self.warned) = (false, false, false);
@@ -111,8 +116,23 @@ impl Follow<'_> {
             _ if self.after_output => self.taken = self.taken.max(usize::from(needs)),
             _ => {}
         }
+        // What begins or copies is told by those who count loads and copies.
+        let is_counted = loads || matches!(selected.op, Op::Lps | Op::Lds | Op::Lrd | Op::Lpp);
+        self.last = (!self.after_output && !is_counted).then(|| span_of(self.program, selected));
         self.apply(selected, instruction);
         self.total
+    }
+
+    /// A contact after the last output of a network: nothing takes it up.
+    fn untaken_contact(&mut self) {
+        let Some(span) = self.last.take().filter(|_| self.taken > 0 && !self.warned) else {
+            return;
+        };
+        let message = "nothing takes up what this makes of the power flow";
+        self.diagnostics.push(Diagnostic::new(Code::UnusedValue, span, message).help(
+            "an output takes the power flow of what is before it: move this before the output, or \
+             end the rung with another one",
+        ));
     }
 
     /// What the outputs of a rung have not taken up was loaded in vain.

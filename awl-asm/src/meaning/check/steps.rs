@@ -14,7 +14,8 @@ use crate::text::ast::Program;
 /// Bits of the area S.
 const BITS: u32 = 256;
 
-/// Warns of LSCR whose bit nothing sets, and of SCRT to a bit without LSCR.
+/// Warns of LSCR whose bit nothing sets or segments that are never active alone, and of SCRT to a
+/// bit without LSCR.
 pub fn steps(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnostic>) {
     let bit_of = |selected: &Selected| match selected.arguments[0] {
         Argument::Bit(Address::Bit { area: Area::S, byte, bit }) => {
@@ -28,6 +29,9 @@ pub fn steps(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
         return;
     }
     let steps = Steps::of(code);
+    let reached = steps.reached();
+    // Segments in a ring wait for one another: it is said of the first.
+    let mut ring = true;
     for selected in code {
         let (Some(number), Argument::Bit(address)) = (bit_of(selected), selected.arguments[0])
         else {
@@ -42,6 +46,15 @@ pub fn steps(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
                 diagnostics.push(Diagnostic::new(Code::NeverActive, span, message).help(format!(
                     "a sequence begins in the first scan: `LD SM0.1`, `S {first}, 1`; other steps \
                      are reached by `SCRT {first}`"
+                )));
+            }
+            Op::Lscr if !reached.contains(&number) && std::mem::take(&mut ring) => {
+                let message = format!(
+                    "{name} is set by segments alone that are never active: no step is the first"
+                );
+                let first = short(program, span, address);
+                diagnostics.push(Diagnostic::new(Code::NeverActive, span, message).help(format!(
+                    "a sequence begins in the first scan: `LD SM0.1`, `S {first}, 1`"
                 )));
             }
             Op::Scrt if !segments.contains(&number) && !steps.is_read(number) => {
@@ -62,6 +75,8 @@ pub fn steps(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
 #[derive(Default)]
 struct Steps {
     set: HashSet<u32>,
+    /// Which bit is set in which segment; `None`: outside of all.
+    set_in: Vec<(Option<u32>, u32)>,
     read: HashSet<u32>,
     /// Something may set, or reads, any of them.
     any_set: bool,
@@ -71,11 +86,19 @@ struct Steps {
 impl Steps {
     fn of(code: &[Selected]) -> Steps {
         let mut steps = Steps::default();
+        let mut segment = None;
         for selected in code {
+            if selected.op == Op::Scre {
+                segment = None;
+            }
             for (argument, written) in selected.arguments() {
                 match argument {
                     Argument::Bit(Address::Bit { area: Area::S, byte, bit }) => {
-                        steps.bit(selected, u32::from(byte) * 8 + u32::from(bit), written);
+                        let number = u32::from(byte) * 8 + u32::from(bit);
+                        steps.bit(selected, number, written, segment);
+                        if selected.op == Op::Lscr {
+                            segment = Some(number);
+                        }
                     }
                     Argument::Memory(address) | Argument::Pointer(address)
                         if address.area() == Some(Area::S) =>
@@ -91,7 +114,7 @@ impl Steps {
         steps
     }
 
-    fn bit(&mut self, selected: &Selected, first: u32, written: bool) {
+    fn bit(&mut self, selected: &Selected, first: u32, written: bool, segment: Option<u32>) {
         let count = match (selected.op, selected.arguments[1]) {
             (Op::Reset | Op::Lscr, _) => return,
             (Op::Set, Argument::Constant(count)) => u32::from(count),
@@ -102,7 +125,33 @@ impl Steps {
             }
             _ => BITS,
         };
-        self.set.extend(first..(first + count).min(BITS));
+        let bits = first..(first + count).min(BITS);
+        self.set_in.extend(bits.clone().map(|bit| (segment, bit)));
+        self.set.extend(bits);
+    }
+
+    /// The bits that something sets that is executed: outside of segments, or in one that is
+    /// active at some time.
+    fn reached(&self) -> HashSet<u32> {
+        let mut reached: HashSet<u32> = HashSet::new();
+        if self.any_set {
+            reached.extend(0..BITS);
+        }
+        loop {
+            let is_active =
+                |segment: &Option<u32>| segment.is_none_or(|one| reached.contains(&one));
+            let next: Vec<u32> = self
+                .set_in
+                .iter()
+                .filter(|(segment, _)| is_active(segment))
+                .map(|(_, bit)| *bit)
+                .collect();
+            let before = reached.len();
+            reached.extend(next);
+            if reached.len() == before {
+                return reached;
+            }
+        }
     }
 
     fn is_set(&self, bit: u32) -> bool {

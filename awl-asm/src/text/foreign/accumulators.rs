@@ -315,6 +315,9 @@ fn copy(width: Width, from: &str, to: &str) -> Option<String> {
 
 /// An operand as it is written here; `None` for what an S7-200 has otherwise.
 fn written(text: &str) -> Option<String> {
+    // `PEW 256`, as STEP 7 lays it out.
+    let bare: String = text.split_whitespace().collect();
+    let text = bare.as_str();
     if let Some(same) = operands::same(text).or_else(|| operands::pointer(text, true)) {
         return Some(same);
     }
@@ -349,6 +352,7 @@ mod tests {
         assert_eq!(code("L MW0\nSLW 3\nT MW2"), "LD SM0.0; MOVW MW0, MW2; SLW MW2, 3");
         assert_eq!(code("L MB0\nINC 1\nT MB0"), "LD SM0.0; INCB MB0");
         assert_eq!(code("L PIW256\nT MW10"), "LD SM0.0; MOVW AIW0, MW10");
+        assert_eq!(code("L PEW 256\nT MW 10"), "LD SM0.0; MOVW AIW0, MW10");
         assert_eq!(code("L P#M10.0\nT MD20"), "LD SM0.0; MOVD &MB10, AC1");
     }
 

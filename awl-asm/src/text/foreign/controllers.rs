@@ -280,7 +280,7 @@ pub(super) const ROWS: &[Row] = &[
         "a program of an S7-200 never waits: `TON T37, 20` runs while the contact before it is 1, \
          and `LD T37` is 1 when its time is over",
     ),
-    named(&[], &["ZUWEISEN", "ZUWEISUNG", "AUSGANG"], Mnemonic("="), ""),
+    named(&[], &["ZUW", "ZUWEISEN", "ZUWEISUNG", "AUSGANG"], Mnemonic("="), ""),
     row(&["ZRST"], Nothing, "on an S7-200 several bits are reset by `R M0.0, 8`"),
     row(
         &["IL", "ILC"],

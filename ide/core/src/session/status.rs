@@ -60,9 +60,11 @@ impl Session {
 
     /// The place that a fault names: `file:line`.
     fn place_in(&self, fault: &str) -> Option<Place> {
-        let main = self.editor.main()?;
-        let (_, after) = fault.split_once(&format!("{main}:"))?;
-        let digits: String = after.chars().take_while(char::is_ascii_digit).collect();
-        self.editor.line(main, digits.parse().ok()?)
+        let files = self.editor.files_of(self.editor.main()?);
+        files.iter().find_map(|file| {
+            let (_, after) = fault.split_once(&format!("{file}:"))?;
+            let digits: String = after.chars().take_while(char::is_ascii_digit).collect();
+            self.editor.line(file, digits.parse().ok()?)
+        })
     }
 }

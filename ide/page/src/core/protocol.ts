@@ -58,6 +58,7 @@ export interface Item {
 
 export interface Summary {
   file: string;
+  files: string[];
   instructions: number;
   bytes: number;
   bytesMax: number;
@@ -245,7 +246,7 @@ export interface Orders {
   force: { operand: string; value: string };
   unforce: { operand: string | null };
   watch: { operands: string[] };
-  view: { from: number; to: number };
+  view: { file: string; from: number; to: number };
   scope: { signals: string[]; everyMs: number };
 }
 
@@ -255,7 +256,7 @@ interface Events {
   problems: { problems: Problem[] };
   program: { program: Summary | null };
   status: { status: Status };
-  live: { lines: Line[] };
+  live: { file: string; lines: Line[] };
   power: { id: number; rungs: Power[] };
   watched: { values: Value[] };
   forced: { values: Value[] };

@@ -1,8 +1,6 @@
-// Colours for AWL and for scenarios: words alone. What a text means is the core's business.
+// Colours for AWL, scenarios and plants: words alone. What a text means is the core's business.
 import { StreamLanguage, type StringStream } from "@codemirror/language";
-import type { Extension } from "@codemirror/state";
 import { MNEMONICS } from "./mnemonics";
-import { structuredText } from "./structured";
 
 const BLOCKS = new Set(
   (
@@ -75,7 +73,7 @@ function operand(stream: StringStream): string | null {
   return null;
 }
 
-const awlLanguage = StreamLanguage.define<State>({
+export const awl = StreamLanguage.define<State>({
   name: "awl",
   startState: () => ({ comment: null, atStart: true }),
   token(stream, state) {
@@ -92,25 +90,26 @@ const awlLanguage = StreamLanguage.define<State>({
 });
 
 const STATEMENTS =
-  /^(?:at|expect|run|scan|plant|program|within|every|always|never|until|from|to|for|or|and|pulse|clock|receive|sent|times|reverse)\b/i;
+  /^(?:at|event|expect|run|scan|plant|program|goal|within|every|always|never|until|from|to|for|or|and|pulse|clock|receive|sent|times|reverse)\b/i;
 
-const scenarioLanguage = StreamLanguage.define<object>({
-  name: "scenario",
-  startState: () => ({}),
-  token(stream) {
-    if (stream.eatSpace()) return null;
-    if (stream.match(/^#.*/)) return "comment";
-    if (stream.match(STATEMENTS)) return "keyword";
-    if (stream.match(/^\+?\d+(?:\.\d+)?(?:ms|s|min|h|k?Hz)\b/i)) return "string";
-    return operand(stream);
-  },
-  languageData: { commentTokens: { line: "#" } },
-});
+const PARTS =
+  /^(?:plant|outputs|part|belt|button|switch|slider|fault|count|move|approach|feed|hold|take|input|analog|draw|piece|if|and|or|not|stuck|slow|start|inverted)\b/i;
 
-/** The colours for a file of this name. */
-export function colours(file: string): Extension {
-  if (/\.awl$/i.test(file)) return awlLanguage;
-  if (/\.st$/i.test(file)) return structuredText;
-  if (/\.scn$/i.test(file)) return scenarioLanguage;
-  return [];
+/** A language of lines that begin with such words, with comments after `#`. */
+function lines(name: string, words: RegExp): StreamLanguage<object> {
+  return StreamLanguage.define<object>({
+    name,
+    startState: () => ({}),
+    token(stream) {
+      if (stream.eatSpace()) return null;
+      if (stream.match(/^#.*/)) return "comment";
+      if (stream.match(words)) return "keyword";
+      if (stream.match(/^\+?\d+(?:\.\d+)?(?:ms|s|min|h|k?Hz)\b/i)) return "string";
+      return operand(stream);
+    },
+    languageData: { commentTokens: { line: "#" } },
+  });
 }
+
+export const scenario = lines("scenario", STATEMENTS);
+export const plant = lines("plant", PARTS);

@@ -18,7 +18,7 @@ import type { Project } from "../project/project";
 import { notice } from "../page/notices";
 import { onLanguage, t } from "../text/language";
 import { assist } from "./assist";
-import { colours } from "./awl";
+import { colours } from "./colours";
 import { LiveValues, type Chosen } from "./live";
 import { Pane, type Sheet } from "./pane";
 import { phrases } from "./phrases";
@@ -231,9 +231,8 @@ export class Editors {
     return this.panes.find((pane) => pane.current === file)?.view;
   }
 
-  showLive(file: string | null, lines: Line[]): void {
-    for (const pane of this.panes)
-      this.live.show(pane.view, pane.current === file && file !== null ? lines : []);
+  showLive(file: string, lines: Line[]): void {
+    for (const pane of this.panes) this.live.show(pane.view, pane.current === file ? lines : []);
   }
 
   private renameFile(file: string, to: string): void {

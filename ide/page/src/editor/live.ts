@@ -51,13 +51,16 @@ class Values extends WidgetType {
   }
 
   override toDOM(): HTMLElement {
-    return h("span", { class: "live" }, ...this.values.map((value) => this.value(value)));
+    const bits = this.values.filter(({ form }) => form === "bit");
+    const values = this.values.map((value) => this.value(value, bits.length > 1));
+    return h("span", { class: "live" }, ...values);
   }
 
-  private value(value: Value): HTMLElement {
+  /** A bit that is alone in its line needs no name. */
+  private value(value: Value, isNamed: boolean): HTMLElement {
     const isBit = value.form === "bit";
     const classes = ["value", isBit && "bit", value.number === 1 && "on", value.forced && "forced"];
-    const text = isBit ? value.text : `${value.name} ${value.text}`;
+    const text = isBit && !isNamed ? value.text : `${value.name} ${value.text || "?"}`;
     const element = h(
       "span",
       {

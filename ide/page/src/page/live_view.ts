@@ -12,6 +12,9 @@ const QUIET_MS = 80;
 export class LiveView {
   private timer = 0;
   private asked = "";
+  /** The files of the program that was assembled last. */
+  private files: string[] = [];
+  private file = "";
   private lines: Line[] = [];
 
   constructor(
@@ -21,9 +24,13 @@ export class LiveView {
     private ladder: Ladder,
     header: Header,
   ) {
-    core.on("live", ({ lines }) => {
-      this.lines = lines;
+    core.on("live", ({ file, lines }) => {
+      [this.file, this.lines] = [file, lines];
       this.show();
+    });
+    core.on("program", ({ program }) => {
+      this.files = program?.files ?? this.files;
+      this.soon();
     });
     header.onStatus((status) => {
       editors.element.classList.toggle("stale", status.mode === "LOST");
@@ -38,7 +45,7 @@ export class LiveView {
   }
 
   private show(): void {
-    this.editors.showLive(this.project.main(), this.lines);
+    this.editors.showLive(this.file, this.lines);
   }
 
   private clear(): void {
@@ -53,21 +60,25 @@ export class LiveView {
   }
 
   private ask(): void {
-    const { from, to } = this.visible();
-    const wanted = `${from}-${to}`;
-    if (wanted === this.asked) return;
-    this.asked = wanted;
-    this.core.tell({ do: "view", from, to });
+    const wanted = this.visible();
+    const asked = JSON.stringify(wanted);
+    if (asked === this.asked) return;
+    this.asked = asked;
+    this.core.tell({ do: "view", ...wanted });
   }
 
-  private visible(): { from: number; to: number } {
-    const main = this.project.main();
-    const view = main === null ? undefined : this.editors.viewOf(main);
-    if (!view || document.hidden) return { from: 0, to: 0 };
+  /** The lines of the file that is worked on, else of the main one, and those of the ladder. */
+  private visible(): { file: string; from: number; to: number } {
+    const ladder = this.ladder.needed();
+    const { current } = this.editors;
+    const file = this.files.find((file) => file === current) ?? this.project.main() ?? "";
+    const view = this.editors.viewOf(file);
+    if (!view || document.hidden) return { file, from: 0, to: 0 };
     const { from, to } = view.viewport;
     const { doc } = view.state;
-    const lines = { from: doc.lineAt(from).number, to: doc.lineAt(to).number };
-    const ladder = this.ladder.needed() ?? lines;
-    return { from: Math.min(lines.from, ladder.from), to: Math.max(lines.to, ladder.to) };
+    const lines = { file, from: doc.lineAt(from).number, to: doc.lineAt(to).number };
+    if (ladder?.file !== file) return lines;
+    const [first, last] = ladder.lines;
+    return { file, from: Math.min(lines.from, first), to: Math.max(lines.to, last) };
   }
 }

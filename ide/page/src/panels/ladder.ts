@@ -42,6 +42,8 @@ export class Ladder {
   private network: Network | null = null;
   private drawn = "";
   private rungs: (Rung | null)[] = [];
+  /** Of which file the values are. */
+  private file = "";
   private lines = new Map<number, Line>();
   /** Power flow, and of which ladder. */
   private power: { id: number; rungs: Power[] } = { id: 0, rungs: [] };
@@ -50,7 +52,7 @@ export class Ladder {
   constructor(
     private core: Core,
     private editors: Editors,
-    private project: Project,
+    project: Project,
     header: Header,
   ) {
     this.element = h("div", { class: "ladder" }, this.title, this.place);
@@ -60,7 +62,8 @@ export class Ladder {
     editors.onCurrent(() => this.soon());
     project.onFiles(() => this.soon());
     core.on("problems", () => this.soon());
-    core.on("live", ({ lines }) => {
+    core.on("live", ({ file, lines }) => {
+      this.file = file;
       this.lines = new Map(lines.map((line) => [line.line, line]));
       this.show();
     });
@@ -86,12 +89,9 @@ export class Ladder {
     this.changed();
   }
 
-  /** The lines of the program whose values are needed. */
-  needed(): { from: number; to: number } | null {
-    const { network } = this;
-    if (!this.isShown || !network || network.file !== this.project.main()) return null;
-    const [from, to] = network.lines;
-    return { from, to };
+  /** The network whose values are needed. */
+  needed(): Network | null {
+    return this.isShown ? this.network : null;
   }
 
   /** Is told when other lines are needed. */
@@ -159,8 +159,8 @@ export class Ladder {
   }
 
   private show(): void {
-    const isMain = this.network?.file === this.project.main();
-    const lines: ReadonlyMap<number, Line> = isMain ? this.lines : new Map();
+    const isThis = this.network?.file === this.file;
+    const lines: ReadonlyMap<number, Line> = isThis ? this.lines : new Map();
     const { id, rungs } = this.power;
     const power = id === this.network?.id ? rungs : [];
     for (const [index, rung] of this.rungs.entries()) rung?.show(power[index], lines);

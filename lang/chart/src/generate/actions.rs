@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use st::tree::{BinaryOperator, Expression, Statement};
 
 use super::build::{
-    all, any, assign, binary, duration, element, integer, not, set, variable, when,
+    all, any, assign, binary, duration, element, integer, not, set, truth, variable, when,
 };
 use super::mentions::{Length, Scope, Times, rewrite};
 use super::names::{Variables, action_name, step_name, stored_name};
@@ -101,7 +101,7 @@ impl<'e> Actions<'e> {
         let write = |qualifier: Qualifier, value: bool| {
             let steps = instances.iter().filter(move |(_, _, one)| one.qualifier == qualifier);
             let steps: Vec<Expression> = steps.map(|(step, _, _)| self.step(*step)).collect();
-            let value = super::build::truth(value);
+            let value = truth(value);
             (!steps.is_empty()).then(|| when(any(steps), vec![assign(target.clone(), value)]))
         };
         [write(Qualifier::S, true), write(Qualifier::R, false)].into_iter().flatten().collect()
@@ -122,9 +122,8 @@ impl<'e> Actions<'e> {
                     has_stored = true;
                 }
                 Qualifier::L | Qualifier::D => {
-                    let relation = Self::time_relation(instance.qualifier);
                     let owner = step_name(self.parsed.chart, self.scope, *step);
-                    let in_time = self.compared(&owner, relation, *step, *at);
+                    let in_time = self.compared(&owner, instance.qualifier, *step, *at);
                     control.levels.push(all([is_on, in_time]));
                 }
                 Qualifier::P | Qualifier::P1 | Qualifier::P0 => {
@@ -149,33 +148,11 @@ impl<'e> Actions<'e> {
         control
     }
 
-    fn time_relation(qualifier: Qualifier) -> BinaryOperator {
-        match qualifier {
-            Qualifier::L | Qualifier::SL => BinaryOperator::Less,
-            _ => BinaryOperator::GreaterOrEqual,
+    fn compared(&self, owner: &str, qualifier: Qualifier, step: StepId, at: usize) -> Expression {
+        match self.parsed.times.get(&(step, at)) {
+            Some(limit) => compared(owner, qualifier, limit, self.scope, self.times),
+            None => truth(false),
         }
-    }
-
-    /// The time of a step or of a stored action, compared with that of an instance.
-    fn compared(
-        &self,
-        owner: &str,
-        relation: BinaryOperator,
-        step: StepId,
-        at: usize,
-    ) -> Expression {
-        let time = variable(&format!("{owner}.T"));
-        let Some(limit) = self.parsed.times.get(&(step, at)) else {
-            return super::build::truth(false);
-        };
-        let mut limit = limit.clone();
-        if self.times.get(owner) == Some(&Length::Short)
-            && let Some(ms) = super::mentions::short(&limit)
-        {
-            limit.kind = integer(ms).kind;
-        }
-        rewrite(&mut limit, self.scope, self.times, &mut |_, _| "");
-        binary(relation, time, limit)
     }
 
     /// The moment when a step becomes active, or no longer is.
@@ -202,20 +179,16 @@ impl<'e> Actions<'e> {
         let flag = stored_name(self.parsed.chart, self.scope, plain, instance);
         self.variables.add(&flag, "BOOL");
         let is_on = self.step(step);
-        let relation = Self::time_relation(instance.qualifier);
         if instance.qualifier == Qualifier::DS {
-            let in_time = self.compared(&title, relation, step, at);
+            let in_time = self.compared(&title, instance.qualifier, step, at);
             control.before.push(when(all([is_on, in_time]), vec![set(&flag, true)]));
             control.levels.push(variable(&flag));
             return (flag, Vec::new());
         }
         control.before.push(when(is_on, vec![set(&flag, true)]));
-        let in_time = self.compared(&flag, relation, step, at);
+        let in_time = self.compared(&flag, instance.qualifier, step, at);
         control.levels.push(all([variable(&flag), in_time]));
-        let zero = match self.times.get(&flag) {
-            Some(Length::Short) => integer(0),
-            _ => duration(0),
-        };
+        let zero = self.times.get(&flag).map_or_else(|| duration(0), |length| length.zero());
         let reset = vec![assign(variable(&format!("{flag}.T")), zero)];
         (flag, reset)
     }
@@ -274,6 +247,28 @@ impl<'e> Actions<'e> {
         }
         statements
     }
+}
+
+/// The time of a step or of a stored action, compared with that of an instance.
+pub(super) fn compared(
+    owner: &str,
+    qualifier: Qualifier,
+    limit: &Expression,
+    scope: &Scope,
+    times: &Times,
+) -> Expression {
+    let relation = match qualifier {
+        Qualifier::L | Qualifier::SL => BinaryOperator::Less,
+        _ => BinaryOperator::GreaterOrEqual,
+    };
+    let mut limit = limit.clone();
+    if times.get(owner) == Some(&Length::Short)
+        && let Some(ms) = super::mentions::short(&limit)
+    {
+        limit.kind = integer(ms).kind;
+    }
+    rewrite(&mut limit, scope, times, &mut |_, _| "");
+    binary(relation, variable(&format!("{owner}.T")), limit)
 }
 
 impl Control {

@@ -65,6 +65,10 @@ pub(super) fn when(condition: Expression, body: Vec<Statement>) -> Statement {
     statement(StatementKind::If(vec![(condition, body)], Vec::new()))
 }
 
+pub(super) fn repeat(body: Vec<Statement>, until: Expression) -> Statement {
+    statement(StatementKind::Repeat(body, until))
+}
+
 pub(super) fn add_elapsed(name: &str) -> Statement {
     statement(StatementKind::AddElapsed(variable(name)))
 }

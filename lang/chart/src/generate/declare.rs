@@ -8,10 +8,14 @@ use st::tree::{
     StatementKind, UnaryOperator,
 };
 
+use st::visit;
+
 use super::build;
 use super::mentions::Scope;
 use super::parsed::Parsed;
-use st::visit;
+use crate::hierarchy::Hierarchy;
+use crate::model::Standard;
+use crate::operators::Operator;
 
 /// The names that a file declares for all, in upper case.
 pub fn globals(file: &File) -> Vec<String> {
@@ -30,7 +34,9 @@ pub fn globals(file: &File) -> Vec<String> {
 /// The section that declares what is used as BOOL and not known; its names are known from then on.
 pub(super) fn by_use(parsed: &mut Parsed, known: &mut HashSet<String>) -> Option<Section> {
     let mut found = Vec::new();
-    in_chart(parsed, None, known, &mut found);
+    let all = (parsed.chart.standard == Standard::Grafcet)
+        .then(|| Scope::seeing(&Hierarchy::of(parsed.chart), 0));
+    in_chart(parsed, all.as_ref(), known, &mut found);
     let names: Vec<(Name, &str)> = found.into_iter().map(|name| (name, "BOOL")).collect();
     (!names.is_empty()).then(|| build::section(SectionKind::Global, names))
 }
@@ -52,8 +58,8 @@ fn in_chart(
         }
     };
     parsed.variables.values().for_each(&mut add);
-    parsed.conditions.values().for_each(|one| used_as_bool(one, &mut add));
-    for body in parsed.bodies.values_mut() {
+    parsed.truths().for_each(|one| used_as_bool(one, &mut add));
+    for body in parsed.code() {
         visit::statements(body, &mut |statement| in_statement(statement, &mut add));
     }
     for inner in parsed.charts.values_mut() {
@@ -70,7 +76,12 @@ fn used_as_bool(expression: &Expression, add: &mut dyn FnMut(&Expression)) {
             used_as_bool(left, add);
             used_as_bool(right, add);
         }
-        _ => {}
+        _ => match Operator::of(expression) {
+            Some(Operator::Rise(of) | Operator::Fall(of) | Operator::Time { of, .. }) => {
+                used_as_bool(of, add);
+            }
+            None => {}
+        },
     }
 }
 

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use st::tree::{Expression, ExpressionKind, Statement};
 
-use super::build::{all, assign, duration, element, integer, not, set, variable, when};
+use super::build::{all, assign, element, not, set, variable, when};
 use super::mentions::{Length, Part, Scope, Times, rewrite};
 use super::names::{Variables, step_name};
 use super::parsed::Parsed;
@@ -143,8 +143,7 @@ impl Evolution<'_> {
         let step = self.step(id);
         let mut statements = vec![set(&step, true)];
         if let Some(length) = self.times.get(&step) {
-            let zero = if *length == Length::Short { integer(0) } else { duration(0) };
-            statements.push(assign(variable(&format!("{step}.T")), zero));
+            statements.push(assign(variable(&format!("{step}.T")), length.zero()));
         }
         statements
     }

@@ -12,6 +12,7 @@ use st::tree::{Expression, ExpressionKind, Name, Selector, Statement, StatementK
 use super::build;
 use super::parsed::Parsed;
 use crate::diagnostic::{Code as ErrorCode, Diagnostic};
+use crate::hierarchy::Hierarchy;
 use crate::model::Qualifier;
 use st::visit;
 
@@ -52,6 +53,11 @@ impl Length {
     pub(super) fn type_name(self) -> &'static str {
         if self == Length::Short { "INT" } else { "TIME" }
     }
+
+    /// Where it begins.
+    pub(super) fn zero(self) -> Expression {
+        if self == Length::Short { build::integer(0) } else { build::duration(0) }
+    }
 }
 
 impl<'o> Scope<'o> {
@@ -59,6 +65,20 @@ impl<'o> Scope<'o> {
         let steps = parsed.chart.steps.values();
         let steps = steps.map(|step| (step.name.to_uppercase(), format!("{prefix}{}", step.name)));
         Scope { outer, steps: steps.collect(), prefix }
+    }
+
+    /// Of a chart of a GRAFCET, which sees the steps of all charts.
+    pub(super) fn seeing(hierarchy: &Hierarchy, at: usize) -> Scope<'o> {
+        let mut steps = HashMap::new();
+        for chart in hierarchy.visible(at) {
+            let Some(member) = hierarchy.members.get(chart) else { continue };
+            for (id, step) in &member.chart.steps {
+                let name = step.name.to_uppercase();
+                steps.entry(name).or_insert_with(|| hierarchy.name((chart, *id)));
+            }
+        }
+        let prefix = hierarchy.members.get(at).map_or("", |member| member.prefix.as_str());
+        Scope { outer: None, prefix: prefix.to_owned(), steps }
     }
 
     fn find(&self, name: &str) -> Option<&str> {
@@ -114,21 +134,29 @@ fn at_least(times: &mut Times, variable: String, length: Length) {
     }
 }
 
-/// Notes which steps have a time, and how long it can be.
-pub(super) fn note_times(parsed: &mut Parsed, scope: &Scope, times: &mut Times) {
-    let mut note = |expression: &mut Expression| {
-        if let Some((step, _)) = scope.short_comparison(expression) {
+/// Notes what an expression asks about the times of steps.
+pub(super) fn note_times_of(expression: &mut Expression, scope: &Scope, times: &mut Times) {
+    visit::expressions(expression, &mut |one| {
+        if let Some((step, _)) = scope.short_comparison(one) {
             at_least(times, step, Length::Short);
             return false;
         }
-        if let Some(step) = scope.timed(expression) {
+        if let Some(step) = scope.timed(one) {
             at_least(times, step, Length::Long);
         }
         true
+    });
+}
+
+/// Notes which steps have a time, and how long it can be.
+pub(super) fn note_times(parsed: &mut Parsed, scope: &Scope, times: &mut Times) {
+    parsed.truths().for_each(|one| note_times_of(one, scope, times));
+    parsed.times.values_mut().for_each(|one| note_times_of(one, scope, times));
+    let mut note = |expression: &mut Expression| {
+        note_times_of(expression, scope, times);
+        false
     };
-    let own = parsed.conditions.values_mut().chain(parsed.times.values_mut());
-    own.for_each(|one| visit::expressions(one, &mut note));
-    parsed.bodies.values_mut().for_each(|body| visit::in_statements(body, &mut note));
+    parsed.code().for_each(|body| visit::in_statements(body, &mut note));
     for ((step, at), time) in &parsed.times {
         let Some(step) = parsed.chart.steps.get(step) else { continue };
         let Some(instance) = step.block.get(*at) else { continue };

@@ -6,10 +6,12 @@ mod actions;
 mod build;
 mod declare;
 mod evolution;
+mod grafcet;
 mod mentions;
 mod names;
-mod not_yet;
 mod parsed;
+mod samples;
+mod sound;
 
 use std::collections::{BTreeSet, HashSet};
 
@@ -19,7 +21,7 @@ use st::visit;
 
 use crate::check;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{Body, Chart};
+use crate::model::{Body, Chart, Standard};
 use crate::text::{self, Region};
 pub use declare::globals as declared;
 
@@ -50,7 +52,7 @@ pub fn translate(source: &Source, known: &mut HashSet<String>) -> Translation {
     let (mut has_bare, mut warnings) = (false, Vec::new());
     for (chart, region) in reading.document.charts().zip(&reading.regions) {
         let before = diagnostics.len();
-        not_yet::check(chart, region.first(), &mut diagnostics);
+        sound::check(chart, region.first(), &mut diagnostics);
         let is_sound = diagnostics.len() == before;
         let mut parsed = Parsed::of(&source.text, chart, &mut of_st);
         if !region.has_head {
@@ -71,7 +73,7 @@ pub fn translate(source: &Source, known: &mut HashSet<String>) -> Translation {
             check::check(chart, &mut warnings);
         }
         let mut variables = Variables::default();
-        unit.body = unit_body(&mut parsed, &mut variables, &mut diagnostics);
+        unit.body = unit_body(parsed, &mut variables, &mut diagnostics);
         variables.check(&mut diagnostics);
         unit.sections.push(build::section(SectionKind::Var, variables.list()));
     }
@@ -127,14 +129,34 @@ fn unit_of<'f>(
 }
 
 fn unit_body(
-    parsed: &mut Parsed,
+    mut parsed: Parsed,
     variables: &mut Variables,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Statement> {
-    let scope = Scope::new(parsed, None, String::new());
+    if parsed.chart.standard == Standard::Grafcet {
+        return grafcet::body(parsed, variables, diagnostics);
+    }
+    let scope = Scope::new(&parsed, None, String::new());
     let mut times = Times::new();
-    note_all(parsed, &scope, &mut times);
-    chart_body(parsed, &scope, &times, variables, diagnostics)
+    note_all(&mut parsed, &scope, &mut times);
+    chart_body(&parsed, &scope, &times, variables, diagnostics)
+}
+
+/// Code of a chart, with its steps as variables.
+fn code(
+    mut body: Vec<Statement>,
+    scope: &Scope,
+    times: &Times,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Vec<Statement> {
+    mentions::check_body(&mut body, scope, diagnostics);
+    visit::statements(&mut body, &mut |statement| {
+        visit::in_statement(statement, &mut |one| {
+            mentions::rewrite(one, scope, times, &mut |_, _| "");
+            false
+        });
+    });
+    body
 }
 
 /// The times that the code of a chart and of those in it asks for.
@@ -167,15 +189,8 @@ fn chart_body(
         let body = match &action.body {
             Body::Variable => Vec::new(),
             Body::Code(_) => {
-                let mut body = parsed.bodies.get(id).cloned().unwrap_or_default();
-                mentions::check_body(&mut body, scope, diagnostics);
-                visit::statements(&mut body, &mut |statement| {
-                    visit::in_statement(statement, &mut |one| {
-                        mentions::rewrite(one, scope, times, &mut |_, _| "");
-                        false
-                    });
-                });
-                body
+                let body = parsed.bodies.get(id).cloned().unwrap_or_default();
+                code(body, scope, times, diagnostics)
             }
             Body::Chart(_) => match parsed.charts.get(id) {
                 Some(inner) => {

@@ -12,6 +12,11 @@ pub(super) struct Parsed<'c> {
     pub(super) conditions: BTreeMap<TransitionId, Expression>,
     /// The times of instances, by step and number in its block.
     pub(super) times: BTreeMap<(StepId, usize), Expression>,
+    /// The conditions of instances, and their events.
+    pub(super) instances: BTreeMap<(StepId, usize), Expression>,
+    pub(super) events: BTreeMap<(StepId, usize), Expression>,
+    /// What transitions do when they are crossed.
+    pub(super) crossings: BTreeMap<TransitionId, Vec<Statement>>,
     /// Variables that actions write, each as it is written.
     pub(super) variables: BTreeMap<ActionId, Expression>,
     pub(super) bodies: BTreeMap<ActionId, Vec<Statement>>,
@@ -25,6 +30,9 @@ impl<'c> Parsed<'c> {
             chart,
             conditions: BTreeMap::new(),
             times: BTreeMap::new(),
+            instances: BTreeMap::new(),
+            events: BTreeMap::new(),
+            crossings: BTreeMap::new(),
             variables: BTreeMap::new(),
             bodies: BTreeMap::new(),
             charts: BTreeMap::new(),
@@ -44,8 +52,13 @@ impl<'c> Parsed<'c> {
         }
         for (id, step) in &chart.steps {
             for (at, instance) in step.block.iter().enumerate() {
-                let time = instance.time.as_ref().map(&mut expression);
-                parsed.times.extend(time.map(|time| ((*id, at), time)));
+                for (code, place) in [
+                    (&instance.time, &mut parsed.times),
+                    (&instance.condition, &mut parsed.instances),
+                    (&instance.event, &mut parsed.events),
+                ] {
+                    place.extend(code.as_ref().map(|code| ((*id, at), expression(code))));
+                }
             }
         }
         for (id, action) in &chart.actions {
@@ -54,13 +67,20 @@ impl<'c> Parsed<'c> {
                 parsed.variables.insert(*id, expression(&code));
             }
         }
+        let statements = |code: &Code, found: &mut Vec<st::Diagnostic>| {
+            let (body, wrong) = st::parser::parse_statements(text, code.origin.0);
+            found.extend(wrong);
+            body
+        };
+        for (id, transition) in &chart.transitions {
+            let body = transition.crossing.as_ref().map(|code| statements(code, found));
+            parsed.crossings.extend(body.map(|body| (*id, body)));
+        }
         for (id, action) in &chart.actions {
             match &action.body {
                 Body::Variable => {}
                 Body::Code(code) => {
-                    let (body, wrong) = st::parser::parse_statements(text, code.origin.0);
-                    found.extend(wrong);
-                    parsed.bodies.insert(*id, body);
+                    parsed.bodies.insert(*id, statements(code, found));
                 }
                 Body::Chart(inner) => {
                     parsed.charts.insert(*id, Parsed::of(text, inner, found));
@@ -68,5 +88,22 @@ impl<'c> Parsed<'c> {
             }
         }
         parsed
+    }
+    /// Expressions of type BOOL.
+    pub(super) fn truths(&mut self) -> impl Iterator<Item = &mut Expression> {
+        let of_instances = self.instances.values_mut().chain(self.events.values_mut());
+        self.conditions.values_mut().chain(of_instances)
+    }
+
+    /// Statements of actions and transitions.
+    pub(super) fn code(&mut self) -> impl Iterator<Item = &mut Vec<Statement>> {
+        self.bodies.values_mut().chain(self.crossings.values_mut())
+    }
+
+    /// The chart and those in it, each before those in its actions.
+    pub(super) fn flattened(mut self) -> Vec<Parsed<'c>> {
+        let inner = std::mem::take(&mut self.charts).into_values().flat_map(Parsed::flattened);
+        let inner: Vec<Parsed> = inner.collect();
+        std::iter::once(self).chain(inner).collect()
     }
 }

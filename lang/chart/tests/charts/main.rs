@@ -2,8 +2,10 @@
 
 mod compiled;
 mod evaluator;
+mod grafcet;
 mod messages;
 mod pages;
 mod random_charts;
+mod random_grafcet;
 mod random_text;
 mod text;

@@ -62,3 +62,58 @@ fn variables_of_transitions_are_told_apart() {
         TRANSITION FROM C TO A := y; END_TRANSITION\n";
     assert_eq!(told(text), Vec::<String>::new());
 }
+
+#[test]
+fn hierarchies_that_cannot_be_are_told() {
+    let text = "{grafcet}\n\
+        INITIAL_STEP S1 {macro Wash}: {force G2 (T9)} {force G3 INIT} Part(N); END_STEP\n\
+        STEP S2 {enclosing G2, Nothing}: q(S); q(R); Lamp(SD, T#1s); END_STEP\n\
+        STEP S3 {enclosing G2}: Lamp(P1); Count(N); q {on a}; END_STEP\n\
+        STEP S4 {linked}: {force Wash ()} END_STEP\n\
+        TRANSITION Go (PRIORITY := 1) FROM S1 TO S2 := a; END_TRANSITION\n\
+        ACTION Count: q := TRUE; END_ACTION\n\
+        ACTION Wash: STEP E: END_STEP STEP X: END_STEP END_ACTION\n\
+        ACTION G2: STEP T1: {force G3 ()} END_STEP END_ACTION\n\
+        ACTION G3: STEP U1: {force G2 ()} END_STEP END_ACTION\n\
+        ACTION Part: INITIAL_STEP P1: END_STEP END_ACTION\n";
+    let wanted = [
+        "E0302 2 {force G2 (T9)}",
+        "E0306 2 Part",
+        "E0302 3 S2",
+        "E0311 3 q",
+        "E0311 3 q",
+        "E0304 3 Lamp",
+        "E0310 4 S3",
+        "E0304 4 Lamp",
+        "E0304 4 Count",
+        "E0304 4 q",
+        "E0310 5 S4",
+        "E0310 5 {force Wash ()}",
+        "E0306 6 Go",
+        "E0305 8 Wash",
+        "E0310 8 Wash",
+        "E0310 9 G2",
+    ];
+    assert_eq!(told(text), wanted);
+    let nothing = "{grafcet}\nSTEP S1: END_STEP\nSTEP S2: END_STEP\n\
+        TRANSITION FROM S1 TO S2 := a; END_TRANSITION\n";
+    assert_eq!(told(nothing), ["E0305 1 {"]);
+    let alone = "{grafcet}\nINITIAL_STEP S1 {macro t}: END_STEP\n";
+    assert_eq!(told(&alone.replace("{macro t}", "{macro station}")), ["E0310 1 {"]);
+}
+
+#[test]
+fn warnings_know_the_hierarchy() {
+    let text = "{grafcet}\n\
+        INITIAL_STEP S1 {enclosing G2}: END_STEP\nSTEP S2: {force G3 (U2)} END_STEP\n\
+        STEP S3 {macro Wash}: END_STEP\n\
+        TRANSITION FROM S1 TO S2 := a; END_TRANSITION\n\
+        TRANSITION FROM S3 TO S1 := a; END_TRANSITION\n\
+        ACTION Wash: INITIAL_STEP E: END_STEP END_ACTION\n\
+        ACTION G2: STEP T1 {linked}: END_STEP STEP T2: END_STEP\n\
+        TRANSITION FROM T1 TO T2 := b; END_TRANSITION END_ACTION\n\
+        ACTION G3: STEP U1: END_STEP STEP U2: END_STEP\n\
+        TRANSITION FROM U1 TO U2 := b; END_TRANSITION END_ACTION\n\
+        ACTION None: b := TRUE; END_ACTION\n";
+    assert_eq!(told(text), ["W0301 3 S2", "W0300 7 E", "W0300 10 U1", "W0303 12 None"]);
+}

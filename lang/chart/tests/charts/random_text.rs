@@ -19,31 +19,39 @@ pub const LIMIT_MS: i64 = 45;
 const QUALIFIERS: [&str; 11] = ["N", "S", "R", "L", "D", "P", "P0", "P1", "SD", "DS", "SL"];
 
 /// The names of the steps of a chart and of those around.
-struct Steps {
-    own: Vec<String>,
-    outer: Vec<String>,
+pub(super) struct Steps {
+    pub(super) own: Vec<String>,
+    pub(super) outer: Vec<String>,
 }
 
-struct Text<'r> {
-    random: &'r mut Rng,
-    text: String,
+pub(super) struct Text<'r> {
+    pub(super) random: &'r mut Rng,
+    pub(super) text: String,
+    /// Whether conditions have the operators of GRAFCET.
+    pub(super) is_grafcet: bool,
 }
 
 /// A chart in a PROGRAM `Main`.
 pub fn program(seed: u64) -> String {
     let mut random = Rng::with_seed(seed);
-    let mut text = Text { random: &mut random, text: "PROGRAM Main\nVAR\n".to_owned() };
-    let list = |names: &[&str]| names.join(", ");
-    let bits = [list(&INPUTS), list(&OUTPUTS), list(&MARKS)].join(", ");
-    let _ = writeln!(text.text, "    {bits} : BOOL;\n    {} : INT;", list(&COUNTERS));
-    let _ = writeln!(text.text, "    Limit : TIME := T#{LIMIT_MS}ms;\nEND_VAR");
+    let mut text = Text { random: &mut random, text: head(), is_grafcet: false };
     text.chart("S", &[], 0);
     text.text += "END_PROGRAM\n";
     text.text
 }
 
+/// The program up to its chart.
+pub(super) fn head() -> String {
+    let bits = [&INPUTS[..], &OUTPUTS, &MARKS].concat().join(", ");
+    let counters = COUNTERS.join(", ");
+    format!(
+        "PROGRAM Main\nVAR\n    {bits} : BOOL;\n    {counters} : INT;\n    \
+         Limit : TIME := T#{LIMIT_MS}ms;\nEND_VAR\n"
+    )
+}
+
 impl Text<'_> {
-    fn pick<'a>(&mut self, list: &[&'a str]) -> &'a str {
+    pub(super) fn pick<'a>(&mut self, list: &[&'a str]) -> &'a str {
         list[self.random.usize(..list.len())]
     }
 
@@ -95,7 +103,7 @@ impl Text<'_> {
         }
     }
 
-    fn time(&mut self) -> String {
+    pub(super) fn time(&mut self) -> String {
         match self.random.u8(..12) {
             0 => "Limit".to_owned(),
             1 => "T#40s".to_owned(),
@@ -153,10 +161,13 @@ impl Text<'_> {
         }
     }
 
-    fn condition(&mut self, steps: &Steps, depth: u32) -> String {
+    pub(super) fn condition(&mut self, steps: &Steps, depth: u32) -> String {
         if depth < 2 && self.random.bool() {
             let (a, b) = (self.condition(steps, depth + 1), self.condition(steps, depth + 1));
             return format!("({a} {} {b})", self.pick(&["OR", "OR", "AND", "XOR"]));
+        }
+        if self.is_grafcet && depth < 3 && self.random.u8(..4) == 0 {
+            return self.operator(steps, depth + 1);
         }
         let all: Vec<&str> = steps.own.iter().chain(&steps.outer).map(String::as_str).collect();
         let step = self.pick(&all);
@@ -176,7 +187,7 @@ impl Text<'_> {
         }
     }
 
-    fn statement(&mut self, steps: &Steps) {
+    pub(super) fn statement(&mut self, steps: &Steps) {
         let counter = self.pick(&COUNTERS);
         let mark = self.pick(&MARKS);
         match self.random.u8(..4) {

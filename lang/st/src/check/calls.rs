@@ -3,6 +3,7 @@
 use diagnostics::Span;
 
 use super::Checker;
+use super::expressions::needed;
 use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{BlockCall, Place, RoutineArgument, SectionKind, StatementKind, Type, UnitKind};
@@ -25,7 +26,8 @@ impl Checker<'_> {
         }
         let instance = self.place(name, selectors, target.span)?;
         let Type::Block(block, _) = instance.of_type else {
-            let message = format!("{}: a {} cannot be called", name.text, instance.of_type);
+            let message =
+                format!("{}: {} cannot be called", name.text, instance.of_type.with_article());
             self.error(Code::WrongType, target.span, message);
             return None;
         };
@@ -65,7 +67,7 @@ impl Checker<'_> {
                 "it runs once in each scan".to_owned(),
             ),
             None => {
-                self.unknown_name(name, "variable");
+                self.unknown_name(name, "instance");
                 return None;
             }
         };
@@ -192,8 +194,7 @@ impl Checker<'_> {
             return;
         }
         if place.of_type != Type::Invalid {
-            let message = format!("a {wanted} is needed here, this is a {}", place.of_type);
-            self.error(Code::WrongType, span, message);
+            self.error(Code::WrongType, span, needed(wanted, &place.of_type));
         }
     }
 

@@ -212,7 +212,7 @@ impl<'a> Checker<'a> {
         }
         let is_parameter =
             matches!(section.kind, SectionKind::Input | SectionKind::Output | SectionKind::InOut);
-        if is_parameter && matches!(kind, Type::Block(..)) {
+        if is_parameter && kind.block().is_some() {
             let message = "an instance of a function block is no parameter";
             let found = Diagnostic::new(Code::NotThere, span, message);
             self.report(found.help("declare it in VAR, or give its inputs and outputs"));
@@ -279,7 +279,7 @@ impl<'a> Checker<'a> {
             _ => false,
         };
         if !fits {
-            let message = format!("{}: a {of_type} is at {wanted}", at.text);
+            let message = format!("{}: {} is at {wanted}", at.text, of_type.with_article());
             self.error(Code::WrongType, at.span, message);
             return None;
         }

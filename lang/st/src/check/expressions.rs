@@ -22,6 +22,11 @@ pub(super) fn known(value: Value, of_type: Type, span: Span) -> Expression {
     Expression { kind: ExpressionKind::Constant(value), of_type, span }
 }
 
+/// What is said where another type is needed.
+pub(super) fn needed(wanted: &Type, found: &Type) -> String {
+    format!("{} is needed here, this is {}", wanted.with_article(), found.with_article())
+}
+
 /// Whether it is a number that takes the type that is needed.
 pub(super) fn is_open(text: &tree::Expression) -> bool {
     match &text.kind {
@@ -159,15 +164,21 @@ impl Checker<'_> {
     fn mismatch(&mut self, found: &Expression, wanted: &Type) {
         let from = &found.of_type;
         let is_plain = |kind: &Type| ELEMENTARY.iter().any(|(_, elementary)| elementary == kind);
-        let message = format!("a {wanted} is needed here, this is a {from}");
-        if is_plain(from) && is_plain(wanted) {
-            let narrows = wanted.widens_to(from) || from.is_number() && wanted.is_number();
-            let code = if narrows { Code::Narrowing } else { Code::WrongType };
-            let diagnostic = Diagnostic::new(code, found.span, message);
-            self.report(diagnostic.help(format!("{from}_TO_{wanted}(...) converts it")));
+        let message = needed(wanted, from);
+        if !is_plain(from) || !is_plain(wanted) {
+            self.error(Code::WrongType, found.span, message);
             return;
         }
-        self.error(Code::WrongType, found.span, message);
+        let narrows = wanted.widens_to(from) || from.is_number() && wanted.is_number();
+        let code = if narrows { Code::Narrowing } else { Code::WrongType };
+        let diagnostic = Diagnostic::new(code, found.span, message);
+        self.report(match (&found.kind, wanted) {
+            (ExpressionKind::Constant(Value::Int(ms)), Type::Time) if from.is_whole() => {
+                diagnostic.suggest(format!("T#{ms}ms"))
+            }
+            (_, Type::Bool) if from.is_number() => diagnostic.help("`... <> 0` asks for it"),
+            _ => diagnostic.help(format!("{from}_TO_{wanted}(...) converts it")),
+        });
     }
 
     fn integer(&mut self, value: i64, wanted: Option<&Type>, span: Span) -> Expression {
@@ -267,13 +278,18 @@ impl Checker<'_> {
             return known(value, kind, span);
         }
         let Some(place) = self.place(name, selectors, span) else { return invalid(span) };
-        if let Type::Block(_, block) = &place.of_type {
-            let message = format!("{}: an instance of {block} is no value", name.text);
+        if place.of_type.block().is_some() {
+            let kind = place.of_type.with_article();
+            let message = format!("{}: {kind} is no value", name.text);
             let found = Diagnostic::new(Code::WrongType, span, message);
             self.report(found.help(format!("its outputs are, such as {}.Q", name.text)));
             return invalid(span);
         }
         let of_type = place.of_type.base().clone();
+        let pass = self.unrolled.iter().find(|one| one.name == upper(&name.text));
+        if let Some(value) = pass.filter(|_| selectors.is_empty()).map(|one| one.value) {
+            return known(Value::Int(value), of_type, span);
+        }
         if let Some(value) = self.constant_at(&place) {
             return known(value, of_type, span);
         }
@@ -337,7 +353,11 @@ impl Checker<'_> {
                 UnaryOperator::Minus => ("-", "a number with a sign"),
                 UnaryOperator::Not => ("NOT", "a BOOL or a bit string"),
             };
-            self.error(Code::WrongType, span, format!("{what} needs {needed}, this is a {kind}"));
+            self.error(
+                Code::WrongType,
+                span,
+                format!("{what} needs {needed}, this is {}", kind.with_article()),
+            );
             return invalid(span);
         }
         if let ExpressionKind::Constant(value) = &inside.kind {

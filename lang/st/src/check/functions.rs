@@ -283,7 +283,8 @@ impl Checker<'_> {
             return value;
         }
         if !value.of_type.is_number() {
-            let message = format!("{}: a number is needed, this is a {}", name.text, value.of_type);
+            let kind = value.of_type.with_article();
+            let message = format!("{}: a number is needed, this is {kind}", name.text);
             self.error(Code::WrongType, value.span, message);
             return invalid(span);
         }

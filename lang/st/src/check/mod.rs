@@ -13,6 +13,7 @@ mod places;
 mod recursion;
 mod statements;
 mod types;
+mod unrolled;
 mod unwritten;
 
 use std::collections::HashMap;
@@ -51,6 +52,7 @@ pub(crate) fn check(sources: &[Source], files: &[tree::File], around: &Around) -
         file: None,
         unit: None,
         loops: Vec::new(),
+        unrolled: Vec::new(),
     };
     for (source, file) in sources.iter().zip(files) {
         let settings = file.settings.iter().map(|span| span.text(&source.text).to_owned());
@@ -103,6 +105,18 @@ pub(crate) struct Checker<'a> {
     unit: Option<usize>,
     /// The control variables of the loops around; `None` of WHILE and REPEAT.
     loops: Vec<Option<String>>,
+    /// The loops around that are taken for their passes.
+    unrolled: Vec<Unrolled>,
+}
+
+/// A loop that is taken for its passes.
+struct Unrolled {
+    /// Its variable, upper case.
+    name: String,
+    /// What the variable is in this pass.
+    value: i64,
+    /// Passes of this loop and those around.
+    passes: i64,
 }
 
 impl Checker<'_> {

@@ -4,6 +4,7 @@ use awl_asm::suggest::nearest;
 
 use super::Checker;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::habits;
 use crate::model::{ELEMENTARY, Root, Type, UnitKind, Value};
 use crate::standard::{FUNCTIONS, conversions};
 use crate::tree::Name;
@@ -65,18 +66,42 @@ impl Checker<'_> {
         let found = nearest(&name.text, names.iter().copied()).map(str::to_owned);
         let message = format!("{}: there is no {what} of this name", name.text);
         let mut diagnostic = Diagnostic::new(Code::UnknownName, name.span, message);
-        if found.is_none() && what == "variable" {
-            let help = format!("declare it: `VAR {} : INT; END_VAR`", name.text);
+        let is_type = ELEMENTARY.iter().any(|(kind, _)| kind.eq_ignore_ascii_case(&name.text));
+        if is_type {
+            let help = format!("{} is a type: `TO_{}(x)` converts", name.text, name.text);
             diagnostic = diagnostic.help(help);
+        } else if self.variable(&name.text).is_some() {
+            diagnostic =
+                diagnostic.help(format!("it is a variable: `{}[1]` is an element", name.text));
+        } else if let Some(help) = habits::help(&name.text) {
+            diagnostic = diagnostic.help(help);
+        } else {
+            let kind = if what == "instance" { "TON" } else { "INT" };
+            if found.is_none() && what != "function" {
+                let help = format!("declare it: `VAR {} : {kind}; END_VAR`", name.text);
+                diagnostic = diagnostic.help(help);
+            }
+            diagnostic.suggestion = found;
         }
-        diagnostic.suggestion = found;
         self.report(diagnostic);
     }
 
     /// What is wrong with the name of a type.
     pub(super) fn unknown_type(&mut self, name: &str, span: diagnostics::Span) {
         let not_yet = ["STRING", "CHAR"];
-        let never = ["LINT", "ULINT", "LREAL", "LWORD", "DATE", "TOD", "DT", "LTIME", "WSTRING"];
+        let never = [
+            "LINT",
+            "ULINT",
+            "LREAL",
+            "LWORD",
+            "DATE",
+            "TOD",
+            "TIME_OF_DAY",
+            "DT",
+            "DATE_AND_TIME",
+            "LTIME",
+            "WSTRING",
+        ];
         let wanted = upper(name);
         if not_yet.contains(&wanted.as_str()) {
             let message = format!("{wanted}: this type is not there yet");
@@ -96,10 +121,13 @@ impl Checker<'_> {
         let mut names: Vec<&str> =
             kinds.chain(declared).chain(blocks.map(|unit| unit.name.as_str())).collect();
         names.sort_unstable();
-        let found = nearest(name, names.iter().copied()).map(str::to_owned);
+        let found = habits::type_name(name).or_else(|| nearest(name, names.iter().copied()));
         let message = format!("{name}: there is no type of this name");
         let mut diagnostic = Diagnostic::new(Code::UnknownName, span, message);
-        diagnostic.suggestion = found;
+        if let Some(help) = habits::help(name) {
+            diagnostic = diagnostic.help(help);
+        }
+        diagnostic.suggestion = found.map(str::to_owned);
         self.report(diagnostic);
     }
 }

@@ -160,7 +160,13 @@ impl Checker<'_> {
         let message = format!("{} has no operands of {a} and {b}", operator.text());
         let found = Diagnostic::new(Code::WrongType, span, message);
         let is_plain = |kind: &Type| kind.is_number() || kind.is_bits() || *kind == Type::Time;
+        let is_chain = matches!(&left.kind, ExpressionKind::Binary(inner, ..)
+            if inner.is_comparison() && operator.is_comparison());
         let help = match is_plain(a) && is_plain(b) {
+            _ if is_chain => "`a < b AND b < c` compares three".to_owned(),
+            _ if *a == Type::Bool && b.is_number() && !operator.is_comparison() => {
+                format!("each side is a condition: `x = 1 {} x = 2`", operator.text())
+            }
             true => format!("convert one of them: {b}_TO_{a}(...) or {a}_TO_{b}(...)"),
             false => "both operands need the same type".to_owned(),
         };

@@ -85,7 +85,7 @@ impl Checker<'_> {
             return Some((Step::Member(at), kind));
         }
         let message = match names.is_empty() {
-            true => format!("{}: a {kind} has no members", name.text),
+            true => format!("{}: {} has no members", name.text, kind.with_article()),
             false => format!("{}: {kind} has no such member", name.text),
         };
         let mut diagnostic = Diagnostic::new(Code::UnknownName, name.span, message);
@@ -106,7 +106,7 @@ impl Checker<'_> {
     ) -> Option<(Step, Type)> {
         let Type::Array(array) = kind else {
             if *kind != Type::Invalid {
-                let message = format!("{}: a {kind} has no elements", name.text);
+                let message = format!("{}: {} has no elements", name.text, kind.with_article());
                 self.error(Code::WrongType, name.span, message);
             }
             return None;
@@ -120,7 +120,16 @@ impl Checker<'_> {
         }
         let mut found = Vec::new();
         for (index, bounds) in indexes.iter().zip(&array.bounds) {
-            found.push(self.index(index, *bounds));
+            let one = self.index(index, *bounds);
+            let is_known = matches!(one.kind, ExpressionKind::Constant(_));
+            if array.of.block().is_some() && !is_known {
+                let message = format!("{}: the index of an instance must be known", name.text);
+                let found = Diagnostic::new(Code::BadConstant, index.span, message);
+                let text = "is the variable of a loop such as `FOR i := 1 TO 4 DO`, or a constant";
+                self.report(found.help(text));
+                return None;
+            }
+            found.push(one);
         }
         Some((Step::Element(found), array.of.clone()))
     }
@@ -218,10 +227,11 @@ impl Checker<'_> {
         } else if variable.section == SectionKind::Input {
             let message = format!("{}: an input is given by the caller, not written", name.text);
             self.error(Code::NotWritable, span, message);
-        } else if let (Type::Block(number, _), Some(Step::Member(at))) =
-            (&variable.of_type, place.steps.first())
-        {
-            let member = self.program.units.get(*number).and_then(|unit| unit.variables.get(*at));
+        } else if let (Some(number), Some(Step::Member(at))) = (
+            variable.of_type.block(),
+            place.steps.iter().find(|step| matches!(step, Step::Member(_))),
+        ) {
+            let member = self.program.units.get(number).and_then(|unit| unit.variables.get(*at));
             if member.is_some_and(|member| member.section == SectionKind::Output) {
                 let message = "an output of an instance is written by the block alone";
                 self.error(Code::NotWritable, span, message);

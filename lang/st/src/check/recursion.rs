@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use super::Checker;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{
-    Expression, ExpressionKind, Place, Root, Statement, StatementKind, Step, Type, UnitKind,
+    Expression, ExpressionKind, Place, Root, Statement, StatementKind, Step, UnitKind,
 };
 
 /// Calls below the main program at most (docs/s7-200.md 1.8).
@@ -18,11 +18,7 @@ impl Checker<'_> {
         let mut uses: Vec<Vec<usize>> = Vec::new();
         for unit in &self.program.units {
             let mut used = Vec::new();
-            for variable in &unit.variables {
-                if let Type::Block(number, _) = variable.of_type {
-                    used.push(number);
-                }
-            }
+            used.extend(unit.variables.iter().filter_map(|variable| variable.of_type.block()));
             each_expression(&unit.body, &mut |expression| {
                 if let ExpressionKind::Call(number, _) = expression.kind {
                     used.push(number);

@@ -18,7 +18,9 @@ impl Checker<'_> {
                 self.error(Code::NeverReached, statement.span, message);
                 has_left = false;
             }
-            if let Some(kind) = self.statement(statement) {
+            if let tree::StatementKind::For(one) = &statement.kind {
+                statements.extend(self.for_loop(one, statement.span));
+            } else if let Some(kind) = self.statement(statement) {
                 has_left = matches!(
                     kind,
                     StatementKind::Exit | StatementKind::Continue | StatementKind::Return
@@ -42,7 +44,8 @@ impl Checker<'_> {
                 Some(StatementKind::If(arms, self.statements(otherwise)))
             }
             Kind::Case(selector, arms, otherwise) => Some(self.case(selector, arms, otherwise)),
-            Kind::For(one) => self.for_loop(one),
+            // It may become several statements.
+            Kind::For(_) => None,
             Kind::While(condition, body) => {
                 let condition = self.condition(condition);
                 let body = self.in_loop(None, body);
@@ -68,10 +71,14 @@ impl Checker<'_> {
             self.error(Code::Loop, span, format!("{word}: there is no loop around"));
             return None;
         }
-        Some(kind)
+        (!self.is_left(word, span)).then_some(kind)
     }
 
-    fn in_loop(&mut self, control: Option<String>, body: &[tree::Statement]) -> Vec<Statement> {
+    pub(super) fn in_loop(
+        &mut self,
+        control: Option<String>,
+        body: &[tree::Statement],
+    ) -> Vec<Statement> {
         self.loops.push(control);
         let body = self.statements(body);
         self.loops.pop();
@@ -91,9 +98,10 @@ impl Checker<'_> {
             self.expression(value, None);
             return None;
         };
-        if let Type::Block(_, name) = &place.of_type {
-            let message = format!("an instance of {name} cannot be assigned");
-            self.error(Code::WrongType, target.span, message);
+        if place.of_type.block().is_some() {
+            let message = format!("{} cannot be assigned", place.of_type.with_article());
+            let found = Diagnostic::new(Code::WrongType, target.span, message);
+            self.report(found.help("an instance is called, and its inputs are assigned"));
             return None;
         }
         let value = self.value_of(value, &place.of_type);
@@ -110,8 +118,9 @@ impl Checker<'_> {
         let kind = selector.of_type.clone();
         let fits = kind.is_whole() || matches!(kind, Type::Enumeration(_) | Type::Invalid);
         if !fits {
+            let this = kind.with_article();
             let message =
-                format!("CASE chooses by whole numbers or an enumeration, this is a {kind}");
+                format!("CASE chooses by whole numbers or an enumeration, this is {this}");
             let found = Diagnostic::new(Code::WrongType, selector.span, message);
             let help = match kind.is_bits() {
                 true => format!("{kind}_TO_INT(...) is a number"),
@@ -180,7 +189,7 @@ impl Checker<'_> {
         Some((low, high))
     }
 
-    fn for_loop(&mut self, one: &tree::ForLoop) -> Option<StatementKind> {
+    fn for_loop(&mut self, one: &tree::ForLoop, span: Span) -> Vec<Statement> {
         let place = self.target(&one.variable);
         let kind = place.as_ref().map_or(Type::Int, |place| place.of_type.clone());
         let is_plain = place.as_ref().is_none_or(|place| place.steps.is_empty());
@@ -212,9 +221,16 @@ impl Checker<'_> {
             tree::ExpressionKind::Variable(name, _) => Some(upper(&name.text)),
             _ => None,
         };
-        let body = self.in_loop(control, &one.body);
-        let variable = place.filter(|_| kind.base().is_whole())?;
-        Some(StatementKind::For(Box::new(ForLoop { variable, from, to, by, body })))
+        let Some(variable) = place.filter(|_| kind.base().is_whole()) else {
+            self.in_loop(control, &one.body);
+            return Vec::new();
+        };
+        let mut found = ForLoop { variable, from, to, by, body: Vec::new() };
+        if let Some(values) = self.passes(one, &found) {
+            return self.unrolled(one, &found, &values, span);
+        }
+        found.body = self.in_loop(control, &one.body);
+        vec![Statement { kind: StatementKind::For(Box::new(found)), span }]
     }
 }
 

@@ -17,6 +17,8 @@ use crate::tree::{Declaration, Expression, File, Name, TypeText, TypeTextKind};
 const BYTES_MAX: i64 = 10_240;
 /// Elements of an array at most: what V memory could hold.
 const ELEMENTS_MAX: i64 = BYTES_MAX;
+/// Instances of an array at most.
+const INSTANCES_MAX: i64 = 256;
 
 impl<'a> Checker<'a> {
     pub(super) fn collect_types(&mut self, files: &[(Option<usize>, &'a File)]) {
@@ -176,9 +178,15 @@ impl<'a> Checker<'a> {
         }
         match of_type {
             Type::Invalid => Type::Invalid,
-            Type::Block(..) => {
-                let message = "arrays of function blocks are not there yet";
-                self.error(Code::NotThere, of.span, message);
+            Type::Array(_) if of_type.block().is_some() => {
+                let message = "an array of instances is no element of another array";
+                let found = Diagnostic::new(Code::NotThere, of.span, message);
+                self.report(found.help("one array can have several dimensions"));
+                Type::Invalid
+            }
+            Type::Block(..) if count > INSTANCES_MAX => {
+                let message = format!("an array has {INSTANCES_MAX} instances at most");
+                self.error(Code::BadConstant, of.span, message);
                 Type::Invalid
             }
             of_type if count.saturating_mul(of_type.bytes()) > BYTES_MAX => {
@@ -206,7 +214,7 @@ impl<'a> Checker<'a> {
         let mut members: Vec<Member> = Vec::new();
         for declared in declarations {
             let of_type = self.type_of(&declared.of_type, of);
-            if let Type::Block(..) = of_type {
+            if of_type.block().is_some() {
                 let message = "a structure holds no function blocks";
                 self.error(Code::NotThere, declared.of_type.span, message);
                 continue;

@@ -2,11 +2,12 @@
 
 use super::hardware::Device;
 use super::logic::Logic;
+use super::memory::instances;
 use super::timers::Owner;
 use super::writer::Storage;
 use super::{Frame, Generator, Names};
 use crate::model::{
-    BlockCall, Expression, ExpressionKind, Place, Root, RoutineArgument, Step, Type, UnitKind,
+    BlockCall, Expression, ExpressionKind, Place, Root, RoutineArgument, Step, Type, Unit, UnitKind,
 };
 
 impl Generator<'_> {
@@ -68,29 +69,12 @@ impl Generator<'_> {
             self.device_call(&name, &device, call);
             return;
         }
-        for (at, value) in &call.inputs {
-            match &value.kind {
-                ExpressionKind::Read(from) if !value.of_type.is_elementary() => {
-                    self.copy_whole(from, &parameter(call, *at, &value.of_type), &value.of_type);
-                }
-                _ => self.pass(&frame, *at, value),
-            }
-        }
-        for (at, place) in &call.in_outs {
-            let of_type = &place.of_type;
-            match of_type.is_elementary() {
-                true => self.pass(&frame, *at, &read(place)),
-                false => self.copy_whole(place, &parameter(call, *at, of_type), of_type),
-            }
-        }
-        if self.as_routines.contains(&call.block) {
-            self.call_as_routine(&frame, unit);
-        } else {
-            let around = std::mem::replace(&mut self.frame, frame.clone());
-            self.reset_temporaries(unit);
-            self.body(&unit.body);
-            self.end_of_unit();
-            self.frame = around;
+        let is_done = match &frame.names {
+            Names::Static(name) => self.edge_call(name, call),
+            Names::Local => false,
+        };
+        if !is_done {
+            self.block_body(&frame, unit, call);
         }
         for (at, place) in call.in_outs.iter().chain(&call.outputs) {
             let of_type = &place.of_type;
@@ -98,6 +82,36 @@ impl Generator<'_> {
                 true => self.take(&frame, *at, place),
                 false => self.copy_whole(&parameter(call, *at, of_type), place, of_type),
             }
+        }
+    }
+
+    /// Gives the parameters, then the block is written out, or its subroutine called.
+    fn block_body(&mut self, frame: &Frame, unit: &Unit, call: &BlockCall) {
+        for (at, value) in &call.inputs {
+            match &value.kind {
+                ExpressionKind::Read(from) if !value.of_type.is_elementary() => {
+                    self.copy_whole(from, &parameter(call, *at, &value.of_type), &value.of_type);
+                }
+                _ => self.pass(frame, *at, value),
+            }
+        }
+        for (at, place) in &call.in_outs {
+            let of_type = &place.of_type;
+            match of_type.is_elementary() {
+                true => self.pass(frame, *at, &read(place)),
+                false => self.copy_whole(place, &parameter(call, *at, of_type), of_type),
+            }
+        }
+        if self.as_routines.contains(&call.block) {
+            self.call_as_routine(frame, unit);
+        } else {
+            let around = std::mem::replace(&mut self.frame, frame.clone());
+            let place = self.writer.place();
+            self.reset_temporaries(unit);
+            self.body(&unit.body);
+            self.end_of_unit();
+            self.frame = around;
+            self.writer.go_on_at(&place);
         }
     }
 
@@ -131,7 +145,8 @@ impl Generator<'_> {
             Root::Global(at) => (Owner::Global, at),
             Root::Address(_) => (Owner::Global, usize::MAX),
         };
-        let short = self.short.get(&owner).filter(|_| place.steps.is_empty());
+        let is_own = place.steps.iter().all(|step| matches!(step, Step::Element(_)));
+        let short = self.short.get(&owner).filter(|_| is_own);
         Frame {
             unit: block,
             names: Names::Static(found.text),
@@ -196,21 +211,24 @@ impl Generator<'_> {
         let program = self.program;
         self.writer.section("Timers that run go on");
         for (at, variable) in program.globals.iter().enumerate() {
-            if let Type::Block(number, _) = variable.of_type {
-                let name = crate::names::safe_name(&variable.name);
-                self.ticks(number, &name, (Owner::Global, at));
-            }
+            let name = crate::names::safe_name(&variable.name);
+            self.ticks_of(&variable.of_type, &name, (Owner::Global, at));
         }
         for (number, unit) in program.units.iter().enumerate() {
             if unit.kind != UnitKind::Program {
                 continue;
             }
             for (at, variable) in unit.variables.iter().enumerate() {
-                if let Type::Block(block, _) = variable.of_type {
-                    let name = format!("{}.{}", unit.name, variable.name);
-                    self.ticks(block, &name, (Owner::Unit(number), at));
-                }
+                let name = format!("{}.{}", unit.name, variable.name);
+                self.ticks_of(&variable.of_type, &name, (Owner::Unit(number), at));
             }
+        }
+    }
+
+    /// What the instances that a variable is do at the start of the scan.
+    fn ticks_of(&mut self, of_type: &Type, name: &str, owner: (Owner, usize)) {
+        for (block, name) in instances(of_type, name) {
+            self.ticks(block, &name, owner);
         }
     }
 
@@ -235,10 +253,8 @@ impl Generator<'_> {
         self.body(&unit.every_scan);
         self.is_tick = false;
         for (at, variable) in unit.variables.iter().enumerate() {
-            if let Type::Block(inner, _) = variable.of_type {
-                let name = format!("{name}.{}", variable.name);
-                self.ticks(inner, &name, (Owner::Unit(block), at));
-            }
+            let name = format!("{name}.{}", variable.name);
+            self.ticks_of(&variable.of_type, &name, (Owner::Unit(block), at));
         }
     }
 }

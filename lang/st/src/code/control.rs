@@ -139,7 +139,13 @@ impl Generator<'_> {
     /// Every body hangs on the power flow of its condition, and on that none before was met.
     fn powered(&mut self, arms: &[Arm], otherwise: &[Statement]) {
         let last = arms.len() - 1;
+        let place = self.writer.place();
         for (at, (choice, body)) in arms.iter().enumerate() {
+            if at > 0
+                && let Choice::If(condition) = choice
+            {
+                self.go_on(condition.span);
+            }
             let logic = self.decide(choice);
             let has_more = at < last || !otherwise.is_empty();
             if at == 0 {
@@ -152,6 +158,7 @@ impl Generator<'_> {
             }
             self.guarded(body, !has_more);
             if has_more {
+                self.writer.go_on_at(&place);
                 self.writer.logic("NOT", "", false);
                 if at > 0 {
                     self.writer.logic("ALD", "", false);
@@ -159,6 +166,7 @@ impl Generator<'_> {
             }
         }
         self.guarded(otherwise, true);
+        self.writer.go_on_at(&place);
         self.writer.forget();
     }
 
@@ -167,6 +175,7 @@ impl Generator<'_> {
         let before = self.writer.guard(true);
         for (at, statement) in body.iter().enumerate() {
             let in_use = self.writer.in_use();
+            self.go_on(statement.span);
             match &statement.kind {
                 StatementKind::Assign(place, value) => self.assign(place, value),
                 StatementKind::If(arms, otherwise) => {
@@ -194,7 +203,11 @@ impl Generator<'_> {
             self.writer.logic("LPS", "", false);
         }
         let last = arms.len().saturating_sub(1);
+        let place = self.writer.place();
         for (at, (condition, body)) in arms.iter().enumerate() {
+            if at > 0 {
+                self.go_on(condition.span);
+            }
             let logic = self.lower(condition);
             let has_more = at < last || !otherwise.is_empty();
             if has_more {
@@ -203,12 +216,14 @@ impl Generator<'_> {
             self.and(&logic);
             self.guarded(body, is_last && !has_more);
             if has_more {
+                self.writer.go_on_at(&place);
                 self.writer.logic("NOT", "", false);
                 self.writer.logic("ALD", "", false);
             }
         }
         self.guarded(otherwise, is_last);
         if !is_last {
+            self.writer.go_on_at(&place);
             self.writer.logic("LPP", "", false);
         }
     }
@@ -218,14 +233,21 @@ impl Generator<'_> {
         let end = self.writer.new_label();
         let last = arms.len() - 1;
         let mut needs_end = false;
+        let place = self.writer.place();
         for (at, (choice, body)) in arms.iter().enumerate() {
             let in_use = self.writer.in_use();
+            if at > 0
+                && let Choice::If(condition) = choice
+            {
+                self.begin(condition.span);
+            }
             let logic = self.decide(choice);
             let has_more = at < last || !otherwise.is_empty();
             let next = if has_more { self.writer.new_label() } else { end };
             needs_end |= !has_more;
             self.jump_unless(logic, next);
             self.body(body);
+            self.writer.go_on_at(&place);
             if has_more {
                 if !leaves(body) {
                     self.writer.always_jump(end);
@@ -236,6 +258,7 @@ impl Generator<'_> {
             self.writer.release(in_use);
         }
         self.body(otherwise);
+        self.writer.go_on_at(&place);
         if needs_end {
             self.writer.label(end);
         }
@@ -255,9 +278,11 @@ impl Generator<'_> {
     }
 
     fn in_loop(&mut self, exit: u16, next: u16, body: &[Statement]) {
+        let place = self.writer.place();
         self.frame.loops.push((exit, next));
         self.body(body);
         self.frame.loops.pop();
+        self.writer.go_on_at(&place);
     }
 
     pub(super) fn while_loop(&mut self, condition: &Expression, body: &[Statement]) {

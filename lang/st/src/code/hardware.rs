@@ -30,7 +30,7 @@ pub(super) struct Device {
 pub(super) type Devices = HashMap<String, Device>;
 
 /// A declared instance: what declares it, and its number there.
-type Key = (Owner, usize);
+pub(super) type Key = (Owner, usize);
 
 /// The variables of TON, TOF and CTU, by their numbers in blocks.st.
 const IN_OR_CU: usize = 0;
@@ -42,16 +42,16 @@ const Q_OF_CTU: usize = 3;
 
 /// What the program does with a declared instance.
 #[derive(Debug, Default)]
-struct Usage<'p> {
-    calls: Vec<Site<'p>>,
+pub(super) struct Usage<'p> {
+    pub(super) calls: Vec<Site<'p>>,
     is_read: HashSet<usize>,
-    is_written: bool,
+    pub(super) is_written: bool,
 }
 
 /// A call of an instance.
 #[derive(Debug, Clone, Copy)]
-struct Site<'p> {
-    call: &'p BlockCall,
+pub(super) struct Site<'p> {
+    pub(super) call: &'p BlockCall,
     /// The unit with the call.
     unit: usize,
     /// Whether it is executed whenever the unit is, and once.
@@ -342,7 +342,7 @@ fn named_addresses(program: &Program) -> BTreeSet<String> {
 }
 
 /// What the program does with each declared instance.
-fn usages(program: &Program) -> HashMap<Key, Usage<'_>> {
+pub(super) fn usages(program: &Program) -> HashMap<Key, Usage<'_>> {
     let mut usages: HashMap<Key, Usage> = HashMap::new();
     for (number, unit) in program.units.iter().enumerate() {
         let mut has_return = false;

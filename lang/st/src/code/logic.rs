@@ -189,6 +189,11 @@ impl Generator<'_> {
         self.put(logic, Mode::Load, true);
     }
 
+    /// Puts a condition on the stack above what is there.
+    pub(super) fn push(&mut self, logic: &Logic) {
+        self.put(logic, Mode::Load, false);
+    }
+
     /// Combines the top of the stack with a condition by AND.
     pub(super) fn and(&mut self, logic: &Logic) {
         self.put(logic, Mode::And, false);

@@ -1,6 +1,7 @@
 //! Variables in AWL: how each is called and stored, and the lines that declare them.
 
 use super::Generator;
+use super::edges::M;
 use super::timers::Owner;
 use super::writer::Storage;
 use crate::model::{SectionKind, Type, UnitKind, Value, Variable};
@@ -66,6 +67,21 @@ pub(super) fn row(bounds: &[(i64, i64)]) -> Option<(i64, i64)> {
     }
 }
 
+/// The instances that a variable is, each with the number of its block.
+pub(super) fn instances(of_type: &Type, name: &str) -> Vec<(usize, String)> {
+    match of_type {
+        Type::Block(number, _) => vec![(*number, name.to_owned())],
+        Type::Array(array) => {
+            let bounds = array.of.block().zip(row(&array.bounds));
+            let all = bounds.into_iter().flat_map(|(number, (low, high))| {
+                (low..=high).map(move |at| (number, format!("{name}[{at}]")))
+            });
+            all.collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
 /// The type of a local variable in AWL.
 pub(super) fn local_type(kind: &Type) -> String {
     match kind {
@@ -116,8 +132,11 @@ impl Generator<'_> {
             return;
         }
         let is_retained = is_retained || variable.is_retained;
-        if let Type::Block(number, _) = variable.of_type {
-            self.declare_instance(number, name, owner, at, is_retained, lines);
+        let instances = instances(&variable.of_type, name);
+        for (number, name) in &instances {
+            self.declare_instance(*number, name, owner, at, is_retained, lines);
+        }
+        if !instances.is_empty() {
             return;
         }
         let retain = if is_retained { " RETAIN" } else { "" };
@@ -142,7 +161,11 @@ impl Generator<'_> {
         }
         let Some(unit) = self.program.units.get(number) else { return };
         let short = self.short.get(&(owner, at));
+        let is_edge = self.edges.contains(&(owner, at));
         for (inner, variable) in unit.variables.iter().enumerate() {
+            if is_edge && inner == M {
+                continue;
+            }
             let name = format!("{name}.{}", variable.name);
             if short.is_some() && variable.of_type == Type::Time {
                 if !(variable.name == "PT" && short.is_some_and(Option::is_some)) {

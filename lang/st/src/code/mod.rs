@@ -7,6 +7,7 @@ mod candidates;
 mod compare;
 mod control;
 mod convert;
+mod edges;
 mod hardware;
 mod logic;
 mod memory;
@@ -24,6 +25,7 @@ use diagnostics::{Source, Span};
 use crate::around::Around;
 use crate::diagnostic::Diagnostic;
 use crate::model::{Element, ExpressionKind, Program, SectionKind, UnitKind};
+use edges::Edges;
 use hardware::Devices;
 use timers::Short;
 use writer::Writer;
@@ -58,6 +60,8 @@ struct Generator<'a> {
     program: &'a Program,
     sources: &'a [Source],
     short: Short,
+    /// Instances of R_TRIG and F_TRIG without a memory beside CLK.
+    edges: Edges,
     /// Instances that are timers and counters of the controller.
     devices: Devices,
     /// Blocks that are subroutines.
@@ -124,6 +128,7 @@ fn written(
         program,
         sources,
         short: timers::short_timers(program),
+        edges: edges::edges(program),
         devices,
         as_routines,
         located: located(program),
@@ -317,8 +322,7 @@ impl Generator<'_> {
     fn place_of(&self, number: usize) -> Option<String> {
         let unit = self.program.units.get(number)?;
         let source = self.sources.get(unit.file?)?;
-        let (line, column) = source.position(unit.span.start as usize);
-        Some(format!("{}:{line}:{column}", source.name))
+        Some(writer::place_in(source, unit.span))
     }
 
     /// What follows in the AWL text belongs to a statement, if that is of a file.
@@ -328,6 +332,16 @@ impl Generator<'_> {
         }
         if let Some(source) = self.frame.file.and_then(|file| self.sources.get(file)) {
             self.writer.statement(source, span);
+        }
+    }
+
+    /// What follows in the network belongs to a statement, if that is of a file.
+    fn go_on(&mut self, span: Span) {
+        if span == Span::default() {
+            return;
+        }
+        if let Some(source) = self.frame.file.and_then(|file| self.sources.get(file)) {
+            self.writer.go_on_at(&writer::place_in(source, span));
         }
     }
 

@@ -67,6 +67,11 @@ impl Generator<'_> {
                     kind = member.of_type.clone();
                     (owner, variable) = (Owner::Unit(number), *at);
                 }
+                (Step::Element(list), Type::Array(array)) if array.of.block().is_some() => {
+                    let at = known_index(list, &array.bounds).unwrap_or(0);
+                    text = format!("{text}[{at}]");
+                    kind = array.of.clone();
+                }
                 (Step::Element(list), Type::Array(array)) => {
                     bounds.extend(array.bounds.iter().copied());
                     indexes.extend(list.iter().cloned());

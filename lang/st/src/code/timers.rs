@@ -43,7 +43,7 @@ pub(super) fn short_timers(program: &Program) -> Short {
             }
             StatementKind::Assign(place, _) if !place.steps.is_empty() => {
                 // An input that is written has a preset that is not known.
-                let is_member = matches!(place.steps.first(), Some(Step::Member(_)));
+                let is_member = place.steps.iter().any(|step| matches!(step, Step::Member(_)));
                 if let Some(key) = key(place).filter(|_| is_member && place.of_type == Type::Time) {
                     presets.insert(key, None);
                 }

@@ -70,6 +70,10 @@ pub(super) struct Writer {
     most: InUse,
     /// The head of the statement that the next instruction begins.
     head: Option<Head>,
+    /// Where the last line comes from; empty: from no text.
+    place: String,
+    /// Where the next one comes from.
+    next_place: String,
     /// Whether the top of the stack is known to be 1.
     has_power: bool,
     /// The bit that the top of the stack is equal to.
@@ -91,13 +95,12 @@ struct Head {
 impl Writer {
     /// What is written from now on belongs to a statement.
     pub(super) fn statement(&mut self, source: &Source, span: Span) {
-        let (line, column) = source.position(span.start as usize);
         let text = span.text(&source.text).split_whitespace().collect::<Vec<_>>().join(" ");
         let title = match text.char_indices().nth(76) {
             Some((at, _)) => format!("{}...", text.get(..at).unwrap_or("")),
             None => text,
         };
-        self.head = Some(Head { title, place: format!("{}:{line}:{column}", source.name) });
+        self.head = Some(Head { title, place: place_in(source, span) });
     }
 
     /// What is written from now on belongs to an element of a drawing.
@@ -115,31 +118,58 @@ impl Writer {
         self.top = None;
     }
 
+    /// Where the lines come from that are written now.
+    pub(super) fn place(&self) -> String {
+        self.head.as_ref().map_or(&self.next_place, |head| &head.place).clone()
+    }
+
+    /// What is written from now on comes from a place, in the network that there is.
+    pub(super) fn go_on_at(&mut self, place: &str) {
+        self.head = None;
+        place.clone_into(&mut self.next_place);
+    }
+
     fn network(&mut self, head: &Head) {
         self.networks += 1;
         if !self.lines.is_empty() {
             self.lines.push(String::new());
         }
         self.lines.push(format!("NETWORK {} // {}", self.networks, head.title));
-        self.place(head);
+        self.mark(&head.place);
         self.has_power = false;
         self.top = None;
     }
 
-    fn place(&mut self, head: &Head) {
-        let place = if head.place.is_empty() { String::new() } else { format!(" {}", head.place) };
-        self.lines.push(format!("//# source{place}"));
+    fn mark(&mut self, place: &str) {
+        self.lines.push(format!("//# source {place}").trim_end().to_owned());
+        place.clone_into(&mut self.place);
+        place.clone_into(&mut self.next_place);
+    }
+
+    /// A statement in the network of the one before.
+    fn go_on(&mut self, head: &Head) {
+        self.mark(&head.place);
+        if !head.title.is_empty() {
+            self.lines.push(format!("// {}", head.title));
+        }
     }
 
     fn line(&mut self, mnemonic: &str, operands: &str) {
-        let text = format!("{mnemonic:<6} {operands}");
-        self.lines.push(text.trim_end().to_owned());
+        if self.next_place != self.place {
+            self.mark(&self.next_place.clone());
+        }
+        self.lines.push(text_of(mnemonic, operands));
     }
 
-    /// The first instruction of a rung. What loads the bit that is on top already is left out.
+    /// The first instruction of a rung. What loads the bit that is on top already is left out; a
+    /// statement that begins so, right after the coil, goes on in the network.
     fn rung(&mut self, mnemonic: &str, operands: &str) {
+        let is_coil = self.lines.last().is_some_and(|last| *last == text_of("=", operands));
         if let Some(head) = self.head.take() {
-            self.network(&head);
+            match is_coil && ["LD", "LDN"].contains(&mnemonic) {
+                true => self.go_on(&head),
+                false => self.network(&head),
+            }
         }
         let is_there = self.top.as_deref() == Some(operands);
         match mnemonic {
@@ -200,10 +230,7 @@ impl Writer {
         if !self.has_power {
             self.rung("LD", "SM0.0");
         } else if let Some(head) = self.head.take() {
-            self.place(&head);
-            if !head.title.is_empty() {
-                self.lines.push(format!("// {}", head.title));
-            }
+            self.go_on(&head);
         }
     }
 
@@ -290,6 +317,16 @@ impl Writer {
     pub(super) fn finish(self) -> Vec<String> {
         self.lines
     }
+}
+
+fn text_of(mnemonic: &str, operands: &str) -> String {
+    format!("{mnemonic:<6} {operands}").trim_end().to_owned()
+}
+
+/// Where a statement begins, as `//# source` has it.
+pub(super) fn place_in(source: &Source, span: Span) -> String {
+    let (line, column) = source.position(span.start as usize);
+    format!("{}:{line}:{column}", source.name)
 }
 
 /// A block with its sections and lines.

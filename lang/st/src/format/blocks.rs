@@ -1,8 +1,8 @@
 //! What is open at a token: units, sections, statements. From it follow the level of a line, and
 //! which tokens begin one. The text has no errors of form.
 
+use crate::keywords::is_keyword;
 use crate::lexer::{Kind, Token};
-use crate::parser::is_keyword;
 
 /// Something that is open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

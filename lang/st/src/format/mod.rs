@@ -7,8 +7,9 @@ mod blocks;
 use diagnostics::{Source, Span};
 
 use crate::diagnostic::Diagnostic;
+use crate::keywords::is_keyword;
 use crate::lexer::{Kind, Token, cut};
-use crate::parser::{is_keyword, parse};
+use crate::parser::parse;
 use blocks::{Blocks, Layout, Start};
 
 /// The text in canonical layout; or its errors of form.

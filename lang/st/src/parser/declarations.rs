@@ -5,7 +5,10 @@ use diagnostics::Span;
 use super::expressions::joined;
 use super::{Failed, Outcome, Parser};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::habits;
+use crate::keywords::is_keyword;
 use crate::lexer::Kind;
+use crate::model::ELEMENTARY;
 use crate::tree::{
     Declaration, File, Name, Section, SectionKind, TypeDeclaration, TypeText, TypeTextKind, Unit,
     UnitKind,
@@ -54,7 +57,8 @@ impl Parser<'_> {
         if let Some(message) = message {
             let text = super::short(self.text_of(token));
             let found = Diagnostic::new(Code::Syntax, token.span, format!("`{text}`: {message}"));
-            self.report(found.help("a program is `PROGRAM Main ... END_PROGRAM`"));
+            let help = habits::help(word);
+            self.report(found.help(help.unwrap_or("a program is `PROGRAM Main ... END_PROGRAM`")));
         }
         let begins = ["PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TYPE", "VAR_GLOBAL"];
         self.step();
@@ -72,8 +76,12 @@ impl Parser<'_> {
         let kind = match word {
             "PROGRAM" => UnitKind::Program,
             "FUNCTION_BLOCK" => UnitKind::Block,
-            _ => UnitKind::Function(self.result_type(&name)),
+            _ => {
+                self.no_brackets();
+                UnitKind::Function(self.result_type(&name))
+            }
         };
+        self.no_brackets();
         self.take_sign(";");
         let mut sections = Vec::new();
         while let Some(section) = self.section() {
@@ -98,6 +106,20 @@ impl Parser<'_> {
         Ok(Unit { kind, name, span, sections, every_scan, body })
     }
 
+    /// Reports parameters in brackets after a unit's name.
+    fn no_brackets(&mut self) {
+        if !self.is_sign("(") {
+            return;
+        }
+        let open = self.token().span;
+        while !self.is_at_end() && !self.take_sign(")") && !self.is_boundary() {
+            self.step();
+        }
+        let message = "there are no brackets after the name of a unit";
+        let found = Diagnostic::new(Code::Syntax, joined(open, self.previous()), message);
+        self.report(found.help("parameters are declared: `VAR_INPUT x : INT; END_VAR`"));
+    }
+
     /// The statements of a unit, words in them that end nothing reported.
     fn unit_body(&mut self, word: &str) -> Vec<crate::tree::Statement> {
         let mut body = self.statements();
@@ -106,7 +128,10 @@ impl Parser<'_> {
         while !self.is_at_end() && !self.is_one_of(&ends) && !self.is_one_of(&begins) {
             let token = self.step();
             let text = super::short(self.text_of(token));
-            let message = format!("`{text}`: nothing is open that it belongs to in this {word}");
+            let message = match self.token().kind {
+                Kind::Sign(":") => format!("`{text}:`: a label stands in CASE, `:=` assigns"),
+                _ => format!("`{text}`: nothing is open that it belongs to in this {word}"),
+            };
             self.report(Diagnostic::new(Code::Syntax, token.span, message));
             self.skip_statement();
             body.extend(self.statements());
@@ -161,7 +186,7 @@ impl Parser<'_> {
     /// Declarations up to a word that ends them.
     fn declarations(&mut self) -> Vec<Declaration> {
         let mut declarations = Vec::new();
-        while self.is_name() {
+        while self.is_name() || self.token().kind == Kind::Address {
             match self.declaration() {
                 Ok(declaration) => {
                     self.semicolon();
@@ -172,11 +197,11 @@ impl Parser<'_> {
             // After an assignment the section's end is what is missing.
             let is_statement =
                 matches!(self.ahead(1).kind, Kind::Sign(":=" | "(" | "." | "[" | "="));
-            if self.is_name() && is_statement {
+            if self.is_name() && is_statement && !is_elementary(self.word_at(2)) {
                 break;
             }
         }
-        if self.token().kind == Kind::Word && super::is_keyword(self.word_at(0)) {
+        if self.token().kind == Kind::Word && is_keyword(self.word_at(0)) {
             let ends = ["END_VAR", "END_STRUCT"];
             let is_declared = matches!(self.ahead(1).kind, Kind::Sign(":" | ","))
                 || self.word_at(1).eq_ignore_ascii_case("AT");
@@ -194,6 +219,10 @@ impl Parser<'_> {
 
     fn declaration(&mut self) -> Outcome<Declaration> {
         let before = self.previous().end;
+        if let Some(found) = self.foreign_declaration() {
+            self.report(found);
+            return Err(Failed);
+        }
         let mut names = vec![self.name("a name")?];
         while self.take_sign(",") {
             names.push(self.name("a name")?);
@@ -208,9 +237,43 @@ impl Parser<'_> {
         }
         self.need_sign(":")?;
         let of_type = self.type_text();
+        let at = if self.is_word("AT") { Some(self.late_place(&names)?) } else { at };
         let initial = self.initial_value()?;
         let coarse = self.coarse_within(before, self.token().span.start);
         Ok(Declaration { names, at, of_type, initial, coarse })
+    }
+
+    /// What is wrong with a declaration in the order of another language.
+    fn foreign_declaration(&self) -> Option<Diagnostic> {
+        let [first, second] = [self.token(), self.ahead(1)];
+        let span = joined(first.span, second.span);
+        let [first_text, second_text] = [first, second].map(|token| self.text_of(token));
+        let (message, meant, span) = if first.kind == Kind::Address {
+            ("a variable has a name", format!("Name AT {first_text}"), first.span)
+        } else if is_type(self.word_at(0)) && !is_keyword(second_text) && second.kind == Kind::Word
+        {
+            let kind = first_text.to_ascii_uppercase();
+            let kind = habits::type_name(&kind).unwrap_or(&kind);
+            ("the type is after the name", format!("{second_text} : {kind}"), span)
+        } else if is_type(self.word_at(1)) {
+            ("`:` is between name and type", format!("{first_text} : {second_text}"), span)
+        } else if matches!(second.kind, Kind::Sign(":=")) && is_elementary(self.word_at(2)) {
+            ("`:` is before a type, `:=` before a value", ":".to_owned(), second.span)
+        } else {
+            return None;
+        };
+        Some(Diagnostic::new(Code::Syntax, span, message).suggest(meant))
+    }
+
+    /// AT after the type, where it does not belong.
+    fn late_place(&mut self, names: &[Name]) -> Outcome<Name> {
+        let word = self.step().span;
+        let place = self.place()?;
+        let name = names.first().map_or("", |name| name.text.as_str());
+        let message = "AT is before the type";
+        let found = Diagnostic::new(Code::Syntax, joined(word, place.span), message);
+        self.report(found.help(format!("`{name} AT %{} : ...;`", place.text)));
+        Ok(place)
     }
 
     /// The pragma `{coarse}` between two places in the text, which is taken.
@@ -275,7 +338,12 @@ impl Parser<'_> {
     /// A type. What cannot be read is reported.
     fn type_text(&mut self) -> TypeText {
         let start = self.token().span;
-        let kind = self.deeper(Parser::type_kind).unwrap_or(TypeTextKind::Missing);
+        let kind = self.deeper(Parser::type_kind).unwrap_or_else(|Failed| {
+            while !self.is_at_end() && !self.is_sign(";") && !self.is_boundary() {
+                self.step();
+            }
+            TypeTextKind::Missing
+        });
         TypeText { kind, span: joined(start, self.previous()) }
     }
 
@@ -311,6 +379,14 @@ impl Parser<'_> {
             self.need_sign(")")?;
             return Ok(TypeTextKind::Range(name.text, Box::new((low, high))));
         }
+        if self.is_sign("[") || habits::is_pointer(&name.text) {
+            let (message, help) = match self.is_sign("[") {
+                true => ("an array begins with ARRAY", format!("`ARRAY[0..9] OF {}`", name.text)),
+                false => ("there are no pointers", "a VAR_IN_OUT passes a variable".to_owned()),
+            };
+            self.report(Diagnostic::new(Code::NotThere, name.span, message).help(help));
+            return Err(Failed);
+        }
         Ok(TypeTextKind::Named(name.text))
     }
 
@@ -319,6 +395,12 @@ impl Parser<'_> {
         let mut bounds = Vec::new();
         loop {
             let low = self.expression()?;
+            if self.is_sign("]") {
+                let message = "an array has a first and a last index";
+                let found = Diagnostic::new(Code::Syntax, low.span, message);
+                self.report(found.help("of five elements such as `ARRAY[0..4] OF INT`"));
+                return Err(Failed);
+            }
             self.need_sign("..")?;
             bounds.push((low, self.expression()?));
             if !self.take_sign(",") {
@@ -343,4 +425,13 @@ impl Parser<'_> {
         self.need_sign(")")?;
         Ok(TypeTextKind::Enumeration(values))
     }
+}
+
+/// Whether a word names an elementary type, here or in another language.
+fn is_type(word: &str) -> bool {
+    habits::type_name(word).is_some() || is_elementary(word)
+}
+
+fn is_elementary(word: &str) -> bool {
+    ELEMENTARY.iter().any(|(name, _)| name.eq_ignore_ascii_case(word))
 }

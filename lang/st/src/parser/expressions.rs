@@ -3,7 +3,7 @@
 use awl_asm::Address;
 use diagnostics::Span;
 
-use super::{Outcome, Parser};
+use super::{Failed, Outcome, Parser};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lexer::Kind;
 use crate::tree::{
@@ -56,8 +56,8 @@ impl Parser<'_> {
         let token = self.token();
         let found = match token.kind {
             Kind::Sign(sign) => operators.iter().find(|(text, _)| *text == sign),
-            Kind::Word => {
-                let word = self.text_of(token);
+            Kind::Word | Kind::Keyword(_) => {
+                let word = self.word_at(0);
                 operators.iter().find(|(text, _)| text.eq_ignore_ascii_case(word))
             }
             _ => None,
@@ -72,6 +72,7 @@ impl Parser<'_> {
         let operator = match token.kind {
             Kind::Sign("-") => Some(UnaryOperator::Minus),
             Kind::Sign("+") => None,
+            Kind::Sign("NOT") => Some(UnaryOperator::Not),
             _ if self.is_word("NOT") => Some(UnaryOperator::Not),
             _ => return self.primary(),
         };
@@ -109,6 +110,7 @@ impl Parser<'_> {
                 let text = self.text_of(token);
                 ExpressionKind::Address(text.strip_prefix('%').unwrap_or(text).to_owned())
             }
+            Kind::Unknown => ExpressionKind::Missing,
             Kind::Word if self.is_word("TRUE") => ExpressionKind::Bool(true),
             Kind::Word if self.is_word("FALSE") => ExpressionKind::Bool(false),
             Kind::Sign("(") => return self.bracket(),
@@ -153,6 +155,9 @@ impl Parser<'_> {
                 if let Some(address) = self.bare_address(&name, &selectors) {
                     return Ok(address);
                 }
+                if self.bit_of(&name) {
+                    return Err(Failed);
+                }
                 selectors.push(Selector::Field(self.name("the name of a member")?));
             } else if self.take_sign("[") {
                 selectors.push(Selector::Index(self.indexes()?));
@@ -178,6 +183,19 @@ impl Parser<'_> {
         let found = Diagnostic::new(Code::Syntax, span, message);
         self.report(found.suggest(format!("%{text}")));
         Some(Expression { kind: ExpressionKind::Address(text.to_owned()), span })
+    }
+
+    /// Reports `w.3` and `w.%X3`.
+    fn bit_of(&mut self, name: &Name) -> bool {
+        let token = self.token();
+        let text = self.text_of(token).trim_start_matches(['%', 'X', 'x']);
+        let Some(bit) = text.parse::<u32>().ok().and_then(|bit| 1u32.checked_shl(bit)) else {
+            return false;
+        };
+        let message = "a bit of a variable cannot be named";
+        let help = format!("`({} AND 16#{bit:X}) <> 0` is it", name.text);
+        self.report(Diagnostic::new(Code::NotThere, token.span, message).help(help));
+        true
     }
 
     fn indexes(&mut self) -> Outcome<Vec<Expression>> {
@@ -295,11 +313,14 @@ impl Parser<'_> {
     /// Reports an assignment where a comparison is meant.
     pub(super) fn condition(&mut self) -> Outcome<Expression> {
         let condition = self.expression()?;
-        if self.is_sign(":=") {
-            let span = self.token().span;
-            let message = "`:=` assigns, `=` compares";
-            self.report(Diagnostic::new(Code::Assignment, span, message).suggest("="));
-            self.step();
+        let meant = match self.token().kind {
+            Kind::Sign(":=") => Some(("`:=` assigns, `=` compares", "=", Code::Assignment)),
+            Kind::Sign("=>") => Some(("`=>` takes outputs, `>=` compares", ">=", Code::Syntax)),
+            _ => None,
+        };
+        if let Some((message, meant, code)) = meant {
+            let span = self.step().span;
+            self.report(Diagnostic::new(code, span, message).suggest(meant));
             let right = self.expression()?;
             let span = joined(condition.span, right.span);
             let (left, right) = (Box::new(condition), Box::new(right));

@@ -5,82 +5,18 @@ mod declarations;
 mod expressions;
 mod literals;
 mod statements;
+mod translated;
 
 use diagnostics::{Source, Span};
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::habits;
+use crate::keywords::is_keyword;
 use crate::lexer::{Kind, Token, Tokens, cut, cut_part};
 use crate::tree::{Expression, File, Name, Statement};
 
 /// How deep statements and brackets can be in each other.
 const DEPTH_MAX: u32 = 60;
-
-/// Words that name nothing.
-pub const KEYWORDS: [&str; 60] = [
-    "PROGRAM",
-    "END_PROGRAM",
-    "FUNCTION",
-    "END_FUNCTION",
-    "FUNCTION_BLOCK",
-    "END_FUNCTION_BLOCK",
-    "TYPE",
-    "END_TYPE",
-    "STRUCT",
-    "END_STRUCT",
-    "VAR",
-    "VAR_INPUT",
-    "VAR_OUTPUT",
-    "VAR_IN_OUT",
-    "VAR_TEMP",
-    "VAR_GLOBAL",
-    "VAR_EXTERNAL",
-    "END_VAR",
-    "CONSTANT",
-    "RETAIN",
-    "NON_RETAIN",
-    "AT",
-    "ARRAY",
-    "OF",
-    "IF",
-    "THEN",
-    "ELSIF",
-    "ELSE",
-    "END_IF",
-    "CASE",
-    "END_CASE",
-    "FOR",
-    "TO",
-    "BY",
-    "DO",
-    "END_FOR",
-    "WHILE",
-    "END_WHILE",
-    "REPEAT",
-    "UNTIL",
-    "END_REPEAT",
-    "EXIT",
-    "CONTINUE",
-    "RETURN",
-    "AND",
-    "OR",
-    "XOR",
-    "NOT",
-    "MOD",
-    "TRUE",
-    "FALSE",
-    "CONFIGURATION",
-    "RESOURCE",
-    "TASK",
-    "CLASS",
-    "METHOD",
-    "INTERFACE",
-    "NAMESPACE",
-    "GOTO",
-    "END_ELSIF",
-];
-
-/// Those of them that are operators.
-pub const OPERATOR_WORDS: [&str; 5] = ["AND", "OR", "XOR", "NOT", "MOD"];
 
 /// Reads a text.
 pub fn parse(source: &Source) -> (File, Vec<Diagnostic>) {
@@ -139,7 +75,9 @@ type Outcome<T> = Result<T, Failed>;
 
 impl<'t> Parser<'t> {
     fn new(text: &'t str, tokens: Tokens) -> Parser<'t> {
-        let Tokens { tokens, mut pragmas, diagnostics, .. } = tokens;
+        let Tokens { tokens, mut pragmas, mut diagnostics, .. } = tokens;
+        let (tokens, reported) = translated::translated(text, tokens);
+        diagnostics.extend(reported);
         pragmas.retain(|span| is_coarse(span.text(text)));
         Parser { text, tokens, at: 0, depth: 0, coarse: pragmas, diagnostics }
     }
@@ -187,7 +125,11 @@ impl<'t> Parser<'t> {
 
     fn word_at(&self, count: usize) -> &'t str {
         let token = self.ahead(count);
-        if token.kind == Kind::Word { self.text_of(token) } else { "" }
+        match token.kind {
+            Kind::Word => self.text_of(token),
+            Kind::Keyword(word) => word,
+            _ => "",
+        }
     }
 
     fn is_word(&self, word: &str) -> bool {
@@ -220,13 +162,21 @@ impl<'t> Parser<'t> {
         Ok(Name { text: self.text_of(token).to_owned(), span: token.span })
     }
 
+    /// Of several errors at one place the first one is told.
     fn report(&mut self, diagnostic: Diagnostic) {
-        self.diagnostics.push(diagnostic);
+        let last = self.diagnostics.last();
+        if last.is_none_or(|last| last.span != diagnostic.span || last.code != diagnostic.code) {
+            self.diagnostics.push(diagnostic);
+        }
     }
 
     /// Reports that something else should be here.
     fn expected(&mut self, what: &str) -> Failed {
         let token = self.token();
+        let before = self.at.checked_sub(1).and_then(|at| self.tokens.get(at));
+        if token.kind == Kind::Unknown || before.is_some_and(|one| one.kind == Kind::Unknown) {
+            return Failed;
+        }
         let message = match token.kind {
             Kind::End if token.span.end as usize >= self.text.len() => {
                 format!("{what} is missing at the end of the text")
@@ -234,7 +184,12 @@ impl<'t> Parser<'t> {
             Kind::End => format!("{what} is missing here"),
             _ => format!("`{}`: {what} is expected here", short(self.text_of(token))),
         };
-        self.report(Diagnostic::new(Code::Syntax, token.span, message));
+        let mut found = Diagnostic::new(Code::Syntax, token.span, message);
+        let words = [self.previous(), token.span].map(|span| span.text(self.text));
+        if let Some(help) = words.into_iter().find_map(habits::help) {
+            found = found.help(help);
+        }
+        self.report(found);
         Failed
     }
 
@@ -260,6 +215,9 @@ impl<'t> Parser<'t> {
 
     fn missing_after(&mut self, before: Span, what: &str, opened: Option<(Span, &str)>) {
         let (start, end) = (before.start as usize, before.end as usize);
+        if self.token().kind == Kind::Unknown {
+            return;
+        }
         let before = self.text.get(start..end).and_then(|text| text.char_indices().last());
         let last = start + before.map_or(0, |(at, _)| at);
         let span = Span::new(last, end);
@@ -268,7 +226,15 @@ impl<'t> Parser<'t> {
         if let Some((span, words)) = opened {
             found = found.related(span, words);
         }
+        if self.is_before_brace(end) {
+            found = found.help("`{...}` is a pragma, which says nothing: words begin and end");
+        }
         self.report(found);
+    }
+
+    /// Whether `{` is next, as in C.
+    fn is_before_brace(&self, end: usize) -> bool {
+        self.text.get(end..).is_some_and(|rest| rest.trim_start().starts_with('{'))
     }
 
     /// The end of a statement or declaration. Where `;` is missing but something new begins, it is
@@ -278,9 +244,28 @@ impl<'t> Parser<'t> {
             while self.take_sign(";") {}
             return;
         }
-        self.missing(";", None);
-        let between = self.previous().end as usize..self.token().span.start as usize;
-        if !self.text.get(between).unwrap_or("").contains('\n') {
+        let token = self.token();
+        let between = self.previous().end as usize..token.span.start as usize;
+        let is_here = !self.text.get(between).unwrap_or("").contains('\n');
+        let is_new = matches!(self.ahead(1).kind, Kind::Sign(":=" | "(" | "." | "[" | ":"));
+        match token.kind {
+            Kind::Sign(")" | "]") if is_here => {
+                let message = format!("`{}`: nothing is open that it closes", self.text_of(token));
+                self.report(Diagnostic::new(Code::Syntax, token.span, message));
+            }
+            Kind::Sign(",") if is_here && self.ahead(1).kind == Kind::Integer => {
+                let message = "a number is written with a point: 1.5";
+                self.report(Diagnostic::new(Code::Syntax, token.span, message));
+            }
+            Kind::Word if is_here && self.is_name() && !is_new => {
+                self.expected("an operator or `;`");
+            }
+            Kind::Sign(_) if is_here => {
+                self.expected("an operator or `;`");
+            }
+            _ => self.missing(";", None),
+        }
+        if is_here {
             self.skip_statement();
         }
     }
@@ -340,11 +325,6 @@ impl<'t> Parser<'t> {
         self.depth -= 1;
         outcome
     }
-}
-
-/// Whether a word names nothing.
-pub fn is_keyword(word: &str) -> bool {
-    KEYWORDS.iter().any(|keyword| keyword.eq_ignore_ascii_case(word))
 }
 
 fn short(text: &str) -> String {

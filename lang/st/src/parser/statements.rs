@@ -5,6 +5,8 @@ use diagnostics::Span;
 use super::expressions::joined;
 use super::{Failed, Outcome, Parser};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::habits;
+use crate::keywords::is_keyword;
 use crate::lexer::Kind;
 use crate::tree::{CaseArm, Expression, ExpressionKind, ForLoop, Statement, StatementKind};
 
@@ -31,7 +33,6 @@ impl Parser<'_> {
     }
 
     fn ends_statements(&self) -> bool {
-        let is_word = self.token().kind == Kind::Word;
         let ends = [
             "ELSE",
             "ELSIF",
@@ -44,8 +45,8 @@ impl Parser<'_> {
         ];
         let word = self.word_at(0);
         let is_end = word.get(..4).is_some_and(|start| start.eq_ignore_ascii_case("END_"))
-            && super::is_keyword(word);
-        is_word && (is_end || self.is_one_of(&ends)) || self.is_case_label()
+            && is_keyword(word);
+        is_end || self.is_one_of(&ends) || self.is_case_label()
     }
 
     /// `1:`, `-5..7:`, `Fill, Stir:`: a label of the CASE around.
@@ -57,7 +58,7 @@ impl Parser<'_> {
             }
             match self.ahead(at).kind {
                 Kind::Integer | Kind::Prefixed => {}
-                Kind::Word if !super::is_keyword(self.word_at(at)) => {}
+                Kind::Word if !is_keyword(self.word_at(at)) => {}
                 _ => return false,
             }
             match self.ahead(at + 1).kind {
@@ -79,6 +80,13 @@ impl Parser<'_> {
             "REPEAT" => self.repeat()?,
             "EXIT" | "CONTINUE" | "RETURN" => {
                 self.step();
+                if word == "RETURN" && (self.is_name() || self.token().kind == Kind::Integer) {
+                    let message = "RETURN gives no value";
+                    let help = "a function gives what its name has: `Area := x; RETURN;`";
+                    let span = self.token().span;
+                    self.report(Diagnostic::new(Code::Syntax, span, message).help(help));
+                    return Err(Failed);
+                }
                 let kind = match word.as_str() {
                     "EXIT" => StatementKind::Exit,
                     "CONTINUE" => StatementKind::Continue,
@@ -122,17 +130,35 @@ impl Parser<'_> {
             self.report(Diagnostic::new(Code::Assignment, span, message).suggest(":="));
             self.step();
         } else if !self.take_sign(":=") {
-            return Err(self.expected("`:=`"));
+            return Err(self.no_statement(&target));
         }
         let value = self.expression()?;
         let span = joined(target.span, value.span);
         Ok((StatementKind::Assign(target, value), span))
     }
 
+    /// Reports a name that nothing is done with.
+    fn no_statement(&mut self, target: &Expression) -> Failed {
+        let name = target.span.text(self.text);
+        let help = match (self.token().kind, self.ahead(1).kind) {
+            (Kind::Sign(sign @ ("+" | "-")), Kind::Sign(again)) if sign == again => {
+                format!("`{name} := {name} {sign} 1;` counts")
+            }
+            (Kind::Sign(";"), _) if habits::help(name).is_none() => {
+                format!("`{name} := ...;` gives it a value, `{name}();` calls an instance")
+            }
+            _ => return self.expected("`:=`"),
+        };
+        let message = format!("`{name}`: this is no statement");
+        self.report(Diagnostic::new(Code::Syntax, target.span, message).help(help));
+        Failed
+    }
+
     /// The word that closes a statement; where another is there, it is reported as missing: before
     /// the first line that is indented no more than the statement, else here.
-    fn close(&mut self, word: &str, opened: Span) {
-        if self.take_word(word) {
+    fn close(&mut self, word: &str, opened: Span, head: Span) {
+        let is_reported = self.is_before_brace(head.end as usize);
+        if self.take_word(word) || is_reported {
             return;
         }
         let after = self.end_by_layout(opened).unwrap_or(self.previous());
@@ -174,8 +200,19 @@ impl Parser<'_> {
             let condition = self.condition_with("THEN");
             arms.push((condition, self.statements()));
         }
-        let otherwise = if self.take_word("ELSE") { self.statements() } else { Vec::new() };
-        self.close("END_IF", opened);
+        let mut otherwise = Vec::new();
+        if self.take_word("ELSE") {
+            let inner = self.token().span;
+            let is_if = self.is_word("IF");
+            otherwise = self.statements();
+            if is_if && !self.is_word("END_IF") {
+                let message = "`END_IF` is missing: this IF has an end of its own";
+                let found = Diagnostic::new(Code::Missing, inner, message);
+                self.report(found.help("ELSIF goes on with the IF before"));
+                return Ok((StatementKind::If(arms, otherwise), head));
+            }
+        }
+        self.close("END_IF", opened, head);
         Ok((StatementKind::If(arms, otherwise), head))
     }
 
@@ -191,6 +228,9 @@ impl Parser<'_> {
             self.take_word(word);
         } else if !self.take_word(word) {
             self.missing(word, None);
+            if self.is_before_brace(self.previous().end as usize) {
+                return Expression { kind: ExpressionKind::Missing, span: start };
+            }
         }
         condition.unwrap_or(Expression { kind: ExpressionKind::Missing, span: start })
     }
@@ -208,8 +248,15 @@ impl Parser<'_> {
             self.expected("a label such as `1:`");
             self.statements();
         }
-        let otherwise = if self.take_word("ELSE") { self.statements() } else { Vec::new() };
-        self.close("END_CASE", opened);
+        let mut otherwise = Vec::new();
+        if self.take_word("ELSE") {
+            if self.is_sign(":") {
+                let span = self.step().span;
+                self.report(Diagnostic::new(Code::Syntax, span, "ELSE has no `:` after it"));
+            }
+            otherwise = self.statements();
+        }
+        self.close("END_CASE", opened, head);
         Ok((StatementKind::Case(selector, arms, otherwise), head))
     }
 
@@ -229,6 +276,31 @@ impl Parser<'_> {
 
     fn for_loop(&mut self) -> Outcome<(StatementKind, Span)> {
         let opened = self.step().span;
+        let counted = self.for_head();
+        if counted.is_err() {
+            while !self.is_at_end() && !self.is_word("DO") && !self.is_boundary() {
+                self.step();
+            }
+        }
+        if !self.take_word("DO") && counted.is_ok() {
+            self.missing("DO", None);
+        }
+        let head = joined(opened, self.previous());
+        let body = self.statements();
+        if counted.is_err() {
+            self.take_word("END_FOR");
+        } else {
+            self.close("END_FOR", opened, head);
+        }
+        let (variable, from, to, by) = counted?;
+        Ok((StatementKind::For(Box::new(ForLoop { variable, from, to, by, body })), head))
+    }
+
+    /// The variable, the first and the last value, the step.
+    fn for_head(&mut self) -> Outcome<(Expression, Expression, Expression, Option<Expression>)> {
+        if !self.is_name() {
+            return Err(self.expected("a variable to count with, `FOR i := 1 TO 5 DO`,"));
+        }
         let variable = self.target()?;
         if self.is_sign("=") {
             let span = self.token().span;
@@ -242,13 +314,7 @@ impl Parser<'_> {
         self.need_word("TO")?;
         let to = self.expression()?;
         let by = if self.take_word("BY") { Some(self.expression()?) } else { None };
-        if !self.take_word("DO") {
-            self.missing("DO", None);
-        }
-        let head = joined(opened, self.previous());
-        let body = self.statements();
-        self.close("END_FOR", opened);
-        Ok((StatementKind::For(Box::new(ForLoop { variable, from, to, by, body })), head))
+        Ok((variable, from, to, by))
     }
 
     fn while_loop(&mut self) -> Outcome<(StatementKind, Span)> {
@@ -256,7 +322,7 @@ impl Parser<'_> {
         let condition = self.condition_with("DO");
         let head = joined(opened, self.previous());
         let body = self.statements();
-        self.close("END_WHILE", opened);
+        self.close("END_WHILE", opened, head);
         Ok((StatementKind::While(condition, body), head))
     }
 
@@ -265,13 +331,13 @@ impl Parser<'_> {
         let body = self.statements();
         if !self.take_word("UNTIL") {
             self.missing("UNTIL", Some((opened, "for this one")));
-            self.close("END_REPEAT", opened);
+            self.close("END_REPEAT", opened, opened);
             let missing = Expression { kind: ExpressionKind::Missing, span: opened };
             return Ok((StatementKind::Repeat(body, missing), opened));
         }
         let condition = self.condition()?;
         self.take_sign(";");
-        self.close("END_REPEAT", opened);
+        self.close("END_REPEAT", opened, opened);
         Ok((StatementKind::Repeat(body, condition), opened))
     }
 }

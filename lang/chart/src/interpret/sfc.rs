@@ -1,64 +1,9 @@
-//! What an SFC means, step by step and without generated code: docs/charts.md as a program. It
-//! knows situations, not values: conditions and actions are the business of [`Surroundings`].
+//! What an SFC means.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::model::{
-    ActionId, Body, Chart, Code, Instance, Qualifier, StepId, TransitionId, is_same_name,
-};
-
-/// What a chart works on.
-pub trait Surroundings {
-    /// Whether a condition is true.
-    fn holds(&mut self, condition: &Code, steps: &View) -> bool;
-
-    /// The milliseconds that the time of a qualifier is.
-    fn milliseconds(&mut self, time: &Code, steps: &View) -> i64;
-
-    /// Gives a BOOL variable a value.
-    fn write(&mut self, variable: &str, value: bool);
-
-    /// Executes the statements of an action.
-    fn execute(&mut self, body: &Code, steps: &View);
-}
-
-/// The steps that code can ask about: those of its chart, then those of the charts around.
-#[derive(Debug, Clone, Copy)]
-pub struct View<'v> {
-    chart: &'v Chart,
-    steps: &'v BTreeMap<StepId, StepState>,
-    outer: Option<&'v View<'v>>,
-}
-
-impl View<'_> {
-    fn state(&self, name: &str) -> Option<StepState> {
-        let mut steps = self.chart.steps.iter();
-        let own = steps.find(|(_, step)| is_same_name(&step.name, name));
-        match own {
-            Some((id, _)) => Some(self.steps.get(id).copied().unwrap_or_default()),
-            None => self.outer?.state(name),
-        }
-    }
-
-    /// Whether the step of a name is active; `None`: there is no such step.
-    pub fn is_active(&self, name: &str) -> Option<bool> {
-        Some(self.state(name)?.is_active)
-    }
-
-    /// For how many milliseconds the step of a name is or was active; `None`: there is none.
-    pub fn time(&self, name: &str) -> Option<i64> {
-        Some(self.state(name)?.time_ms)
-    }
-}
-
-#[derive(Debug, Clone, Copy, Default)]
-struct StepState {
-    is_active: bool,
-    /// At the end of the scan before.
-    was_active: bool,
-    /// Since its activation, up to its deactivation.
-    time_ms: i64,
-}
+use super::{StepState, Surroundings, View};
+use crate::model::{ActionId, Body, Chart, Instance, Qualifier, StepId, TransitionId};
 
 /// What an action remembers.
 #[derive(Debug, Clone, Default)]
@@ -70,30 +15,30 @@ struct ActionState<'c> {
     /// Of DS, SD and SL, by step and number in its block: whether it is stored, and since when.
     timed: BTreeMap<(StepId, usize), (bool, i64)>,
     /// The chart that it is.
-    chart: Option<Box<Interpreter<'c>>>,
+    chart: Option<Box<Sfc<'c>>>,
 }
 
-/// A chart that is being executed.
+/// An SFC that is being executed.
 #[derive(Debug, Clone)]
-pub struct Interpreter<'c> {
+pub struct Sfc<'c> {
     chart: &'c Chart,
     has_begun: bool,
     steps: BTreeMap<StepId, StepState>,
     actions: BTreeMap<ActionId, ActionState<'c>>,
 }
 
-impl<'c> Interpreter<'c> {
+impl<'c> Sfc<'c> {
     /// A chart before its first scan.
-    pub fn new(chart: &'c Chart) -> Interpreter<'c> {
+    pub fn new(chart: &'c Chart) -> Sfc<'c> {
         let mut actions: BTreeMap<ActionId, ActionState> = BTreeMap::new();
         for (id, action) in &chart.actions {
             let inner = match &action.body {
-                Body::Chart(inner) => Some(Box::new(Interpreter::new(inner))),
+                Body::Chart(inner) => Some(Box::new(Sfc::new(inner))),
                 Body::Variable | Body::Code(_) => None,
             };
             actions.insert(*id, ActionState { chart: inner, ..ActionState::default() });
         }
-        Interpreter { chart, has_begun: false, steps: BTreeMap::new(), actions }
+        Sfc { chart, has_begun: false, steps: BTreeMap::new(), actions }
     }
 
     /// One scan. `elapsed_ms` are the milliseconds since the start of the scan before.
@@ -103,11 +48,17 @@ impl<'c> Interpreter<'c> {
 
     /// The steps, as code sees them.
     pub fn view(&self) -> View<'_> {
-        View { chart: self.chart, steps: &self.steps, outer: None }
+        self.view_in(None)
+    }
+
+    fn view_in<'v>(&'v self, outer: Option<&View<'v>>) -> View<'v> {
+        let around = outer.into_iter().flat_map(|view| view.charts.iter().copied());
+        let charts = std::iter::once((self.chart, &self.steps)).chain(around).collect();
+        View { charts, samples: None }
     }
 
     /// The chart in an action.
-    pub fn inner(&self, action: ActionId) -> Option<&Interpreter<'c>> {
+    pub fn inner(&self, action: ActionId) -> Option<&Sfc<'c>> {
         self.actions.get(&action)?.chart.as_deref()
     }
 
@@ -164,7 +115,7 @@ impl<'c> Interpreter<'c> {
         surroundings: &mut dyn Surroundings,
         outer: Option<&View>,
     ) -> Vec<TransitionId> {
-        let view = View { outer, ..self.view() };
+        let view = self.view_in(outer);
         let mut taken: BTreeSet<StepId> = BTreeSet::new();
         let mut crossed = Vec::new();
         for id in self.chart.by_priority() {
@@ -222,7 +173,7 @@ impl<'c> Interpreter<'c> {
         let (is_active, has_pulse) = self.control(id, &instances, surroundings, outer);
         let mut states = std::mem::take(&mut self.actions);
         if let Some(state) = states.get_mut(&id) {
-            let view = View { outer, ..self.view() };
+            let view = self.view_in(outer);
             let is_executed = is_active || state.was_active || has_pulse;
             match &action.body {
                 Body::Variable => surroundings.write(&action.name, is_active || has_pulse),
@@ -251,7 +202,7 @@ impl<'c> Interpreter<'c> {
         let (mut is_active, mut has_pulse, mut is_reset) = (false, false, false);
         for (step, at, instance) in instances {
             let state = self.steps.get(step).copied().unwrap_or_default();
-            let view = View { outer, ..self.view() };
+            let view = self.view_in(outer);
             let time_ms =
                 instance.time.as_ref().map_or(0, |time| surroundings.milliseconds(time, &view));
             let (is_stored, since_ms) = action.timed.entry((*step, *at)).or_default();

@@ -1,0 +1,164 @@
+// Programs in other languages than AWL, in a real Chromium on the real core: Structured Text with
+// values and what has become of its statements, on the simulator and on the virtual Uno; charts and
+// function blocks of IEC 61499 as files of a project. `node test/languages.mjs ADDRESS`.
+import assert from "node:assert/strict";
+import { open } from "./browser.mjs";
+
+const [, , given] = process.argv;
+const address = given.replace(/\?.*/, "");
+const { browser, page, errors } = await open({ patience: 120_000 });
+const button = (name) => page.getByRole("button", { name, exact: true });
+const tab = (name) => page.getByRole("tab", { name, exact: true }).click();
+const panel = (name) => page.getByRole("tabpanel", { name, exact: true });
+const mode = (wanted) => page.getByRole("status").first().filter({ hasText: wanted }).waitFor();
+const text = (name) => page.getByRole("textbox", { name });
+
+async function example(name) {
+  await page.goto("about:blank");
+  await page.goto(`${address}#example=${name}`);
+}
+
+/** The line with this text, and the mark and the values beside it. */
+const line = (words) => page.locator(".cm-line", { hasText: words });
+const values = (words) => line(words).first().locator(".live .value");
+const mark = (words) =>
+  page.evaluate((words) => {
+    const lines = [...document.querySelectorAll(".cm-line")];
+    const top = (element) => Math.round(element.getBoundingClientRect().top);
+    const at = lines.find((line) => line.textContent.includes(words));
+    const flows = [...document.querySelectorAll(".flow")];
+    const flow = at && flows.find((flow) => Math.abs(top(flow.parentElement) - top(at)) < 4);
+    return flow ? flow.className.replace("flow ", "") : "none";
+  }, words);
+
+/** Waits until a line has had all of these marks, whatever the order. */
+async function marks(words, wanted) {
+  const seen = new Set();
+  for (let tries = 0; tries < 600 && wanted.some((one) => !seen.has(one)); tries += 1) {
+    seen.add(await mark(words));
+    await page.waitForTimeout(50);
+  }
+  for (const one of wanted) assert(seen.has(one), `${words}: ${[...seen]}`);
+}
+
+// The station in Structured Text sorts; beside its lines is what happens in them.
+await example("station1-st");
+await text("station1.st").waitFor();
+const arrives = "IF PieceThere AND AtBottom";
+for (const target of ["Simulator", "Virtual Uno"]) {
+  await page.getByRole("combobox", { name: "Target" }).selectOption({ label: target });
+  await button("Run").click();
+  await mode("RUN");
+  await page.getByRole("button", { name: /Main/ }).first().click();
+  await values(arrives).first().waitFor();
+  assert.deepEqual(
+    (await values(arrives).allInnerTexts()).map((value) => value.replace(/ [01]$/, "")),
+    ["PieceThere", "AtBottom", "Reject", "HasPiece"],
+    target,
+  );
+  assert.equal(await values("PROGRAM Main").count(), 0);
+  await marks("Measure := TRUE;", ["skipped", "on"]);
+  await marks("IF HasPiece AND AtTop AND NOT Measured", ["off", "on"]);
+  // A click forces.
+  await values("Good := Measured").first().click();
+  await page.getByRole("menuitem", { name: "Force Good to 1", exact: true }).click();
+  await page.locator(".live .value.forced").first().waitFor();
+  await button("Stop").click();
+  await mode("STOP");
+}
+console.log("Structured Text: values, and what has become of its statements");
+
+// A chart: its outline, its tests, a mistake, both targets.
+await example("mixing-sfc");
+await text("mixing.sfc").waitFor();
+await page.getByRole("button", { name: /^FillA STEP/ }).waitFor();
+await tab("Tests");
+await button("Test all").click();
+await panel("Tests")
+  .getByText(/met, 0 failed/)
+  .first()
+  .waitFor();
+await text("mixing.sfc").click();
+await page.keyboard.press("Control+End");
+await page.keyboard.type("\nTRANSITION FROM Nowhere TO Wait := TRUE; END_TRANSITION\n");
+await tab("Problems");
+await panel("Problems")
+  .getByText(/E03\d\d/)
+  .first()
+  .waitFor();
+await page.keyboard.press("Control+z");
+await text("mixing.sfc").click();
+for (
+  let tries = 0;
+  tries < 5 &&
+  (await panel("Problems")
+    .getByText(/E03\d\d/)
+    .count()) > 0;
+  tries += 1
+) {
+  await page.keyboard.press("Control+z");
+  await page.waitForTimeout(500);
+}
+assert.equal(await line("STEP FillA").first().locator(".tok-keyword").first().innerText(), "STEP");
+for (const target of ["Simulator", "Virtual Uno"]) {
+  await page.getByRole("combobox", { name: "Target" }).selectOption({ label: target });
+  await button("Run").click();
+  await mode("RUN");
+  await tab("Watch");
+  await page.getByLabel("Operand or symbol").fill("mixing.Wait");
+  await page.keyboard.press("Enter");
+  const row = panel("Watch").getByRole("row").filter({ hasText: "mixing.Wait" }).first();
+  await row.getByRole("cell", { name: "1", exact: true }).waitFor();
+  await button("Stop").click();
+  await mode("STOP");
+}
+console.log("a chart: outline, tests, a mistake, simulator and virtual Uno");
+
+// A function block: the same; an event is set by hand.
+await example("tank-fbt");
+await text("tank.fbt").waitFor();
+await page.getByRole("button", { name: /FUNCTION_BLOCK/ }).waitFor();
+await page.getByRole("button", { name: /^Control event/ }).waitFor();
+await tab("Tests");
+await button("Test all").click();
+await panel("Tests")
+  .getByText(/met, 0 failed/)
+  .first()
+  .waitFor();
+for (const target of ["Simulator", "Virtual Uno"]) {
+  await page.getByRole("combobox", { name: "Target" }).selectOption({ label: target });
+  await button("Run").click();
+  await mode("RUN");
+  await tab("Watch");
+  for (const name of ["Nivel", "Bomba.count", "Control"]) {
+    await page.getByLabel("Operand or symbol").fill(name);
+    await page.keyboard.press("Enter");
+  }
+  await page.getByLabel("New value of Control").fill("1");
+  await page.getByRole("button", { name: "Set Control" }).click();
+  const row = panel("Watch").getByRole("row").filter({ hasText: "Bomba.count" }).first();
+  await row.getByRole("cell", { name: "1", exact: true }).waitFor();
+  await button("Stop").click();
+  await mode("STOP");
+}
+console.log("a function block: outline, tests, simulator and virtual Uno");
+
+// A new chart is kept over a reload, and runs.
+await example("motor");
+await text("motor.awl").waitFor();
+await button("New file").click();
+await page.getByLabel("Name, with its ending").fill("blink.sfc");
+await page.keyboard.press("Enter");
+await text("blink.sfc").click();
+await page.keyboard.insertText(
+  "VAR_GLOBAL Lamp AT %Q0.0 : BOOL; END_VAR\nPROGRAM Blink\nINITIAL_STEP Off: END_STEP\n" +
+    "STEP On: Lamp; END_STEP\nTRANSITION FROM Off TO On := Off.T >= T#200ms; END_TRANSITION\n" +
+    "TRANSITION FROM On TO Off := On.T >= T#200ms; END_TRANSITION\nEND_PROGRAM\n",
+);
+await page.waitForTimeout(2000);
+await page.reload();
+await page.getByRole("button", { name: "blink.sfc", exact: true }).click();
+await text("blink.sfc").filter({ hasText: "PROGRAM Blink" }).waitFor();
+assert.deepEqual(errors, []);
+await browser.close();
+console.log("a new chart is kept");
