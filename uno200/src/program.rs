@@ -85,6 +85,7 @@ pub fn shown(error: ProgramError) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use awl_asm::source::Source;
 
     #[test]
     fn several_files_are_one_program() {

@@ -81,7 +81,8 @@ fn statements_without_their_time() {
     check(&[
         (
             "wait 3s\nexpect Q0.0 = 1",
-            "1:1 there is no wait: each line says when it happens | begin the next line with at +3s",
+            "1:1 there is no wait: each line says when it happens | \
+             begin the next line with at +3s",
         ),
         (
             "after 3s expect Q0.0 = 1",
@@ -93,7 +94,8 @@ fn statements_without_their_time() {
         ),
         (
             "within 2s expect Q0.0 = 1",
-            "1:1 within is after `at TIME` | write at TIME within 2s expect Q0.0 = 1, such as at 2s",
+            "1:1 within is after `at TIME` | \
+             write at TIME within 2s expect Q0.0 = 1, such as at 2s",
         ),
         (
             "check Q0.0 = 1",

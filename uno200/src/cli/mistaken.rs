@@ -75,7 +75,7 @@ fn context(error: &clap::Error, kind: ContextKind) -> Option<&str> {
 
 fn command_meant(word: &str, behind: &[String]) -> Option<String> {
     let is_it = |known: &&str| known.eq_ignore_ascii_case(word);
-    let (_, meant) = WORDS.iter().find(|(words, _)| words.iter().any(|known| is_it(&known)))?;
+    let (_, meant) = WORDS.iter().find(|(words, _)| words.iter().any(is_it))?;
     let files =
         behind.iter().filter(|argument| !argument.starts_with('-') && !argument.contains('='));
     let files: Vec<&str> = files.map(String::as_str).collect();
