@@ -1,8 +1,8 @@
-//! Statements that are understood but for the place of a word: where it belongs, in the author's
-//! own words. What is in its place is read elsewhere.
+//! Statements that are understood but for the place of a word or for a sign: what belongs there, in
+//! the author's own words. What is in its place is read elsewhere.
 
 use super::super::words::AFTER_TIME;
-use super::sign::sign;
+use super::sign::{foreign_sign, sign};
 use super::{Moment, Parser, STATEMENTS, Times};
 use crate::operand::Operand;
 use crate::piece::Piece;
@@ -162,6 +162,20 @@ impl<'a> Parser<'a, '_> {
         let span = behind(before, list).span();
         let problem = Problem::new(span, "a value stays until it is set again");
         self.problems.push(problem.help(format!("add a line: {line}")));
+        true
+    }
+
+    /// `Q0.0 == 1` and the like: whether it was told, with these words about the sign.
+    pub(super) fn is_foreign_sign(&mut self, piece: Piece<'_>, words: &str) -> bool {
+        let Some((_, at, end)) = sign(piece) else { return false };
+        let Some((written, meant)) = foreign_sign(piece, at) else { return false };
+        // A name may end with such a sign.
+        let is_name = Operand::parse(piece.part(0..at).trim().text, self.context.symbols).is_ok();
+        if is_name && written.start + written.text.len() == piece.start + end {
+            return false;
+        }
+        let problem = Problem::new(written.span(), format!("{} {words}", written.text));
+        self.problems.push(problem.did_you_mean(Some(meant.symbol())));
         true
     }
 }

@@ -1,10 +1,7 @@
 //! Finds the sign of a comparison. What stands on its sides is not known here.
 
 use super::super::condition::{Relation, foreign_relation};
-use super::Parser;
-use crate::operand::Operand;
 use crate::piece::Piece;
-use crate::problem::Problem;
 
 /// The places of the sign of a comparison and of what is behind it. A name may have other signs in
 /// it than `=`.
@@ -22,26 +19,10 @@ pub(super) fn sign(piece: Piece<'_>) -> Option<(Relation, usize, usize)> {
 
 /// All signs around this place, if another language compares or sets by them, and what they are
 /// here.
-fn foreign_sign(piece: Piece<'_>, at: usize) -> Option<(Piece<'_>, Relation)> {
+pub(super) fn foreign_sign(piece: Piece<'_>, at: usize) -> Option<(Piece<'_>, Relation)> {
     let is_sign = |c: char| "=<>!:/".contains(c);
     let begin = piece.text[..at].trim_end_matches(is_sign).len();
     let end = piece.text.len() - piece.text[at..].trim_start_matches(is_sign).len();
     let sign = piece.part(begin..end);
     Some((sign, foreign_relation(sign.text)?))
-}
-
-impl Parser<'_, '_> {
-    /// `Q0.0 == 1` and the like: whether it was told, with these words about the sign.
-    pub(super) fn is_foreign_sign(&mut self, piece: Piece<'_>, words: &str) -> bool {
-        let Some((_, at, end)) = sign(piece) else { return false };
-        let Some((written, meant)) = foreign_sign(piece, at) else { return false };
-        // A name may end with such a sign.
-        let is_name = Operand::parse(piece.part(0..at).trim().text, self.context.symbols).is_ok();
-        if is_name && written.start + written.text.len() == piece.start + end {
-            return false;
-        }
-        let problem = Problem::new(written.span(), format!("{} {words}", written.text));
-        self.problems.push(problem.did_you_mean(Some(meant.symbol())));
-        true
-    }
 }
