@@ -109,7 +109,7 @@ fn compiler() -> Result<Command> {
     debian
         .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", DEBIAN_LINKER)
         .env_remove("CARGO")
-        .args(["-Z", "build-std=std,panic_abort", "-Z", "build-std-features="]);
+        .args(["-Z", "build-std=std,panic_abort", "-Z", "build-std-features=optimize_for_size"]);
     Ok(debian)
 }
 
