@@ -126,6 +126,10 @@ impl<C: Chip> Emulated<C> {
         for (address, mask, value) in std::mem::take(&mut self.writes) {
             let byte = replaced(self.at(address.into()), mask, value);
             self.chip.write(address, byte);
+            // The next of them may be another bit of it.
+            if let Some(kept) = self.data.get_mut(usize::from(address)) {
+                *kept = byte;
+            }
         }
         // In the first scan the firmware takes what its converter gave it.
         if !is_first {
