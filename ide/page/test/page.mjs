@@ -63,8 +63,10 @@ for (const signal of SIGNALS) {
   await panel("Oscilloscope").getByLabel("Signal", { exact: true }).fill(signal);
   await page.keyboard.press("Enter");
 }
-for (const signal of SIGNALS)
-  await panel("Oscilloscope").locator(".uplot").filter({ hasText: signal }).first().waitFor();
+await panel("Oscilloscope")
+  .locator(".uplot")
+  .nth(SIGNALS.length - 1)
+  .waitFor();
 assert.equal(await panel("Oscilloscope").locator(".uplot").count(), SIGNALS.length);
 for (const signal of SIGNALS)
   await panel("Oscilloscope")
