@@ -202,6 +202,20 @@ pub struct Outline {
     pub children: Vec<Outline>,
 }
 
+impl Outline {
+    /// Something that is declared, without parts; its name is all there is of it.
+    pub(crate) fn declared(name: &str, detail: &str, span: Span) -> Outline {
+        Outline {
+            name: name.to_owned(),
+            detail: detail.to_owned(),
+            kind: OutlineKind::Symbol,
+            span,
+            name_span: span,
+            children: Vec::new(),
+        }
+    }
+}
+
 /// What a part of a text is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OutlineKind {

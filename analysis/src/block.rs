@@ -57,12 +57,5 @@ impl Text for Block {
 }
 
 fn part(name: &fb::model::Text, detail: &str) -> Outline {
-    Outline {
-        name: name.text.clone(),
-        detail: detail.to_owned(),
-        kind: OutlineKind::Symbol,
-        span: name.span,
-        name_span: name.span,
-        children: Vec::new(),
-    }
+    Outline::declared(&name.text, detail, name.span)
 }

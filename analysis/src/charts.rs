@@ -3,7 +3,7 @@
 
 use std::collections::HashSet;
 
-use chart::model::{Body, Origin};
+use chart::model::Body;
 use chart::text::{read, write};
 use diagnostics::Severity;
 use st::names::{Named, is_same};
@@ -45,10 +45,14 @@ impl Text for Charts {
         let reading = read(view.source);
         let charts = reading.document.charts().zip(&reading.regions);
         let charts = charts.map(|(chart, region)| {
-            let steps = chart.steps.values().map(|step| part(&step.name, "STEP", step.origin));
+            let steps = chart
+                .steps
+                .values()
+                .map(|step| Outline::declared(&step.name, "STEP", step.origin.0));
             // Others are variables.
             let actions = chart.actions.values().filter(|one| one.body != Body::Variable);
-            let actions = actions.map(|action| part(&action.name, "ACTION", action.origin));
+            let actions =
+                actions.map(|action| Outline::declared(&action.name, "ACTION", action.origin.0));
             Outline {
                 name: chart.name.clone(),
                 detail: "chart".to_owned(),
@@ -92,15 +96,4 @@ fn is_written(mention: &Mention, text: &str) -> bool {
         _ => return !mention.span.text(text).is_empty(),
     };
     is_same(mention.span.text(text), name)
-}
-
-fn part(name: &str, detail: &str, Origin(span): Origin) -> Outline {
-    Outline {
-        name: name.to_owned(),
-        detail: detail.to_owned(),
-        kind: OutlineKind::Symbol,
-        span,
-        name_span: span,
-        children: Vec::new(),
-    }
 }

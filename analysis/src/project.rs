@@ -8,6 +8,7 @@ use awl_asm::symbols::load;
 use awl_sim::scenario::plant_file_of;
 use diagnostics::source::SourceError;
 use diagnostics::{Source, Span};
+use project::ENDINGS;
 
 use crate::answer::{
     Completion, Edit, FileEdit, Hover, Location, Outline, Problem, Refusal, Signature, floor,
@@ -424,8 +425,7 @@ impl Project {
         let mut stem = file;
         while let Some((shorter, _)) = stem.rsplit_once('.') {
             stem = shorter;
-            let programs =
-                ["awl", "st", "sfc", "fbt"].map(|ending| format!("{folder}{stem}.{ending}"));
+            let programs = ENDINGS.map(|ending| format!("{folder}{stem}.{ending}"));
             let is_there =
                 |file: &String| self.language(file).is_some_and(|language| language.is_program());
             if let Some(program) = programs.into_iter().find(is_there) {

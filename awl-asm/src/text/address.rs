@@ -67,7 +67,7 @@ pub enum AddressError {
 
 impl Address {
     /// The area of a bit, byte, word or double word; `None` of what has a number alone.
-    pub(crate) fn area(self) -> Option<Area> {
+    pub fn area(self) -> Option<Area> {
         match self {
             Address::Bit { area, .. }
             | Address::Byte { area, .. }
@@ -282,16 +282,16 @@ fn in_area(text: &str, area: Area, size: Size, number: &str) -> Result<Address, 
                 )),
             }
         }
-        (Size::Bit, None) => Err(out_of_range(
-            format!(
-                "{text}: a bit address has a byte and a bit number, such as {name}{}",
-                match (area, byte) {
-                    (Area::I | Area::Q, 0..=7) => format!("0.{byte}"),
-                    _ => format!("{}.0", byte.min(last)),
-                }
-            ),
-            without_point(number, last).map(|bit| format!("{name}{bit}")),
-        )),
+        (Size::Bit, None) => {
+            let example = match (area, byte) {
+                (Area::I | Area::Q, 0..=7) => format!("{name}0.{byte}"),
+                _ => format!("{name}{}.0", byte.min(last)),
+            };
+            Err(out_of_range(
+                format!("{text}: a bit address has a byte and a bit number, such as {example}"),
+                without_point(number, last).map(|bit| format!("{name}{bit}")),
+            ))
+        }
         (_, Some(_)) => Err(out_of_range(
             format!("{text}: only a bit address has a bit number"),
             Some(format!("{name}{}.{}", byte.min(last), bit_digits.unwrap_or("0"))),

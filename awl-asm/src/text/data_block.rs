@@ -151,7 +151,7 @@ impl DataBlock {
         symbols: &SymbolTable,
     ) -> Outcome<Option<(u32, Size)>> {
         let word = first.text(text);
-        let error = |code, why: String| Box::new(Diagnostic::new(code, first, why));
+        let error = |code, why: String| Diagnostic::new(code, first, why);
         if literal::looks_like_literal(word) {
             return Ok(None);
         }
@@ -171,13 +171,13 @@ impl DataBlock {
                 Err(AddressError::OutOfRange(message, suggestion)) => {
                     let mut diagnostic = error(Code::AddressRange, message);
                     diagnostic.suggestion = suggestion;
-                    return Err(diagnostic);
+                    return Err(Box::new(diagnostic));
                 }
                 Err(AddressError::NotAnAddress) => {
                     let why = format!("{word}: neither an address nor a value");
                     let help = "a data block has addresses: `VW0 5`; a variable with a name is \
                                 declared outside of it: `//# var Speed INT := 5`";
-                    return Err(Box::new((*error(Code::DataBlock, why)).help(help)));
+                    return Err(Box::new(error(Code::DataBlock, why).help(help)));
                 }
             },
         };
@@ -195,7 +195,7 @@ impl DataBlock {
                          `MOVW 5, {word}`"
                     ),
                 };
-                Err(Box::new((*error(Code::DataBlock, message)).help(here)))
+                Err(Box::new(error(Code::DataBlock, message).help(here)))
             }
         }
     }

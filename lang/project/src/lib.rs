@@ -27,6 +27,10 @@ pub enum Language {
     Block,
 }
 
+/// Endings of files in these languages; where a program is looked for, the first one that is there
+/// counts.
+pub const ENDINGS: [&str; 4] = ["awl", "st", "sfc", "fbt"];
+
 impl Language {
     /// That of a file.
     pub fn of(name: &str) -> Language {

@@ -1,5 +1,7 @@
 //! The words of the language, which name nothing.
 
+use crate::tree::SectionKind;
+
 /// Words that name nothing.
 pub const KEYWORDS: [&str; 60] = [
     "PROGRAM",
@@ -66,6 +68,22 @@ pub const KEYWORDS: [&str; 60] = [
 
 /// Those of them that are operators.
 pub const OPERATOR_WORDS: [&str; 5] = ["AND", "OR", "XOR", "NOT", "MOD"];
+
+/// Those that begin a section of variables.
+pub(crate) const SECTIONS: [(&str, SectionKind); 7] = [
+    ("VAR", SectionKind::Var),
+    ("VAR_INPUT", SectionKind::Input),
+    ("VAR_OUTPUT", SectionKind::Output),
+    ("VAR_IN_OUT", SectionKind::InOut),
+    ("VAR_TEMP", SectionKind::Temp),
+    ("VAR_GLOBAL", SectionKind::Global),
+    ("VAR_EXTERNAL", SectionKind::External),
+];
+
+/// Whether a word, in capitals, begins a section of variables.
+pub(crate) fn is_section(word: &str) -> bool {
+    SECTIONS.iter().any(|(section, _)| *section == word)
+}
 
 /// Whether a word names nothing.
 pub fn is_keyword(word: &str) -> bool {

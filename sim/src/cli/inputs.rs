@@ -12,7 +12,7 @@ use awl_sim::operand::Operand;
 use awl_sim::plant::{PlantSpec, SpecErrors, parse_spec_with};
 use awl_sim::problem::Problems;
 use awl_sim::scenario::{Context, Scenario};
-use awl_sim::suite::{plant_for, read_text};
+use awl_sim::suite::{is_program, plant_for, read_text};
 
 use awl_sim::args::Args;
 
@@ -65,12 +65,6 @@ pub fn read_scenario(
     let warnings = scenario.lost_settings(known.overwritten);
     Report::new(args.messages, false).show(&source, &warnings);
     Ok(scenario)
-}
-
-/// Whether the ending is that of a program.
-fn is_program(path: &Path) -> bool {
-    let ending = path.extension().unwrap_or_default();
-    ["awl", "bin", "st"].iter().any(|known| ending.eq_ignore_ascii_case(known))
 }
 
 /// Whether a machine has an operand.

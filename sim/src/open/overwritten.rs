@@ -1,6 +1,8 @@
 //! Bits that a program writes in every scan and never reads: whoever else sets them sets nothing.
 //! Who that would be is not known here.
 
+use std::ops::Range;
+
 use awl_asm::Address;
 use awl_asm::assemble::Assembly;
 use awl_asm::check::Access;
@@ -13,10 +15,11 @@ use crate::operand::Operand;
 /// a whole or through a pointer.
 pub fn overwritten(assembly: &Assembly) -> Vec<Operand> {
     let accesses = &assembly.usage.accesses;
+    let certain = in_every_scan(assembly);
     // What else may be read: bytes, words, pointers, the bits of a shift register.
     let is_wide = |(address, list): (&Address, &Vec<Access>)| {
         let is_shifted = list.iter().any(|access| access.reads && access.writes);
-        (!matches!(address, Address::Bit { .. }) || is_shifted).then(|| area(address))?
+        (!matches!(address, Address::Bit { .. }) || is_shifted).then(|| address.area())?
     };
     let wide: Vec<Area> = accesses.iter().filter_map(is_wide).collect();
     let is_lost = |(address, list): &(&Address, &Vec<Access>)| {
@@ -26,33 +29,24 @@ pub fn overwritten(assembly: &Assembly) -> Vec<Operand> {
         };
         matches!(address, Address::Bit { area, .. } if !wide.contains(area))
             && list.iter().all(is_coil)
-            && list.iter().any(|access| is_in_every_scan(assembly, access.instruction))
+            && list.iter().any(|access| certain.contains(&access.instruction))
     };
     accesses.iter().filter(is_lost).map(|(&address, _)| Operand::At(address)).collect()
 }
 
-fn area(address: &Address) -> Option<Area> {
-    match *address {
-        Address::Bit { area, .. }
-        | Address::Byte { area, .. }
-        | Address::Word { area, .. }
-        | Address::Double { area, .. } => Some(area),
-        _ => None,
-    }
-}
-
-/// Whether every scan executes an instruction for certain: it is in the main program, and nothing
-/// before it can lead elsewhere.
-fn is_in_every_scan(assembly: &Assembly, instruction: usize) -> bool {
+/// The instructions that every scan executes for certain: those of the main program before the
+/// first that can lead elsewhere.
+fn in_every_scan(assembly: &Assembly) -> Range<usize> {
     let units = &assembly.units;
     let main = units.order.first().and_then(|&index| units.parts.get(index));
-    let Some(main) = main.filter(|main| main.code.contains(&instruction)) else { return false };
+    let Some(main) = main.map(|main| main.code.clone()) else { return 0..0 };
     let leads_elsewhere = |op: Op| {
         let is_end = matches!(op, Op::End | Op::Cret | Op::Creti | Op::Cscre | Op::Stop);
         is_end || matches!(op, Op::Jmp | Op::Lbl | Op::For)
     };
-    let before = assembly.code.get(main.code.start..instruction);
-    before.is_some_and(|code| !code.iter().any(|selected| leads_elsewhere(selected.op)))
+    let code = assembly.code.get(main.clone()).unwrap_or(&[]);
+    let len = code.iter().position(|selected| leads_elsewhere(selected.op)).unwrap_or(code.len());
+    main.start..main.start + len
 }
 
 #[cfg(test)]

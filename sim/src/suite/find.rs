@@ -9,8 +9,19 @@ use crate::scenario::{NoPlant, plant_of, program_of};
 use anyhow::{Context, Result, bail, ensure};
 use awl_asm::files::read_source;
 
+/// The ending of images, which count where there is no text.
+const IMAGE_ENDING: &str = "bin";
+
+/// Whether a file is a program by its ending.
+pub fn is_program(path: &Path) -> bool {
+    let ending = path.extension().unwrap_or_default();
+    program_endings().any(|known| ending.eq_ignore_ascii_case(known))
+}
+
 /// Endings of programs; the first one there is counts.
-const PROGRAM_ENDINGS: [&str; 5] = ["awl", "st", "sfc", "fbt", "bin"];
+fn program_endings() -> impl Iterator<Item = &'static str> {
+    project::ENDINGS.into_iter().chain([IMAGE_ENDING])
+}
 
 /// The scenarios at these paths, each once. What does not exist is given back as it is: it is a
 /// test that fails.
@@ -102,13 +113,13 @@ pub fn program_for(scenario: &Path, text: &str) -> Result<Vec<PathBuf>> {
     }
     let mut stem = scenario.with_extension("");
     loop {
-        let candidates = PROGRAM_ENDINGS.map(|ending| {
+        let mut candidates = program_endings().map(|ending| {
             let mut name = stem.clone().into_os_string();
             name.push(".");
             name.push(ending);
             PathBuf::from(name)
         });
-        if let Some(program) = candidates.into_iter().find(|path| path.is_file()) {
+        if let Some(program) = candidates.find(|path| path.is_file()) {
             return Ok(vec![program]);
         }
         if stem.extension().is_none() {

@@ -10,7 +10,7 @@ mod result;
 mod tap;
 mod words;
 
-pub use find::{plant_for, program_for, read_text, scenarios};
+pub use find::{is_program, plant_for, program_for, read_text, scenarios};
 pub use reports::{Reports, Telling, ensure_no_source};
 pub use result::TestResult;
 pub use words::{plural, run_in_words};

@@ -30,10 +30,8 @@ pub fn overlap(
 ) {
     let mut areas: BTreeMap<Area, Vec<Named>> = BTreeMap::new();
     for (&address, accesses) in &usage.accesses {
-        let (area, bytes) = match address {
-            Address::Word { area, byte } => (area, byte..byte + 2),
-            Address::Double { area, byte } => (area, byte..byte + 4),
-            _ => continue,
+        let Some((area, bytes)) = value(address).filter(|(_, bytes)| bytes.len() > 1) else {
+            continue;
         };
         let write = accesses.iter().find(|access| access.writes);
         if let (Some(&access), Area::V | Area::M) = (write.or(accesses.first()), area) {
@@ -76,6 +74,16 @@ pub fn overlap(
     }
 }
 
+/// The bytes of a byte, word or double word.
+fn value(address: Address) -> Option<(Area, Range<u16>)> {
+    match address {
+        Address::Byte { area, byte } => Some((area, byte..byte + 1)),
+        Address::Word { area, byte } => Some((area, byte..byte + 2)),
+        Address::Double { area, byte } => Some((area, byte..byte + 4)),
+        _ => None,
+    }
+}
+
 /// Warns of a bit that is written inside of a value that is counted with.
 fn counted_bits(
     program: &Program,
@@ -85,12 +93,7 @@ fn counted_bits(
 ) {
     let mut counted: HashMap<(Area, u16), (Address, Access)> = HashMap::new();
     for (&address, accesses) in &usage.accesses {
-        let (area, bytes) = match address {
-            Address::Byte { area, byte } => (area, byte..byte + 1),
-            Address::Word { area, byte } => (area, byte..byte + 2),
-            Address::Double { area, byte } => (area, byte..byte + 4),
-            _ => continue,
-        };
+        let Some((area, bytes)) = value(address) else { continue };
         let counts = |access: &&Access| {
             access.writes && access.reads && is_counting(code[access.instruction].op)
         };

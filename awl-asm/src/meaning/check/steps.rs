@@ -31,7 +31,7 @@ pub fn steps(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
     let steps = Steps::of(code);
     let reached = steps.reached();
     // Segments in a ring wait for one another: it is said of the first.
-    let mut ring = true;
+    let mut is_first = true;
     for selected in code {
         let (Some(number), Argument::Bit(address)) = (bit_of(selected), selected.arguments[0])
         else {
@@ -48,7 +48,7 @@ pub fn steps(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
                      are reached by `SCRT {first}`"
                 )));
             }
-            Op::Lscr if !reached.contains(&number) && std::mem::take(&mut ring) => {
+            Op::Lscr if !reached.contains(&number) && std::mem::take(&mut is_first) => {
                 let message = format!(
                     "{name} is set by segments alone that are never active: no step is the first"
                 );
@@ -74,9 +74,8 @@ pub fn steps(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnos
 /// no segment of them.
 #[derive(Default)]
 struct Steps {
-    set: HashSet<u32>,
-    /// Which bit is set in which segment; `None`: outside of all.
-    set_in: Vec<(Option<u32>, u32)>,
+    /// Each with the segment that sets it; `None`: outside of all.
+    set: HashSet<(Option<u32>, u32)>,
     read: HashSet<u32>,
     /// Something may set, or reads, any of them.
     any_set: bool,
@@ -126,8 +125,7 @@ impl Steps {
             _ => BITS,
         };
         let bits = first..(first + count).min(BITS);
-        self.set_in.extend(bits.clone().map(|bit| (segment, bit)));
-        self.set.extend(bits);
+        self.set.extend(bits.map(|bit| (segment, bit)));
     }
 
     /// The bits that something sets that is executed: outside of segments, or in one that is
@@ -141,7 +139,7 @@ impl Steps {
             let is_active =
                 |segment: &Option<u32>| segment.is_none_or(|one| reached.contains(&one));
             let next: Vec<u32> = self
-                .set_in
+                .set
                 .iter()
                 .filter(|(segment, _)| is_active(segment))
                 .map(|(_, bit)| *bit)
@@ -155,7 +153,7 @@ impl Steps {
     }
 
     fn is_set(&self, bit: u32) -> bool {
-        self.any_set || self.set.contains(&bit)
+        self.any_set || self.set.iter().any(|(_, set)| *set == bit)
     }
 
     fn is_read(&self, bit: u32) -> bool {

@@ -7,7 +7,6 @@ use st::tree::{
     BinaryOperator, Expression, ExpressionKind, File, Name, Section, SectionKind, Statement,
     StatementKind, UnaryOperator,
 };
-
 use st::visit;
 
 use super::build;

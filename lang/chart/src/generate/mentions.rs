@@ -8,13 +8,13 @@ use std::collections::{BTreeMap, HashMap};
 
 use diagnostics::Span;
 use st::tree::{Expression, ExpressionKind, Name, Selector, Statement, StatementKind};
+use st::visit;
 
 use super::build;
 use super::parsed::Parsed;
 use crate::diagnostic::{Code as ErrorCode, Diagnostic};
 use crate::hierarchy::Hierarchy;
 use crate::model::Qualifier;
-use st::visit;
 
 /// The longest time that a word is compared with. The time ends one above.
 const SHORT_MAX: i64 = i16::MAX as i64 - 1;

@@ -89,6 +89,7 @@ impl<'c> Parsed<'c> {
         }
         parsed
     }
+
     /// Expressions of type BOOL.
     pub(super) fn truths(&mut self) -> impl Iterator<Item = &mut Expression> {
         let of_instances = self.instances.values_mut().chain(self.events.values_mut());

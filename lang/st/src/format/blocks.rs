@@ -1,7 +1,7 @@
 //! What is open at a token: units, sections, statements. From it follow the level of a line, and
 //! which tokens begin one. The text has no errors of form.
 
-use crate::keywords::is_keyword;
+use crate::keywords::{is_keyword, is_section};
 use crate::lexer::{Kind, Token};
 
 /// Something that is open.
@@ -74,16 +74,6 @@ pub(super) struct Blocks {
 
 const UNITS: [&str; 3] = ["PROGRAM", "FUNCTION", "FUNCTION_BLOCK"];
 const UNIT_ENDS: [&str; 3] = ["END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK"];
-const SECTIONS: [&str; 8] = [
-    "VAR",
-    "VAR_INPUT",
-    "VAR_OUTPUT",
-    "VAR_IN_OUT",
-    "VAR_TEMP",
-    "VAR_GLOBAL",
-    "VAR_EXTERNAL",
-    "TYPE",
-];
 const MODIFIERS: [&str; 3] = ["CONSTANT", "RETAIN", "NON_RETAIN"];
 
 impl Blocks {
@@ -126,7 +116,7 @@ impl Blocks {
             (self.open, self.head) = (Vec::new(), Head::Unit);
             return self.alone();
         }
-        if SECTIONS.contains(&word) {
+        if is_section(word) || word == "TYPE" {
             let line = self.alone();
             self.open.push(Open::Declarations);
             return line;

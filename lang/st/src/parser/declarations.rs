@@ -6,23 +6,12 @@ use super::expressions::joined;
 use super::{Failed, Outcome, Parser};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::habits;
-use crate::keywords::is_keyword;
+use crate::keywords::{SECTIONS, is_keyword};
 use crate::lexer::Kind;
 use crate::model::ELEMENTARY;
 use crate::tree::{
-    Declaration, File, Name, Section, SectionKind, TypeDeclaration, TypeText, TypeTextKind, Unit,
-    UnitKind,
+    Declaration, File, Name, Section, TypeDeclaration, TypeText, TypeTextKind, Unit, UnitKind,
 };
-
-const SECTIONS: [(&str, SectionKind); 7] = [
-    ("VAR", SectionKind::Var),
-    ("VAR_INPUT", SectionKind::Input),
-    ("VAR_OUTPUT", SectionKind::Output),
-    ("VAR_IN_OUT", SectionKind::InOut),
-    ("VAR_TEMP", SectionKind::Temp),
-    ("VAR_GLOBAL", SectionKind::Global),
-    ("VAR_EXTERNAL", SectionKind::External),
-];
 
 impl Parser<'_> {
     pub(super) fn file(&mut self) -> File {

@@ -1,7 +1,6 @@
 //! Literals: what their characters mean as values.
 
-use diagnostics::Span;
-use diagnostics::source::Encoding;
+use diagnostics::{Span, windows_1252};
 
 use super::Parser;
 use crate::diagnostic::{Code, Diagnostic};
@@ -127,7 +126,7 @@ fn characters(mut text: &str) -> Option<Vec<u8>> {
     let mut all = Vec::new();
     while let Some(first) = text.chars().next() {
         let Some(rest) = text.strip_prefix('$') else {
-            all.extend(Encoding::Windows1252.encode(first.encode_utf8(&mut [0; 4]))?);
+            all.push(windows_1252::byte(first)?);
             text = text.get(first.len_utf8()..)?;
             continue;
         };

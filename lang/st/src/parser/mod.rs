@@ -11,7 +11,7 @@ use diagnostics::{Source, Span};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::habits;
-use crate::keywords::is_keyword;
+use crate::keywords::{SECTIONS, is_keyword};
 use crate::lexer::{Kind, Token, Tokens, cut, cut_part};
 use crate::tree::{Expression, File, Name, Statement};
 
@@ -299,15 +299,9 @@ impl<'t> Parser<'t> {
             "FUNCTION",
             "FUNCTION_BLOCK",
             "TYPE",
-            "VAR",
-            "VAR_INPUT",
-            "VAR_OUTPUT",
-            "VAR_IN_OUT",
-            "VAR_TEMP",
-            "VAR_GLOBAL",
-            "VAR_EXTERNAL",
         ];
-        is_end && is_keyword(word) || self.is_one_of(&begins)
+        let is_section = SECTIONS.iter().any(|(section, _)| self.is_word(section));
+        is_end && is_keyword(word) || is_section || self.is_one_of(&begins)
     }
 
     /// Goes one level deeper, or reports that it is too deep.

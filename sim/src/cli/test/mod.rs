@@ -82,30 +82,20 @@ fn simulate(
         let Opened { mut machine, symbols, scan_ms, warnings, overwritten, .. } =
             files.open(args.on.into())?;
         result.warnings = shown(&warnings);
-        return job(scan_ms, Vec::new()).run(
-            &mut *machine,
-            Known { symbols: &symbols, overwritten: &overwritten },
-            result,
-        );
+        let known = Known { symbols: &symbols, overwritten: &overwritten };
+        return job(scan_ms, Vec::new()).run(&mut *machine, known, result);
     }
     let Opened { mut machine, symbols, scan_ms, warnings, networks, default_signals, overwritten } =
         files.open_host()?;
     result.warnings = shown(&warnings);
+    let known = Known { symbols: &symbols, overwritten: &overwritten };
     if !args.coverage {
-        return job(scan_ms, Vec::new()).run(
-            &mut *machine,
-            Known { symbols: &symbols, overwritten: &overwritten },
-            result,
-        );
+        return job(scan_ms, Vec::new()).run(&mut *machine, known, result);
     }
     machine.note_executed();
     let bits = default_signals.into_iter().filter(|operand| operand.width() == Width::Bit);
     let bits = bits.map(|operand| named(operand, &symbols)).collect();
-    let outcome = job(scan_ms, bits).run(
-        &mut *machine,
-        Known { symbols: &symbols, overwritten: &overwritten },
-        result,
-    )?;
+    let outcome = job(scan_ms, bits).run(&mut *machine, known, result)?;
     let real = program.into_iter().map(|path| fs::canonicalize(&path).unwrap_or(path));
     let (_, coverage) = programs
         .entry(real.collect())
