@@ -15,10 +15,15 @@ export async function open({ width = 1280, height = 800, patience = PATIENCE } =
       "--no-first-run",
     ],
   });
-  const page = await browser.newPage({ viewport: { width, height } });
-  page.setDefaultTimeout(patience);
   const errors = [];
+  const page = watched(await browser.newPage({ viewport: { width, height } }), errors, patience);
+  return { browser, page, errors };
+}
+
+/** A page whose errors are written down. */
+export function watched(page, errors, patience = PATIENCE) {
+  page.setDefaultTimeout(patience);
   page.on("pageerror", (error) => errors.push(error.message));
   page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
-  return { browser, page, errors };
+  return page;
 }

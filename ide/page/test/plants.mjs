@@ -3,29 +3,15 @@
 // pictures in both themes at two widths, on which axe-core looks as well.
 import { readFile } from "node:fs/promises";
 import assert from "node:assert/strict";
-import { chromium } from "playwright-core";
+import { open, watched } from "./browser.mjs";
 
 const [, , address, pictures] = process.argv;
 const AXE = await readFile(new URL("../node_modules/axe-core/axe.min.js", import.meta.url), "utf8");
-const PATIENCE = 60_000;
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-background-networking",
-    "--disable-sync",
-    "--no-first-run",
-  ],
-});
-const errors = [];
+const { browser, errors } = await open();
 
 async function opened(fragment, options) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
-  const page = await context.newPage();
-  page.setDefaultTimeout(PATIENCE);
-  page.on("pageerror", (error) => errors.push(error.message));
-  page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+  const page = watched(await context.newPage(), errors);
   await page.goto(`${address}#${fragment}`);
   const button = (name) => page.getByRole("button", { name, exact: true });
   const tab = (name) => page.getByRole("tab", { name, exact: true }).click();

@@ -2,7 +2,7 @@
 // force a value beside a line, change the tab, plot, put cursors. Nothing but taps.
 // `node test/touch.mjs ADDRESS`.
 import assert from "node:assert/strict";
-import { open } from "./browser.mjs";
+import { open, watched } from "./browser.mjs";
 
 const [, , given] = process.argv;
 const SIZES = { tablet: [1024, 768], telephone: [390, 844] };
@@ -14,10 +14,7 @@ for (const [device, [width, height]] of Object.entries(SIZES)) {
     hasTouch: true,
     isMobile: true,
   });
-  const page = await context.newPage();
-  page.setDefaultTimeout(60_000);
-  page.on("pageerror", (error) => errors.push(error.message));
-  page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+  const page = watched(await context.newPage(), errors);
   await page.goto(`${given.replace(/\?.*/, "")}#example=station1`);
   const button = (name) => page.getByRole("button", { name, exact: true });
   const tab = (name) => page.getByRole("tab", { name, exact: true }).tap();
