@@ -17,7 +17,15 @@ export async function open({ width = 1280, height = 800, patience = PATIENCE } =
   });
   const errors = [];
   const page = watched(await browser.newPage({ viewport: { width, height } }), errors, patience);
+  process.once("uncaughtException", (error) => void fail(error, page, errors));
   return { browser, page, errors };
+}
+
+/** Ends a test that fails, with what could be read in the page at that time. */
+async function fail(error, page, errors) {
+  console.error(error, ...errors);
+  console.error(await page.innerText("body", { timeout: 5000 }).catch(String));
+  process.exit(1);
 }
 
 /** A page whose errors are written down. */

@@ -31,6 +31,9 @@ const mark = (words) =>
     return flow ? flow.className.replace("flow ", "") : "none";
   }, words);
 
+/** How far the text is scrolled. */
+const scrolled = () => page.evaluate(() => document.querySelector(".cm-scroller").scrollTop);
+
 /** Waits until a line has had all of these marks, whatever the order. */
 async function marks(words, wanted) {
   const seen = new Set();
@@ -90,10 +93,12 @@ await onBoth(async (target) => {
   assert.equal(await values("PROGRAM Main").count(), 0);
   await marks("Measure := TRUE;", ["skipped", "on"]);
   await marks("IF HasPiece AND AtTop AND NOT Measured", ["off", "on"]);
-  // A click forces.
+  // A click forces, and the text stays where it was scrolled to.
   await values("Good := Measured").first().click();
+  const top = await scrolled();
   await page.getByRole("menuitem", { name: "Force Good to 1", exact: true }).click();
   await page.locator(".live .value.forced").first().waitFor();
+  assert.equal(await scrolled(), top);
 });
 console.log("Structured Text: values, and what has become of its statements");
 

@@ -28,8 +28,9 @@ export function openMenu(at: Element, groups: MenuGroups): void {
     if (at.hasAttribute("aria-expanded")) at.setAttribute("aria-expanded", "false");
     removeEventListener("pointerdown", outside, true);
     removeEventListener("resize", resized);
+    // Not with what it scrolls to: in an editor that is the cursor, and not what is looked at.
     if ((before instanceof HTMLElement || before instanceof SVGElement) && before.isConnected)
-      before.focus();
+      before.focus({ preventScroll: true });
     act?.();
   };
   const outside = (event: Event) => {
