@@ -22,7 +22,8 @@ use crate::protocol::{
     ApartWish, Event, LookWish, ProjectWish, Request, TargetKind, TargetWish, TextWish, Wish,
 };
 use crate::pulse::Pulse;
-use crate::scope::{Scope, signals};
+use crate::recorder::Recorder;
+use crate::scope::{Scope, signal};
 use crate::simulator::{Bench, Simulator};
 use crate::surroundings::Surroundings;
 use crate::told::Told;
@@ -51,6 +52,8 @@ pub struct Session {
     bench: Bench,
     scope: Scope,
     scope_names: (Vec<String>, u32),
+    /// Has the samples while there is one; the oscilloscope has none then.
+    recorder: Option<Recorder>,
     watched: Vec<String>,
     view: Option<Lines>,
     /// The ladder that the page shows, until a text changes.
@@ -174,13 +177,40 @@ impl Session {
         events
     }
 
-    /// What the oscilloscope has measured.
-    fn samples(&mut self) -> impl Iterator<Item = Event> + use<> {
+    /// What was measured, for the oscilloscope; or how far the recording is.
+    fn samples(&mut self) -> Vec<Event> {
         let samples = self.plc.as_mut().map(Plc::samples).unwrap_or_default();
-        for sample in samples {
-            self.scope.add(sample.at_ms, sample.values, sample.is_late);
+        samples.into_iter().for_each(|sample| self.scope.add(sample));
+        let batches = self.scope.take();
+        let Some(recorder) = &mut self.recorder else {
+            return batches.into_iter().map(Event::from).collect();
+        };
+        batches.iter().for_each(|batch| recorder.take(batch));
+        if self.simulator.is_none() && !self.plc.as_ref().is_some_and(Plc::is_sampling) {
+            recorder.end("the target does not tell these values");
         }
-        self.scope.take()
+        if recorder.has_ended() {
+            return self.recorded().into_iter().collect();
+        }
+        let progress = recorder.progress();
+        self.told.news(progress).into_iter().collect()
+    }
+
+    /// Ends the recording with what it has.
+    fn leave_recording(&mut self, why: &str) {
+        if let Some(mut recorder) = self.recorder.take() {
+            recorder.end(why);
+            self.errands.push(recorder.recorded());
+        }
+    }
+
+    /// Ends the recording; the oscilloscope goes on.
+    fn recorded(&mut self) -> Option<Event> {
+        let recorder = self.recorder.take()?;
+        // Its signals were good when they were chosen, or have been complained about.
+        let _ = self.choose_signals();
+        self.scope.missed();
+        Some(recorder.recorded())
     }
 
     /// What the PLC has refused, and what nobody waits for an answer to.
@@ -368,10 +398,36 @@ impl Session {
             }
             LookWish::Scope { signals, every_ms } => {
                 self.scope_names = (signals, every_ms);
-                self.choose_signals()?;
+                if self.recorder.is_none() {
+                    self.choose_signals()?;
+                }
+            }
+            LookWish::Record { signals, every_ms, for_ms } => {
+                self.record(&signals, every_ms, for_ms)?;
+            }
+            LookWish::EndRecording => {
+                let recorded = self.recorded();
+                self.errands.extend(recorded);
             }
         }
         Ok(())
+    }
+
+    fn record(&mut self, names: &[String], every_ms: u32, for_ms: u32) -> Result<(), String> {
+        if self.recorder.is_some() {
+            return Err("a recording is under way: end it first".to_owned());
+        }
+        if names.is_empty() {
+            return Err("choose the signals that are to be recorded".to_owned());
+        }
+        let plc = self.connected()?;
+        let operands = names.iter().map(|name| plc.operand(name)).collect::<Result<_, _>>()?;
+        self.recorder = Some(Recorder::new(operands, every_ms, for_ms));
+        let chosen = self.choose_signals();
+        if chosen.is_err() {
+            self.recorder = None;
+        }
+        chosen
     }
 
     fn connected(&mut self) -> Result<&mut Plc, String> {
@@ -436,6 +492,7 @@ impl Session {
 
     /// A PLC is at the other end of the line: it is asked from now on for what is to be seen.
     fn attach(&mut self, mut plc: Plc) {
+        self.leave_recording("a program was loaded");
         plc.watch(&self.watched);
         plc.view(self.view.clone());
         self.plc = Some(plc);
@@ -464,6 +521,7 @@ impl Session {
     fn disconnect(&mut self) {
         // Whoever connects again is told everything again.
         self.told = Told::default();
+        self.leave_recording("the target was left");
         if self.chip.take().is_some() {
             self.errands.push(Event::PowerOff);
         }
@@ -537,15 +595,20 @@ impl Session {
     }
 
     fn choose_signals(&mut self) -> Result<(), String> {
-        let (names, every_ms) = &self.scope_names;
+        let recorded = self.recorder.as_ref().map(Recorder::signals);
+        let (names, every_ms) = recorded.unwrap_or_else(|| self.scope_names.clone());
+        let Some(plc) = &mut self.plc else {
+            self.scope.choose(Vec::new(), 0);
+            return Ok(());
+        };
         let Some(simulator) = &mut self.simulator else {
             self.scope.choose(Vec::new(), 0);
-            let plc = self.plc.as_mut();
-            return plc.map_or(Ok(()), |plc| plc.sample(names, u64::from(*every_ms)));
+            return plc.sample(&names, u64::from(every_ms));
         };
-        let operands = signals(names, &simulator.symbols)?;
+        let operands: Result<Vec<_>, _> = names.iter().map(|name| signal(name, plc)).collect();
+        let operands = operands?;
         operands.iter().try_for_each(|&operand| simulator.has(operand))?;
-        self.scope.choose(operands, u64::from(*every_ms));
+        self.scope.choose(operands, u64::from(every_ms));
         Ok(())
     }
 }
