@@ -37,9 +37,18 @@ pub struct Batch {
     pub is_lossy: bool,
 }
 
-impl From<Batch> for Event {
-    fn from(batch: Batch) -> Event {
-        Event::Samples { times: batch.times, columns: batch.columns, lost: batch.is_lossy }
+impl Batch {
+    /// For the page, which has asked for more signals than the known ones; nothing is known of the
+    /// others.
+    pub fn into_event(self, are_known: &[bool]) -> Event {
+        let Batch { times, columns, is_lossy, .. } = self;
+        let mut columns = columns.into_iter();
+        let all = are_known.iter().map(|&is_known| match is_known {
+            true => columns.next().unwrap_or_default(),
+            false => vec![f64::NAN; times.len()],
+        });
+        let columns = all.collect();
+        Event::Samples { times, columns, lost: is_lossy }
     }
 }
 

@@ -8,7 +8,7 @@ mod status;
 use awl_sim::operand::Operand;
 use awl_sim::plant::file;
 use client::line::Framing;
-use client::show::state::{Agreement, Link, Order};
+use client::show::state::{Agreement, Link, Order, is_input};
 use project::Code;
 use serde::Serialize;
 
@@ -23,7 +23,7 @@ use crate::protocol::{
 };
 use crate::pulse::Pulse;
 use crate::recorder::Recorder;
-use crate::scope::{Scope, signal};
+use crate::scope::{Batch, Scope, signal};
 use crate::simulator::{Bench, Simulator};
 use crate::surroundings::Surroundings;
 use crate::told::Told;
@@ -52,6 +52,8 @@ pub struct Session {
     bench: Bench,
     scope: Scope,
     scope_names: (Vec<String>, u32),
+    /// Which of them the program has.
+    scope_known: Vec<bool>,
     /// Has the samples while there is one; the oscilloscope has none then.
     recorder: Option<Recorder>,
     watched: Vec<String>,
@@ -183,7 +185,8 @@ impl Session {
         samples.into_iter().for_each(|sample| self.scope.add(sample));
         let batches = self.scope.take();
         let Some(recorder) = &mut self.recorder else {
-            return batches.into_iter().map(Event::from).collect();
+            let event = |batch: Batch| batch.into_event(&self.scope_known);
+            return batches.into_iter().map(event).collect();
         };
         batches.iter().for_each(|batch| recorder.take(batch));
         if self.simulator.is_none() && !self.plc.as_ref().is_some_and(Plc::is_sampling) {
@@ -207,8 +210,7 @@ impl Session {
     /// Ends the recording; the oscilloscope goes on.
     fn recorded(&mut self) -> Option<Event> {
         let recorder = self.recorder.take()?;
-        // Its signals were good when they were chosen, or have been complained about.
-        let _ = self.choose_signals();
+        self.choose_signals();
         self.scope.missed();
         Some(recorder.recorded())
     }
@@ -366,6 +368,10 @@ impl Session {
             TargetWish::Drive { operand, value } => self.drive(&operand, value)?,
             TargetWish::Set { operand, value } => {
                 let (operand, raw) = self.value(&operand, &value)?;
+                if is_input(operand.address) {
+                    let name = operand.name;
+                    return Err(format!("{name} is an input, it follows its pin: force it"));
+                }
                 self.order(Order::Set(operand, raw))?;
             }
             TargetWish::Force { operand, value } => {
@@ -399,7 +405,7 @@ impl Session {
             LookWish::Scope { signals, every_ms } => {
                 self.scope_names = (signals, every_ms);
                 if self.recorder.is_none() {
-                    self.choose_signals()?;
+                    self.choose_signals();
                 }
             }
             LookWish::Record { signals, every_ms, for_ms } => {
@@ -422,12 +428,12 @@ impl Session {
         }
         let plc = self.connected()?;
         let operands = names.iter().map(|name| plc.operand(name)).collect::<Result<_, _>>()?;
-        self.recorder = Some(Recorder::new(operands, every_ms, for_ms));
-        let chosen = self.choose_signals();
-        if chosen.is_err() {
-            self.recorder = None;
+        if let Err(message) = self.sample(names, every_ms) {
+            self.choose_signals();
+            return Err(message);
         }
-        chosen
+        self.recorder = Some(Recorder::new(operands, every_ms, for_ms));
+        Ok(())
     }
 
     fn connected(&mut self) -> Result<&mut Plc, String> {
@@ -497,10 +503,7 @@ impl Session {
         plc.view(self.view.clone());
         self.plc = Some(plc);
         self.scope.restart();
-        // Signals of the last program may not be in this one.
-        if self.choose_signals().is_err() {
-            self.scope.choose(Vec::new(), 0);
-        }
+        self.choose_signals();
     }
 
     /// As switched on again; a board with the program that it has.
@@ -594,16 +597,31 @@ impl Session {
         Ok(())
     }
 
-    fn choose_signals(&mut self) -> Result<(), String> {
-        let recorded = self.recorder.as_ref().map(Recorder::signals);
-        let (names, every_ms) = recorded.unwrap_or_else(|| self.scope_names.clone());
-        let Some(plc) = &mut self.plc else {
-            self.scope.choose(Vec::new(), 0);
-            return Ok(());
+    /// Has the signals of the oscilloscope sampled. Those that the program does not have, perhaps of
+    /// the last one, are complained about, and are gaps.
+    fn choose_signals(&mut self) {
+        let (names, every_ms) = self.scope_names.clone();
+        let Some(plc) = &self.plc else { return };
+        let is_simulator = self.simulator.is_some();
+        let error = |name: &String| match is_simulator {
+            true => signal(name, plc).err(),
+            false => plc.operand(name).err(),
         };
+        let unknown: Vec<Option<String>> = names.iter().map(error).collect();
+        self.scope_known = unknown.iter().map(Option::is_none).collect();
+        let known = names.iter().zip(&self.scope_known).filter(|(_, is_known)| **is_known);
+        let known: Vec<String> = known.map(|(name, _)| name.clone()).collect();
+        let refused = self.sample(&known, every_ms).err();
+        let messages = unknown.into_iter().flatten().chain(refused);
+        self.errands.extend(messages.map(|message| Event::Notice { message, bad: true }));
+    }
+
+    /// Has signals sampled; all of them, or none.
+    fn sample(&mut self, names: &[String], every_ms: u32) -> Result<(), String> {
+        self.scope.choose(Vec::new(), 0);
+        let Some(plc) = &mut self.plc else { return Ok(()) };
         let Some(simulator) = &mut self.simulator else {
-            self.scope.choose(Vec::new(), 0);
-            return plc.sample(&names, u64::from(every_ms));
+            return plc.sample(names, u64::from(every_ms));
         };
         let operands: Result<Vec<_>, _> = names.iter().map(|name| signal(name, plc)).collect();
         let operands = operands?;

@@ -251,6 +251,27 @@ fn the_oscilloscope_has_every_scan() {
     assert!(page.refusal(Wish::Look(unknown)).contains("nonsense"));
 }
 
+#[test]
+fn an_unknown_signal_leaves_the_others() {
+    let mut page = Page::with("a.awl", "LD SM0.5\n= Q0.0\n");
+    let signals = ["Q0.0", "Height", "SM0.5"].map(str::to_owned).to_vec();
+    page.wish(Wish::Look(LookWish::Scope { signals, every_ms: 0 }));
+    page.target(TargetWish::Run);
+    page.pass(200);
+    let columns = page.last(|event| match event {
+        Event::Samples { columns, .. } => Some(columns.clone()),
+        _ => None,
+    });
+    let columns = columns.expect("samples have come");
+    let known = |column: &Vec<f64>| column.iter().all(|value| !value.is_nan());
+    assert_eq!(columns.iter().map(known).collect::<Vec<_>>(), [true, false, true]);
+    let told = page.last(|event| match event {
+        Event::Notice { message, bad: true } => Some(message.clone()),
+        _ => None,
+    });
+    assert!(told.is_some_and(|message| message.starts_with("Height")));
+}
+
 /// What was recorded of the target, and why it ended early.
 fn recorded(page: &Page) -> (Recording, Option<String>) {
     let found = page.last(|event| match event {
