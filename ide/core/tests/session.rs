@@ -272,6 +272,21 @@ fn an_unknown_signal_leaves_the_others() {
     assert!(told.is_some_and(|message| message.starts_with("Height")));
 }
 
+#[test]
+fn a_statement_of_several_rungs_is_executed_whatever_they_come_to() {
+    let text = "PROGRAM Main\nVAR\n    Delay : TON;\n    n : INT;\nEND_VAR\nCASE n OF\n\
+        0: Delay(IN := TRUE, PT := T#8s);\n1: Delay(IN := FALSE);\nEND_CASE\n\
+        IF %I0.0 THEN\n    n := 0;\nEND_IF\nEND_PROGRAM\n";
+    let mut page = Page::with("a.st", text);
+    assert_eq!(page.problems(), []);
+    page.wish(view("a.st", 1, 40));
+    page.target(TargetWish::Run);
+    page.pass(300);
+    let flow = |line: u32| page.live().get(&line).and_then(|one| one.flow.clone());
+    let flows = [7, 8, 10, 11].map(|line| flow(line).unwrap_or_default());
+    assert_eq!(flows, ["on", "skipped", "off", "skipped"]);
+}
+
 /// What was recorded of the target, and why it ended early.
 fn recorded(page: &Page) -> (Recording, Option<String>) {
     let found = page.last(|event| match event {
