@@ -64,6 +64,14 @@ impl Evaluator {
                     self.start(full, initial);
                 }
             }
+            TypeTextKind::Text(room) => {
+                let room = room.as_ref().map_or(80, |room| number(&room.kind));
+                self.rooms.insert(full.to_owned(), room as usize);
+                self.values.insert(full.to_owned(), Value::Text(Vec::new()));
+                if let Some(initial) = initial {
+                    self.start(full, initial);
+                }
+            }
             TypeTextKind::Struct(members) => {
                 self.wholes.insert(full.to_owned());
                 for member in members {
@@ -108,6 +116,19 @@ impl Evaluator {
         }
     }
 
+    /// The name in AWL of a variable. An array of more than one dimension is one row, from 0 on, and
+    /// one of structures is one array for each member.
+    pub fn name_in_awl(&self, name: &str) -> String {
+        let Some((array, behind)) = name.split_once('[') else { return name.to_owned() };
+        let (at, member) = behind.split_once(']').expect("its end");
+        let first = if let [(low, _)] = self.bounds[array][..] { low } else { 0 };
+        let at = at.parse::<i64>().expect("a number") + first;
+        match self.instances.contains_key(&name[..name.len() - member.len()]) {
+            true => format!("{array}[{at}]{member}"),
+            false => format!("{array}{member}[{at}]"),
+        }
+    }
+
     /// All that is in a structure or array.
     pub(super) fn copy_whole(&mut self, from: &str, to: &str) {
         let inside = |name: &String| {
@@ -116,7 +137,7 @@ impl Evaluator {
         };
         let all: Vec<String> = self.values.keys().filter_map(inside).collect();
         for rest in all {
-            let value = self.values[&format!("{from}{rest}")];
+            let value = self.values[&format!("{from}{rest}")].clone();
             self.write(&format!("{to}{rest}"), value);
         }
     }
