@@ -31,6 +31,7 @@ import { Bridge } from "./ports/bridge";
 import { Outside, words } from "./ports/outside";
 import { fragmentFor, fromAddress, lastOrBlink, type Opened } from "./project/begin";
 import { Disk } from "./project/disk";
+import { Opening } from "./project/opening";
 import { Project, Unfit } from "./project/project";
 import { Keeper, lastId } from "./project/storage";
 import { confirm } from "./page/dialog";
@@ -76,21 +77,23 @@ const scope = new Scope(core, operands);
 const capture = new Capture(core, project, operands);
 const plant = new Plant(core, project);
 const tests = new Tests(core, project, editors, () => tabs);
-const exercises = new Exercises(core, project, open, () => current);
+const opening = new Opening(take);
+const exercises = new Exercises(core, project, opening.open, () => current);
 const disk =
   bridge && new Disk(bridge, project, (file, text) => editors.replace(file, text), diskTalk);
 const menu = new ProjectMenu(
   project,
-  open,
+  opening.open,
   () => current,
   () => (bridge?.hasFolder ? disk : null),
 );
-const header = new Header(core, {
-  project: (at) => menu.show(at),
+const menus = {
+  project: (at: Element) => menu.show(at),
   settings,
   help,
   files: () => showFiles(sidebar.element.classList.contains("away")),
-});
+};
+const header = new Header(core, menus, (act) => opening.afterwards(act));
 const ladder = new Ladder(core, editors, project, header);
 const tabs: Tabs = new Tabs("panels", [
   { id: "problems", text: "problems", element: problems.element },
@@ -172,7 +175,7 @@ function chooseValue(): void {
   else notice(t("noValueHere"));
 }
 
-async function open(opened: Opened): Promise<void> {
+async function take(opened: Opened): Promise<void> {
   if (watch.forced.length > 0) {
     if (!(await confirm("forced", "leaveForced", "goOn", watch.forced.length))) return;
   }
@@ -202,7 +205,7 @@ async function fromBridge(): Promise<Opened | null> {
   }
 }
 
-async function begin(): Promise<void> {
+async function wanted(): Promise<Opened> {
   let opened: Opened | null = null;
   const folder = await fromBridge();
   try {
@@ -210,14 +213,14 @@ async function begin(): Promise<void> {
   } catch (error) {
     notice(error instanceof Unfit ? unfitWords(error) : String(error), true);
   }
-  await open(opened ?? folder ?? lastOrBlink());
+  return opened ?? folder ?? lastOrBlink();
 }
 
 addEventListener("beforeunload", (event) => {
   if (watch.forced.length > 0 || header.status?.loading) event.preventDefault();
 });
-addEventListener("hashchange", () => void begin());
+addEventListener("hashchange", () => void opening.open(wanted()));
 shortcuts({ header, tabs, menu, editors, search: () => (showFiles(true), sidebar.focusSearch()) });
 EditorView.findFromDOM(place)?.requestMeasure();
-void begin();
+void opening.open(wanted());
 void keepOffline();

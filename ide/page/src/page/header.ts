@@ -44,6 +44,9 @@ export interface Menus {
   files(): void;
 }
 
+/** Does something when no project is being opened any more. */
+export type Afterwards = (act: () => void) => void;
+
 export class Header {
   readonly element: HTMLElement;
   /** What the target said last. */
@@ -57,6 +60,7 @@ export class Header {
   constructor(
     private core: Core,
     menus: Menus,
+    private afterwards: Afterwards,
   ) {
     this.target = select("target", TARGETS, "simulator", (kind) => this.setTarget(kind));
     this.speed = select("speed", SPEEDS, "1", (factor) =>
@@ -120,11 +124,15 @@ export class Header {
   }
 
   private setTarget(kind: TargetKind): void {
-    this.core.tell({ do: "target", kind });
+    this.afterwards(() => this.core.tell({ do: "target", kind }));
   }
 
   /** Does what a button does. */
   act(action: Action): void {
+    this.afterwards(() => this.tell(action));
+  }
+
+  private tell(action: Action): void {
     const { core } = this;
     core.beforeQuestion();
     const mode = this.status?.mode ?? "OFFLINE";
