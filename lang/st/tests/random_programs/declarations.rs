@@ -108,8 +108,8 @@ impl Evaluator {
         }
     }
 
-    /// The name in AWL of a variable. An array of more than one dimension is one row, from 0 on; one
-    /// of structures is one array for each member.
+    /// The name in AWL of a variable. An array of more than one dimension is one row, from 0 on.
+    /// One of structures is one array for each member.
     pub fn name_in_awl(&self, name: &str) -> String {
         let Some((array, behind)) = name.split_once('[') else { return name.to_owned() };
         let (at, member) = behind.split_once(']').expect("its end");
