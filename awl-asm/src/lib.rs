@@ -23,8 +23,8 @@ pub use meaning::{check, select, selected, units};
 pub use output::{cost, disassemble, for_tools, listing, longest_scan, manual, map, native};
 pub use plan::{demand, modules};
 pub use text::{
-    address, ast, cursor, data_block, declared, directive_table, format, locals, mnemonics,
-    operand, parser, refused, suggest, symbols,
+    address, ast, cursor, data_block, declared, directive_table, escapes, format, locals,
+    mnemonics, operand, parser, refused, suggest, symbols,
 };
 
 pub use address::Address;

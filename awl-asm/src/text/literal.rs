@@ -2,6 +2,7 @@
 //! `"text"`, `TRUE`. No range of any operand.
 
 use crate::text::ast::{Constant, Value};
+use crate::text::escapes;
 
 /// Why a text that looks like a constant is none: a message.
 pub(crate) type LiteralError = String;
@@ -222,46 +223,7 @@ pub(crate) fn quoted_characters(whole: &str, text: &str) -> Result<Vec<u8>, Lite
 
 /// The bytes of characters, escapes resolved.
 fn characters(whole: &str, inside: &str) -> Result<Vec<u8>, LiteralError> {
-    let mut bytes = Vec::with_capacity(inside.len());
-    let mut rest = inside.chars();
-    while let Some(character) = rest.next() {
-        match character {
-            '$' => bytes.extend_from_slice(escape(whole, &mut rest)?.as_slice()),
-            other => bytes.push(code_page(whole, other)?),
-        }
-    }
-    Ok(bytes)
-}
-
-/// What is after `$`: one byte, or the two of a line end.
-fn escape(whole: &str, rest: &mut std::str::Chars<'_>) -> Result<Vec<u8>, LiteralError> {
-    let first = rest.next().unwrap_or(' ');
-    let byte = match first.to_ascii_uppercase() {
-        '$' | '\'' | '"' => first as u8,
-        'L' => 0x0A,
-        'N' => return Ok(vec![0x0D, 0x0A]),
-        'P' => 0x0C,
-        'R' => 0x0D,
-        'T' => 0x09,
-        _ => {
-            let second = rest.next().unwrap_or(' ');
-            match (first.to_digit(16), second.to_digit(16)) {
-                (Some(high), Some(low)) => (high << 4 | low) as u8,
-                _ => {
-                    return Err(malformed(
-                        whole,
-                        "after $ is $, ', \", L, N, P, R, T or two hexadecimal digits",
-                    ));
-                }
-            }
-        }
-    };
-    Ok(vec![byte])
-}
-
-fn code_page(whole: &str, character: char) -> Result<u8, LiteralError> {
-    diagnostics::windows_1252::byte(character)
-        .ok_or_else(|| malformed(whole, format!("{character} is no character of one byte")))
+    escapes::read(inside).map_err(|why| malformed(whole, why))
 }
 
 /// What the notation of another system would be here.

@@ -7,6 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::text::address::Address;
 use crate::text::ast::{Name, Named, Section, Span, Type, Unit, UnitKind, Variable};
 use crate::text::suggest::Suggester;
+use crate::text::variables::{at_address, symbol_instead};
 
 /// Parameters of a subroutine at most (docs/s7-200.md 1.8).
 pub const PARAMETERS_MAX: usize = 16;
@@ -25,6 +26,9 @@ pub(crate) fn declare(
     };
     let (name, kind_text) = (name.trim().trim_matches('"'), kind.trim());
     let kind = read_type(kind_text);
+    if let Some((name, help)) = named_address(text) {
+        return Err(error(format!("{name}: a local variable is at no address")).help(help).into());
+    }
     if let Some(why) = wrong_name(name) {
         return Err(error(format!("{name}: {why}")));
     }
@@ -69,6 +73,13 @@ pub(crate) fn declare(
         return Err(error(format!("{name}: a subroutine has at most {PARAMETERS_MAX} parameters")));
     }
     Ok(())
+}
+
+/// The name in `Start AT %I0.0 : BOOL`, and how it gets its address here.
+pub(crate) fn named_address(text: &str) -> Option<(&str, String)> {
+    let (name, rest) = text.split_once([' ', '\t'])?;
+    let address = at_address(rest.trim_start())?;
+    Some((name, symbol_instead(name, address)))
 }
 
 /// `Speed INT`: name and type without the colon between them. The name is kept.

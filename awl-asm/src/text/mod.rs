@@ -9,6 +9,7 @@ pub mod data_block;
 pub mod declared;
 pub mod directive_table;
 mod directives;
+pub mod escapes;
 pub(crate) mod foreign;
 pub mod format;
 pub(crate) mod german;

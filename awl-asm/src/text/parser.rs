@@ -325,9 +325,10 @@ impl Parser<'_> {
                 format!("{}: nothing is after {}", span.text(self.text), word.text(self.text));
             let mut diagnostic = Diagnostic::new(Code::Syntax, span, message);
             if word.text(self.text).to_ascii_uppercase().starts_with("VAR") {
-                let help = "each variable is on a line of its own, such as `Speed : INT;`, and so \
-                            is `END_VAR`";
-                diagnostic.help.push(help.to_owned());
+                let alone = "each variable is on a line of its own, such as `Speed : INT;`, and so \
+                             is `END_VAR`";
+                let at_address = locals::named_address(span.text(self.text)).map(|(_, help)| help);
+                diagnostic.help.push(at_address.unwrap_or_else(|| alone.to_owned()));
             }
             self.diagnostics.push(diagnostic);
         }

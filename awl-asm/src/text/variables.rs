@@ -164,10 +164,10 @@ fn counter(rest: Piece<'_>) -> Outcome<(Wanted, bool)> {
 fn variable(name: Piece<'_>, rest: Piece<'_>, suggester: &Suggester) -> Outcome<(Wanted, bool)> {
     let rest = rest.text.strip_suffix(';').map_or(rest, |text| rest.split(text.len()).0.trim());
     let (rest, is_retained) = without_last(rest, "RETAIN");
-    if let Some(address) = at_address(rest) {
+    if let Some(address) = at_address(rest.text) {
         let bare = bare(name);
-        let help = format!("a name for an address is a symbol: `//# symbol {bare} {address}`");
-        return Err(error(rest, "a variable gets a free place").help(help).into());
+        let found = error(rest, "a variable gets a free place");
+        return Err(found.help(symbol_instead(bare, address)).into());
     }
     let (kind, value) = match rest.text.find(":=") {
         Some(at) => (rest.split(at).0.trim(), Some(rest.split(at).1.split(2).1.trim())),
@@ -185,10 +185,15 @@ fn variable(name: Piece<'_>, rest: Piece<'_>, suggester: &Suggester) -> Outcome<
 }
 
 /// The address of `AT %QX0.0 : BOOL`, where the standard has the place of a variable.
-fn at_address(rest: Piece<'_>) -> Option<Address> {
-    let mut words = rest.text.split([' ', '\t', ':']).filter(|word| !word.is_empty());
+pub(crate) fn at_address(text: &str) -> Option<Address> {
+    let mut words = text.split([' ', '\t', ':']).filter(|word| !word.is_empty());
     let is_at = words.next()?.eq_ignore_ascii_case("AT");
     Address::parse(words.next()?.trim_start_matches('%')).ok().filter(|_| is_at)
+}
+
+/// How a name gets an address here.
+pub(crate) fn symbol_instead(name: &str, address: Address) -> String {
+    format!("a name for an address is a symbol: `//# symbol {name} {address}`")
 }
 
 /// What is at the place of a type: that of the value or of each element, and the array's lowest

@@ -5,17 +5,25 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use awl_sim::open::{File, open};
+use awl_sim::open::{File, open_files};
 use awl_sim::plant::PlantSpec;
 use awl_sim::run::{Job, Length, run};
-use awl_sim::scenario::{Context, Scenario};
+use awl_sim::scenario::{Context, Scenario, program_of};
 
 /// What is wrong with a program after its scenario.
 fn failures(program: &Path, scenario: &Path) -> Vec<String> {
     let text = fs::read_to_string(scenario).expect("a scenario");
     let name = program.display().to_string();
-    let bytes = fs::read(program).expect("a program");
-    let mut opened = match open(&File { name: name.clone(), bytes }, &[]) {
+    let file = |path: &Path| File {
+        name: path.display().to_string(),
+        bytes: fs::read(path).expect("a program"),
+    };
+    let named = program_of(&text).into_iter().map(|name| file(&program.with_file_name(name)));
+    let mut files: Vec<File> = named.collect();
+    if files.is_empty() {
+        files.push(file(program));
+    }
+    let mut opened = match open_files(&files, &[], None) {
         Ok(opened) => opened,
         Err(error) => return vec![format!("{name}: {error}")],
     };

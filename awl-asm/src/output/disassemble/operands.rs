@@ -11,6 +11,7 @@ use crate::output::disassemble::frames::{Copy, Frames, copy, number, offset};
 use crate::output::disassemble::unit_id;
 use crate::text::address::Address;
 use crate::text::ast::{Section, Type};
+use crate::text::escapes;
 
 /// Writes instruction after instruction.
 pub(super) struct Writer<'a, P> {
@@ -192,7 +193,11 @@ impl<'a, P: ProgramMemory> Writer<'a, P> {
             Some(Referent::Pool(offset)) => match (kind, kind.value_len()) {
                 (Kind::TextIn, _) => {
                     let len = u16::from(memory.byte(offset));
-                    text_constant((1..=len).map(|index| memory.byte(offset + index)))
+                    {
+                        let text: Vec<u8> =
+                            (1..=len).map(|index| memory.byte(offset + index)).collect();
+                        format!("\"{}\"", escapes::write(&text))
+                    }
                 }
                 (_, 4) => {
                     let bytes = [0, 1, 2, 3].map(|index| memory.byte(offset + index));
@@ -297,17 +302,4 @@ fn calls(code: &[(u16, u8, Decoded)]) -> Vec<Vec<Copy>> {
 /// A real as a constant that reads back as the same bits.
 fn real_text(bits: u32) -> String {
     format!("{:?}", f32::from_bits(bits))
-}
-
-/// Characters as a text constant.
-fn text_constant(characters: impl Iterator<Item = u8>) -> String {
-    let inside: String = characters
-        .map(|character| match character {
-            b' '..=b'~' if !matches!(character, b'"' | b'$' | b'\'') => {
-                char::from(character).to_string()
-            }
-            other => format!("${other:02X}"),
-        })
-        .collect();
-    format!("\"{inside}\"")
 }

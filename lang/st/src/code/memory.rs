@@ -1,5 +1,7 @@
 //! Variables in AWL: how each is called and stored, and the lines that declare them.
 
+use awl_asm::escapes;
+
 use super::Generator;
 use super::edges::M;
 use super::timers::Owner;
@@ -49,15 +51,7 @@ pub(super) fn literal(value: &Value, kind: &Type) -> String {
 
 /// A text as AWL writes it.
 pub(super) fn text_literal(text: &[u8]) -> String {
-    let mut all = String::from("\"");
-    for &byte in text {
-        match byte {
-            b'$' | b'"' => all.extend(['$', char::from(byte)]),
-            b' '..=b'~' => all.push(char::from(byte)),
-            _ => all.push_str(&format!("${byte:02X}")),
-        }
-    }
-    all + "\""
+    format!("\"{}\"", escapes::write(text))
 }
 
 /// The variable that a temporary text is.

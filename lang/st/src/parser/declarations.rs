@@ -10,7 +10,8 @@ use crate::keywords::{SECTIONS, is_keyword};
 use crate::lexer::Kind;
 use crate::model::ELEMENTARY;
 use crate::tree::{
-    Declaration, File, Name, Section, TypeDeclaration, TypeText, TypeTextKind, Unit, UnitKind,
+    Declaration, File, Name, Section, SectionKind, TypeDeclaration, TypeText, TypeTextKind, Unit,
+    UnitKind,
 };
 
 impl Parser<'_> {
@@ -26,6 +27,7 @@ impl Parser<'_> {
                 }
                 "TYPE" => self.types(&mut file.types),
                 "VAR_GLOBAL" => file.globals.extend(self.section()),
+                "CONFIGURATION" => self.configuration(&mut file.globals),
                 _ => self.outside(&word),
             }
         }
@@ -36,7 +38,7 @@ impl Parser<'_> {
     fn outside(&mut self, word: &str) {
         let token = self.token();
         let message = match word {
-            "CLASS" | "METHOD" | "INTERFACE" | "NAMESPACE" | "CONFIGURATION" | "RESOURCE" => {
+            "CLASS" | "METHOD" | "INTERFACE" | "NAMESPACE" | "RESOURCE" => {
                 let message = format!("{word}: there are programs, functions and function blocks");
                 self.report(Diagnostic::new(Code::NotThere, token.span, message));
                 None
@@ -56,6 +58,20 @@ impl Parser<'_> {
         }
     }
 
+    /// Reports CONFIGURATION and passes it over, but for its variables.
+    fn configuration(&mut self, globals: &mut Vec<Section>) {
+        let message = "CONFIGURATION: each PROGRAM runs once a scan without one";
+        let found = Diagnostic::new(Code::NotThere, self.step().span, message);
+        self.report(found.help("in place of a TASK `//# scan 20ms` sets the time of a scan"));
+        while !self.is_at_end() && !self.take_word("END_CONFIGURATION") {
+            match self.word_at(0).eq_ignore_ascii_case("VAR_GLOBAL") {
+                true => globals.extend(self.section()),
+                false => drop(self.step()),
+            }
+        }
+        self.take_sign(";");
+    }
+
     fn unit(&mut self, word: &str) -> Outcome<Unit> {
         let opened = self.step().span;
         let name = match self.name("a name") {
@@ -73,8 +89,15 @@ impl Parser<'_> {
         self.no_brackets();
         self.take_sign(";");
         let mut sections = Vec::new();
+        let mut at = self.token().span;
         while let Some(section) = self.section() {
+            if section.kind == SectionKind::Global {
+                let message = format!("VAR_GLOBAL is inside of this {word}, it stands before it");
+                let found = Diagnostic::new(Code::Syntax, at, message);
+                self.report(found.help("what this unit alone uses is declared in VAR"));
+            }
             sections.push(section);
+            at = self.token().span;
         }
         let mut every_scan = Vec::new();
         if self.token().kind == Kind::EveryScan {
@@ -111,8 +134,15 @@ impl Parser<'_> {
 
     /// The statements of a unit, words in them that end nothing reported.
     fn unit_body(&mut self, word: &str) -> Vec<crate::tree::Statement> {
-        let mut body = self.statements();
         let ends = ["END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK"];
+        if self.word_at(0).eq_ignore_ascii_case("INITIAL_STEP") {
+            let message = "a chart is in a file whose name ends with `.sfc`";
+            self.report(Diagnostic::new(Code::NotThere, self.token().span, message));
+            while !self.is_at_end() && !self.is_one_of(&ends) {
+                self.step();
+            }
+        }
+        let mut body = self.statements();
         let begins = ["PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TYPE", "VAR_GLOBAL"];
         while !self.is_at_end() && !self.is_one_of(&ends) && !self.is_one_of(&begins) {
             let token = self.step();

@@ -1,6 +1,7 @@
 //! Literals: what their characters mean as values.
 
-use diagnostics::{Span, windows_1252};
+use awl_asm::escapes;
+use diagnostics::Span;
 
 use super::Parser;
 use crate::diagnostic::{Code, Diagnostic};
@@ -37,19 +38,16 @@ impl Parser<'_> {
             self.report(Diagnostic::new(Code::Syntax, span, message).suggest(meant));
             return ExpressionKind::Missing;
         };
-        match characters(inside) {
-            Some(text) if text.len() <= LITERAL_MAX => ExpressionKind::Text(text),
-            Some(text) => {
+        match escapes::read(inside) {
+            Ok(text) if text.len() <= LITERAL_MAX => ExpressionKind::Text(text),
+            Ok(text) => {
                 let message =
                     format!("{} characters: a text has {LITERAL_MAX} at most", text.len());
                 let found = Diagnostic::new(Code::BadConstant, span, message);
                 self.report(found.help("CONCAT joins two"));
                 ExpressionKind::Missing
             }
-            None => self.bad_literal(
-                span,
-                "has a character that there is not: `$` is before $ ' \" L N P R T or two digits",
-            ),
+            Err(why) => self.bad_literal(span, &format!("is no text: {why}")),
         }
     }
 
@@ -119,29 +117,6 @@ impl Parser<'_> {
         };
         ExpressionKind::Typed(prefix.to_owned(), Box::new(Expression { kind, span: value_span }))
     }
-}
-
-/// The characters that a text in quotes means.
-fn characters(mut text: &str) -> Option<Vec<u8>> {
-    let mut all = Vec::new();
-    while let Some(first) = text.chars().next() {
-        let Some(rest) = text.strip_prefix('$') else {
-            all.push(windows_1252::byte(first)?);
-            text = text.get(first.len_utf8()..)?;
-            continue;
-        };
-        let (byte, length) = match rest.chars().next()?.to_ascii_uppercase() {
-            sign @ ('$' | '\'' | '"') => (sign as u8, 1),
-            'L' | 'N' => (b'\n', 1),
-            'P' => (0x0C, 1),
-            'R' => (b'\r', 1),
-            'T' => (b'\t', 1),
-            _ => (u8::from_str_radix(rest.get(..2)?, 16).ok()?, 2),
-        };
-        all.push(byte);
-        text = rest.get(length..)?;
-    }
-    Some(all)
 }
 
 /// Digits of a base with `_` between them; 0 to 2^32 - 1.

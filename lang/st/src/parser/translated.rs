@@ -135,7 +135,11 @@ fn is_place(text: &str, before: Option<Token>, next: Option<&Token>) -> bool {
 
 fn ends_value(text: &str, token: Option<Token>) -> bool {
     token.is_some_and(|token| match token.kind {
-        Kind::Word => !is_keyword(token.span.text(text)),
+        Kind::Word => {
+            // Of a chart: END_TRANSITION before STEP.
+            let word = token.span.text(text);
+            !is_keyword(word) && !word.to_ascii_uppercase().starts_with("END_")
+        }
         Kind::Integer | Kind::Real | Kind::Prefixed | Kind::Text | Kind::Address => true,
         kind => matches!(kind, Kind::Sign(")" | "]")),
     })

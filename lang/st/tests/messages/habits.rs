@@ -433,4 +433,20 @@ pub const TEXTS: &[(&str, &[Answer])] = &[
         "PROGRAM Main\nVAR PERSISTENT i : INT; END_VAR\ni := 1;\nEND_PROGRAM",
         &[Answer("E0200", "PERSISTENT", &["RETAIN"])],
     ),
+    (
+        "PROGRAM Main\nVAR_GLOBAL i : INT; END_VAR\ni := 1;\nEND_PROGRAM",
+        &[Answer("E0200", "VAR_GLOBAL", &["stands before it", "declared in VAR"])],
+    ),
+    (
+        "PROGRAM Main\nx := 1;\nEND_PROGRAM\nCONFIGURATION c\nVAR_GLOBAL x : INT; END_VAR\n\
+         RESOURCE r ON PLC\nTASK t(INTERVAL := T#20ms, PRIORITY := 1);\n\
+         PROGRAM p WITH t : Main;\nEND_RESOURCE\nEND_CONFIGURATION",
+        &[Answer("E0210", "CONFIGURATION", &["once a scan", "`//# scan 20ms`"])],
+    ),
+    (
+        "PROGRAM Main\nVAR i : INT; END_VAR\nINITIAL_STEP Wait:\nEND_STEP\n\
+         TRANSITION FROM Wait TO Go := i > 1;\nEND_TRANSITION\nSTEP Go: A(N); END_STEP\n\
+         END_PROGRAM",
+        &[Answer("E0210", "INITIAL_STEP", &["whose name ends with `.sfc`"])],
+    ),
 ];

@@ -132,7 +132,7 @@ const MISTAKES: &[(&str, &str, &[Answer])] = &[
         "s := \"abc\"; s := 'a$Zb'; s := 'abc;",
         &[
             Answer("E0200", "\"abc\"", &["in single quotes", "'abc'"]),
-            Answer("E0200", "'a$Zb'", &["`$` is before"]),
+            Answer("E0200", "'a$Zb'", &["after $ is $, "]),
             Answer("E0200", "'abc;", &["not closed"]),
             Answer("E0201", ";", &["`;` is missing"]),
         ],
