@@ -17,6 +17,7 @@ import { Tabs } from "./page/tabs";
 import { unfitWords } from "./page/unfit";
 import { valueMenu, valuesMenu } from "./page/values";
 import { Capture } from "./panels/capture";
+import { Chart } from "./panels/chart";
 import { Exercises } from "./panels/exercises";
 import { Ladder } from "./panels/ladder";
 import { Operands } from "./panels/operands";
@@ -92,6 +93,7 @@ const header = new Header(core, {
   files: () => showFiles(sidebar.element.classList.contains("away")),
 });
 const ladder = new Ladder(core, editors, project, header);
+const chart = new Chart(core, editors, project, header);
 const tabs: Tabs = new Tabs("panels", [
   { id: "problems", text: "problems", element: problems.element },
   { id: "watch", text: "watch", element: watch.element, shown: (shown) => watch.shown(shown) },
@@ -115,6 +117,7 @@ const tabs: Tabs = new Tabs("panels", [
     element: ladder.element,
     shown: (shown) => ladder.shown(shown),
   },
+  { id: "chart", text: "chart", element: chart.element, shown: (shown) => chart.shown(shown) },
   {
     id: "exercises",
     text: "exercises",

@@ -25,6 +25,7 @@ use measures::{BLOCK_GAP, CORRIDOR, Measures, TITLE_HEIGHT, short, text_width};
 use shapes::{ActionShape, Look, StepShape, TransitionShape};
 use standard::Route;
 
+pub use crate::model::StepId;
 pub use measures::DOUBLE;
 pub use shapes::{Drawing, Point, Rect, Sheet};
 
@@ -94,6 +95,7 @@ fn sheet(chart: &Chart, name: &str, source: &Source) -> Sheet {
     let steps = chart.steps.iter().filter_map(|(id, step)| {
         let mut shape = step_shape(chart, step, *placement.steps.get(id)?, &m);
         shape.id = *id;
+        shape.variable = format!("{name}.{}", step.name);
         shape.line = line(step.origin);
         let lines = step.block.iter().map(|one| one.origin);
         let lines = lines.chain(step.forcings.iter().map(|one| one.origin));

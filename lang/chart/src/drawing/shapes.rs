@@ -71,8 +71,10 @@ pub struct StepShape {
     pub id: StepId,
     /// Its line in the text.
     pub line: usize,
-    /// Its name.
+    /// Its name; one that is too long ends in dots.
     pub name: String,
+    /// The variable that says whether it is active, in the program of the chart.
+    pub variable: String,
     /// What it stands for: the expansion of a macro-step, charts that are enclosed; else empty.
     pub note: String,
     /// Its box.

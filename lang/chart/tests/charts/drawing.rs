@@ -370,6 +370,7 @@ fn elements_have_their_lines_and_texts() {
     assert_eq!(sheet.name, "t");
     let lines = |sheet: &Sheet| sheet.steps.iter().map(|one| one.line).collect::<Vec<_>>();
     assert_eq!(lines(sheet), [1, 1, 2]);
+    assert_eq!(sheet.steps[1].variable, "t.B");
     let of_transition = |one: &TransitionShape| (one.line, one.title.clone(), one.text.join(" "));
     let found: Vec<_> = sheet.transitions.iter().map(of_transition).collect();
     assert_eq!(found[1], (4, "B_to_C".to_owned(), "b".to_owned()));
