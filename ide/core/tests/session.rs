@@ -390,7 +390,7 @@ fn charts_are_drawn_and_their_steps_told() {
             }
         }
         // A macro-step is active with its expansion.
-        let is_measuring = steps[1].iter().any(|step| *step == Some(true));
+        let is_measuring = steps[1].contains(&Some(true));
         assert_eq!(steps[0][3].unwrap_or_default(), is_measuring);
     }
     assert_eq!(seen, [[true; 2]; 6], "every step of the station");

@@ -8,7 +8,9 @@ use crate::drawing::{DOUBLE, Drawing, Point, Rect, Sheet};
 
 const STYLE: &str = "\
 svg { background: #fff; color: #1a1a1a; --soft: #0b57a4; }
-@media (prefers-color-scheme: dark) { svg { background: #1b1d21; color: #e6e6e6; --soft: #8ab8f0; } }
+@media (prefers-color-scheme: dark) {
+  svg { background: #1b1d21; color: #e6e6e6; --soft: #8ab8f0; }
+}
 path, rect { fill: none; stroke: currentColor; stroke-width: 1.5; }
 .bar { stroke-width: 4; }
 .arrow { fill: currentColor; stroke: none; }

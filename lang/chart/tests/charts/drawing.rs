@@ -29,7 +29,7 @@ fn line(a: Point, b: Point) -> Line {
     (a.x, -a.y, b.x, -b.y)
 }
 
-/// The stretches of routes, those that lie in one line as one; in a quarter of the unit of the lists.
+/// The stretches of routes, those in one line as one; in a quarter of the unit of the lists.
 fn lines(routes: &[Route]) -> Vec<Line> {
     let mut all = Vec::new();
     for route in routes {
