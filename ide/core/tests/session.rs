@@ -376,7 +376,7 @@ fn charts_are_drawn_and_their_steps_told() {
     page.target(TargetWish::Run);
     // Which steps of the first two charts were active at any time, and which were not.
     let mut seen = [[false; 2]; 6];
-    for _ in 0..100 {
+    for _ in 0..400 {
         page.pass(100);
         let situation = page.last(|event| match event {
             Event::Situation { id, steps } => Some((*id, steps.clone())),
