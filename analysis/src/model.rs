@@ -3,9 +3,9 @@
 
 use awl_asm::assemble::{Assembly, assemble};
 use awl_asm::ast::Symbol;
-use awl_asm::diagnostic::{Code as AwlCode, Diagnostic};
-use diagnostics::{At, Severity, Source, Span};
-use project::{StructuredText, Together, together};
+use awl_asm::diagnostic::Diagnostic;
+use diagnostics::{At, Source, Span};
+use project::{StructuredText, Together, of_generated, together};
 use st::Routine;
 
 use crate::answer::Problem;
@@ -135,10 +135,9 @@ impl Model {
             return (file == wanted).then_some(Diagnostic { span, related, ..one });
         }
         // About what was generated its author hears what he can mend.
-        let is_told = one.severity() == Severity::Error || one.code == AwlCode::NotForBoard;
         let (file, span) = self.origin(one.span).unwrap_or_default();
         let one = Diagnostic { span, suggestion: None, related: Vec::new(), ..one };
-        (is_told && file == wanted).then_some(one)
+        of_generated(one).filter(|_| file == wanted)
     }
 
     /// The rest of the line that something generated comes from.

@@ -132,6 +132,14 @@ fn what_the_assembler_says_is_told_at_its_place() {
     project.set("m.st", large).unwrap();
     let problems = project.problems("m.st");
     assert_eq!(problems.len(), 1, "{problems:?}");
+    // Points that the author has chosen; not what the compiler made of the rest.
+    let points = "PROGRAM Main\nVAR\n    Far AT %Q0.7 : BOOL;\n    In AT %I0.0 : BOOL;\n    a : BOOL;\nEND_VAR\n\
+        Far := a;\nIn := a;\na := FALSE;\nIF Far THEN a := In; END_IF\nEND_PROGRAM\n";
+    project.set("m.st", points).unwrap();
+    let problems = project.problems("m.st");
+    let told: Vec<_> = problems.iter().map(|one| (one.code, one.help.join(" "))).collect();
+    assert_eq!((told[0].0, told[1].0, told.len()), (Some("W0005"), Some("W0011"), 2), "{told:?}");
+    assert!(told.iter().all(|(_, help)| !help.contains('`')), "{told:?}");
 }
 
 #[test]

@@ -1,16 +1,17 @@
 //! Traces that the PLC has recorded: from the bytes of its ring to tables and waveforms. The
 //! recording is asked for in [`service`](crate::service).
 
+mod dump;
 mod svg;
 
 use std::io::{self, Write};
 
-use vcd::{IdCode, TimescaleUnit, VarType, Writer};
+pub use dump::Dump;
 
 use crate::error::Error;
 use crate::operand::Operand;
 use crate::service::TraceState;
-use crate::value::{Base, Form, raw};
+use crate::value::{Base, raw};
 
 /// A recording.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,75 +84,15 @@ impl Recording {
         Ok(())
     }
 
-    /// Writes a value change dump (IEEE 1364) for GTKWave and other viewers.
+    /// Writes a value change dump for GTKWave and other viewers.
     pub fn write_vcd(&self, out: &mut dyn Write) -> io::Result<()> {
-        let mut writer = Writer::new(out);
-        writer.version("uno200")?;
-        writer.timescale(1, TimescaleUnit::US)?;
-        writer.add_module("plc")?;
-        let mut codes: Vec<IdCode> = Vec::new();
-        for operand in &self.operands {
-            // A point would separate levels of the hierarchy.
-            let name: String = operand
-                .name
-                .chars()
-                .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
-                .collect();
-            let (kind, bits) = match operand.form {
-                Form::Bit => (VarType::Wire, 1),
-                Form::Byte => (VarType::Reg, 8),
-                // Viewers show integers as signed decimals.
-                Form::Word => (VarType::Integer, 16),
-                Form::Double => (VarType::Integer, 32),
-                Form::Real => (VarType::Real, 64),
-            };
-            codes.push(writer.add_var(kind, bits, &name, None)?);
-        }
-        let trigger =
-            self.trigger.map(|_| writer.add_var(VarType::Wire, 1, "trigger", None)).transpose()?;
-        writer.upscope()?;
-        writer.enddefinitions()?;
-        let waves: Vec<(IdCode, Form)> =
-            codes.into_iter().zip(self.operands.iter().map(|operand| operand.form)).collect();
-        let mut before: Vec<Option<u32>> = vec![None; waves.len()];
+        let mut dump = Dump::begin(&self.operands, self.trigger.is_some(), out)?;
         for (index, values) in self.samples.iter().enumerate() {
-            let mut changes = Vec::new();
-            for ((&wave, &value), before) in waves.iter().zip(values).zip(&mut before) {
-                if before.replace(value) != Some(value) {
-                    changes.push((wave, value));
-                }
-            }
-            let trigger = trigger.filter(|_| {
-                index == 0 || self.trigger.is_some_and(|at| (at..=at + 1).contains(&index))
-            });
-            if changes.is_empty() && trigger.is_none() {
-                continue;
-            }
-            writer.timestamp(self.time_us(index).round() as u64)?;
-            for ((code, form), value) in changes {
-                change(&mut writer, code, form, value)?;
-            }
-            if let Some(code) = trigger {
-                writer.change_scalar(code, vcd::Value::from(self.trigger == Some(index)))?;
-            }
+            let at_us = self.time_us(index).round() as u64;
+            dump.row(at_us, Some(values), self.trigger == Some(index))?;
         }
-        // Viewers end the waves at the last time stamp.
-        writer.timestamp(self.time_us(self.samples.len()).round() as u64)
+        dump.end(self.time_us(self.samples.len()).round() as u64)
     }
-}
-
-fn change(
-    writer: &mut Writer<&mut dyn Write>,
-    code: IdCode,
-    form: Form,
-    value: u32,
-) -> io::Result<()> {
-    let bits = match form {
-        Form::Bit => return writer.change_scalar(code, vcd::Value::from(value != 0)),
-        Form::Real => return writer.change_real(code, f64::from(f32::from_bits(value))),
-        form => 8 * form.bytes() as u32,
-    };
-    writer.change_vector(code, (0..bits).rev().map(|bit| vcd::Value::from(value >> bit & 1 == 1)))
 }
 
 /// The header of a table for programs and spreadsheets.

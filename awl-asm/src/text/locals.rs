@@ -135,7 +135,9 @@ pub fn wrong_name(name: &str) -> Option<&'static str> {
 
 /// Whether two names are the same, letter case aside.
 pub(crate) fn is_same_name(a: &str, b: &str) -> bool {
-    a.eq_ignore_ascii_case(b) || a.to_lowercase() == b.to_lowercase()
+    // Names are compared with each other by the thousand: most are plain.
+    let is_plain = a.is_ascii() && b.is_ascii();
+    a.eq_ignore_ascii_case(b) || !is_plain && a.to_lowercase() == b.to_lowercase()
 }
 
 /// Where the variables of a unit are declared, which is this statement of the program.

@@ -8,6 +8,7 @@ use crate::text::address::Address;
 use crate::text::ast::{Symbol, Type, Value};
 use crate::text::declared::{Declared, Memory, TEXT_LEN_MAX, TEXT_LEN_USUAL, VariableType, Wanted};
 use crate::text::literal;
+use crate::text::locals::is_same_name;
 use crate::text::misdeclared::{keep, several_declarations, several_names, type_first};
 use crate::text::piece::{Outcome, Piece, Targets};
 use crate::text::suggest::Suggester;
@@ -40,7 +41,7 @@ pub(crate) fn declare(word: Piece<'_>, rest: Piece<'_>, targets: &mut Targets<'_
         }
         diagnostic
     })?;
-    let same = |other: &&Declared| other.name.to_lowercase() == bare.to_lowercase();
+    let same = |other: &&Declared| is_same_name(&other.name, bare);
     if let Some(first) = targets.program.variables.iter().find(same) {
         let diagnostic =
             Diagnostic::new(Code::Variable, name.span(), format!("{bare}: is declared already"));

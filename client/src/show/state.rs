@@ -350,7 +350,7 @@ impl State {
 }
 
 /// Whether the PLC takes the operand from its pins.
-fn is_input(address: Address) -> bool {
+pub fn is_input(address: Address) -> bool {
     match address {
         Address::Bit { area, .. }
         | Address::Byte { area, .. }

@@ -12,6 +12,7 @@ use awl_sim::trace::{Signal, Trace, csv, vcd};
 use crate::build::Files;
 use crate::protocol::plant::words;
 use crate::protocol::{Recording, TestResult};
+use crate::recorder::{Column, figures};
 use crate::scope::number;
 use crate::simulator::built;
 
@@ -64,11 +65,12 @@ fn recording(outcome: &Outcome) -> Result<Recording, String> {
         csv,
         vcd,
         plant: counts(outcome),
+        gaps: 0,
     })
 }
 
 /// The times at which something changed, and the values from then on; at the end once more.
-fn columns(trace: &Trace) -> (Vec<f64>, Vec<Vec<f64>>) {
+fn columns(trace: &Trace) -> (Vec<f64>, Vec<Column>) {
     let mut times = Vec::new();
     let mut columns = vec![Vec::new(); trace.signals().len()];
     let mut steps = trace.steps();
@@ -77,7 +79,7 @@ fn columns(trace: &Trace) -> (Vec<f64>, Vec<Vec<f64>>) {
         for ((column, &value), signal) in
             columns.iter_mut().zip(steps.values()).zip(trace.signals())
         {
-            column.push(number(signal.operand, value));
+            column.push(Some(number(signal.operand, value)));
         }
     }
     times.push((trace.scans() * trace.scan_ms()) as f64);
@@ -85,16 +87,6 @@ fn columns(trace: &Trace) -> (Vec<f64>, Vec<Vec<f64>>) {
         column.extend(column.last().copied());
     }
     (times, columns)
-}
-
-/// Least, greatest and mean value over the time.
-fn figures(times: &[f64], column: &[f64]) -> (f64, f64, f64) {
-    let least = column.iter().copied().fold(f64::INFINITY, f64::min);
-    let greatest = column.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let spans = times.windows(2).zip(column);
-    let area: f64 = spans.map(|(span, value)| (span[1] - span[0]) * value).sum();
-    let whole = times.last().copied().unwrap_or(0.0);
-    (least, greatest, if whole > 0.0 { area / whole } else { least })
 }
 
 /// What the plant counted.

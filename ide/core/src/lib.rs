@@ -15,6 +15,7 @@ mod outside;
 mod pace;
 mod plc;
 mod pulse;
+mod recorder;
 mod sampler;
 mod scope;
 mod session;

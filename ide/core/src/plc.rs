@@ -129,6 +129,11 @@ impl Plc {
         Ok(())
     }
 
+    /// Whether samples are asked for.
+    pub fn is_sampling(&self) -> bool {
+        self.sampler.is_asking()
+    }
+
     /// The samples since the last time.
     pub fn samples(&mut self) -> Vec<Sample> {
         self.sampler.take()

@@ -151,6 +151,11 @@ pub enum LookWish {
     /// What the oscilloscope shows, and how often a sample is taken; 0: after each scan, or as
     /// often as the line can.
     Scope { signals: Vec<String>, every_ms: u32 },
+    /// Records what the target does, for so long on its clock; the oscilloscope has no samples
+    /// meanwhile. Told in between: [`Event::Recording`]; at the end: [`Event::Recorded`].
+    Record { signals: Vec<String>, every_ms: u32, for_ms: u32 },
+    /// Ends a recording before its time.
+    EndRecording,
 }
 
 /// What is done apart from the target, as fast as possible.
@@ -217,6 +222,10 @@ pub enum Event {
     /// Samples of the oscilloscope, in its order of signals; `lost` where some could not be taken
     /// before the first of these.
     Samples { times: Vec<f64>, columns: Vec<Vec<f64>>, lost: bool },
+    /// How far the recording is, and how often samples are missing in it.
+    Recording { done_ms: f64, gaps: u32 },
+    /// What was recorded; `ended`: why before its time.
+    Recorded { recording: Recording, ended: Option<String> },
     /// Bytes for the line of a target outside; the page sends them.
     Send { bytes: Vec<u8> },
     /// The virtual Uno is switched on with this in its flash, from address 0 on. Its EEPROM stays.
@@ -433,17 +442,17 @@ pub struct Value {
     pub problem: Option<String>,
 }
 
-/// What was recorded: a column for each signal, a row for each scan.
+/// What was recorded: a column for each signal.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Recording {
     /// Signals.
     pub names: Vec<String>,
-    /// Times of the scans.
+    /// When something was measured, or changed.
     pub times: Vec<f64>,
-    /// Values.
-    pub columns: Vec<Vec<f64>>,
-    /// Least, greatest and mean value of each.
+    /// Values from then on; `None`: nothing is known of them.
+    pub columns: Vec<Vec<Option<f64>>>,
+    /// Least, greatest and mean value of each; not finite where nothing is known.
     pub figures: Vec<(f64, f64, f64)>,
     /// The file that awl-sim would write.
     pub csv: String,
@@ -451,6 +460,8 @@ pub struct Recording {
     pub vcd: String,
     /// What the plant has to say.
     pub plant: Option<String>,
+    /// How often samples are missing.
+    pub gaps: u32,
 }
 
 /// How a scenario went.

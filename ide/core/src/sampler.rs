@@ -17,6 +17,8 @@ const BETWEEN_MS: u64 = 3;
 pub struct Sample {
     /// When they came.
     pub at_ms: u64,
+    /// Low word of the scans since RUN.
+    pub scan: u16,
     /// A number for each signal.
     pub values: Vec<f64>,
     /// Whether others should have come before: they are missing.
@@ -88,7 +90,7 @@ impl Sampler {
         // Another question that is on the line is waited for.
         let latest_ms = self.last_ms.map(|last_ms| last_ms + self.every_ms + 2 * self.exchange_ms);
         let is_late = latest_ms.is_some_and(|latest_ms| now_ms > latest_ms);
-        self.samples.push(Sample { at_ms: now_ms, values, is_late });
+        self.samples.push(Sample { at_ms: now_ms, scan: watched.scan, values, is_late });
         self.last_ms = Some(now_ms);
         // On time it goes on from when it was due.
         let due_ms = self.next_ms + self.every_ms;
@@ -101,6 +103,11 @@ impl Sampler {
         let names: Vec<&str> = self.operands.iter().map(|operand| operand.name.as_str()).collect();
         self.complaint = Some(format!("oscilloscope, {}: {error}", names.join(", ")));
         self.operands.clear();
+    }
+
+    /// Whether values are asked for.
+    pub fn is_asking(&self) -> bool {
+        !self.operands.is_empty()
     }
 
     /// What went wrong, once.

@@ -1,11 +1,14 @@
-//! The oscilloscope: samples of some signals, taken after a scan of the simulator, or as they come
-//! from a PLC on its line. What was not measured is not there.
+//! Samples of some signals, taken after a scan of the simulator, or as they come from a PLC on its
+//! line: for the oscilloscope, or a recording. What was not measured is not there.
 
-use awl_asm::ast::Symbol;
+use awl_asm::Address;
 use awl_sim::machine::Machine;
 use awl_sim::operand::{Operand, Width};
+use client::value::Form;
 
+use crate::plc::Plc;
 use crate::protocol::Event;
+use crate::sampler::Sample;
 
 /// Most samples that wait to be told.
 const WAITING_MAX: usize = 20_000;
@@ -23,11 +26,30 @@ pub struct Scope {
 
 /// Samples without a gap between them.
 #[derive(Debug, Default)]
-struct Batch {
-    times: Vec<f64>,
-    columns: Vec<Vec<f64>>,
+pub struct Batch {
+    /// When each was taken, in milliseconds of the target.
+    pub times: Vec<f64>,
+    /// The low word of the scans until then.
+    pub scans: Vec<u16>,
+    /// Values, a column for each signal.
+    pub columns: Vec<Vec<f64>>,
     /// Some are missing before them.
-    is_lossy: bool,
+    pub is_lossy: bool,
+}
+
+impl Batch {
+    /// For the page, which has asked for more signals than the known ones; nothing is known of the
+    /// others.
+    pub fn into_event(self, are_known: &[bool]) -> Event {
+        let Batch { times, columns, is_lossy, .. } = self;
+        let mut columns = columns.into_iter();
+        let all = are_known.iter().map(|&is_known| match is_known {
+            true => columns.next().unwrap_or_default(),
+            false => vec![f64::NAN; times.len()],
+        });
+        let columns = all.collect();
+        Event::Samples { times, columns, lost: is_lossy }
+    }
 }
 
 impl Scope {
@@ -36,8 +58,8 @@ impl Scope {
         *self = Scope { signals, every_ms, ..Scope::default() };
     }
 
-    /// A scan that started at this time is over.
-    pub fn sample(&mut self, now_ms: u64, machine: &mut impl Machine) {
+    /// A scan that started at this time is over; `scan`: the low word of its number.
+    pub fn sample(&mut self, now_ms: u64, scan: u16, machine: &mut impl Machine) {
         if self.signals.is_empty() || now_ms < self.next_ms {
             return;
         }
@@ -46,12 +68,13 @@ impl Scope {
             machine.read(signal).map_or(f64::NAN, |value| number(signal, value))
         };
         let values = self.signals.iter().map(read).collect();
-        self.add(now_ms, values, false);
+        self.add(Sample { at_ms: now_ms, scan, values, is_late: false });
     }
 
-    /// A sample has come: a value of each signal. `is_lossy`: others are missing before it.
-    pub fn add(&mut self, now_ms: u64, values: Vec<f64>, is_lossy: bool) {
-        self.is_lossy |= is_lossy;
+    /// A sample has come.
+    pub fn add(&mut self, sample: Sample) {
+        let Sample { at_ms, scan, values, is_late } = sample;
+        self.is_lossy |= is_late;
         if self.batches.iter().map(|batch| batch.times.len()).sum::<usize>() >= WAITING_MAX {
             self.is_lossy = true;
             return;
@@ -59,13 +82,19 @@ impl Scope {
         let is_lossy = std::mem::take(&mut self.is_lossy);
         if is_lossy || self.batches.is_empty() {
             let columns = vec![Vec::new(); values.len()];
-            self.batches.push(Batch { times: Vec::new(), columns, is_lossy });
+            self.batches.push(Batch { columns, is_lossy, ..Batch::default() });
         }
         let Some(batch) = self.batches.last_mut() else { return };
-        batch.times.push(now_ms as f64);
+        batch.times.push(at_ms as f64);
+        batch.scans.push(scan);
         for (column, value) in batch.columns.iter_mut().zip(values) {
             column.push(value);
         }
+    }
+
+    /// Nothing was measured until now, whatever comes next.
+    pub fn missed(&mut self) {
+        self.is_lossy = true;
     }
 
     /// Time begins anew.
@@ -74,19 +103,23 @@ impl Scope {
     }
 
     /// The samples since the last time.
-    pub fn take(&mut self) -> impl Iterator<Item = Event> + use<> {
-        std::mem::take(&mut self.batches).into_iter().map(|batch| Event::Samples {
-            times: batch.times,
-            columns: batch.columns,
-            lost: batch.is_lossy,
-        })
+    pub fn take(&mut self) -> Vec<Batch> {
+        std::mem::take(&mut self.batches)
     }
 }
 
-/// Reads the names of signals.
-pub fn signals(names: &[String], symbols: &[Symbol]) -> Result<Vec<Operand>, String> {
-    let parse = |name: &String| Operand::parse(name, symbols).map_err(|error| error.to_string());
-    names.iter().map(parse).collect()
+/// A signal of the simulator, by the name that it has for its PLC: a double word that the program
+/// computes with as a real is one. What only simulators tell has no other name.
+pub fn signal(name: &str, plc: &Plc) -> Result<Operand, String> {
+    match plc.operand(name) {
+        Ok(operand) => Ok(match (operand.address, operand.form) {
+            (address, Form::Real) => Operand::Real(address),
+            (Address::Timer(number), Form::Word) => Operand::TimerCurrent(number),
+            (Address::Counter(number), Form::Word) => Operand::CounterCurrent(number),
+            (address, _) => Operand::At(address),
+        }),
+        Err(_) => Operand::parse(name, plc.state.program.symbols()).map_err(|e| e.to_string()),
+    }
 }
 
 /// A value as a number.
@@ -104,17 +137,12 @@ mod tests {
     #[test]
     fn a_gap_is_told_where_it_is() {
         let mut scope = Scope::default();
-        for (now_ms, is_lossy) in [(0, false), (5, false), (30, true), (35, false)] {
-            scope.add(now_ms, vec![1.0], is_lossy);
+        for (at_ms, is_late) in [(0, false), (5, false), (30, true), (35, false)] {
+            scope.add(Sample { at_ms, scan: 1, values: vec![1.0], is_late });
         }
-        let told: Vec<_> = scope
-            .take()
-            .map(|event| match event {
-                Event::Samples { times, lost, .. } => (times, lost),
-                other => panic!("{other:?}"),
-            })
-            .collect();
-        assert_eq!(told, [(vec![0.0, 5.0], false), (vec![30.0, 35.0], true)]);
-        assert_eq!(scope.take().count(), 0);
+        let told = scope.take();
+        let told: Vec<_> = told.iter().map(|batch| (&batch.times[..], batch.is_lossy)).collect();
+        assert_eq!(told, [(&[0.0, 5.0][..], false), (&[30.0, 35.0], true)]);
+        assert!(scope.take().is_empty());
     }
 }

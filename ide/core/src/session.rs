@@ -8,7 +8,7 @@ mod status;
 use awl_sim::operand::Operand;
 use awl_sim::plant::file;
 use client::line::Framing;
-use client::show::state::{Agreement, Link, Order};
+use client::show::state::{Agreement, Link, Order, is_input};
 use project::Code;
 use serde::Serialize;
 
@@ -23,7 +23,8 @@ use crate::protocol::{
     ApartWish, Event, LookWish, ProjectWish, Request, TargetKind, TargetWish, TextWish, Wish,
 };
 use crate::pulse::Pulse;
-use crate::scope::{Scope, signals};
+use crate::recorder::Recorder;
+use crate::scope::{Batch, Scope, signal};
 use crate::simulator::{Bench, Simulator};
 use crate::surroundings::Surroundings;
 use crate::told::Told;
@@ -52,6 +53,10 @@ pub struct Session {
     bench: Bench,
     scope: Scope,
     scope_names: (Vec<String>, u32),
+    /// Which of them the program has.
+    scope_known: Vec<bool>,
+    /// Has the samples while there is one; the oscilloscope has none then.
+    recorder: Option<Recorder>,
     watched: Vec<String>,
     view: Option<Lines>,
     /// The ladder that the page shows, until a text changes.
@@ -177,13 +182,40 @@ impl Session {
         events
     }
 
-    /// What the oscilloscope has measured.
-    fn samples(&mut self) -> impl Iterator<Item = Event> + use<> {
+    /// What was measured, for the oscilloscope; or how far the recording is.
+    fn samples(&mut self) -> Vec<Event> {
         let samples = self.plc.as_mut().map(Plc::samples).unwrap_or_default();
-        for sample in samples {
-            self.scope.add(sample.at_ms, sample.values, sample.is_late);
+        samples.into_iter().for_each(|sample| self.scope.add(sample));
+        let batches = self.scope.take();
+        let Some(recorder) = &mut self.recorder else {
+            let event = |batch: Batch| batch.into_event(&self.scope_known);
+            return batches.into_iter().map(event).collect();
+        };
+        batches.iter().for_each(|batch| recorder.take(batch));
+        if self.simulator.is_none() && !self.plc.as_ref().is_some_and(Plc::is_sampling) {
+            recorder.end("the target does not tell these values");
         }
-        self.scope.take()
+        if recorder.has_ended() {
+            return self.recorded().into_iter().collect();
+        }
+        let progress = recorder.progress();
+        self.told.news(progress).into_iter().collect()
+    }
+
+    /// Ends the recording with what it has.
+    fn leave_recording(&mut self, why: &str) {
+        if let Some(mut recorder) = self.recorder.take() {
+            recorder.end(why);
+            self.errands.push(recorder.recorded());
+        }
+    }
+
+    /// Ends the recording; the oscilloscope goes on.
+    fn recorded(&mut self) -> Option<Event> {
+        let recorder = self.recorder.take()?;
+        self.choose_signals();
+        self.scope.missed();
+        Some(recorder.recorded())
     }
 
     /// What the PLC has refused, and what nobody waits for an answer to.
@@ -359,6 +391,10 @@ impl Session {
             TargetWish::Drive { operand, value } => self.drive(&operand, value)?,
             TargetWish::Set { operand, value } => {
                 let (operand, raw) = self.value(&operand, &value)?;
+                if is_input(operand.address) {
+                    let name = operand.name;
+                    return Err(format!("{name} is an input, it follows its pin: force it"));
+                }
                 self.order(Order::Set(operand, raw))?;
             }
             TargetWish::Force { operand, value } => {
@@ -391,9 +427,35 @@ impl Session {
             }
             LookWish::Scope { signals, every_ms } => {
                 self.scope_names = (signals, every_ms);
-                self.choose_signals()?;
+                if self.recorder.is_none() {
+                    self.choose_signals();
+                }
+            }
+            LookWish::Record { signals, every_ms, for_ms } => {
+                self.record(&signals, every_ms, for_ms)?;
+            }
+            LookWish::EndRecording => {
+                let recorded = self.recorded();
+                self.errands.extend(recorded);
             }
         }
+        Ok(())
+    }
+
+    fn record(&mut self, names: &[String], every_ms: u32, for_ms: u32) -> Result<(), String> {
+        if self.recorder.is_some() {
+            return Err("a recording is under way: end it first".to_owned());
+        }
+        if names.is_empty() {
+            return Err("choose the signals that are to be recorded".to_owned());
+        }
+        let plc = self.connected()?;
+        let operands = names.iter().map(|name| plc.operand(name)).collect::<Result<_, _>>()?;
+        if let Err(message) = self.sample(names, every_ms) {
+            self.choose_signals();
+            return Err(message);
+        }
+        self.recorder = Some(Recorder::new(operands, every_ms, for_ms));
         Ok(())
     }
 
@@ -459,15 +521,13 @@ impl Session {
 
     /// A PLC is at the other end of the line: it is asked from now on for what is to be seen.
     fn attach(&mut self, mut plc: Plc) {
+        self.leave_recording("a program was loaded");
         plc.watch(&self.watched);
         plc.watch_bits(&self.charts.as_ref().map(Charts::variables).unwrap_or_default());
         plc.view(self.view.clone());
         self.plc = Some(plc);
         self.scope.restart();
-        // Signals of the last program may not be in this one.
-        if self.choose_signals().is_err() {
-            self.scope.choose(Vec::new(), 0);
-        }
+        self.choose_signals();
     }
 
     /// As switched on again; a board with the program that it has.
@@ -488,6 +548,7 @@ impl Session {
     fn disconnect(&mut self) {
         // Whoever connects again is told everything again.
         self.told = Told::default();
+        self.leave_recording("the target was left");
         if self.chip.take().is_some() {
             self.errands.push(Event::PowerOff);
         }
@@ -560,16 +621,36 @@ impl Session {
         Ok(())
     }
 
-    fn choose_signals(&mut self) -> Result<(), String> {
-        let (names, every_ms) = &self.scope_names;
-        let Some(simulator) = &mut self.simulator else {
-            self.scope.choose(Vec::new(), 0);
-            let plc = self.plc.as_mut();
-            return plc.map_or(Ok(()), |plc| plc.sample(names, u64::from(*every_ms)));
+    /// Has the signals of the oscilloscope sampled. Those that the program does not have, perhaps of
+    /// the last one, are complained about, and are gaps.
+    fn choose_signals(&mut self) {
+        let (names, every_ms) = self.scope_names.clone();
+        let Some(plc) = &self.plc else { return };
+        let is_simulator = self.simulator.is_some();
+        let error = |name: &String| match is_simulator {
+            true => signal(name, plc).err(),
+            false => plc.operand(name).err(),
         };
-        let operands = signals(names, &simulator.symbols)?;
+        let unknown: Vec<Option<String>> = names.iter().map(error).collect();
+        self.scope_known = unknown.iter().map(Option::is_none).collect();
+        let known = names.iter().zip(&self.scope_known).filter(|(_, is_known)| **is_known);
+        let known: Vec<String> = known.map(|(name, _)| name.clone()).collect();
+        let refused = self.sample(&known, every_ms).err();
+        let messages = unknown.into_iter().flatten().chain(refused);
+        self.errands.extend(messages.map(|message| Event::Notice { message, bad: true }));
+    }
+
+    /// Has signals sampled; all of them, or none.
+    fn sample(&mut self, names: &[String], every_ms: u32) -> Result<(), String> {
+        self.scope.choose(Vec::new(), 0);
+        let Some(plc) = &mut self.plc else { return Ok(()) };
+        let Some(simulator) = &mut self.simulator else {
+            return plc.sample(names, u64::from(every_ms));
+        };
+        let operands: Result<Vec<_>, _> = names.iter().map(|name| signal(name, plc)).collect();
+        let operands = operands?;
         operands.iter().try_for_each(|&operand| simulator.has(operand))?;
-        self.scope.choose(operands, u64::from(*every_ms));
+        self.scope.choose(operands, u64::from(every_ms));
         Ok(())
     }
 }

@@ -5,7 +5,6 @@ use core::net::Ipv4Addr;
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use awl_asm::ast::Symbol;
 use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
 use awl_sim::open::{Opened, open_files};
@@ -71,8 +70,6 @@ pub struct Simulator {
     host: Host,
     endpoint: Endpoint<()>,
     frames: Frames,
-    /// Names that the program gives to addresses.
-    pub symbols: Vec<Symbol>,
     scan_ms: u64,
     /// How far its time is, and how far it is to be.
     now_ms: u64,
@@ -86,7 +83,7 @@ impl Simulator {
     pub fn new(files: &Files, bench: &Bench) -> Result<Simulator, String> {
         let opened =
             open_files(&files.program, &files.tables, None).map_err(|error| error.to_string())?;
-        let Opened { machine, symbols, scan_ms, .. } = opened;
+        let Opened { machine, scan_ms, .. } = opened;
         let scan_ms = scan_ms.unwrap_or(SCAN_MS);
         let course = Course::new(&Scenario::default(), bench.new_plant()?, scan_ms);
         let endpoint = Endpoint::new(course, scan_ms, Access::default(), Duration::ZERO);
@@ -96,7 +93,6 @@ impl Simulator {
             host,
             endpoint,
             frames: Frames::default(),
-            symbols,
             scan_ms,
             now_ms: 0,
             due_ms: 0.0,
@@ -149,7 +145,8 @@ impl Simulator {
     pub fn scan(&mut self, scope: &mut Scope) -> Vec<u8> {
         // It fails where an input has no pin, and was checked before.
         let _ = self.endpoint.go_on(&mut self.host, Duration::from_millis(self.now_ms));
-        scope.sample(self.endpoint.time_ms(), &mut self.host);
+        let scan = self.host.scans() as u16;
+        scope.sample(self.endpoint.time_ms(), scan, &mut self.host);
         self.now_ms += self.scan_ms;
         self.answers()
     }

@@ -31,8 +31,10 @@ import { diskTalk } from "./page/disk_talk";
 import { Bridge } from "./ports/bridge";
 import { Outside, words } from "./ports/outside";
 import { fragmentFor, fromAddress, lastOrBlink, type Opened } from "./project/begin";
+import { Chosen } from "./project/chosen";
 import { Disk } from "./project/disk";
-import { Project, Unfit } from "./project/project";
+import { Opening } from "./project/opening";
+import { isProgram, Project, Unfit } from "./project/project";
 import { Keeper, lastId } from "./project/storage";
 import { confirm } from "./page/dialog";
 import { language, t } from "./text/language";
@@ -72,26 +74,29 @@ const problems = new Problems(
   (code) => void commands.explain(code),
   () => tabs,
 );
-const watch: Watch = new Watch(core, editors, operands, () => tabs);
-const scope = new Scope(core, operands);
-const capture = new Capture(core, project, operands);
+const chosen = new Chosen(project, () => current);
+const watch: Watch = new Watch(core, editors, operands, chosen, () => tabs);
+const scope = new Scope(core, operands, chosen);
+const capture = new Capture(core, project, operands, chosen);
 const plant = new Plant(core, project);
 const tests = new Tests(core, project, editors, () => tabs);
-const exercises = new Exercises(core, project, open, () => current);
+const opening = new Opening(take);
+const exercises = new Exercises(core, project, opening.open, () => current);
 const disk =
   bridge && new Disk(bridge, project, (file, text) => editors.replace(file, text), diskTalk);
 const menu = new ProjectMenu(
   project,
-  open,
+  opening.open,
   () => current,
   () => (bridge?.hasFolder ? disk : null),
 );
-const header = new Header(core, {
-  project: (at) => menu.show(at),
+const menus = {
+  project: (at: Element) => menu.show(at),
   settings,
   help,
   files: () => showFiles(sidebar.element.classList.contains("away")),
-});
+};
+const header = new Header(core, menus, (act) => opening.afterwards(act));
 const ladder = new Ladder(core, editors, project, header);
 const chart = new Chart(core, editors, project, header);
 const tabs: Tabs = new Tabs("panels", [
@@ -134,6 +139,14 @@ header.onStatus(({ fault }) => {
   if (fault !== null && fault !== lastFault) notice(t("fault", fault), true);
   lastFault = fault;
 });
+let running: string[] = [];
+core.on("program", ({ program }) => (running = program?.files ?? running));
+header.onRun(() => {
+  const { current } = editors;
+  const main = project.main();
+  if (current === null || main === null || current === main || running.includes(current)) return;
+  if (isProgram(current)) notice(t("runsMain", main, current));
+});
 core.on("notice", ({ message, bad }) => notice(message, bad));
 tabs.onShown((id) => project.setView(id));
 project.onOpened(() => tabs.show(project.view ?? (project.plant === null ? "problems" : "plant")));
@@ -163,6 +176,7 @@ document.body.append(
 const narrow = matchMedia("(max-width: 820px)");
 const showFiles = (isShown: boolean) => {
   sidebar.element.classList.toggle("away", narrow.matches && !isShown);
+  if (narrow.matches && isShown) scrollTo({ top: 0 });
 };
 narrow.addEventListener("change", () => showFiles(false));
 editors.onCurrent(() => showFiles(false));
@@ -175,7 +189,7 @@ function chooseValue(): void {
   else notice(t("noValueHere"));
 }
 
-async function open(opened: Opened): Promise<void> {
+async function take(opened: Opened): Promise<void> {
   if (watch.forced.length > 0) {
     if (!(await confirm("forced", "leaveForced", "goOn", watch.forced.length))) return;
   }
@@ -205,7 +219,7 @@ async function fromBridge(): Promise<Opened | null> {
   }
 }
 
-async function begin(): Promise<void> {
+async function wanted(): Promise<Opened> {
   let opened: Opened | null = null;
   const folder = await fromBridge();
   try {
@@ -213,14 +227,14 @@ async function begin(): Promise<void> {
   } catch (error) {
     notice(error instanceof Unfit ? unfitWords(error) : String(error), true);
   }
-  await open(opened ?? folder ?? lastOrBlink());
+  return opened ?? folder ?? lastOrBlink();
 }
 
 addEventListener("beforeunload", (event) => {
   if (watch.forced.length > 0 || header.status?.loading) event.preventDefault();
 });
-addEventListener("hashchange", () => void begin());
+addEventListener("hashchange", () => void opening.open(wanted()));
 shortcuts({ header, tabs, menu, editors, search: () => (showFiles(true), sidebar.focusSearch()) });
 EditorView.findFromDOM(place)?.requestMeasure();
-void begin();
+void opening.open(wanted());
 void keepOffline();

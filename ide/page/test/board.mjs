@@ -2,6 +2,7 @@
 // firmware and program, answers, and gets another program by Web Serial, whose port leads to the same
 // board. `node test/board.mjs ADDRESS PORT`; the address has a token, the port is known to the bridge.
 import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
 import { open } from "./browser.mjs";
 
 const [, , address, port] = process.argv;
@@ -9,6 +10,8 @@ const { browser, page, errors } = await open({ patience: 120_000 });
 
 const button = (name) => page.getByRole("button", { name, exact: true });
 const mode = (wanted) => page.getByRole("status").first().filter({ hasText: wanted }).waitFor();
+const tab = (name) => page.getByRole("tab", { name, exact: true }).click();
+const panel = (name) => page.getByRole("tabpanel", { name, exact: true });
 const dialog = (name) => page.getByRole("dialog", { name });
 const agree = (name, words) =>
   dialog(name).getByRole("button", { name: words, exact: true }).click();
@@ -72,6 +75,70 @@ await mode("LOADING");
 await mode("writing");
 await mode("reading back");
 await mode("RUN");
+
+// Inputs are forced, four signals plotted; a recording has what the motor does when it is stopped.
+const SIGNALS = ["Forward", "RunForward", "Coasting", "Coasting.cv"];
+await tab("Watch");
+for (const input of ["StopOk", "ProtectionOk", "Forward"]) {
+  await page.getByLabel("Operand or symbol").fill(input);
+  await page.keyboard.press("Enter");
+  await page.getByLabel(`New value of ${input}`).fill("1");
+  await button(`Force ${input}`).click();
+}
+const cell = (operand, value) =>
+  panel("Watch")
+    .getByRole("row")
+    .filter({ hasText: operand })
+    .getByRole("cell", { name: value, exact: true })
+    .waitFor();
+await page.getByLabel("Operand or symbol").fill("RunForward");
+await page.keyboard.press("Enter");
+await cell("RunForward", "1");
+for (const name of ["Oscilloscope", "Capture"]) {
+  await tab(name);
+  for (const signal of SIGNALS) {
+    await panel(name).getByLabel("Signal", { exact: true }).fill(signal);
+    await page.keyboard.press("Enter");
+  }
+}
+await tab("Oscilloscope");
+await panel("Oscilloscope").locator(".uplot").nth(3).waitFor();
+await tab("Capture");
+await panel("Capture").getByLabel("Seconds", { exact: true }).fill("3");
+await panel("Capture").getByLabel("Step in ms", { exact: true }).fill("20");
+await button("Record").click();
+await panel("Capture")
+  .getByText(/Recording: [1-9.]+ of 3 s/)
+  .waitFor();
+await tab("Watch");
+for (const input of ["Forward", "StopOk"]) {
+  await page.getByLabel(`New value of ${input}`).fill("0");
+  await button(`Force ${input}`).click();
+}
+await cell("RunForward", "0");
+await tab("Capture");
+await panel("Capture").getByText("s of the target recorded").waitFor();
+const download = page.waitForEvent("download");
+await button("Save CSV").click();
+const csv = await readFile(await (await download).path(), "utf8");
+const [head, ...rows] = csv.trim().split("\n");
+assert.equal(head, "time_ms,scan,Forward,RunForward,Coasting,Coasting.cv");
+const table = rows.map((row) => row.split(",").map(Number));
+assert(table.length > 20, csv);
+const drops = table.findIndex((row) => row[3] === 0);
+assert(drops > 0, csv);
+for (const [index, [time, scan, , runs, coasts, counted]] of table.entries()) {
+  const before = table[index - 1];
+  if (before) assert(time > before[0] && scan > before[1], csv);
+  assert.equal(runs, index < drops ? 1 : 0, csv);
+  assert.equal(coasts, 1, csv);
+  // The time of coming to rest, in tenths of a second since the contactor dropped.
+  const since = runs ? 0 : (time - table[drops][0]) / 100;
+  assert(Math.abs(counted - since) < 2.5, `${counted} after ${since}: ${csv}`);
+}
+await tab("Watch");
+await button("Release all").click();
+await cell("RunForward", "0");
 
 // It survives a reload, in which the token is gone.
 await button("Connect").click();

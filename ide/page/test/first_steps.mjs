@@ -43,6 +43,22 @@ await page
   .getByRole("switch")
   .first()
   .click();
+console.log("first steps: an exercise runs");
+
+// Somebody in a hurry: Run is pressed before the example has arrived.
+await page.addInitScript(() => {
+  const real = globalThis.fetch;
+  globalThis.fetch = async (...given) => {
+    if (`${given[0]}`.includes("motor.json")) await new Promise((done) => setTimeout(done, 1500));
+    return real(...given);
+  };
+});
+await page.goto("about:blank");
+await page.goto(`${given.replace(/\?.*/, "")}#example=motor`);
+await seen(page.getByRole("button", { name: "Run", exact: true })).click();
+assert.equal(await page.getByRole("textbox", { name: "motor.awl" }).count(), 0);
+await mode("RUN");
+await page.getByRole("textbox", { name: "motor.awl" }).waitFor();
 assert.deepEqual(errors, []);
 await browser.close();
-console.log("first steps: an exercise runs");
+console.log("first steps: Run waits for the example");

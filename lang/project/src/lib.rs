@@ -166,14 +166,28 @@ pub fn has_errors(findings: &[Findings]) -> bool {
     all.any(|one| one.severity() == Severity::Error)
 }
 
-/// What the assembler says about a joined text. Of one that was made from others its author hears
-/// what he can mend: errors, and that the program is too large.
+/// What the assembler says about AWL that was made from another language, as far as the author of
+/// that can mend it: errors, that the program is too large, and points that he has chosen. A help
+/// with AWL in it is not for him.
+pub fn of_generated(
+    one: awl_asm::diagnostic::Diagnostic,
+) -> Option<awl_asm::diagnostic::Diagnostic> {
+    let is_his = one.severity() == Severity::Error
+        || matches!(one.code, AwlCode::NotForBoard | AwlCode::NoSuchPin | AwlCode::InputWritten);
+    let help =
+        one.help.iter().filter(|help| one.severity() == Severity::Error || !help.contains('`'));
+    let help = help.cloned().collect();
+    is_his.then_some(awl_asm::diagnostic::Diagnostic { help, ..one })
+}
+
+/// What the assembler says about a joined text. `is_generated`: it was made from others.
 pub fn from_awl(
     diagnostics: Vec<awl_asm::diagnostic::Diagnostic>,
     is_generated: bool,
 ) -> Vec<Diagnostic> {
-    let all = diagnostics.into_iter().filter(|one| {
-        !is_generated || one.severity() == Severity::Error || one.code == AwlCode::NotForBoard
+    let all = diagnostics.into_iter().filter_map(|one| match is_generated {
+        true => of_generated(one),
+        false => Some(one),
     });
     all.map(findings::from_awl).collect()
 }

@@ -134,6 +134,11 @@ impl Host {
         self.clock_start_ms = clock_ms;
     }
 
+    /// Scans since it went to RUN, as whoever asks it is told.
+    pub fn scans(&self) -> u64 {
+        self.line.times.scans.into()
+    }
+
     /// Has the lengths of scans measured, for those who ask how long they are. Without a clock each
     /// counts as a microsecond.
     pub fn measure_with(&mut self, clock: Clock) {

@@ -191,11 +191,12 @@ export interface Chart {
 export interface Recording {
   names: string[];
   times: number[];
-  columns: number[][];
-  figures: [number, number, number][];
+  columns: (number | null)[][];
+  figures: (number | null)[][];
   csv: string;
   vcd: string;
   plant: string | null;
+  gaps: number;
 }
 
 /** Something in a plant that can be set. */
@@ -290,6 +291,8 @@ export interface Orders {
   watch: { operands: string[] };
   view: { file: string; from: number; to: number };
   scope: { signals: string[]; everyMs: number };
+  record: { signals: string[]; everyMs: number; forMs: number };
+  endRecording: object;
 }
 
 interface Events {
@@ -306,6 +309,8 @@ interface Events {
   pins: { inputs: number; outputs: number; analog: number[]; pwm: number[] };
   plant: { name: string; state: [string, number][]; places: number[][]; news: string[] };
   samples: { times: number[]; columns: number[][]; lost: boolean };
+  recording: { doneMs: number; gaps: number };
+  recorded: { recording: Recording; ended: string | null };
   send: { bytes: number[] };
   powerOn: { flash: number[] };
   powerOff: object;

@@ -4,7 +4,7 @@ import type { Status, TargetKind } from "../core/protocol";
 import { onLanguage, t, type Key } from "../text/language";
 import { button, h, iconButton, say, select } from "./dom";
 import { icon, type Icon } from "./icons";
-import { notice } from "./notices";
+import { closeNotices, notice } from "./notices";
 
 const TARGETS = [
   ["simulator", "simulator"],
@@ -44,6 +44,9 @@ export interface Menus {
   files(): void;
 }
 
+/** Does something when no project is being opened any more. */
+export type Afterwards = (act: () => void) => void;
+
 export class Header {
   readonly element: HTMLElement;
   /** What the target said last. */
@@ -53,10 +56,12 @@ export class Header {
   private speed: HTMLSelectElement;
   private buttons = new Map<Action, HTMLButtonElement>();
   private listeners: ((status: Status) => void)[] = [];
+  private runListeners: (() => void)[] = [];
 
   constructor(
     private core: Core,
     menus: Menus,
+    private afterwards: Afterwards,
   ) {
     this.target = select("target", TARGETS, "simulator", (kind) => this.setTarget(kind));
     this.speed = select("speed", SPEEDS, "1", (factor) =>
@@ -120,17 +125,29 @@ export class Header {
   }
 
   private setTarget(kind: TargetKind): void {
-    this.core.tell({ do: "target", kind });
+    this.afterwards(() => this.core.tell({ do: "target", kind }));
   }
 
   /** Does what a button does. */
   act(action: Action): void {
+    this.afterwards(() => this.tell(action));
+  }
+
+  private tell(action: Action): void {
     const { core } = this;
     core.beforeQuestion();
+    // What went wrong before may be mended now.
+    closeNotices();
+    if (action === "run") for (const listener of this.runListeners) listener();
     const mode = this.status?.mode ?? "OFFLINE";
     if (action === "pause") core.tell({ do: "pause", on: mode !== "PAUSE" });
     else if (action === "connect") core.tell({ do: isConnected(mode) ? "disconnect" : "connect" });
     else core.tell({ do: action });
+  }
+
+  /** Is told that the program is to run. */
+  onRun(listener: () => void): void {
+    this.runListeners.push(listener);
   }
 
   /** Is told how the target is. */

@@ -1,8 +1,9 @@
 // The menu of the project: open, save, share.
 import { words } from "../ports/outside";
-import { example, exampleNames, keptProject, linkTo, BLINK, type Opened } from "../project/begin";
+import { example, exampleNames, keptProject, linkTo, BLINK } from "../project/begin";
 import type { Disk } from "../project/disk";
 import { canOpenFolders, choose, Folder, save } from "../project/files";
+import type { Open } from "../project/opening";
 import { LINK_MAX, linkPart, zipped } from "../project/pack";
 import { checked, Unfit, type Project } from "../project/project";
 import { allKept, forget, freshId } from "../project/storage";
@@ -12,9 +13,6 @@ import { h } from "./dom";
 import { openMenu } from "./menu";
 import { notice } from "./notices";
 import { unfitWords } from "./unfit";
-
-/** Opens a project in the place of the one that is open. */
-export type Open = (opened: Opened) => Promise<void>;
 
 export class ProjectMenu {
   private folder: Folder | null = null;
@@ -40,7 +38,7 @@ export class ProjectMenu {
             {
               text: t("folderOfBridge", disk.name),
               checked: disk.isProject,
-              act: does(async () => this.open(await disk.open())),
+              act: does(() => this.open(disk.open())),
             },
           ]
         : [],
@@ -85,12 +83,12 @@ export class ProjectMenu {
     );
     if (name === null) return;
     this.folder = null;
-    await this.open(keptProject(`example:${name}`) ?? (await example(name)));
+    await this.open(keptProject(`example:${name}`) ?? example(name));
   }
 
   private async exampleAnew(id: string): Promise<void> {
     if (!(await confirm("exampleAnew", "exampleAnewAsk", "beginAnew"))) return;
-    await this.open(await example(id.replace("example:", "")));
+    await this.open(example(id.replace("example:", "")));
   }
 
   private async openKept(): Promise<void> {

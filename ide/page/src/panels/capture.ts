@@ -1,10 +1,12 @@
-// Capture: the program is run for a time, as fast as possible, and what it did is plotted.
+// Capture: what the target does is recorded for a time, or the program is run apart from it, as fast
+// as possible. Both are plotted, and saved.
 import { Refusal, type Core } from "../core/core";
 import type { Recording } from "../core/protocol";
 import { button, h, say } from "../page/dom";
 import { notice } from "../page/notices";
 import { CursorTable } from "../plot/cursors";
 import { Plots } from "../plot/plots";
+import type { Chosen } from "../project/chosen";
 import { save } from "../project/files";
 import type { Project } from "../project/project";
 import { t } from "../text/language";
@@ -14,7 +16,7 @@ import { Signals } from "./signals";
 
 /** A run that is longer takes too long for a page. */
 const SECONDS_MAX = 24 * 3600;
-const SCAN_MS_MAX = 1000;
+const STEP_MS_MAX = 1000;
 
 export class Capture {
   readonly element: HTMLElement;
@@ -22,8 +24,11 @@ export class Capture {
   private plots = new Plots();
   private cursors = new CursorTable(this.plots);
   private seconds = number(60, SECONDS_MAX, 0.001);
-  private scanMs = number(1, SCAN_MS_MAX, 1);
+  private stepMs = number(1, STEP_MS_MAX, 1);
   private simulate: HTMLButtonElement;
+  private record: HTMLButtonElement;
+  private recordWords: Element;
+  private isRecording = false;
   private result = h("div", { class: "result", attributes: { hidden: true } });
   private figures = h("tbody");
   private words = h("p", { class: "hint", attributes: { "aria-live": "polite" } });
@@ -34,15 +39,20 @@ export class Capture {
     private core: Core,
     private project: Project,
     operands: Operands,
+    chosen: Chosen,
   ) {
-    this.signals = new Signals(operands, "uno200.capture", () => {});
+    this.signals = new Signals(operands, chosen, "capture", () => {});
     this.simulate = button("simulate", () => void this.run(), { class: "primary" });
+    this.record = button("record", () => this.startOrEnd());
+    this.recordWords = this.record.querySelector(".words")!;
+    say(this.stepMs, "title", "stepMsHint");
     const controls = h(
       "div",
       { class: "controls" },
       labelled("forSeconds", this.seconds),
-      labelled("scanMs", this.scanMs),
+      labelled("stepMs", this.stepMs),
       this.simulate,
+      this.record,
     );
     this.result.append(this.saveButtons(), this.plots.element, this.cursors.element, this.table());
     this.element = h(
@@ -54,6 +64,8 @@ export class Capture {
       this.words,
       this.result,
     );
+    core.on("recording", ({ doneMs, gaps }) => this.showProgress(doneMs, gaps));
+    core.on("recorded", ({ recording, ended }) => this.take(recording, ended));
   }
 
   shown(isShown: boolean): void {
@@ -78,10 +90,55 @@ export class Capture {
     return h("table", { class: "figures" }, h("thead", {}, h("tr", {}, ...heads)), this.figures);
   }
 
-  private async run(): Promise<void> {
+  /** For how long, and from step to step; null where that is not valid, which is shown. */
+  private times(): { forMs: number; stepMs: number } | null {
+    if (!this.seconds.reportValidity() || !this.stepMs.reportValidity()) return null;
     const forMs = Math.round(Number(this.seconds.value) * 1000);
-    const scanMs = Number(this.scanMs.value);
-    if (!this.seconds.reportValidity() || !this.scanMs.reportValidity()) return;
+    return { forMs, stepMs: Number(this.stepMs.value) };
+  }
+
+  private startOrEnd(): void {
+    if (this.isRecording) return this.core.tell({ do: "endRecording" });
+    const times = this.times();
+    if (!times) return;
+    this.core.beforeQuestion();
+    const { forMs, stepMs: everyMs } = times;
+    this.core.tell({ do: "record", signals: this.signals.names, everyMs, forMs });
+  }
+
+  private setRecording(isRecording: boolean): void {
+    this.isRecording = isRecording;
+    this.simulate.disabled = isRecording;
+    const key = isRecording ? "endRecording" : "record";
+    say(this.recordWords, "text", key);
+    say(this.record, "title", key);
+  }
+
+  private showProgress(doneMs: number, gaps: number): void {
+    if (!this.isRecording) this.setRecording(true);
+    const done = (doneMs / 1000).toFixed(1);
+    const words = [t("recordingNow", done, this.seconds.value)];
+    if (gaps > 0) words.push(t("samplesLost", gaps));
+    this.words.textContent = words.join(" · ");
+  }
+
+  /** What the target has done. */
+  private take(recording: Recording, ended: string | null): void {
+    this.setRecording(false);
+    this.recording = recording;
+    const seconds = ((recording.times.at(-1) ?? 0) / 1000).toLocaleString();
+    const rows = recording.times.length.toLocaleString();
+    const words = [t("recordedOfTarget", seconds, rows)];
+    if (recording.gaps > 0) words.push(t("samplesLost", recording.gaps));
+    if (ended !== null) words.push(ended);
+    this.words.textContent = words.join(" · ");
+    this.draw();
+  }
+
+  private async run(): Promise<void> {
+    const times = this.times();
+    if (!times) return;
+    const { forMs, stepMs: scanMs } = times;
     this.simulate.disabled = true;
     say(this.words, "text", "simulating");
     try {
@@ -111,7 +168,7 @@ export class Capture {
     this.cursors.update(names);
     const rows = names.map((name, index) => {
       const numbers = figures[index] ?? [];
-      const cells = numbers.map((figure) => h("td", {}, String(Number(figure.toPrecision(7)))));
+      const cells = numbers.map((figure) => h("td", {}, figureWords(figure)));
       return h("tr", {}, h("th", { attributes: { scope: "row" } }, name), ...cells);
     });
     this.figures.replaceChildren(...rows);
@@ -131,6 +188,11 @@ export class Capture {
       else notice(t("noPicture"), true);
     });
   }
+}
+
+/** A figure; of what was never measured there is none. */
+function figureWords(figure: number | null): string {
+  return figure === null ? "–" : String(Number(figure.toPrecision(7)));
 }
 
 function number(value: number, max: number, step: number): HTMLInputElement {

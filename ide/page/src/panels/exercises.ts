@@ -6,7 +6,7 @@ import { confirm } from "../page/dialog";
 import { button, h, say } from "../page/dom";
 import { notice } from "../page/notices";
 import { unfitWords } from "../page/unfit";
-import { keptProject, type Opened } from "../project/begin";
+import { keptProject } from "../project/begin";
 import {
   exercise,
   exerciseAnew,
@@ -18,6 +18,7 @@ import {
   type Exercise,
   type Listed,
 } from "../project/exercises";
+import type { Open } from "../project/opening";
 import { Unfit, type Project } from "../project/project";
 import { inLanguage, onLanguage } from "../text/language";
 
@@ -35,7 +36,7 @@ export class Exercises {
   constructor(
     private core: Core,
     project: Project,
-    private open: (opened: Opened) => Promise<void>,
+    private open: Open,
     private current: () => { id: string },
   ) {
     this.element = h("div", { class: "exercises" }, this.place);
@@ -118,7 +119,7 @@ export class Exercises {
 
   private async choose(name: string): Promise<void> {
     try {
-      await this.open(keptProject(exerciseId(name)) ?? (await exerciseAnew(name)));
+      await this.open(keptProject(exerciseId(name)) ?? exerciseAnew(name));
     } catch (error) {
       notice(error instanceof Unfit ? unfitWords(error) : String(error), true);
     }
@@ -126,7 +127,7 @@ export class Exercises {
 
   private async anew(): Promise<void> {
     if (!this.chosen || !(await confirm("exerciseAnew", "exerciseAnewAsk", "beginAnew"))) return;
-    await this.open(await exerciseAnew(this.chosen.name));
+    await this.open(exerciseAnew(this.chosen.name));
   }
 
   /** Runs the hidden scenarios, one after the other. */

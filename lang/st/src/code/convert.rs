@@ -101,8 +101,7 @@ impl Generator<'_> {
         }
         // Computed where all numbers of both have a sign; above a DINT nothing else has one.
         let kept = match from_type {
-            Type::Sint | Type::Usint => Storage::Word,
-            Type::Int if *to_type != Type::Udint => Storage::Word,
+            Type::Sint | Type::Usint | Type::Int if *to_type != Type::Udint => Storage::Word,
             _ => Storage::Double,
         };
         let number = self.writer.temporary(kept);

@@ -42,6 +42,8 @@ impl Generator<'_> {
     }
 
     fn text_temporary(&mut self, room: u8) -> String {
+        // A text that is always empty has one, too.
+        let room = room.max(1);
         let number = self.texts_before + self.writer.text_temporary();
         match self.texts.get_mut(number) {
             Some(most) => *most = room.max(*most),

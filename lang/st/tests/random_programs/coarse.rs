@@ -47,7 +47,7 @@ impl Evaluator {
     pub(super) fn coarse_timer(&mut self, block: &str, instance: &str) {
         let mut timer = self.coarse[instance];
         let on = self.bit(instance, "IN");
-        timer.preset = whole(self.values[&format!("{instance}.PT")]);
+        timer.preset = whole(&self.values[&format!("{instance}.PT")]);
         timer.step = if timer.preset % 100 == 0 { 100 } else { 10 };
         let starts = if block == "TON" { on && !timer.runs } else { !on && timer.was_on };
         if starts {

@@ -39,6 +39,7 @@ impl Evaluator {
                 for section in unit.iter().flat_map(|unit| &unit.sections) {
                     self.declare(section, full);
                 }
+                return;
             }
             TypeTextKind::Array(bounds, of) => {
                 let known: Vec<(i64, i64)> = bounds
@@ -51,18 +52,17 @@ impl Evaluator {
                 for at in 0..count {
                     self.declare_one(&format!("{full}[{at}]"), of, None);
                 }
-                if let Some(initial) = initial {
-                    self.start(full, initial);
-                }
             }
             TypeTextKind::Range(name, bounds) => {
                 let (low, high) = (number(&bounds.0.kind), number(&bounds.1.kind));
                 let kind = Kind::of(&upper(name)).expect("whole numbers");
                 self.ranges.insert(full.to_owned(), (low, high));
                 self.values.insert(full.to_owned(), Value::Number(kind, low));
-                if let Some(initial) = initial {
-                    self.start(full, initial);
-                }
+            }
+            TypeTextKind::Text(room) => {
+                let room = room.as_ref().map_or(80, |room| number(&room.kind));
+                self.rooms.insert(full.to_owned(), room as usize);
+                self.values.insert(full.to_owned(), Value::Text(Vec::new()));
             }
             TypeTextKind::Struct(members) => {
                 self.wholes.insert(full.to_owned());
@@ -72,11 +72,11 @@ impl Evaluator {
                         self.declare_one(&full, &member.of_type, member.initial.as_ref());
                     }
                 }
-                if let Some(initial) = initial {
-                    self.start(full, initial);
-                }
             }
             other => panic!("not evaluated: {other:?}"),
+        }
+        if let Some(initial) = initial {
+            self.start(full, initial);
         }
     }
 
@@ -108,6 +108,19 @@ impl Evaluator {
         }
     }
 
+    /// The name in AWL of a variable. An array of more than one dimension is one row, from 0 on.
+    /// One of structures is one array for each member.
+    pub fn name_in_awl(&self, name: &str) -> String {
+        let Some((array, behind)) = name.split_once('[') else { return name.to_owned() };
+        let (at, member) = behind.split_once(']').expect("its end");
+        let first = if let [(low, _)] = self.bounds[array][..] { low } else { 0 };
+        let at = at.parse::<i64>().expect("a number") + first;
+        match self.instances.contains_key(&name[..name.len() - member.len()]) {
+            true => format!("{array}[{at}]{member}"),
+            false => format!("{array}{member}[{at}]"),
+        }
+    }
+
     /// All that is in a structure or array.
     pub(super) fn copy_whole(&mut self, from: &str, to: &str) {
         let inside = |name: &String| {
@@ -116,7 +129,7 @@ impl Evaluator {
         };
         let all: Vec<String> = self.values.keys().filter_map(inside).collect();
         for rest in all {
-            let value = self.values[&format!("{from}{rest}")];
+            let value = self.values[&format!("{from}{rest}")].clone();
             self.write(&format!("{to}{rest}"), value);
         }
     }

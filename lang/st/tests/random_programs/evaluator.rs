@@ -4,6 +4,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::coarse::Coarse;
+use super::texts;
 use super::values::{Kind, Value, as_type, binary, convert, shift, unary, whole};
 use st::tree::{
     Argument, BinaryOperator, CaseArm, Expression, ExpressionKind, File, Name, Section,
@@ -29,6 +30,8 @@ pub struct Evaluator {
     pub(super) wholes: HashSet<String>,
     /// Variables that have only some of the numbers of their type.
     pub(super) ranges: HashMap<String, (i64, i64)>,
+    /// How many characters the texts have at most.
+    pub(super) rooms: HashMap<String, usize>,
     /// The types of instances by their full name.
     pub(super) instances: HashMap<String, String>,
     /// Enumerations: their values by name.
@@ -53,6 +56,7 @@ impl Evaluator {
             bounds: HashMap::new(),
             wholes: HashSet::new(),
             ranges: HashMap::new(),
+            rooms: HashMap::new(),
             instances: HashMap::new(),
             enumerators: HashMap::new(),
             since: HashMap::new(),
@@ -206,11 +210,11 @@ impl Evaluator {
         otherwise: &[Statement],
         prefix: &str,
     ) -> Flow {
-        let value = whole(self.expression(selector, prefix));
+        let value = whole(&self.expression(selector, prefix));
         for arm in arms {
             for (low, high) in &arm.labels {
-                let low = whole(self.expression(low, prefix));
-                let high = high.as_ref().map_or(low, |high| whole(self.expression(high, prefix)));
+                let low = whole(&self.expression(low, prefix));
+                let high = high.as_ref().map_or(low, |high| whole(&self.expression(high, prefix)));
                 if (low..=high).contains(&value) {
                     return self.run(&arm.body, prefix);
                 }
@@ -221,13 +225,13 @@ impl Evaluator {
 
     fn for_loop(&mut self, one: &st::tree::ForLoop, prefix: &str) -> Flow {
         let from = self.expression(&one.from, prefix);
-        let to = whole(self.expression(&one.to, prefix));
-        let by = one.by.as_ref().map_or(1, |by| whole(self.expression(by, prefix)));
+        let to = whole(&self.expression(&one.to, prefix));
+        let by = one.by.as_ref().map_or(1, |by| whole(&self.expression(by, prefix)));
         let place = self.place(&one.variable, prefix);
         let to = self.ranges.get(&place).map_or(to, |&(low, high)| to.clamp(low, high));
         self.write(&place, from);
         let is_past = |value: i64| if by > 0 { value > to } else { value < to };
-        if is_past(whole(self.values[&place])) {
+        if is_past(whole(&self.values[&place])) {
             return Flow::On;
         }
         loop {
@@ -236,7 +240,7 @@ impl Evaluator {
                 Flow::Return => return Flow::Return,
                 Flow::On | Flow::Continue => {}
             }
-            let next = whole(self.values[&place]) + by;
+            let next = whole(&self.values[&place]) + by;
             if is_past(next) {
                 return Flow::On;
             }
@@ -266,7 +270,7 @@ impl Evaluator {
                     let bounds = self.bounds[&full].clone();
                     let mut at = 0;
                     for (index, (low, high)) in indexes.iter().zip(bounds) {
-                        let index = whole(self.expression(index, prefix)).clamp(low, high);
+                        let index = whole(&self.expression(index, prefix)).clamp(low, high);
                         at = at * (high - low + 1) + index - low;
                     }
                     full = format!("{full}[{at}]");
@@ -278,18 +282,22 @@ impl Evaluator {
 
     pub(super) fn write(&mut self, place: &str, value: Value) {
         let value = match self.ranges.get(place) {
-            Some(&(low, high)) => Value::Open(whole(value).clamp(low, high)),
+            Some(&(low, high)) => Value::Open(whole(&value).clamp(low, high)),
             None => value,
         };
         let slot = self.values.get_mut(place).unwrap_or_else(|| panic!("no {place}"));
-        *slot = match (*slot, value) {
-            (Value::Number(kind, _), Value::Number(_, value) | Value::Open(value)) => {
+        *slot = match (&*slot, value) {
+            (&Value::Number(kind, _), Value::Number(_, value) | Value::Open(value)) => {
                 Value::Number(kind, value)
             }
             (Value::Real(_), Value::Number(_, value) | Value::Open(value)) => {
                 Value::Real(value as f32)
             }
             (Value::Bool(_), Value::Open(value)) => Value::Bool(value != 0),
+            (_, Value::Text(mut text)) => {
+                text.truncate(self.rooms[place]);
+                Value::Text(text)
+            }
             (_, value) => value,
         };
     }
@@ -346,7 +354,7 @@ impl Evaluator {
                 self.copy_whole(&parameter, &place);
                 continue;
             }
-            let value = self.values[&parameter];
+            let value = self.values[&parameter].clone();
             self.write(&place, value);
         }
     }
@@ -363,7 +371,7 @@ impl Evaluator {
     fn standard_block(&mut self, block: &str, instance: &str) {
         let was_on = self.was_on.get(instance).copied().unwrap_or(false);
         let number =
-            |evaluator: &Self, name: &str| whole(evaluator.values[&format!("{instance}.{name}")]);
+            |evaluator: &Self, name: &str| whole(&evaluator.values[&format!("{instance}.{name}")]);
         match block {
             "TON" | "TOF" if self.coarse.contains_key(instance) => {
                 self.coarse_timer(block, instance);
@@ -393,7 +401,7 @@ impl Evaluator {
 
     fn timer(&mut self, block: &str, instance: &str, was_on: bool) {
         let on = self.bit(instance, "IN");
-        let preset = whole(self.values[&format!("{instance}.PT")]);
+        let preset = whole(&self.values[&format!("{instance}.PT")]);
         let began = self.since.get(instance).copied().flatten();
         let passed = began.map(|began| (self.now - began) as i64);
         let (mut began, mut q, mut elapsed) = (began, false, 0);
@@ -448,6 +456,7 @@ impl Evaluator {
             ExpressionKind::Integer(value) => Value::Open(*value),
             ExpressionKind::Real(value) => Value::Real(*value),
             ExpressionKind::Bool(value) => Value::Bool(*value),
+            ExpressionKind::Text(text) => Value::Text(text.clone()),
             ExpressionKind::Duration(ms) => Value::Number(Kind::Time, *ms),
             ExpressionKind::Typed(name, value) => {
                 let value = self.expression(value, prefix);
@@ -458,7 +467,7 @@ impl Evaluator {
                     return Value::Number(Kind::Int, *value);
                 }
                 let place = self.named(name, selectors, prefix);
-                *self.values.get(&place).unwrap_or_else(|| panic!("no {place}"))
+                self.values.get(&place).unwrap_or_else(|| panic!("no {place}")).clone()
             }
             ExpressionKind::Unary(operator, operand) => {
                 let value = self.expression(operand, prefix);
@@ -482,31 +491,33 @@ impl Evaluator {
             return self.own_function(&unit, &values);
         }
         if let Some((_, to)) = name.split_once("_TO_") {
-            return convert(values[0], to);
+            return convert(values[0].clone(), to);
         }
-        let best = |is_better: fn(Value, Value) -> bool| {
-            let mut best = values[0];
-            for &next in &values[1..] {
-                if is_better(next, best) {
-                    best = next;
+        let best = |better: BinaryOperator| {
+            let is_better =
+                |a: &Value, b: &Value| binary(better, a.clone(), b.clone()) == Value::Bool(true);
+            values.iter().fold(&values[0], |best, next| match is_better(next, best) {
+                true => next,
+                false => best,
+            })
+        };
+        match (name.as_str(), values.as_slice()) {
+            ("ABS", [Value::Real(value)]) => Value::Real(value.abs()),
+            ("ABS", [value]) if whole(value) < 0 => unary(UnaryOperator::Minus, value.clone()),
+            ("ABS", [value]) => value.clone(),
+            ("MIN", _) => best(BinaryOperator::Less).clone(),
+            ("MAX", _) => best(BinaryOperator::Greater).clone(),
+            ("SEL", [which, no, yes]) => {
+                if *which == Value::Bool(true) {
+                    yes.clone()
+                } else {
+                    no.clone()
                 }
             }
-            best
-        };
-        let is_less = |a, b| binary(BinaryOperator::Less, a, b) == Value::Bool(true);
-        let is_greater = |a, b| binary(BinaryOperator::Greater, a, b) == Value::Bool(true);
-        match name.as_str() {
-            "ABS" => match values[0] {
-                Value::Real(value) => Value::Real(value.abs()),
-                value if whole(value) < 0 => unary(UnaryOperator::Minus, value),
-                value => value,
-            },
-            "MIN" => best(is_less),
-            "MAX" => best(is_greater),
-            "SEL" if values[0] == Value::Bool(true) => values[2],
-            "SEL" => values[1],
-            "SHL" | "SHR" | "ROL" | "ROR" => shift(&name, values[0], whole(values[1])),
-            other => panic!("not evaluated: {other}"),
+            ("SHL" | "SHR" | "ROL" | "ROR", [value, count]) => {
+                shift(&name, value.clone(), whole(count))
+            }
+            _ => texts::function(&name, &values),
         }
     }
 
@@ -521,10 +532,10 @@ impl Evaluator {
         let inputs = unit.sections.iter().filter(|section| section.kind == SectionKind::Input);
         let names = inputs.flat_map(|section| &section.declarations).flat_map(|one| &one.names);
         for (name, value) in names.zip(values) {
-            self.write(&join(&prefix, &name.text), *value);
+            self.write(&join(&prefix, &name.text), value.clone());
         }
         self.run(&unit.body, &prefix);
-        self.values[&name]
+        self.values[&name].clone()
     }
 }
 

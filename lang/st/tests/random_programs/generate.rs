@@ -1,5 +1,6 @@
 //! Random programs that compile: every expression has the type that is asked for.
 
+mod texts;
 mod units;
 
 use fastrand::Rng;
@@ -42,6 +43,7 @@ Part : INT(-5..20) := 3;
 Row : ARRAY[0..3] OF Part := [1, 2(-4)];
 Pair : STRUCT x : INT := 2; y : UINT; z : Part; END_STRUCT;
 Twin : Pair := (y := 7);
+Tag : STRUCT t : STRING[5] := 'tag'; n : INT; END_STRUCT;
 END_TYPE
 VAR_GLOBAL
 ";
@@ -70,10 +72,10 @@ impl Generator {
             loops: 0,
             whiles: 0,
         };
-        one.text()
+        one.all()
     }
 
-    fn text(&mut self) -> String {
+    fn all(&mut self) -> String {
         let mut text = String::from(TYPES);
         for (kind, names) in VARIABLES {
             let written: Vec<&str> =
@@ -82,7 +84,7 @@ impl Generator {
                 text += &format!("{} : {kind};\n", written.join(", "));
             }
         }
-        text += "gt : TIME := T#35ms;\nEND_VAR\n";
+        text += "gt : TIME := T#35ms;\nshared : STRING[6] := ' -12a';\nEND_VAR\n";
         text += &self.function();
         text += &self.block();
         text += &self.plain();
@@ -92,7 +94,7 @@ impl Generator {
                 names.iter().copied().filter(|name| !name.starts_with('g')).collect();
             text += &format!("{} : {kind};\n", own.join(", "));
         }
-        text += "k1, k2, k3 : INT;\n";
+        text += "k1, k2, k3, ix1, ix2, ix3 : INT;\n";
         for (kind, _, _, counter, _) in WHOLE {
             text += &format!("{counter}1, {counter}2, {counter}3 : {kind};\n");
         }
@@ -106,6 +108,12 @@ impl Generator {
         text += "s : State;\nton1 : TON; tof1 : TOF; tp1 : TP; ton2 : TON; count1 : CTU;\n";
         text += "{coarse} slow1, fast1 : TON;\nslow2, fast2 : TOF {coarse};\n";
         text += "first AT %SM0.1 : BOOL; count2 : CTU;\n";
+        text +=
+            "v4 : STRING[4]; v7 : STRING[7] := 'ab'; v9, w9 : STRING[9]; v80 : STRING := '-7.5';\n";
+        text += "tag, tag2 : Tag; tag3 : Tag := (t := '12'); full : STRING[254];\n";
+        text += "plains : ARRAY[1..3] OF Plain; waits : ARRAY[0..1] OF TON;\n";
+        text += "counts : ARRAY[1..2, 0..1] OF CTU; edges : ARRAY[-1..1] OF R_TRIG;\n";
+        text += "blocks : ARRAY[2..3] OF Block;\n";
         text += "edge1 : R_TRIG;\none, two : Block; three, four : Plain;\nEND_VAR\n";
         text += &self.devices();
         let count = self.rng.usize(3..10);
@@ -182,8 +190,9 @@ impl Generator {
 
     fn statement(&mut self) -> String {
         self.depth += 1;
-        let choice = if self.depth > 3 { self.rng.u8(..7) } else { self.rng.u8(..18) };
+        let choice = if self.depth > 3 { self.rng.u8(..8) } else { self.rng.u8(..20) };
         let text = match choice {
+            7 | 19 => self.text_assignment(),
             0 | 1 => self.assignment("INT"),
             2 => self.assignment("DINT"),
             3 => self.assignment("BOOL"),
@@ -203,13 +212,15 @@ impl Generator {
                     self.target("BOOL")
                 )
             }
-            7 | 8 => self.if_statement(),
+            8 => self.if_statement(),
             9 => self.case(),
             10 | 11 => self.for_loop(),
             12 => self.while_loop(),
             13 => self.call(),
+            18 => self.instances(),
             14 if self.rng.u8(..3) == 0 => {
-                let whole = ["pair := twin;", "twin2 := pairs[gi];", "row := row2;"];
+                let whole =
+                    ["pair := twin;", "twin2 := pairs[gi];", "row := row2;", "tag := tag2;"];
                 self.pick(&whole).to_owned() + "\n"
             }
             14 => format!("s := {};\n", self.pick(&["Idle", "Run", "Done"])),
@@ -346,16 +357,16 @@ impl Generator {
             4 => format!("count1(CU := {condition}, R := gq, PV := gi, CV => b);\n"),
             5 => format!("edge1(CLK := {condition}, Q => p);\n"),
             6 => {
-                let whole = self.whole("INT");
+                let (whole, text) = (self.whole("INT"), self.text());
                 format!(
-                    "one(p := {condition}, a := {whole}, row := row2, c := a, both := pair, \
-                     b => b, twin => pairs[gi]);\n"
+                    "one(p := {condition}, a := {whole}, row := row2, name := {text}, c := a, \
+                     both := pair, log := v9, b => b, twin => pairs[gi], label => v7);\n"
                 )
             }
             7 => format!("four(c := b, p := {condition}, q => r);\n"),
             _ => {
                 let whole = self.whole("INT");
-                format!("two({condition}, {whole}, c := list[2], both := twin2);\n")
+                format!("two({condition}, {whole}, c := list[2], both := twin2, log := w9);\n")
             }
         }
     }
@@ -399,6 +410,7 @@ impl Generator {
                 };
                 format!("({} {relation} {})", self.variable(kind), self.value(kind))
             }
+            9 if !self.is_plain && self.rng.u8(..4) == 0 => self.text_comparison(),
             9 => match self.in_function || self.in_block {
                 true => format!("INT_TO_BOOL({})", self.whole("INT")),
                 false => {
@@ -438,8 +450,13 @@ impl Generator {
                     0 if !is_plain && !taken.is_empty() => self.pick(taken),
                     _ => kind,
                 };
-                format!("({} {operator} {})", self.whole(left), self.whole(kind))
+                let right = match operator {
+                    "/" | "MOD" if self.rng.u8(..4) > 0 => self.variable(kind),
+                    _ => self.whole(kind),
+                };
+                format!("({} {operator} {right})", self.whole(left))
             }
+            9 if ["INT", "DINT"].contains(&kind) && self.rng.bool() => self.number_of_text(kind),
             9 if whole_type(kind).0 < 0 => format!("(-{})", self.variable(kind)),
             10 => format!("ABS({})", self.whole(kind)),
             11 => {
@@ -513,9 +530,10 @@ impl Generator {
 
     fn real(&mut self) -> String {
         self.depth += 1;
-        let choice = if self.depth > 4 { self.rng.u8(..3) } else { self.rng.u8(..7) };
+        let choice = if self.depth > 4 { self.rng.u8(..3) } else { self.rng.u8(..8) };
         let text = match choice {
             0 | 1 => self.variable("REAL"),
+            7 => format!("STRING_TO_REAL({})", self.text()),
             2 => format!("{:?}", f32::from(self.rng.i16(-300..300)) / 4.0),
             3..=5 => {
                 let operator = self.pick(&["+", "-", "*", "/"]);
@@ -543,7 +561,10 @@ impl Generator {
                 let kind = self.pick(&["INT", "SINT", "UINT"]);
                 format!("({} * {})", self.time(), self.whole(kind))
             }
-            _ => format!("DINT_TO_TIME({})", self.whole("DINT")),
+            _ => {
+                let kind = self.pick(&["DINT", "INT", "SINT", "UDINT"]);
+                format!("{kind}_TO_TIME({})", self.whole(kind))
+            }
         };
         self.depth -= 1;
         text

@@ -3,6 +3,8 @@
 
 use st::tree::{BinaryOperator, UnaryOperator};
 
+use super::texts;
+
 /// Types of whole numbers and bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
@@ -52,18 +54,20 @@ impl Kind {
 }
 
 /// A value with its type.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Value {
     Bool(bool),
     Number(Kind, i64),
     Real(f32),
+    /// Characters of Windows-1252.
+    Text(Vec<u8>),
     /// A literal that takes the type of what it meets.
     Open(i64),
 }
 
-pub fn whole(value: Value) -> i64 {
+pub fn whole(value: &Value) -> i64 {
     match value {
-        Value::Number(_, value) | Value::Open(value) => value,
+        Value::Number(_, value) | Value::Open(value) => *value,
         other => panic!("no whole number: {other:?}"),
     }
 }
@@ -106,10 +110,15 @@ pub fn binary(operator: BinaryOperator, left: Value, right: Value) -> Value {
             Equal => a == b,
             other => panic!("BOOL {other:?}"),
         }),
+        (Value::Text(a), Value::Text(b)) => Value::Bool(match operator {
+            Equal => a == b,
+            NotEqual => a != b,
+            other => panic!("STRING {other:?}"),
+        }),
         (Value::Real(a), Value::Real(b)) => of_reals(operator, a, b),
-        (Value::Real(_), b) => binary(operator, left, Value::Real(whole(b) as f32)),
-        (a, Value::Real(_)) => binary(operator, Value::Real(whole(a) as f32), right),
-        _ => of_numbers(operator, left, right),
+        (Value::Real(a), b) => of_reals(operator, a, whole(&b) as f32),
+        (a, Value::Real(b)) => of_reals(operator, whole(&a) as f32, b),
+        (left, right) => of_numbers(operator, &left, &right),
     }
 }
 
@@ -136,23 +145,23 @@ pub fn of_reals(operator: BinaryOperator, a: f32, b: f32) -> Value {
 }
 
 /// The type of two whole numbers.
-pub fn common(left: Value, right: Value) -> Kind {
+pub fn common(left: &Value, right: &Value) -> Kind {
     match (left, right) {
         (Value::Number(Kind::Time, _), _) => Kind::Time,
-        (Value::Number(a, _), Value::Number(b, _)) => {
+        (&Value::Number(a, _), &Value::Number(b, _)) => {
             let is_wider = (b.range().1 - b.range().0) > (a.range().1 - a.range().0);
             if is_wider { b } else { a }
         }
-        (Value::Number(a, _), _) => a,
-        (_, Value::Number(b, _)) => b,
+        (&Value::Number(a, _), _) => a,
+        (_, &Value::Number(b, _)) => b,
         (a, b) => {
-            let fits = |value| (-32768..=32767).contains(&whole(value));
+            let fits = |value: &Value| (-32768..=32767).contains(&whole(value));
             if fits(a) && fits(b) { Kind::Int } else { Kind::Dint }
         }
     }
 }
 
-pub fn of_numbers(operator: BinaryOperator, left: Value, right: Value) -> Value {
+pub fn of_numbers(operator: BinaryOperator, left: &Value, right: &Value) -> Value {
     use BinaryOperator::*;
     let kind = common(left, right);
     let (a, b) = (whole(left), whole(right));
@@ -185,13 +194,16 @@ pub fn convert(value: Value, to: &str) -> Value {
     let Some(kind) = Kind::of(to) else {
         return match (to, value) {
             ("BOOL", Value::Real(value)) => Value::Bool(value != 0.0),
-            ("BOOL", value) => Value::Bool(whole(value) != 0),
+            ("BOOL", value) => Value::Bool(whole(&value) != 0),
+            ("STRING", value) => Value::Text(whole(&value).to_string().into_bytes()),
+            (_, Value::Text(text)) => Value::Real(texts::real(&text)),
             (_, Value::Bool(value)) => Value::Real(if value { 1.0 } else { 0.0 }),
-            (_, value) => Value::Real(whole(value) as f32),
+            (_, value) => Value::Real(whole(&value) as f32),
         };
     };
     let (low, high) = kind.range();
     match value {
+        Value::Text(text) => Value::Number(kind, texts::whole(&text, kind)),
         Value::Bool(value) => Value::Number(kind, value.into()),
         Value::Real(value) => {
             Value::Number(kind, (f64::from(value).round() as i64).clamp(low, high))

@@ -25,13 +25,15 @@ impl Generator {
     pub(super) fn block(&mut self) -> String {
         self.in_block = true;
         let mut text = String::from(
-            "FUNCTION_BLOCK Block\nVAR_INPUT p : BOOL; a : INT; row : Row; END_VAR\n\
-             VAR_OUTPUT q : BOOL; b : INT; twin : Pair; END_VAR\n\
-             VAR_IN_OUT c : INT; both : Pair; END_VAR\nVAR d : DINT; delay : TON; \
+            "FUNCTION_BLOCK Block\nVAR_INPUT p : BOOL; a : INT; row : Row; \
+             name : STRING[5] := 'you'; END_VAR\n\
+             VAR_OUTPUT q : BOOL; b : INT; twin : Pair; label : STRING[7]; END_VAR\n\
+             VAR_IN_OUT c : INT; both : Pair; log : STRING[9]; END_VAR\nVAR d : DINT; delay : TON; \
              END_VAR\n",
         );
         for _ in 0..self.rng.usize(1..5) {
-            text += &match self.rng.u8(..7) {
+            text += &match self.rng.u8(..9) {
+                7 | 8 => self.text_assignment(),
                 0 => format!("both.x := {};\n", self.whole("INT")),
                 1 => self.pick(&["twin := both;\n", "twin.z := a;\n"]).to_owned(),
                 2 => format!("delay(IN := {}, PT := T#40ms); q := delay.Q;\n", self.condition()),
