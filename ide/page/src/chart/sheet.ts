@@ -11,23 +11,27 @@ const INSET = 4;
 
 /** A step or a transition that is drawn. */
 export class Shape {
-  /** What has the focus and the name. */
+  /** All of it. */
+  readonly group: SVGGElement;
+  /** What has the focus and the name, which says all that is written around it. */
   readonly button: SVGGElement;
   private state: boolean | null = null;
 
   constructor(
     readonly element: ChartStep | ChartTransition,
+    frame: readonly number[],
     private name: (state: boolean | null) => string,
     ...parts: SVGElement[]
   ) {
+    this.button = s("g", { role: "button", tabindex: -1 }, rect(frame, "frame"));
     const picture = s("g", { "aria-hidden": "true" }, ...parts);
-    this.button = s("g", { role: "button", tabindex: -1, class: "element" }, picture);
+    this.group = s("g", { class: "element" }, picture, this.button);
     this.show(null);
   }
 
   /** Whether it is active, or enabled; null where that is not known. */
   show(state: boolean | null): void {
-    this.button.classList.toggle("on", state === true);
+    this.group.classList.toggle("on", state === true);
     const name = this.name(state);
     if (this.button.getAttribute("aria-label") !== name || this.state !== state)
       this.button.setAttribute("aria-label", name);
@@ -131,6 +135,23 @@ function transitionParts(one: ChartTransition): SVGElement[] {
   return parts;
 }
 
+/** A step with its actions. */
+function stepFrame({ frame: [x, y, width, height], actions }: ChartStep): number[] {
+  const [first] = actions;
+  if (!first) return [x, y, width, height];
+  const [left, top, wide, high] = first.frame;
+  const above = Math.min(y, top);
+  return [x, above, left + wide - x, Math.max(y + height, top + actions.length * high) - above];
+}
+
+/** A bar with its text, whose characters are 8 wide. */
+function transitionFrame({ bar: [x, y], text, label }: ChartTransition): number[] {
+  const wide = Math.max(0, ...text.map((words) => words.length * 8));
+  const above = Math.min(y, label[1]) - 8;
+  const below = Math.max(y, label[1] + (text.length - 1) * TEXT_LINE) + 8;
+  return [x - 2, above, label[0] + wide - x + 4, below - above];
+}
+
 function stepName(step: ChartStep, state: boolean | null): string {
   const words = t(step.isInitial ? "chartInitial" : "chartStep", step.name);
   const actions = step.actions.map(({ qualifier, name }) => `${qualifier} ${name}`.trim());
@@ -151,17 +172,24 @@ export class Sheet {
 
   constructor(private sheet: ChartSheet) {
     this.steps = sheet.steps.map(
-      (step) => new Shape(step, (state) => stepName(step, state), ...stepParts(step)),
+      (step) =>
+        new Shape(step, stepFrame(step), (state) => stepName(step, state), ...stepParts(step)),
     );
     this.transitions = sheet.transitions.map(
-      (one) => new Shape(one, (state) => transitionName(one, state), ...transitionParts(one)),
+      (one) =>
+        new Shape(
+          one,
+          transitionFrame(one),
+          (state) => transitionName(one, state),
+          ...transitionParts(one),
+        ),
     );
     this.group = s(
       "g",
       { role: "group", "aria-label": t("chartOf", sheet.name) },
       text(sheet.title, sheet.name, "title"),
-      ...this.transitions.map(({ button }) => button),
-      ...this.steps.map(({ button }) => button),
+      ...this.transitions.map(({ group }) => group),
+      ...this.steps.map(({ group }) => group),
     );
   }
 

@@ -133,10 +133,9 @@ export class Chart {
       const at = shape.element.line;
       if (at <= line && (!current || at > current.element.line)) current = shape;
     }
-    for (const shape of this.shapes()) shape.button.classList.toggle("current", shape === current);
+    for (const shape of this.shapes()) shape.group.classList.toggle("current", shape === current);
     const hasFocus = this.element.contains(document.activeElement);
-    if (current && !hasFocus)
-      current.button.scrollIntoView({ block: "nearest", inline: "nearest" });
+    if (current && !hasFocus) current.group.scrollIntoView({ block: "nearest", inline: "nearest" });
   }
 
   private shapes(): Shape[] {
@@ -144,7 +143,7 @@ export class Chart {
   }
 
   private shapeOf(target: EventTarget | null): Shape | undefined {
-    return this.shapes().find(({ button }) => target instanceof Node && button.contains(target));
+    return this.shapes().find(({ group }) => target instanceof Node && group.contains(target));
   }
 
   private goTo(shape: Shape | undefined): void {
