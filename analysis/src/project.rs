@@ -6,6 +6,7 @@ use std::rc::Rc;
 
 use awl_asm::symbols::load;
 use awl_sim::scenario::plant_file_of;
+use chart::drawing::{self, TooLarge, draw};
 use diagnostics::source::SourceError;
 use diagnostics::{Source, Span};
 use project::ENDINGS;
@@ -279,6 +280,15 @@ impl Project {
             _ => Rc::new(self.model_of_files(&[name.to_owned()])?),
         };
         drawing_at(&entry.source, &model.assembly, offset)
+    }
+
+    /// The charts of a text as a drawing; `None` where it has none.
+    pub fn chart(&self, name: &str) -> Option<Result<drawing::Drawing, TooLarge>> {
+        let entry = self.texts.get(name).filter(|entry| entry.language == Language::Chart)?;
+        let reading = chart::text::read(&entry.source);
+        let mut charts = reading.document.charts().peekable();
+        charts.peek()?;
+        Some(draw(charts, &entry.source))
     }
 
     /// The change that gives a text its canonical layout; `None` if it has that.

@@ -29,7 +29,7 @@ const LIBRARIES: [&str; 12] = [
 const MODULE: &str = "wasm_smoke";
 /// The libraries that are worth some size: every scan of the simulator goes through them. All
 /// others are as small as the compiler can make them.
-const QUICK: [&str; 4] = ["plc-isa", "plc-vm", "plc-link", "awl-sim"];
+const QUICK: [&str; 3] = ["plc-isa", "plc-vm", "plc-link"];
 /// What links with Debian's compiler.
 const DEBIAN_LINKER: &str = "wasm-ld-19";
 

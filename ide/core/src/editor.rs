@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use analysis::drawing::TooLarge;
 use analysis::ladder::Drawing;
 use analysis::{CompletionKind, Language, Location, OutlineKind, Project};
 use awl_sim::plant::{PlantSpec, SpecErrors, parse_spec_with};
@@ -234,6 +235,11 @@ impl Editor {
     /// The network there as a ladder.
     pub fn ladder(&self, name: &str, at: u32) -> Option<Drawing> {
         self.project.ladder(name, self.byte(name, at))
+    }
+
+    /// The charts of a file as a drawing; none of a file without charts.
+    pub fn chart(&self, name: &str) -> Option<Result<analysis::drawing::Drawing, TooLarge>> {
+        self.project.chart(name)
     }
 
     /// A line of a file as a place.

@@ -6,6 +6,7 @@
 
 mod apart;
 mod build;
+mod chart;
 mod editor;
 mod ladder;
 mod lock_step;

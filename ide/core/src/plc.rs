@@ -51,6 +51,8 @@ pub struct Plc {
     /// The program on the screen, with the values that belong to it.
     pub state: State,
     watched: Vec<Watched>,
+    /// Bits that are asked for besides.
+    bits: Vec<Watched>,
     /// What the oscilloscope asks in between.
     sampler: Sampler,
     asking: Option<Asking>,
@@ -69,6 +71,7 @@ impl Plc {
             rounds: Rounds::default(),
             state: State::new(program, place.to_owned()),
             watched: Vec::new(),
+            bits: Vec::new(),
             asking: None,
             next_round_ms: begin_ms,
             view: None,
@@ -81,8 +84,10 @@ impl Plc {
         let mut state = State::new(program, self.state.place.clone());
         (state.link, state.identity) = (self.state.link.clone(), self.state.identity.clone());
         self.state = state;
-        let names: Vec<String> = self.watched.iter().map(|watched| watched.name.clone()).collect();
-        self.watch(&names);
+        let names = |all: &[Watched]| all.iter().map(|one| one.name.clone()).collect();
+        let (watched, bits): (Vec<String>, Vec<String>) = (names(&self.watched), names(&self.bits));
+        self.watch(&watched);
+        self.watch_bits(&bits);
         self.look();
     }
 
@@ -97,14 +102,24 @@ impl Plc {
 
     /// What the watch table has.
     pub fn watch(&mut self, names: &[String]) {
+        self.watched = self.parsed(names);
+        self.hurry();
+    }
+
+    /// Which bits are asked for besides; those that the program does not have stay unknown.
+    pub fn watch_bits(&mut self, names: &[String]) {
+        self.bits = self.parsed(names);
+        self.hurry();
+    }
+
+    fn parsed(&self, names: &[String]) -> Vec<Watched> {
         let reals = client::reals::of(&self.state.program.image);
         let symbols: &[Symbol] = self.state.program.symbols();
         let parse = |name: &String| Watched {
             name: name.clone(),
             operand: Operand::parse(name, symbols).map(|operand| operand.in_program(&reals)),
         };
-        self.watched = names.iter().map(parse).collect();
-        self.hurry();
+        names.iter().map(parse).collect()
     }
 
     /// What the oscilloscope shows, and how often.
@@ -238,7 +253,8 @@ impl Plc {
             Some(_) => self.state.wishes(),
             None => Default::default(),
         };
-        let watched = self.watched.iter().filter_map(|watched| watched.operand.as_ref().ok());
+        let watched = self.watched.iter().chain(&self.bits);
+        let watched = watched.filter_map(|watched| watched.operand.as_ref().ok());
         wishes.watch.extend(watched.map(|operand| operand.reference));
         wishes.watch.sort();
         wishes.watch.dedup();
@@ -299,6 +315,15 @@ impl Plc {
             },
         };
         Event::Watched { values: self.watched.iter().map(of).collect() }
+    }
+
+    /// What is known of the bits that are asked for besides.
+    pub fn bits(&self) -> Vec<Option<bool>> {
+        let of = |one: &Watched| {
+            let operand = one.operand.as_ref().ok()?;
+            self.state.values.get(&operand.reference).map(|raw| *raw != 0)
+        };
+        self.bits.iter().map(of).collect()
     }
 
     /// What is forced, under the names that are known for it.

@@ -1,6 +1,7 @@
 //! What the page asks and what it is told, as JSON. Offsets in texts count UTF-16 code units, as a
 //! browser does. Times are milliseconds.
 
+pub mod chart;
 pub mod ladder;
 pub mod plant;
 
@@ -80,6 +81,9 @@ pub enum TextWish {
     /// The network there as a ladder, whose power flow is told from then on. Answer:
     /// [`Ladder`](ladder::Ladder) or null.
     Ladder { file: String, at: u32 },
+    /// The charts of a file, whose situation is told from then on; of a file without charts none.
+    /// Answer: [`Chart`](chart::Chart) or null.
+    Chart { file: String },
     /// A plant as `awl-sim --plant` takes it; files are those of the project. Answer:
     /// [`PlantInfo`](plant::PlantInfo).
     AboutPlant { spec: String },
@@ -202,6 +206,9 @@ pub enum Event {
     Live { file: String, lines: Vec<Line> },
     /// Power flow in the ladder with this number, the one that was asked for last, rung by rung.
     Power { id: u32, rungs: Vec<ladder::Power> },
+    /// Which steps are active in the charts with this number, those that were asked for last:
+    /// chart by chart, null where it is not known.
+    Situation { id: u32, steps: Vec<Vec<Option<bool>>> },
     /// The watch table, in its order.
     Watched { values: Vec<Value> },
     /// What is forced, wherever it was done.

@@ -14,6 +14,7 @@ use serde::Serialize;
 
 use crate::apart::{self, Wanted};
 use crate::build;
+use crate::chart::Charts;
 use crate::editor::Editor;
 use crate::ladder::Shown;
 use crate::outside::{Outside, Then};
@@ -60,8 +61,10 @@ pub struct Session {
     view: Option<Lines>,
     /// The ladder that the page shows, until a text changes.
     ladder: Option<Shown>,
-    /// How many were shown.
-    ladders: u32,
+    /// How many drawings were shown.
+    drawings: u32,
+    /// The charts that the page shows, until a text changes.
+    charts: Option<Charts>,
     plant_events: usize,
     told: Told,
     live: Option<Pulse>,
@@ -240,6 +243,11 @@ impl Session {
             events.extend([plc.live(), plc.watched(), plc.forced()]);
             let shown = self.ladder.as_ref();
             let is_up = plc.state.link == Link::Up && self.has_program();
+            let charts = self.charts.as_ref().filter(|_| is_up);
+            events.extend(charts.map(|charts| Event::Situation {
+                id: charts.id,
+                steps: charts.situation(&plc.bits()),
+            }));
             events.extend(
                 shown
                     .filter(|_| is_up)
@@ -280,6 +288,7 @@ impl Session {
     fn change(&mut self, wish: ProjectWish) -> Result<(), String> {
         self.is_edited = true;
         self.ladder = None;
+        self.show_charts(None);
         match wish {
             ProjectWish::Open { files, main } => {
                 self.disconnect();
@@ -312,10 +321,16 @@ impl Session {
             TextWish::Format { file } => answer(editor.format(&file)?),
             TextWish::Outline { file } => answer(editor.outline(&file)),
             TextWish::Ladder { file, at } => {
-                self.ladders += 1;
-                let id = self.ladders;
+                self.drawings += 1;
+                let id = self.drawings;
                 self.ladder = editor.ladder(&file, at).map(|drawing| Shown { id, file, drawing });
                 answer(self.ladder.as_ref().map(Shown::ladder))
+            }
+            TextWish::Chart { file } => {
+                self.drawings += 1;
+                let (id, drawing) = (self.drawings, editor.chart(&file));
+                self.show_charts(drawing.map(|drawing| Charts { id, file, drawing }));
+                answer(self.charts.as_ref().map(Charts::chart))
             }
             TextWish::AboutPlant { spec } => self.about_plant(&spec),
             TextWish::Explain { code } => {
@@ -323,6 +338,14 @@ impl Session {
                 let page = page.or_else(|| file::Code::find(&code).map(file::Code::page));
                 answer(page.ok_or_else(|| format!("{code}: no such code"))?)
             }
+        }
+    }
+
+    /// The page shows other charts, or none: the PLC is asked for their steps.
+    fn show_charts(&mut self, charts: Option<Charts>) {
+        self.charts = charts;
+        if let Some(plc) = &mut self.plc {
+            plc.watch_bits(&self.charts.as_ref().map(Charts::variables).unwrap_or_default());
         }
     }
 
@@ -500,6 +523,7 @@ impl Session {
     fn attach(&mut self, mut plc: Plc) {
         self.leave_recording("a program was loaded");
         plc.watch(&self.watched);
+        plc.watch_bits(&self.charts.as_ref().map(Charts::variables).unwrap_or_default());
         plc.view(self.view.clone());
         self.plc = Some(plc);
         self.scope.restart();

@@ -4,6 +4,7 @@ mod recorded;
 
 use std::collections::BTreeMap;
 
+use ide_core::protocol::chart::Chart;
 use ide_core::protocol::ladder::Ladder;
 use ide_core::protocol::{
     ApartWish, Event, File, Line, LookWish, Problem, ProjectWish, Recording, Request, Status,
@@ -441,6 +442,49 @@ fn the_network_at_the_cursor_is_a_ladder_with_power_flow() {
     assert_eq!(ladder(&mut page).unwrap().number, Some(44));
     let none: Option<Ladder> =
         page.answer(Wish::Text(TextWish::Ladder { file: "none.awl".to_owned(), at: 0 }));
+    assert_eq!(none, None);
+}
+
+#[test]
+fn charts_are_drawn_and_their_steps_told() {
+    let text = include_str!("../../../examples/grafcet/station1.sfc");
+    let mut page = Page::with("station1.sfc", text);
+    let file = || "station1.sfc".to_owned();
+    let wish = |file| Wish::Text(TextWish::Chart { file });
+    let chart: Option<Chart> = page.answer(wish(file()));
+    let chart = chart.unwrap();
+    let names: Vec<&str> = chart.sheets.iter().map(|sheet| sheet.name.as_str()).collect();
+    assert_eq!((names[0], names[1], chart.obstacle), ("Station", "Station.Measuring", None));
+    let steps = &chart.sheets[0].steps;
+    assert_eq!((steps[3].name.as_str(), steps[3].look.as_str()), ("Gauge", "macro"));
+    let lines: Vec<&str> = text.lines().collect();
+    for one in chart.sheets.iter().flat_map(|sheet| &sheet.steps) {
+        let line = lines[one.line as usize - 1];
+        assert!(line.contains(&format!("STEP {} ", one.name)), "{} in {line}", one.name);
+    }
+    page.target(TargetWish::Plant { spec: Some(PLANT.to_owned()) });
+    page.target(TargetWish::Run);
+    // Which steps of the first two charts were active at any time, and which were not.
+    let mut seen = [[false; 2]; 6];
+    for _ in 0..400 {
+        page.pass(100);
+        let situation = page.last(|event| match event {
+            Event::Situation { id, steps } => Some((*id, steps.clone())),
+            _ => None,
+        });
+        let (id, steps) = situation.unwrap();
+        assert_eq!((id, steps[0].len(), steps[1].len()), (chart.id, 6, 3));
+        for (seen, active) in seen.iter_mut().zip(&steps[0]) {
+            if let Some(active) = active {
+                seen[usize::from(*active)] = true;
+            }
+        }
+        // A macro-step is active with its expansion.
+        let is_measuring = steps[1].contains(&Some(true));
+        assert_eq!(steps[0][3].unwrap_or_default(), is_measuring);
+    }
+    assert_eq!(seen, [[true; 2]; 6], "every step of the station");
+    let none: Option<Chart> = page.answer(wish("none.sfc".to_owned()));
     assert_eq!(none, None);
 }
 

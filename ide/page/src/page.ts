@@ -17,6 +17,7 @@ import { Tabs } from "./page/tabs";
 import { unfitWords } from "./page/unfit";
 import { valueMenu, valuesMenu } from "./page/values";
 import { Capture } from "./panels/capture";
+import { Chart } from "./panels/chart";
 import { Exercises } from "./panels/exercises";
 import { Ladder } from "./panels/ladder";
 import { Operands } from "./panels/operands";
@@ -97,6 +98,7 @@ const menus = {
 };
 const header = new Header(core, menus, (act) => opening.afterwards(act));
 const ladder = new Ladder(core, editors, project, header);
+const chart = new Chart(core, editors, project, header);
 const tabs: Tabs = new Tabs("panels", [
   { id: "problems", text: "problems", element: problems.element },
   { id: "watch", text: "watch", element: watch.element, shown: (shown) => watch.shown(shown) },
@@ -120,6 +122,7 @@ const tabs: Tabs = new Tabs("panels", [
     element: ladder.element,
     shown: (shown) => ladder.shown(shown),
   },
+  { id: "chart", text: "chart", element: chart.element, shown: (shown) => chart.shown(shown) },
   {
     id: "exercises",
     text: "exercises",

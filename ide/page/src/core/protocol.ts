@@ -147,6 +147,47 @@ export interface Power {
   elements: (boolean | null)[];
 }
 
+export type Frame = [x: number, y: number, width: number, height: number];
+
+export interface ChartStep {
+  line: number;
+  name: string;
+  note: string;
+  frame: Frame;
+  isInitial: boolean;
+  isLinked: boolean;
+  look: "plain" | "macro" | "enclosing";
+  actions: { frame: Frame; divider: number | null; qualifier: string; name: string }[];
+}
+
+export interface ChartTransition {
+  line: number;
+  title: string;
+  from: number[];
+  bar: [x: number, y: number, endX: number, endY: number];
+  text: string[];
+  label: [number, number];
+  lines: [number, number][][];
+  doubles: [x: number, y: number, endX: number, endY: number][];
+  arrows: [number, number][];
+}
+
+export interface ChartSheet {
+  name: string;
+  title: [number, number];
+  steps: ChartStep[];
+  transitions: ChartTransition[];
+}
+
+export interface Chart {
+  id: number;
+  file: string;
+  obstacle: string | null;
+  width: number;
+  height: number;
+  sheets: ChartSheet[];
+}
+
 export interface Recording {
   names: string[];
   times: number[];
@@ -210,6 +251,7 @@ export interface Questions {
   format: { wish: { file: string }; answer: Edit[] };
   outline: { wish: { file: string }; answer: Item[] };
   ladder: { wish: At; answer: Ladder | null };
+  chart: { wish: { file: string }; answer: Chart | null };
   aboutPlant: { wish: { spec: string }; answer: PlantInfo };
   explain: { wish: { code: string }; answer: string };
   simulate: {
@@ -261,6 +303,7 @@ interface Events {
   status: { status: Status };
   live: { file: string; lines: Line[] };
   power: { id: number; rungs: Power[] };
+  situation: { id: number; steps: (boolean | null)[][] };
   watched: { values: Value[] };
   forced: { values: Value[] };
   pins: { inputs: number; outputs: number; analog: number[]; pwm: number[] };

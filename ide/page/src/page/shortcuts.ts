@@ -32,7 +32,7 @@ export function shortcuts({ header, tabs, menu, search }: Parts): void {
     "Ctrl+Shift+F": search,
   };
   addEventListener("keydown", (event) => {
-    const panel = /^Digit([1-8])$/.exec(event.code);
+    const panel = /^Digit([1-9])$/.exec(event.code);
     const act = event.altKey
       ? panel && !event.ctrlKey && (() => tabs.showAt(Number(panel[1]) - 1))
       : keys[keyName(event)];

@@ -90,6 +90,7 @@ export const TABLE = {
   plant: ["Plant", "Anlage", "Planta"],
   tests: ["Tests", "Prüfungen", "Pruebas"],
   ladder: ["Ladder", "Kontaktplan", "Escalera"],
+  chart: ["Chart", "Ablauf", "Secuencia"],
   sizeOfFiles: ["Width of the files", "Breite der Dateien", "Ancho de los archivos"],
   sizeOfPanels: ["Width of the panels", "Breite der Bereiche", "Ancho de los paneles"],
   showFiles: ["Files and outline", "Dateien und Gliederung", "Archivos y esquema"],
@@ -615,10 +616,27 @@ export const TABLE = {
     "Parte siguiente y anterior de la página",
   ],
   helpPanels: [
-    "Panels, from Problems to Ladder",
-    "Bereiche, von Probleme bis Kontaktplan",
-    "Paneles, de Problemas a Escalera",
+    "Panels, from left to right",
+    "Bereiche, von links nach rechts",
+    "Paneles, de izquierda a derecha",
   ],
+
+  // The chart
+  chartNothing: [
+    "The charts of a file are drawn here, where the editor has one with charts (.sfc).",
+    "Hier werden die Ablaufpläne einer Datei gezeichnet, wenn der Editor eine mit solchen zeigt (.sfc).",
+    "Aquí se dibujan los grafcets de un archivo, si el editor muestra uno que los tiene (.sfc).",
+  ],
+  chartOf: ["chart {0}", "Ablaufplan {0}", "grafcet {0}"],
+  chartStep: ["step {0}", "Schritt {0}", "etapa {0}"],
+  chartInitial: ["initial step {0}", "Anfangsschritt {0}", "etapa inicial {0}"],
+  chartActive: ["active", "aktiv", "activa"],
+  chartInactive: ["not active", "nicht aktiv", "no activa"],
+  chartTransition: ["transition {0}", "Transition {0}", "transición {0}"],
+  chartEnabled: ["enabled", "freigegeben", "validada"],
+  chartSmaller: ["Smaller", "Kleiner", "Más pequeño"],
+  chartLarger: ["Larger", "Größer", "Más grande"],
+  chartFit: ["Fit", "Einpassen", "Ajustar"],
 
   // The ladder
   ladderRungs: ["Rungs", "Strompfade", "Peldaños"],

@@ -1,0 +1,180 @@
+// The charts of the file in the editor, with the steps that are active. To be read: they are
+// written as text.
+import { Sheet, type Shape } from "../chart/sheet";
+import type { Core } from "../core/core";
+import type { Chart as Charts } from "../core/protocol";
+import type { Editors } from "../editor/editors";
+import { button, h, s } from "../page/dom";
+import type { Header } from "../page/header";
+import type { Project } from "../project/project";
+import { onLanguage } from "../text/language";
+
+/** So long nothing is asked for while a text is being written. */
+const QUIET_MS = 120;
+const ZOOM = { min: 0.25, max: 3, step: 1.25 };
+
+export class Chart {
+  readonly element: HTMLElement;
+  private place = h("div", { class: "sheets" });
+  private tools: HTMLElement;
+  private isShown = false;
+  private timer = 0;
+  private charts: Charts | null = null;
+  private drawn = "";
+  private sheets: Sheet[] = [];
+  private svg: SVGSVGElement | null = null;
+  private zoom = 1;
+  private situation: { id: number; steps: (boolean | null)[][] } = { id: 0, steps: [] };
+
+  constructor(
+    private core: Core,
+    private editors: Editors,
+    project: Project,
+    header: Header,
+  ) {
+    this.tools = h(
+      "div",
+      { class: "tools" },
+      button("chartSmaller", () => this.scale(this.zoom / ZOOM.step)),
+      button("chartLarger", () => this.scale(this.zoom * ZOOM.step)),
+      button("chartFit", () => this.fit()),
+    );
+    this.element = h("div", { class: "chart" }, this.tools, this.place);
+    this.element.addEventListener("keydown", (event) => this.keys(event));
+    this.place.addEventListener("click", ({ target }) => this.goTo(this.shapeOf(target)));
+    editors.onCursor(() => this.mark());
+    editors.onCurrent(() => this.soon());
+    project.onFiles(() => this.soon());
+    core.on("problems", () => this.soon());
+    core.on("situation", (situation) => {
+      this.situation = situation;
+      this.show();
+    });
+    header.onStatus(({ mode, agreement }) => {
+      const isThis = agreement === "same" || agreement === "native";
+      if ((isThis && mode !== "OFFLINE" && mode !== "LOST") || this.situation.id === 0) return;
+      this.situation = { id: 0, steps: [] };
+      this.show();
+    });
+    onLanguage(() => this.draw());
+    this.draw();
+  }
+
+  /** Charts are asked for only while they can be seen, and so are their steps. */
+  shown(isShown: boolean): void {
+    this.isShown = isShown;
+    if (isShown) this.soon();
+    else if (this.charts) void this.ask("");
+  }
+
+  private soon(): void {
+    clearTimeout(this.timer);
+    if (!this.isShown) return;
+    this.timer = window.setTimeout(() => void this.ask(this.editors.current ?? ""), QUIET_MS);
+  }
+
+  private async ask(file: string): Promise<void> {
+    const charts = await this.core.ask({ do: "chart", file }).catch(() => null);
+    if (this.isShown && file !== (this.editors.current ?? "")) return;
+    this.charts = charts;
+    if (!this.isShown) return;
+    const drawn = JSON.stringify({ ...charts, id: 0 });
+    if (drawn !== this.drawn) {
+      this.drawn = drawn;
+      this.draw();
+    } else this.show();
+    this.mark();
+  }
+
+  private draw(): void {
+    const { charts } = this;
+    this.tools.hidden = !charts || charts.obstacle !== null;
+    this.sheets = charts?.sheets.map((sheet) => new Sheet(sheet)) ?? [];
+    this.svg = null;
+    if (!charts) this.place.replaceChildren(h("p", { class: "nothing", text: "chartNothing" }));
+    else if (charts.obstacle !== null)
+      this.place.replaceChildren(h("p", { class: "obstacle" }, charts.obstacle));
+    else {
+      const size = { viewBox: `0 0 ${charts.width} ${charts.height}`, role: "group" };
+      this.svg = s("svg", size, ...this.sheets.map(({ group }) => group));
+      this.place.replaceChildren(this.svg);
+      this.scale(this.zoom);
+      this.show();
+      this.shapes()[0]?.button.setAttribute("tabindex", "0");
+    }
+  }
+
+  private scale(zoom: number): void {
+    this.zoom = Math.min(ZOOM.max, Math.max(ZOOM.min, zoom));
+    if (this.svg && this.charts) this.svg.style.width = `${this.charts.width * this.zoom}px`;
+  }
+
+  /** As large as fits. */
+  private fit(): void {
+    if (!this.charts) return;
+    const { top } = this.place.getBoundingClientRect();
+    const [wide, high] = [this.place.clientWidth, window.innerHeight - top - 12];
+    this.scale(Math.min(wide / this.charts.width, high / this.charts.height));
+  }
+
+  private show(): void {
+    const { id, steps } = this.situation;
+    const isThis = id === this.charts?.id;
+    for (const [index, sheet] of this.sheets.entries()) sheet.show((isThis && steps[index]) || []);
+  }
+
+  /** Marks the element with the cursor, and scrolls to it. */
+  private mark(): void {
+    if (!this.isShown || this.charts?.file !== this.editors.current) return;
+    const { state } = this.editors.view;
+    const line = state.doc.lineAt(state.selection.main.head).number;
+    let current: Shape | undefined;
+    for (const shape of this.shapes()) {
+      const at = shape.element.line;
+      if (at <= line && (!current || at > current.element.line)) current = shape;
+    }
+    for (const shape of this.shapes()) shape.group.classList.toggle("current", shape === current);
+    const hasFocus = this.element.contains(document.activeElement);
+    if (current && !hasFocus) current.group.scrollIntoView({ block: "nearest", inline: "nearest" });
+  }
+
+  private shapes(): Shape[] {
+    return this.sheets.flatMap(({ steps, transitions }) => [...steps, ...transitions]);
+  }
+
+  private shapeOf(target: EventTarget | null): Shape | undefined {
+    return this.shapes().find(({ group }) => target instanceof Node && group.contains(target));
+  }
+
+  private goTo(shape: Shape | undefined): void {
+    if (shape && this.charts) this.editors.openLine(this.charts.file, shape.element.line);
+  }
+
+  private focus(shape: Shape): void {
+    for (const { button } of this.shapes()) button.setAttribute("tabindex", "-1");
+    shape.button.setAttribute("tabindex", "0");
+    shape.button.focus();
+  }
+
+  private keys(event: KeyboardEvent): void {
+    const shapes = this.shapes();
+    const shape = this.shapeOf(event.target);
+    if (!shape || event.altKey || event.ctrlKey || event.metaKey) return;
+    const at = shapes.indexOf(shape);
+    const goals: Record<string, number> = {
+      ArrowRight: at + 1,
+      ArrowDown: at + 1,
+      ArrowLeft: at - 1,
+      ArrowUp: at - 1,
+      Home: 0,
+      End: shapes.length - 1,
+    };
+    const goal = goals[event.key];
+    if (goal !== undefined) {
+      const next = shapes[goal];
+      if (next) this.focus(next);
+    } else if (event.key === "Enter" || event.key === " ") this.goTo(shape);
+    else return;
+    event.preventDefault();
+  }
+}
