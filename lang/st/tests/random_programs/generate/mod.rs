@@ -71,9 +71,9 @@ impl Generator {
     pub fn program(seed: u64) -> String {
         let mut one = Generator {
             rng: Rng::with_seed(seed),
-            is_small: seed % SMALL == 0,
-            has_texts: seed % (2 * SMALL) != 0,
-            depth: if seed % SMALL == 0 { 2 } else { 0 },
+            is_small: seed.is_multiple_of(SMALL),
+            has_texts: !seed.is_multiple_of(2 * SMALL),
+            depth: if seed.is_multiple_of(SMALL) { 2 } else { 0 },
             in_function: false,
             in_block: false,
             is_plain: false,
