@@ -66,6 +66,18 @@ fn run(arguments: &Arguments) -> Result<bool> {
     }
 }
 
+/// A file that `uno200 build` makes AWL of, and what it is.
+fn other_language(file: &PathBuf) -> Option<(&PathBuf, &'static str)> {
+    let ending = file.extension()?.to_str()?.to_ascii_lowercase();
+    let language = match ending.as_str() {
+        "st" => "Structured Text",
+        "sfc" => "a chart",
+        "fbt" | "xml" => "a function block",
+        _ => return None,
+    };
+    Some((file, language))
+}
+
 fn report_for(arguments: &Arguments) -> Report {
     Report::new(arguments.messages, arguments.deny_warnings)
 }
@@ -131,6 +143,12 @@ fn assemble_files(files: &[PathBuf], arguments: &Arguments) -> Result<bool> {
     let ending = output.as_deref().map(|path| ending(path, &["bin", "hex"])).transpose()?;
     for output in [&arguments.listing, &arguments.map].into_iter().flatten() {
         ensure_no_source(output, arguments.overwrite)?;
+    }
+    if let Some((file, language)) = files.iter().find_map(other_language) {
+        let file = file.display();
+        bail!(
+            "{file} is {language}, not AWL: `uno200 build {file} -o F.awl` makes AWL of it, F.bin an image"
+        );
     }
     let source = read_program(files)?;
     let mut report = report_for(arguments);

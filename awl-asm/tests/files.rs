@@ -131,10 +131,12 @@ fn files_that_are_no_program_are_told_their_place() {
         ("door.txt", "part Door 0..100\n"),
         ("t.csv", "Lamp,Q0.0\n"),
     ]);
-    let cases: [(&[&str], &str); 5] = [
+    let cases: [(&[&str], &str); 7] = [
         (&["lamp.scn"], "lamp.scn is a scenario: `awl-sim lamp.awl --scenario lamp.scn`"),
         (&["p.awl", "lamp.scn"], "lamp.scn is a scenario: `awl-sim p.awl --scenario lamp.scn`"),
         (&["--fmt", "lamp.scn"], "lamp.scn is a scenario: "),
+        (&["lamp.st"], "lamp.st is Structured Text, not AWL: `uno200 build lamp.st -o F.awl`"),
+        (&["p.awl", "step.SFC"], "step.SFC is a chart, not AWL: "),
         (&["door.txt"], "door.txt is a plant: `awl-sim door.awl --plant door.txt`"),
         (
             &["p.awl", "t.csv"],

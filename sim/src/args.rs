@@ -103,6 +103,14 @@ pub struct Args {
 }
 
 const TEST_HELP: &str = "\
+A scenario is a text, a line for each event:
+  at 100ms I0.0 = 1, Start = 1          sets inputs and memory, by address or symbol
+  at 2s expect Q0.0 = 1                 fails where it is something else then
+  at 2s expect Q0.0 = 1 within 500ms    or becomes it in that time
+  never Q0.0 = 1 and Q0.1 = 1           must hold after every scan
+  run 10s                               how long it lasts
+docs/simulator.md has the rest: repetition, ranges, pulses, plants, serial characters.
+
 A scenario NAME.scn or NAME.anything.scn belongs to the program NAME.awl (or NAME.bin) beside it,
 or to the file that its line `program FILE` names.
 

@@ -105,7 +105,7 @@ pub enum ParityName {
 pub enum Command {
     /// Makes AWL or an image of the files of a program: AWL, Structured Text, blocks of IEC 61499
     Build(Build),
-    /// Converts a chart into Structured Text for a target, or tells what is in it
+    /// Draws a chart, converts it into Structured Text for a target, or tells what is in it
     Convert(Convert),
     /// Explains the code of an error or warning
     Explain {
@@ -250,10 +250,10 @@ pub struct Build {
 /// Arguments of `convert`.
 #[derive(Debug, Args)]
 pub struct Convert {
-    /// A chart of SFCEdit (.xml); of one as text (.sfc) the summary
+    /// A chart of SFCEdit (.xml) or as text (.sfc); of the latter a picture or the summary
     #[arg(value_name = "IN")]
     pub input: PathBuf,
-    /// Where the result goes; without it to standard output
+    /// Where the result goes, Structured Text or a picture (.svg); without it to standard output
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
     /// For whom Structured Text is written [default: uno200]

@@ -62,6 +62,39 @@ fn a_chart_as_text_is_counted_without_declarations() {
 }
 
 #[test]
+fn a_chart_becomes_a_picture() {
+    let folder = folder();
+    let path = folder.path();
+    let text = "INITIAL_STEP Wait: END_STEP STEP Fill: Valve; END_STEP\n\
+                TRANSITION FROM Wait TO Fill := Start; END_TRANSITION\n";
+    fs::write(path.join("mix.sfc"), text).unwrap();
+    let (code, _, errors) = convert(path, &["mix.sfc", "-o", "mix.svg"]);
+    assert_eq!(code, Some(0), "{errors}");
+    let svg = fs::read_to_string(path.join("mix.svg")).unwrap();
+    assert!(svg.starts_with("<svg ") && svg.contains(">Start</text>"), "{svg}");
+    assert_eq!(convert(path, &["mix.sfc"]).1, svg, "without a file to standard output");
+    let (code, _, errors) = convert(path, &["chart.xml", "-o", "chart.svg"]);
+    assert_eq!(code, Some(0), "{errors}");
+    assert!(fs::read_to_string(path.join("chart.svg")).unwrap().contains(">T47_8</text>"));
+
+    // What is none, and what cannot be drawn.
+    let unknown = text.replace("FROM Wait", "FROM Wat");
+    fs::write(path.join("unknown.sfc"), unknown).unwrap();
+    fs::write(path.join("empty.sfc"), "FUNCTION F : INT END_FUNCTION").unwrap();
+    for (arguments, code, words) in [
+        (["unknown.sfc", "-o", "out.svg"], 1, "Wat"),
+        (["empty.sfc", "-o", "out.svg"], 2, "no chart"),
+        (["mix.sfc", "-o", "out.st"], 2, "`-o chart.svg`"),
+        (["mix.sfc", "--table", "--overwrite"], 2, "`uno200 build`"),
+    ] {
+        let (found, _, errors) = convert(path, &arguments);
+        assert_eq!(found, Some(code), "{arguments:?}: {errors}");
+        assert!(errors.contains(words), "{arguments:?}: {errors}");
+        assert!(!path.join("out.svg").exists() && !path.join("out.st").exists());
+    }
+}
+
+#[test]
 fn variables_come_from_a_table() {
     let folder = folder();
     fs::write(folder.path().join("v.csv"), "name,kind,type\nA1,memory,BOOL\n").unwrap();

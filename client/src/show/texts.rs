@@ -8,7 +8,7 @@ use awl_asm::Address;
 use awl_asm::ast::Statement;
 use awl_asm::selected::{Argument, Selected};
 use awl_asm::source::{At, Source};
-use plc_isa::{Area, Op, PowerFlow};
+use plc_isa::{Area, Op, PowerFlow, Rung};
 
 use super::model::{Content, Instruction, Row, Says, instruction, offset, row, rung_levels, shown};
 use super::operands::{Watched, operands};
@@ -226,11 +226,18 @@ fn decisive(program: &Program, code: Range<usize>) -> Option<(usize, Says)> {
     let conditions = all.get(code.start..decisive).unwrap_or(&[]);
     let says = match op.instruction().power_flow {
         _ if op == Op::Jmp && conditions.iter().any(is_condition) => Says::Jumped,
+        // Its own rung, whatever comes of that; what hangs on another statement has none.
+        PowerFlow::Needed if conditions.iter().any(is_loaded) => Says::Executed,
         PowerFlow::Needed => Says::Powered,
         PowerFlow::Always if op.instruction().rung.is_contact() => Says::Flow,
         PowerFlow::Always => Says::Executed,
     };
     Some((decisive, says))
+}
+
+/// Whether an instruction begins a rung with something that is not always so.
+fn is_loaded(selected: &Selected) -> bool {
+    selected.op.instruction().rung == Rung::Loads && is_condition(selected)
 }
 
 /// Whether an instruction makes power flow of something that is not always so.

@@ -30,9 +30,10 @@ import { diskTalk } from "./page/disk_talk";
 import { Bridge } from "./ports/bridge";
 import { Outside, words } from "./ports/outside";
 import { fragmentFor, fromAddress, lastOrBlink, type Opened } from "./project/begin";
+import { Chosen } from "./project/chosen";
 import { Disk } from "./project/disk";
 import { Opening } from "./project/opening";
-import { Project, Unfit } from "./project/project";
+import { isProgram, Project, Unfit } from "./project/project";
 import { Keeper, lastId } from "./project/storage";
 import { confirm } from "./page/dialog";
 import { language, t } from "./text/language";
@@ -72,9 +73,10 @@ const problems = new Problems(
   (code) => void commands.explain(code),
   () => tabs,
 );
-const watch: Watch = new Watch(core, editors, operands, () => tabs);
-const scope = new Scope(core, operands);
-const capture = new Capture(core, project, operands);
+const chosen = new Chosen(project, () => current);
+const watch: Watch = new Watch(core, editors, operands, chosen, () => tabs);
+const scope = new Scope(core, operands, chosen);
+const capture = new Capture(core, project, operands, chosen);
 const plant = new Plant(core, project);
 const tests = new Tests(core, project, editors, () => tabs);
 const opening = new Opening(take);
@@ -134,6 +136,14 @@ header.onStatus(({ fault }) => {
   if (fault !== null && fault !== lastFault) notice(t("fault", fault), true);
   lastFault = fault;
 });
+let running: string[] = [];
+core.on("program", ({ program }) => (running = program?.files ?? running));
+header.onRun(() => {
+  const { current } = editors;
+  const main = project.main();
+  if (current === null || main === null || current === main || running.includes(current)) return;
+  if (isProgram(current)) notice(t("runsMain", main, current));
+});
 core.on("notice", ({ message, bad }) => notice(message, bad));
 tabs.onShown((id) => project.setView(id));
 project.onOpened(() => tabs.show(project.view ?? (project.plant === null ? "problems" : "plant")));
@@ -163,6 +173,7 @@ document.body.append(
 const narrow = matchMedia("(max-width: 820px)");
 const showFiles = (isShown: boolean) => {
   sidebar.element.classList.toggle("away", narrow.matches && !isShown);
+  if (narrow.matches && isShown) scrollTo({ top: 0 });
 };
 narrow.addEventListener("change", () => showFiles(false));
 editors.onCurrent(() => showFiles(false));

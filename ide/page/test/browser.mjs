@@ -4,7 +4,8 @@ import { chromium } from "playwright-core";
 const PATIENCE = 60_000;
 
 /** A browser with a page, and what goes wrong in it. */
-export async function open({ width = 1280, height = 800, patience = PATIENCE } = {}) {
+export async function open(options = {}) {
+  const { width = 1280, height = 800, patience = PATIENCE, bypassCSP = false } = options;
   const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
     args: [
@@ -16,7 +17,8 @@ export async function open({ width = 1280, height = 800, patience = PATIENCE } =
     ],
   });
   const errors = [];
-  const page = watched(await browser.newPage({ viewport: { width, height } }), errors, patience);
+  const opened = await browser.newPage({ viewport: { width, height }, bypassCSP });
+  const page = watched(opened, errors, patience);
   process.once("uncaughtException", (error) => void fail(error, page, errors));
   return { browser, page, errors };
 }

@@ -164,3 +164,22 @@ for (const [name, test] of Object.entries(tests)) {
   test();
   console.log(`virtual Uno: ${name}`);
 }
+
+// Its speed, in time of the processor: other work on the computer does not count.
+const ide = new Ide();
+const ask = (wish) => JSON.parse(ide.request(JSON.stringify({ id: 1, ...wish }), 0));
+ask({ do: "open", files: [{ name: "speed.awl", text: "LD I0.0\n= Q0.0\n" }], main: null });
+ask({ do: "target", kind: "virtualUno" });
+const { flash } = ask({ do: "connect" }).find((event) => event.is === "powerOn");
+const { Chip, CYCLES_PER_MS } = await loadSource("src/board/chip.ts");
+const chip = new Chip();
+chip.powerOn(Uint8Array.from(flash));
+let best = 0;
+for (let round = 0; round < 5; round++) {
+  const before = process.cpuUsage();
+  for (let ms = 0; ms < 1000; ms++) chip.run(CYCLES_PER_MS);
+  const { user, system } = process.cpuUsage(before);
+  best = Math.max(best, 1e6 / (user + system));
+}
+console.log(`the virtual Uno in a second of the processor: ${best.toFixed(1)} s`);
+assert(best >= 1, "the virtual Uno is slower than a real one");

@@ -2,12 +2,13 @@
 //! It opens no files, and never runs a program.
 //!
 //! [`text`] reads a file into the [`model`]; [`translate`] makes Structured Text of it, which
-//! becomes AWL like any other. [`interpret`] executes a chart without translating it. [`sfcedit`]
-//! reads charts of another editor, [`set_reset`] makes Structured Text of those for other
-//! controllers.
+//! becomes AWL like any other. [`interpret`] executes a chart without translating it. [`drawing`]
+//! says what it looks like, [`svg`] writes that as a picture. [`sfcedit`] reads charts of another
+//! editor, [`set_reset`] makes Structured Text of those for other controllers.
 
 mod check;
 pub mod diagnostic;
+pub mod drawing;
 pub mod drawn;
 mod generate;
 mod hierarchy;
@@ -17,6 +18,7 @@ mod operators;
 pub mod set_reset;
 pub mod sfcedit;
 pub mod summary;
+pub mod svg;
 pub mod text;
 
 pub use diagnostic::{Code, Diagnostic};

@@ -10,11 +10,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use diagnostics::Span;
 
 /// Identifies a step of a chart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct StepId(pub u32);
 
 /// Identifies a transition of a chart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct TransitionId(pub u32);
 
 /// Identifies an action of a chart.

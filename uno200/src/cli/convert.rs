@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use anyhow::{Context as _, Result, bail};
+use anyhow::{Context as _, Result, anyhow, bail};
 use awl_asm::files::{ending, ensure_distinct, ensure_no_source, read_source, write_whole};
 use awl_asm::report::Report;
 use chart::Chart;
@@ -28,25 +28,53 @@ pub(super) fn convert(arguments: &Convert) -> Result<bool> {
     match arguments.input.extension().and_then(|one| one.to_str()).map(str::to_lowercase).as_deref()
     {
         Some("xml") => from_chart(arguments),
-        Some("sfc") if arguments.summary => summary_of_text(arguments),
-        Some("sfc") => bail!(
-            "{}: `uno200 build` makes AWL of it; `convert --summary` counts what is in it",
-            arguments.input.display()
-        ),
+        Some("sfc") => from_text(arguments),
         _ => bail!(
-            "{}: charts are converted: those of SFCEdit (.xml), and of .sfc there is a --summary",
+            "{}: charts are converted: those of SFCEdit (.xml), and charts as text (.sfc)",
             arguments.input.display()
         ),
     }
 }
 
-/// How much there is in a chart as text, whatever its names stand for.
-fn summary_of_text(arguments: &Convert) -> Result<bool> {
+/// A chart as text to a picture, or how much there is in it, whatever its names stand for.
+fn from_text(arguments: &Convert) -> Result<bool> {
+    let is_st = arguments.target.is_some() || arguments.variables.is_some() || arguments.table;
+    if is_st || (!arguments.summary && !is_picture(arguments) && arguments.output.is_some()) {
+        bail!(
+            "{}: of a chart as text a picture is made, `-o chart.svg`; `uno200 build` makes AWL \
+             of it",
+            arguments.input.display()
+        );
+    }
     let source = read_source(&arguments.input)?;
     let reading = chart::text::read(&source);
     let charts: Vec<Chart> = reading.document.charts().cloned().collect();
     let mut report = Report::new(arguments.messages, false);
-    Ok(told(&mut report, &source, reading.diagnostics) && counted(&charts)?)
+    if !told(&mut report, &source, reading.diagnostics) {
+        return Ok(false);
+    }
+    if arguments.summary { counted(&charts) } else { draw(arguments, &charts, &source) }
+}
+
+/// Whether a picture is wanted.
+fn is_picture(arguments: &Convert) -> bool {
+    let ending = arguments.output.as_deref().and_then(Path::extension);
+    ending.is_some_and(|ending| ending.eq_ignore_ascii_case("svg"))
+}
+
+/// Writes charts as a picture.
+fn draw(arguments: &Convert, charts: &[Chart], source: &Source) -> Result<bool> {
+    let input = arguments.input.display();
+    if charts.is_empty() {
+        bail!("{input}: there is no chart in it, so there is nothing to draw");
+    }
+    let drawing = chart::drawing::draw(charts, source).map_err(|one| anyhow!("{input}: {one}"))?;
+    let picture = chart::svg::write(&drawing);
+    match &arguments.output {
+        Some(output) => write_whole(output, picture.as_bytes())?,
+        None => print(&picture)?,
+    }
+    Ok(true)
 }
 
 /// Prints how many there are of what.
@@ -77,6 +105,10 @@ fn from_chart(arguments: &Convert) -> Result<bool> {
     if arguments.summary {
         let charts = sfcedit::model::charts(&project, &mut found);
         return Ok(told(&mut report, &source, found) && counted(&charts)?);
+    }
+    if is_picture(arguments) {
+        let charts = sfcedit::model::charts(&project, &mut found);
+        return Ok(told(&mut report, &source, found) && draw(arguments, &charts, &source)?);
     }
     let (plan, more) = plan(&project, &rows);
     found.extend(more);

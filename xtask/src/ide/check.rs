@@ -50,10 +50,10 @@ pub fn check() -> Result<()> {
         node
     };
     run(node("test/virtual_uno.mjs").arg(&folder))?;
-    run(node("test/lock_step.mjs").arg(&folder))?;
     figures()?;
     let mut server = Serving::page(&folder, &[])?;
     let address = server.line()?;
+    run(node("test/lock_step.mjs").arg(&address).arg(&folder))?;
     run(node("test/first_steps.mjs").arg(&address))?;
     run(node("test/page.mjs").arg(&address).arg(root().join(FIGURES)))?;
     run(node("test/plants.mjs").arg(&address))?;

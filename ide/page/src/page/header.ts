@@ -4,7 +4,7 @@ import type { Status, TargetKind } from "../core/protocol";
 import { onLanguage, t, type Key } from "../text/language";
 import { button, h, iconButton, say, select } from "./dom";
 import { icon, type Icon } from "./icons";
-import { notice } from "./notices";
+import { closeNotices, notice } from "./notices";
 
 const TARGETS = [
   ["simulator", "simulator"],
@@ -56,6 +56,7 @@ export class Header {
   private speed: HTMLSelectElement;
   private buttons = new Map<Action, HTMLButtonElement>();
   private listeners: ((status: Status) => void)[] = [];
+  private runListeners: (() => void)[] = [];
 
   constructor(
     private core: Core,
@@ -135,10 +136,18 @@ export class Header {
   private tell(action: Action): void {
     const { core } = this;
     core.beforeQuestion();
+    // What went wrong before may be mended now.
+    closeNotices();
+    if (action === "run") for (const listener of this.runListeners) listener();
     const mode = this.status?.mode ?? "OFFLINE";
     if (action === "pause") core.tell({ do: "pause", on: mode !== "PAUSE" });
     else if (action === "connect") core.tell({ do: isConnected(mode) ? "disconnect" : "connect" });
     else core.tell({ do: action });
+  }
+
+  /** Is told that the program is to run. */
+  onRun(listener: () => void): void {
+    this.runListeners.push(listener);
   }
 
   /** Is told how the target is. */

@@ -12,6 +12,11 @@ export function noticeArea(): HTMLElement {
   return polite;
 }
 
+/** What was told is over. */
+export function closeNotices(): void {
+  polite.replaceChildren();
+}
+
 /** Tells something. */
 export function notice(message: string, bad = false): void {
   const same = [...polite.children].find((one) => one.firstChild?.textContent === message);

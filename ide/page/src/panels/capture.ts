@@ -6,6 +6,7 @@ import { button, h, say } from "../page/dom";
 import { notice } from "../page/notices";
 import { CursorTable } from "../plot/cursors";
 import { Plots } from "../plot/plots";
+import type { Chosen } from "../project/chosen";
 import { save } from "../project/files";
 import type { Project } from "../project/project";
 import { t } from "../text/language";
@@ -38,8 +39,9 @@ export class Capture {
     private core: Core,
     private project: Project,
     operands: Operands,
+    chosen: Chosen,
   ) {
-    this.signals = new Signals(operands, "uno200.capture", () => {});
+    this.signals = new Signals(operands, chosen, "capture", () => {});
     this.simulate = button("simulate", () => void this.run(), { class: "primary" });
     this.record = button("record", () => this.startOrEnd());
     this.recordWords = this.record.querySelector(".words")!;

@@ -83,6 +83,10 @@ export class Plant {
       this.pins = pins;
       this.board.show(pins);
     });
+    core.on("status", ({ status }) => {
+      // What is off shows nothing of what it was.
+      if (status.mode === "OFFLINE") this.board.show({ ...this.pins, inputs: 0, outputs: 0 });
+    });
     onLanguage(() => {
       this.offer();
       this.controls.relabel();

@@ -5,6 +5,7 @@ import { CursorTable } from "../plot/cursors";
 import { Plots } from "../plot/plots";
 import { Samples } from "../plot/samples";
 import { EDGES, find, type Edge } from "../plot/trigger";
+import type { Chosen } from "../project/chosen";
 import { onLanguage, t, type Key } from "../text/language";
 import type { Operands } from "./operands";
 import { Signals } from "./signals";
@@ -44,8 +45,9 @@ export class Scope {
   constructor(
     private core: Core,
     operands: Operands,
+    chosen: Chosen,
   ) {
-    this.signals = new Signals(operands, "uno200.scope", () => this.begin());
+    this.signals = new Signals(operands, chosen, "scope", () => this.isUsed && this.begin());
     this.hold = button("hold", () => this.setHeld(!this.isHeld));
     this.element = h("div", {}, this.signals.element, this.controls(), this.state);
     this.element.append(this.plots.element, this.cursors.element);

@@ -2,7 +2,7 @@
 import { h, iconButton } from "../page/dom";
 import { icon } from "../page/icons";
 import type { Operands } from "./operands";
-import { store, storedText } from "../project/stored";
+import type { Chosen, What } from "../project/chosen";
 
 const SIGNALS_MAX = 8;
 
@@ -14,8 +14,9 @@ export class Signals {
 
   constructor(
     operands: Operands,
-    /** Where the choice is kept. */
-    private stored: string,
+    private chosen: Chosen,
+    /** For what they are chosen. */
+    private what: What,
     private changed: () => void,
   ) {
     this.field = h("input", {
@@ -44,13 +45,17 @@ export class Signals {
         h("button", { text: "addIt", attributes: { type: "submit" } }),
       ),
     );
-    this.names = (storedText(stored) ?? "").split(",").filter(Boolean);
+    chosen.onOpened(() => {
+      this.names = chosen.text(what).split(",").filter(Boolean);
+      this.draw();
+      this.changed();
+    });
     this.draw();
   }
 
   private set(names: string[]): void {
     this.names = [...new Set(names)].slice(0, SIGNALS_MAX);
-    store(this.stored, this.names.join(","));
+    this.chosen.keep(this.what, this.names.join(","));
     this.draw();
     this.changed();
   }

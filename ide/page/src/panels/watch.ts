@@ -7,9 +7,7 @@ import { icon } from "../page/icons";
 import type { Tabs } from "../page/tabs";
 import { FORMATS, formatted, type Format } from "./formats";
 import type { Operands } from "./operands";
-import { store, storedText } from "../project/stored";
-
-const STORED = "uno200.watch";
+import type { Chosen } from "../project/chosen";
 
 interface Row {
   operand: string;
@@ -39,6 +37,7 @@ export class Watch {
     private core: Core,
     private editors: Editors,
     operands: Operands,
+    private chosen: Chosen,
     private tabs: () => Tabs,
   ) {
     this.table = this.makeTable();
@@ -60,7 +59,15 @@ export class Watch {
     );
     core.on("watched", ({ values }) => this.fill(values));
     core.on("forced", ({ values }) => this.setForced(values));
-    for (const [operand, format] of stored()) this.add(operand, format);
+    chosen.onOpened(() => this.begin());
+    this.begin();
+  }
+
+  /** The rows that were chosen in the project that is open now. */
+  private begin(): void {
+    this.rows = [];
+    this.body.replaceChildren();
+    for (const [operand, format] of rowsIn(this.chosen.text("watch"))) this.add(operand, format);
     this.changed();
   }
 
@@ -175,7 +182,7 @@ export class Watch {
 
   private keep(): void {
     const rows = this.rows.map(({ operand, format }) => [operand, format]);
-    store(STORED, JSON.stringify(rows));
+    this.chosen.keep("watch", JSON.stringify(rows));
   }
 
   private send(): void {
@@ -233,9 +240,10 @@ export class Watch {
   }
 }
 
-function stored(): [string, Format][] {
+/** The rows in a text that was kept; nothing of it is believed. */
+function rowsIn(text: string): [string, Format][] {
   try {
-    const rows = JSON.parse(storedText(STORED) ?? "[]") as unknown;
+    const rows = JSON.parse(text || "[]") as unknown;
     if (!Array.isArray(rows)) return [];
     return rows.flatMap((row: unknown): [string, Format][] => {
       const [operand, name] = Array.isArray(row) ? (row as unknown[]) : [];

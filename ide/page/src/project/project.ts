@@ -7,6 +7,11 @@ import type { File } from "../core/protocol";
 const PROGRAMS = [".awl", ".st", ".sfc", ".fbd", ".fbt", ".xml"];
 /** What a file of a project may end with. */
 export const ENDINGS = [...PROGRAMS, ".scn", ".csv", ".txt", ".md", ".json", ".plant"];
+/** Whether a file of this name can be run. */
+export function isProgram(name: string): boolean {
+  return PROGRAMS.some((ending) => name.toLowerCase().endsWith(ending));
+}
+
 /** More than any program has; foreign projects are limited by it. */
 export const FILES_MAX = 200;
 export const BYTES_MAX = 4_000_000;

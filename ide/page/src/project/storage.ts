@@ -1,6 +1,7 @@
 // Keeps projects in the browser, so that a reload loses nothing. localStorage, because it can be
 // written while the page is being left.
 import type { Content, Project } from "./project";
+import { forgetChosen } from "./chosen";
 import { store, storedNames, storedText } from "./stored";
 
 const PREFIX = "uno200.project.";
@@ -61,6 +62,7 @@ export function allKept(): Kept[] {
 
 export function forget(id: string): void {
   store(PREFIX + id, null);
+  forgetChosen(id);
 }
 
 /** The project that was open last. */

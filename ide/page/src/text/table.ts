@@ -440,6 +440,11 @@ export const TABLE = {
     "{0} s simuliert, {1} Zeitpunkte mit Änderungen. {2}",
     "{0} s simulados, {1} instantes con cambios. {2}",
   ],
+  runsMain: [
+    "{0} runs, not {1}: the menu of a file makes it the program that is run",
+    "{0} läuft, nicht {1}: das Menü einer Datei macht sie zum Programm, das läuft",
+    "Se ejecuta {0}, no {1}: el menú de un archivo lo hace el programa que se ejecuta",
+  ],
   record: ["Record", "Aufzeichnen", "Grabar"],
   endRecording: ["End recording", "Aufzeichnung beenden", "Terminar grabación"],
   recordingNow: [

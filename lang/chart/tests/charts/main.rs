@@ -1,6 +1,7 @@
-//! Tests of charts: texts, pages of errors, and random charts in two implementations.
+//! Tests of charts: texts, pages of errors, drawings, and random charts in two implementations.
 
 mod compiled;
+mod drawing;
 mod evaluator;
 mod grafcet;
 mod messages;

@@ -97,6 +97,9 @@ impl Checker<'_> {
             })
             .collect();
         for (number, argument) in arguments.iter().enumerate() {
+            if self.is_compared_parameter(&unit, argument) {
+                continue;
+            }
             let found = match &argument.name {
                 None => parameters.get(number).copied(),
                 Some(name) => {
@@ -123,6 +126,28 @@ impl Checker<'_> {
         call.in_outs.sort_by_key(|(at, _)| *at);
         call.outputs.sort_by_key(|(at, _)| *at);
         Some(StatementKind::Call(Box::new(call)))
+    }
+
+    /// Reports `PT = T#1s` for `PT := T#1s`: a comparison with a variable that is not there, but
+    /// would be a parameter.
+    fn is_compared_parameter(&mut self, unit: &crate::model::Unit, argument: &Argument) -> bool {
+        let tree::ExpressionKind::Binary(tree::BinaryOperator::Equal, left, _) =
+            &argument.value.kind
+        else {
+            return false;
+        };
+        let tree::ExpressionKind::Variable(name, selectors) = &left.kind else { return false };
+        let is_parameter = unit.variables.iter().any(|one| upper(&one.name) == upper(&name.text));
+        if argument.name.is_some() || !selectors.is_empty() || !is_parameter {
+            return false;
+        }
+        if self.variable(&name.text).is_some() {
+            return false;
+        }
+        let message = format!("{}: `:=` gives a parameter its value", name.text);
+        let span = argument.value.span;
+        self.report(Diagnostic::new(Code::Assignment, span, message).help("`=` compares"));
+        true
     }
 
     fn no_parameter(&mut self, unit: &crate::model::Unit, argument: &Argument) {

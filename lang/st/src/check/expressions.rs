@@ -39,6 +39,9 @@ pub(super) fn is_open(text: &tree::Expression) -> bool {
     }
 }
 
+/// So many values of an enumeration are named in a help.
+const NAMES_MAX: usize = 6;
+
 impl Checker<'_> {
     /// An expression; a literal in it takes the wanted type where it can.
     pub(super) fn expression(
@@ -176,6 +179,13 @@ impl Checker<'_> {
             let diagnostic = Diagnostic::new(Code::WrongType, found.span, message);
             let is_text = |kind: &Type| matches!(kind, Type::String(_));
             let is_number = |kind: &Type| matches!(kind, Type::Int | Type::Dint | Type::Real);
+            if let Type::Enumeration(kind) = wanted {
+                let names: Vec<&str> = kind.values.iter().map(|(name, _)| name.as_str()).collect();
+                let shown = &names[..names.len().min(NAMES_MAX)];
+                let more = if names.len() > NAMES_MAX { ", ..." } else { "" };
+                let help = format!("the values of {wanted} are {}{more}", shown.join(", "));
+                return self.report(diagnostic.help(help));
+            }
             self.report(match (is_text(from), is_text(wanted)) {
                 (true, false) if is_number(wanted) => {
                     diagnostic.help(format!("STRING_TO_{wanted}(...) converts it"))

@@ -73,6 +73,14 @@ impl Checker<'_> {
         } else if self.variable(&name.text).is_some() {
             diagnostic =
                 diagnostic.help(format!("it is a variable: `{}[1]` is an element", name.text));
+        } else if let Some(Some(Type::Enumeration(kind))) = self.types.get(&upper(&name.text))
+            && let Some((value, _)) = kind.values.first()
+        {
+            let help = format!(
+                "{} is a type: its values are `{value}`, or `{}#{value}`, and so on",
+                name.text, name.text
+            );
+            diagnostic = diagnostic.help(help);
         } else if let Some(help) = habits::help(&name.text) {
             diagnostic = diagnostic.help(help);
         } else {

@@ -63,6 +63,12 @@ const MISTAKES: &[(&str, &str, &[Answer])] = &[
         &[Answer("E0201", ";", &["`END_IF` is missing"])],
     ),
     ("i : INT;", "i = 5;", &[Answer("E0202", "=", &["`:=` assigns", "\":=\""])]),
+    (
+        "t : TON;",
+        "t(IN := TRUE, PT = T#8s);",
+        &[Answer("E0202", "PT = T#8s", &["`:=` gives a parameter its value"])],
+    ),
+    ("e : (Red, Green);", "e := 1;", &[Answer("E0205", "1", &["are Red, Green"])]),
     ("i : INT;", "i := 5\ni := i + 1;", &[Answer("E0201", "5", &["`;` is missing"])]),
     ("i : INT;", "i := i / 0;", &[Answer("E0212", "0", &["divides by zero"])]),
     ("t : ARRAY[1..5] OF INT;", "t[6] := 1;", &[Answer("E0212", "6", &["the index is 1 to 5"])]),

@@ -1,0 +1,242 @@
+//! Charts as drawings: steps with their actions, transitions with their bars, and lines between
+//! them, as plain data. Drawn for reading; nothing is known here of colours, fonts and files.
+//!
+//! `places` and `layout` say where steps stand: where the text says, or automatically. [`standard`]
+//! has the rules by which lines are drawn, `wiring` leads them around what is in the way.
+
+mod boxes;
+mod layout;
+pub mod measures;
+mod order;
+mod places;
+mod room;
+mod search;
+pub mod shapes;
+pub mod standard;
+mod wiring;
+
+use std::fmt;
+
+use diagnostics::Source;
+
+use crate::model::{Body, Chart, Origin, Step, StepKind, Transition};
+use boxes::{block, label, label_room, label_start, note};
+use measures::{BLOCK_GAP, CORRIDOR, Measures, TITLE_HEIGHT, short, text_width};
+use shapes::{ActionShape, Look, StepShape, TransitionShape};
+use standard::Route;
+
+pub use crate::model::StepId;
+pub use measures::DOUBLE;
+pub use shapes::{Drawing, Point, Rect, Sheet};
+
+/// Most steps, and most transitions, of a chart that is drawn.
+pub const ELEMENTS_MAX: usize = 300;
+/// Charts stand side by side up to this width.
+const WIDTH: i32 = 1100;
+/// Free around everything.
+const MARGIN: i32 = 16;
+/// Half the width of an arrow.
+const ARROW: i32 = 5;
+
+/// A chart with more elements than can be drawn.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TooLarge {
+    /// The chart.
+    pub chart: String,
+    /// How many steps or transitions it has.
+    pub count: usize,
+}
+
+impl fmt::Display for TooLarge {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { chart, count } = self;
+        write!(f, "{chart}: {count} steps or transitions; up to {ELEMENTS_MAX} of each are drawn")
+    }
+}
+
+/// Draws the charts of a text; those in actions, too.
+pub fn draw<'c>(
+    charts: impl IntoIterator<Item = &'c Chart>,
+    source: &Source,
+) -> Result<Drawing, TooLarge> {
+    let mut sheets = Vec::new();
+    for chart in charts {
+        add(chart, String::new(), source, &mut sheets)?;
+    }
+    Ok(packed(sheets))
+}
+
+fn add(
+    chart: &Chart,
+    around: String,
+    source: &Source,
+    sheets: &mut Vec<Sheet>,
+) -> Result<(), TooLarge> {
+    let name = format!("{around}{}", chart.name);
+    let count = chart.steps.len().max(chart.transitions.len());
+    if count > ELEMENTS_MAX {
+        return Err(TooLarge { chart: name, count });
+    }
+    sheets.push(sheet(chart, &name, source));
+    for action in chart.actions.values() {
+        if let Body::Chart(inner) = &action.body {
+            add(inner, format!("{name}."), source, sheets)?;
+        }
+    }
+    Ok(())
+}
+
+/// One chart, from its upper left corner on.
+fn sheet(chart: &Chart, name: &str, source: &Source) -> Sheet {
+    let room = room::room(chart);
+    let m = room.measures;
+    let placement = places::given(chart, &room).unwrap_or_else(|| layout::automatic(chart, &room));
+    let line = |origin: Origin| source.position(origin.0.start as usize).0;
+    let steps = chart.steps.iter().filter_map(|(id, step)| {
+        let mut shape = step_shape(chart, step, *placement.steps.get(id)?, &m);
+        shape.id = *id;
+        shape.variable = format!("{name}.{}", step.name);
+        shape.line = line(step.origin);
+        let lines = step.block.iter().map(|one| one.origin);
+        let lines = lines.chain(step.forcings.iter().map(|one| one.origin));
+        for (action, origin) in shape.actions.iter_mut().zip(lines) {
+            action.line = line(origin);
+        }
+        Some(shape)
+    });
+    let steps: Vec<StepShape> = steps.collect();
+    let walls = steps.iter().flat_map(|step| [Some(step.frame), block_room(step)]).flatten();
+    let routes = wiring::wire(chart, &room, &placement, walls.collect());
+    let transitions = routes.into_iter().filter_map(|(id, route)| {
+        let transition = chart.transitions.get(&id)?;
+        let mut shape = transition_shape(transition, route);
+        shape.id = id;
+        shape.line = line(transition.origin);
+        shape.title = chart.transition_title(transition);
+        Some(shape)
+    });
+    let transitions = transitions.collect();
+    framed(Sheet { name: name.to_owned(), steps, transitions, ..Sheet::default() })
+}
+
+/// The block of a step with the line to it.
+fn block_room(step: &StepShape) -> Option<Rect> {
+    let all = step.actions.iter().map(|action| action.frame).reduce(Rect::union)?;
+    Some(Rect { x: all.x - BLOCK_GAP, width: all.width + BLOCK_GAP, ..all })
+}
+
+fn step_shape(chart: &Chart, step: &Step, centre: Point, m: &Measures) -> StepShape {
+    let frame = Rect::around(centre, m.step_width, m.step_height);
+    let look = match step.kind {
+        StepKind::Plain => Look::Plain,
+        StepKind::Macro(_) => Look::Macro,
+        StepKind::Enclosing(_) => Look::Enclosing,
+    };
+    StepShape {
+        name: short(&step.name),
+        note: note(step),
+        frame,
+        is_initial: step.is_initial,
+        is_linked: step.is_linked,
+        look,
+        actions: block(chart, step, frame),
+        ..StepShape::default()
+    }
+}
+
+fn transition_shape(transition: &Transition, route: Route) -> TransitionShape {
+    let text = label(transition);
+    let sides = route.before.into_iter().chain(route.after).map(|(_, points)| points);
+    let between = Some(route.between).filter(|points| !points.is_empty());
+    let lines: Vec<Vec<Point>> = sides.chain(between).map(search::simplified).collect();
+    TransitionShape {
+        from: transition.from.iter().copied().collect(),
+        to: transition.to.iter().copied().collect(),
+        bar: route.bar,
+        label: label_start(&text, route.bar),
+        arrows: lines.iter().filter_map(|points| arrow(points)).collect(),
+        text,
+        lines,
+        doubles: route.doubles,
+        ..TransitionShape::default()
+    }
+}
+
+/// Where a line that leads up has an arrow: above the middle of the longest way up.
+fn arrow(points: &[Point]) -> Option<Point> {
+    let ways = points.windows(2).filter_map(|pair| match pair {
+        [a, b] if a.x == b.x && a.y - b.y > 4 * ARROW => Some((a.y - b.y, *a, *b)),
+        _ => None,
+    });
+    let (_, a, b) = ways.max_by_key(|(length, ..)| *length)?;
+    Some(Point::new(a.x, (a.y + b.y) / 2 - ARROW))
+}
+
+/// What a sheet takes, without its title.
+fn taken(sheet: &Sheet) -> Rect {
+    let steps = sheet.steps.iter().flat_map(|step| {
+        let linked = step.is_linked.then(|| step.frame.grown(measures::CHARACTER * 2));
+        [Some(step.frame), linked, block_room(step)]
+    });
+    let transitions = sheet.transitions.iter().flat_map(|one| {
+        let lines = one.lines.iter().flatten().chain(&one.arrows);
+        let doubles = one.doubles.iter().flat_map(|(a, b)| [a, b]);
+        let points = lines.chain(doubles).map(|at| Rect::around(*at, 2 * ARROW, 2 * ARROW));
+        points.chain([Rect::between(one.bar.0, one.bar.1), label_room(&one.text, one.bar)])
+    });
+    steps.flatten().chain(transitions).reduce(Rect::union).unwrap_or_default()
+}
+
+/// A sheet whose frame begins in the corner, with its title above everything.
+fn framed(mut sheet: Sheet) -> Sheet {
+    let taken = taken(&sheet);
+    let by = Point::new(-taken.x, TITLE_HEIGHT - taken.y);
+    sheet.move_by(by);
+    sheet.title = Point::new(0, TITLE_HEIGHT / 2 - 4);
+    let width = taken.width.max(text_width(&sheet.name));
+    sheet.frame = Rect { x: 0, y: 0, width, height: taken.height + TITLE_HEIGHT };
+    sheet
+}
+
+/// The sheets in rows.
+fn packed(mut sheets: Vec<Sheet>) -> Drawing {
+    let mut next = Point::new(MARGIN, MARGIN);
+    let (mut right, mut bottom) = (0, 0);
+    for sheet in &mut sheets {
+        if next.x > MARGIN && next.x + sheet.frame.width > WIDTH {
+            next = Point::new(MARGIN, bottom + CORRIDOR);
+        }
+        sheet.move_by(next);
+        next.x = sheet.frame.right() + CORRIDOR;
+        (right, bottom) = (right.max(sheet.frame.right()), bottom.max(sheet.frame.bottom()));
+    }
+    Drawing { width: right + MARGIN, height: bottom + MARGIN, sheets }
+}
+
+impl Sheet {
+    fn move_by(&mut self, by: Point) {
+        self.title = self.title.moved(by);
+        self.frame = self.frame.moved(by);
+        self.steps.iter_mut().for_each(|step| step.move_by(by));
+        self.transitions.iter_mut().for_each(|one| one.move_by(by));
+    }
+}
+
+impl StepShape {
+    fn move_by(&mut self, by: Point) {
+        self.frame = self.frame.moved(by);
+        for ActionShape { frame, divider, .. } in &mut self.actions {
+            *frame = frame.moved(by);
+            *divider = divider.map(|x| x + by.x);
+        }
+    }
+}
+
+impl TransitionShape {
+    fn move_by(&mut self, by: Point) {
+        let doubles = self.doubles.iter_mut().flat_map(|(a, b)| [a, b]);
+        let points = self.lines.iter_mut().flatten().chain(&mut self.arrows).chain(doubles);
+        let own = [&mut self.bar.0, &mut self.bar.1, &mut self.label];
+        points.chain(own).for_each(|point| *point = point.moved(by));
+    }
+}
