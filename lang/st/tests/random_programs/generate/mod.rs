@@ -50,8 +50,14 @@ VAR_GLOBAL
 
 const EDGES: [i64; 14] = [0, 1, -1, 2, 3, 5, 7, 10, 100, 255, 300, 32767, -32768, 181];
 
+/// Every so manieth program is meant for a board: with few statements and variables, every other
+/// one of them without texts.
+pub const SMALL: u64 = 4;
+
 pub struct Generator {
     rng: Rng,
+    is_small: bool,
+    has_texts: bool,
     depth: u32,
     in_function: bool,
     in_block: bool,
@@ -65,7 +71,9 @@ impl Generator {
     pub fn program(seed: u64) -> String {
         let mut one = Generator {
             rng: Rng::with_seed(seed),
-            depth: 0,
+            is_small: seed.is_multiple_of(SMALL),
+            has_texts: !seed.is_multiple_of(2 * SMALL),
+            depth: if seed.is_multiple_of(SMALL) { 2 } else { 0 },
             in_function: false,
             in_block: false,
             is_plain: false,
@@ -108,15 +116,18 @@ impl Generator {
         text += "s : State;\nton1 : TON; tof1 : TOF; tp1 : TP; ton2 : TON; count1 : CTU;\n";
         text += "{coarse} slow1, fast1 : TON;\nslow2, fast2 : TOF {coarse};\n";
         text += "first AT %SM0.1 : BOOL; count2 : CTU;\n";
-        text +=
-            "v4 : STRING[4]; v7 : STRING[7] := 'ab'; v9, w9 : STRING[9]; v80 : STRING := '-7.5';\n";
-        text += "tag, tag2 : Tag; tag3 : Tag := (t := '12'); full : STRING[254];\n";
+        text += "v4 : STRING[4]; v7 : STRING[7] := 'ab'; v9, w9 : STRING[9];\n";
+        text += "tag, tag2 : Tag; tag3 : Tag := (t := '12');\n";
+        text += match self.is_small {
+            true => "v80, full : STRING[12] := '-7.5';\n",
+            false => "v80 : STRING := '-7.5'; full : STRING[254];\n",
+        };
         text += "plains : ARRAY[1..3] OF Plain; waits : ARRAY[0..1] OF TON;\n";
         text += "counts : ARRAY[1..2, 0..1] OF CTU; edges : ARRAY[-1..1] OF R_TRIG;\n";
         text += "blocks : ARRAY[2..3] OF Block;\n";
         text += "edge1 : R_TRIG;\none, two : Block; three, four : Plain;\nEND_VAR\n";
         text += &self.devices();
-        let count = self.rng.usize(3..10);
+        let count = self.rng.usize(if self.is_small { 1..5 } else { 3..10 });
         text += &self.statements(count);
         text + "END_PROGRAM\n"
     }
@@ -192,7 +203,8 @@ impl Generator {
         self.depth += 1;
         let choice = if self.depth > 3 { self.rng.u8(..8) } else { self.rng.u8(..20) };
         let text = match choice {
-            7 | 19 => self.text_assignment(),
+            7 | 19 if self.has_texts => self.text_assignment(),
+            7 | 19 => self.assignment("INT"),
             0 | 1 => self.assignment("INT"),
             2 => self.assignment("DINT"),
             3 => self.assignment("BOOL"),
@@ -410,7 +422,9 @@ impl Generator {
                 };
                 format!("({} {relation} {})", self.variable(kind), self.value(kind))
             }
-            9 if !self.is_plain && self.rng.u8(..4) == 0 => self.text_comparison(),
+            9 if self.has_texts && !self.is_plain && self.rng.u8(..4) == 0 => {
+                self.text_comparison()
+            }
             9 => match self.in_function || self.in_block {
                 true => format!("INT_TO_BOOL({})", self.whole("INT")),
                 false => {
@@ -456,7 +470,9 @@ impl Generator {
                 };
                 format!("({} {operator} {right})", self.whole(left))
             }
-            9 if ["INT", "DINT"].contains(&kind) && self.rng.bool() => self.number_of_text(kind),
+            9 if self.has_texts && ["INT", "DINT"].contains(&kind) && self.rng.bool() => {
+                self.number_of_text(kind)
+            }
             9 if whole_type(kind).0 < 0 => format!("(-{})", self.variable(kind)),
             10 => format!("ABS({})", self.whole(kind)),
             11 => {
@@ -533,7 +549,7 @@ impl Generator {
         let choice = if self.depth > 4 { self.rng.u8(..3) } else { self.rng.u8(..8) };
         let text = match choice {
             0 | 1 => self.variable("REAL"),
-            7 => format!("STRING_TO_REAL({})", self.text()),
+            7 if self.has_texts => format!("STRING_TO_REAL({})", self.text()),
             2 => format!("{:?}", f32::from(self.rng.i16(-300..300)) / 4.0),
             3..=5 => {
                 let operator = self.pick(&["+", "-", "*", "/"]);

@@ -60,7 +60,11 @@ impl Generator {
 
     pub(super) fn text(&mut self) -> String {
         self.depth += 1;
-        let choice = if self.depth > 3 { self.rng.u8(..4) } else { self.rng.u8(..14) };
+        let choice = match self.depth {
+            _ if !self.has_texts => 3,
+            0..=3 => self.rng.u8(..14),
+            _ => self.rng.u8(..4),
+        };
         let text = match choice {
             0..=2 => self.text_variable(),
             3 => self.text_literal(),
@@ -158,7 +162,7 @@ impl Generator {
             ),
             _ => format!(
                 "FOR {at} := -1 TO 1 DO\nedges[{at}](CLK := {condition} AND gi > {at});\n{body}\
-                 IF edges[{at}].Q THEN v9 := CONCAT(v9, INT_TO_STRING({at})); END_IF;\nEND_FOR;\n"
+                 IF edges[{at}].Q THEN tag.n := tag.n + {at}; END_IF;\nEND_FOR;\n"
             ),
         };
         self.loops -= 1;

@@ -33,7 +33,7 @@ impl Generator {
         );
         for _ in 0..self.rng.usize(1..5) {
             text += &match self.rng.u8(..9) {
-                7 | 8 => self.text_assignment(),
+                7 | 8 if self.has_texts => self.text_assignment(),
                 0 => format!("both.x := {};\n", self.whole("INT")),
                 1 => self.pick(&["twin := both;\n", "twin.z := a;\n"]).to_owned(),
                 2 => format!("delay(IN := {}, PT := T#40ms); q := delay.Q;\n", self.condition()),
