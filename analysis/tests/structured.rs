@@ -133,8 +133,9 @@ fn what_the_assembler_says_is_told_at_its_place() {
     let problems = project.problems("m.st");
     assert_eq!(problems.len(), 1, "{problems:?}");
     // Points that the author has chosen; not what the compiler made of the rest.
-    let points = "PROGRAM Main\nVAR\n    Far AT %Q0.7 : BOOL;\n    In AT %I0.0 : BOOL;\n    a : BOOL;\nEND_VAR\n\
-        Far := a;\nIn := a;\na := FALSE;\nIF Far THEN a := In; END_IF\nEND_PROGRAM\n";
+    let points = "PROGRAM Main\nVAR\n    Far AT %Q0.7 : BOOL;\n    In AT %I0.0 : BOOL;\n    \
+        a : BOOL;\nEND_VAR\nFar := a;\nIn := a;\na := FALSE;\nIF Far THEN a := In; END_IF\n\
+        END_PROGRAM\n";
     project.set("m.st", points).unwrap();
     let problems = project.problems("m.st");
     let told: Vec<_> = problems.iter().map(|one| (one.code, one.help.join(" "))).collect();

@@ -224,7 +224,7 @@ fn constants_stand_once_and_data_as_it_was() {
     let back = comes_back(text);
     for piece in [
         "SHRB   I0.0, V8.0, -6",
-        "SCPY   \"a$22$E4\", VB20",
+        "SCPY   \"a$\"$E4\", VB20",
         "MOVD   &C3, AC2",
         "VB300 1, 2, 255, 255",
     ] {

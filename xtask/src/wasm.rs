@@ -27,8 +27,8 @@ const LIBRARIES: [&str; 12] = [
     "wasm-smoke",
 ];
 const MODULE: &str = "wasm_smoke";
-/// The libraries that are worth some size: every scan of the simulator goes through them. All
-/// others are as small as the compiler can make them.
+/// The libraries that are worth some size: every instruction of the simulator goes through them.
+/// All others are as small as the compiler can make them.
 const QUICK: [&str; 3] = ["plc-isa", "plc-vm", "plc-link"];
 /// What links with Debian's compiler.
 const DEBIAN_LINKER: &str = "wasm-ld-19";

@@ -113,9 +113,10 @@ fn bits(program: &Program, code: &[Selected], diagnostics: &mut Vec<Diagnostic>)
                 let message = format!("{address} begins a second segment");
                 let diagnostic =
                     Diagnostic::new(Code::ScrBit, operand_span(program, selected, 0), message);
-                let diagnostic = diagnostic
-                    .related(span_of(program, &code[first]), "the first one")
-                    .help("a step has one segment: give this one a bit of its own, or write both into one");
+                let diagnostic =
+                    diagnostic.related(span_of(program, &code[first]), "the first one").help(
+                        "a step has one segment: give this one its own bit, or put both into one",
+                    );
                 diagnostics.push(diagnostic);
             }
             None => {
