@@ -66,8 +66,8 @@ impl Session {
         Ok(())
     }
 
-    /// Has the signals of the oscilloscope sampled. Those that the program does not have, perhaps of
-    /// the last one, are complained about, and are gaps.
+    /// Has the signals of the oscilloscope sampled. Those that the program does not have, perhaps
+    /// of the last one, are complained about, and are gaps.
     pub(super) fn choose_signals(&mut self) {
         let (names, every_ms) = self.scope_names.clone();
         let Some(plc) = &self.plc else { return };
