@@ -158,6 +158,45 @@ await panel("Oscilloscope")
   .first()
   .waitFor();
 
+// Four signals of it are plotted and recorded; their values are in the range of those of awl-sim.
+await panel("Oscilloscope").getByRole("button", { name: "Hold", exact: true }).click();
+for (const signal of SIGNALS) {
+  await panel("Oscilloscope").getByLabel("Signal", { exact: true }).fill(signal);
+  await page.keyboard.press("Enter");
+}
+await panel("Oscilloscope")
+  .locator(".uplot")
+  .nth(SIGNALS.length - 1)
+  .waitFor();
+await tab("Capture");
+await panel("Capture").getByLabel("Seconds", { exact: true }).fill("4");
+await button("Record").click();
+await panel("Capture").getByText("s of the target recorded").waitFor(CHIP_PATIENCE);
+const recorded = page.waitForEvent("download");
+await button("Save CSV").click();
+const table = (text) =>
+  text
+    .trim()
+    .split("\n")
+    .map((row) => row.split(","));
+const [head, ...rows] = table(await readFile(await (await recorded).path(), "utf8"));
+const [wanted, ...simulated] = table(csv);
+assert.deepEqual(head, wanted);
+assert(rows.length > 50, `${rows.length} rows`);
+assert(Number(rows.at(-1)[0]) > 3500, `${rows.at(-1)}`);
+for (const [index, row] of rows.entries()) {
+  if (index > 0) assert(Number(row[0]) > Number(rows[index - 1][0]), `${row}`);
+  assert(Number(row[1]) > Number(rows[index - 1]?.[1] ?? 0), `${row}`);
+}
+for (const column of [2, 3, 4, 5]) {
+  const known = simulated.map((row) => Number(row[column]));
+  const [least, most] = known.reduce(([a, b], one) => [Math.min(a, one), Math.max(b, one)], [0, 0]);
+  for (const row of rows) {
+    const value = Number(row[column]);
+    assert(Number.isInteger(value) && value >= least && value <= most, `${head[column]}: ${row}`);
+  }
+}
+
 // A board's switch, in STOP and single scans.
 await button("Stop").click();
 await mode("STOP");

@@ -106,6 +106,11 @@ for (const colorScheme of ["light", "dark"])
     for (let line = 1; line < 70; line += 1) await page.keyboard.press("ArrowDown");
     await page.waitForTimeout(4000);
     await look(page, `structured-${colorScheme}-${width}`);
+    await run(page, "traffic_light-sfc");
+    await page.getByRole("tab", { name: "Chart", exact: true }).click();
+    await page.getByRole("button", { name: "Fit", exact: true }).click();
+    await page.waitForTimeout(4000);
+    await look(page, `chart-${colorScheme}-${width}`);
     // Nothing is wider than the window.
     const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert(wide <= 0, `${wide} pixels too wide at ${width}`);
