@@ -193,11 +193,8 @@ impl<'a, P: ProgramMemory> Writer<'a, P> {
             Some(Referent::Pool(offset)) => match (kind, kind.value_len()) {
                 (Kind::TextIn, _) => {
                     let len = u16::from(memory.byte(offset));
-                    {
-                        let text: Vec<u8> =
-                            (1..=len).map(|index| memory.byte(offset + index)).collect();
-                        format!("\"{}\"", escapes::write(&text))
-                    }
+                    let text = (1..=len).map(|index| memory.byte(offset + index));
+                    format!("\"{}\"", escapes::write(&text.collect::<Vec<u8>>()))
                 }
                 (_, 4) => {
                     let bytes = [0, 1, 2, 3].map(|index| memory.byte(offset + index));

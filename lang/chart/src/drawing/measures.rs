@@ -38,7 +38,7 @@ pub(super) const CLEARANCE: i32 = 10;
 pub(super) const STUB_MIN: i32 = 32;
 /// From the bar of a transition to its text.
 pub(super) const LABEL_GAP: i32 = 5;
-/// Free between what stands side by side: room for lines.
+/// Free between what is side by side: room for lines.
 pub(super) const CORRIDOR: i32 = 40;
 
 const STEP_WIDTH_MIN: i32 = 56;

@@ -1,7 +1,7 @@
 //! Charts as drawings: steps with their actions, transitions with their bars, and lines between
 //! them, as plain data. Drawn for reading; nothing is known here of colours, fonts and files.
 //!
-//! `places` and `layout` say where steps stand: where the text says, or automatically. [`standard`]
+//! `places` and `layout` say where steps are: where the text says, or automatically. [`standard`]
 //! has the rules by which lines are drawn, `wiring` leads them around what is in the way.
 
 mod boxes;
@@ -31,7 +31,7 @@ pub use shapes::{Drawing, Point, Rect, Sheet};
 
 /// Most steps, and most transitions, of a chart that is drawn.
 pub const ELEMENTS_MAX: usize = 300;
-/// Charts stand side by side up to this width.
+/// Charts are side by side up to this width.
 const WIDTH: i32 = 1100;
 /// Free around everything.
 const MARGIN: i32 = 16;

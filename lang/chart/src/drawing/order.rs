@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::model::{Chart, StepId, TransitionId};
 
-/// What stands side by side below a step.
+/// What is side by side below a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
     /// A branch that begins with a step.
@@ -168,7 +168,7 @@ impl Order {
         self.is_below(step, above) && self.before(step).len() == 1
     }
 
-    /// What stands side by side below a step, from left to right.
+    /// What is side by side below a step, from left to right.
     pub(super) fn branches(&self, chart: &Chart, step: StepId) -> Vec<Place> {
         let leaves =
             |id: &TransitionId| chart.transitions.get(id).filter(|one| one.from.contains(&step));

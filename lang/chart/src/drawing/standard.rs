@@ -1,4 +1,4 @@
-//! How transitions are drawn whose steps stand somewhere: lines by rules, whatever else is in the
+//! How transitions are drawn whose steps have their places: lines by rules, whatever else is in the
 //! way. Lines leave steps in the middle of the bottom and enter them in the middle of the top.
 
 use super::measures::Measures;

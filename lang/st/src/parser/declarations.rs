@@ -92,7 +92,7 @@ impl Parser<'_> {
         let mut at = self.token().span;
         while let Some(section) = self.section() {
             if section.kind == SectionKind::Global {
-                let message = format!("VAR_GLOBAL is inside of this {word}, it stands before it");
+                let message = format!("VAR_GLOBAL is inside of this {word}: it belongs before it");
                 let found = Diagnostic::new(Code::Syntax, at, message);
                 self.report(found.help("what this unit alone uses is declared in VAR"));
             }

@@ -435,7 +435,7 @@ pub const TEXTS: &[(&str, &[Answer])] = &[
     ),
     (
         "PROGRAM Main\nVAR_GLOBAL i : INT; END_VAR\ni := 1;\nEND_PROGRAM",
-        &[Answer("E0200", "VAR_GLOBAL", &["stands before it", "declared in VAR"])],
+        &[Answer("E0200", "VAR_GLOBAL", &["belongs before it", "declared in VAR"])],
     ),
     (
         "PROGRAM Main\nx := 1;\nEND_PROGRAM\nCONFIGURATION c\nVAR_GLOBAL x : INT; END_VAR\n\
