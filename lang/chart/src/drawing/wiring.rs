@@ -1,4 +1,4 @@
-//! The lines of the transitions of a chart whose steps have their places. Each is drawn by the rules
+//! The lines of the transitions of a chart whose steps have places. Each is drawn by the rules
 //! ([`super::standard`]) if nothing is in the way of its lines, its bar and its text; otherwise its
 //! bar gets another place, and its lines go around.
 
