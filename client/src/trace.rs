@@ -95,6 +95,11 @@ impl Recording {
     }
 }
 
+/// A number of scans, of which a PLC tells the low word: that after `before`, which was told last.
+pub fn counted_scans(before: Option<u64>, low: u16) -> u64 {
+    before.map_or(low.into(), |before| before + u64::from(low.wrapping_sub(before as u16)))
+}
+
 /// The header of a table for programs and spreadsheets.
 pub fn write_csv_header(operands: &[Operand], out: &mut dyn Write) -> io::Result<()> {
     write!(out, "time_ms,scan")?;

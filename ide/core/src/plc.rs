@@ -1,7 +1,9 @@
 //! A PLC at the other end of a line: what is asked of it round by round, and what is known of it.
 //! Bytes in, bytes out; the same for a simulator and for a board.
 
-use awl_asm::ast::Symbol;
+use std::collections::BTreeSet;
+
+use awl_asm::Address;
 use client::line::{Framing, Line};
 use client::operand::{Operand, OperandError};
 use client::show::Rounds;
@@ -59,12 +61,15 @@ pub struct Plc {
     next_round_ms: u64,
     /// The lines that can be seen; `None`: none.
     view: Option<Lines>,
+    /// The double words that the program computes with as reals.
+    reals: BTreeSet<Address>,
 }
 
 impl Plc {
     /// A PLC that has not answered yet, and is not asked before `begin_ms`.
     pub fn new(framing: Framing, program: Program, place: &str, begin_ms: u64) -> Plc {
         Plc {
+            reals: client::reals::of(&program.image),
             sampler: Sampler::new(&framing),
             line: Line::new(framing.clone(), PATIENCE_MS),
             framing,
@@ -81,6 +86,7 @@ impl Plc {
     /// The program on the screen is another one. Whether it is the one in the PLC, its next answer
     /// tells.
     pub fn show(&mut self, program: Program) {
+        self.reals = client::reals::of(&program.image);
         let mut state = State::new(program, self.state.place.clone());
         (state.link, state.identity) = (self.state.link.clone(), self.state.identity.clone());
         self.state = state;
@@ -113,12 +119,7 @@ impl Plc {
     }
 
     fn parsed(&self, names: &[String]) -> Vec<Watched> {
-        let reals = client::reals::of(&self.state.program.image);
-        let symbols: &[Symbol] = self.state.program.symbols();
-        let parse = |name: &String| Watched {
-            name: name.clone(),
-            operand: Operand::parse(name, symbols).map(|operand| operand.in_program(&reals)),
-        };
+        let parse = |name: &String| Watched { name: name.clone(), operand: self.parse(name) };
         names.iter().map(parse).collect()
     }
 
@@ -169,9 +170,12 @@ impl Plc {
 
     /// An operand as it is written.
     pub fn operand(&self, name: &str) -> Result<Operand, String> {
-        let reals = client::reals::of(&self.state.program.image);
-        let operand = Operand::parse(name, self.state.program.symbols());
-        Ok(operand.map_err(|error| error.to_string())?.in_program(&reals))
+        self.parse(name).map_err(|error| error.to_string())
+    }
+
+    fn parse(&self, name: &str) -> Result<Operand, OperandError> {
+        let operand = Operand::parse(name, self.state.program.symbols())?;
+        Ok(operand.in_program(&self.reals))
     }
 
     /// Has everything asked anew, now; of a PLC that has not answered yet, when its time has come.

@@ -2,7 +2,7 @@
 //! was not measured is not in it.
 
 use client::operand::Operand;
-use client::trace::{Dump, write_csv_header, write_csv_row};
+use client::trace::{Dump, counted_scans, write_csv_header, write_csv_row};
 use client::value::{Base, Form};
 
 use crate::protocol::{Event, Recording};
@@ -13,6 +13,15 @@ const VALUES_MAX: usize = 4_000_000;
 
 /// Values of a signal; `None`: nothing is known of it from that time on.
 pub type Column = Vec<Option<f64>>;
+
+/// How far a recording is.
+#[derive(Debug)]
+enum State {
+    Going,
+    Complete,
+    /// Why it has ended before its time.
+    Ended(String),
+}
 
 /// A recording that is under way.
 #[derive(Debug)]
@@ -27,8 +36,7 @@ pub struct Recorder {
     scans: Vec<u64>,
     columns: Vec<Column>,
     gaps: u32,
-    /// Why it has ended, if that is worth telling.
-    ended: Option<Option<String>>,
+    state: State,
 }
 
 impl Recorder {
@@ -43,23 +51,20 @@ impl Recorder {
             times: Vec::new(),
             scans: Vec::new(),
             gaps: 0,
-            ended: None,
+            state: State::Going,
         }
-    }
-
-    /// The names of what is recorded, and how often it is sampled.
-    pub fn signals(&self) -> (Vec<String>, u32) {
-        (self.operands.iter().map(|operand| operand.name.clone()).collect(), self.every_ms)
     }
 
     /// Whether no more is to come.
     pub fn has_ended(&self) -> bool {
-        self.ended.is_some()
+        !matches!(self.state, State::Going)
     }
 
     /// Ends it with what it has.
     pub fn end(&mut self, why: &str) {
-        self.ended.get_or_insert_with(|| Some(why.to_owned()));
+        if !self.has_ended() {
+            self.state = State::Ended(why.to_owned());
+        }
     }
 
     /// Takes samples in, until it ends.
@@ -103,15 +108,14 @@ impl Recorder {
             return self.end("the recording is full");
         }
         if time <= self.for_ms {
-            let before = self.scans.last().copied().unwrap_or(scan.into());
             self.times.push(time);
-            self.scans.push(before + u64::from(scan.wrapping_sub(before as u16)));
+            self.scans.push(counted_scans(self.scans.last().copied(), scan));
             for (column, value) in self.columns.iter_mut().zip(values) {
                 column.push(Some(value));
             }
         }
         if time >= self.for_ms {
-            self.ended = Some(None);
+            self.state = State::Complete;
         }
     }
 
@@ -123,7 +127,7 @@ impl Recorder {
     /// What it has.
     pub fn recorded(self) -> Event {
         let recording = Recording {
-            names: self.signals().0,
+            names: self.operands.iter().map(|operand| operand.name.clone()).collect(),
             figures: self.columns.iter().map(|column| figures(&self.times, column)).collect(),
             csv: self.text(|recorder, out| recorder.write_csv(out)),
             vcd: self.text(|recorder, out| recorder.write_vcd(out)),
@@ -132,7 +136,11 @@ impl Recorder {
             plant: None,
             gaps: self.gaps,
         };
-        Event::Recorded { recording, ended: self.ended.flatten() }
+        let ended = match self.state {
+            State::Going | State::Complete => None,
+            State::Ended(why) => Some(why),
+        };
+        Event::Recorded { recording, ended }
     }
 
     fn text(&self, write: impl Fn(&Self, &mut Vec<u8>) -> std::io::Result<()>) -> String {

@@ -131,7 +131,7 @@ const tabs: Tabs = new Tabs("panels", [
   },
 ]);
 new Outside(core, bridge);
-new LiveView(core, project, editors, ladder, header);
+const live = new LiveView(core, project, editors, ladder, header);
 
 header.onStatus((status) => watch.showStatus(status));
 let lastFault: string | null = null;
@@ -139,12 +139,10 @@ header.onStatus(({ fault }) => {
   if (fault !== null && fault !== lastFault) notice(t("fault", fault), true);
   lastFault = fault;
 });
-let running: string[] = [];
-core.on("program", ({ program }) => (running = program?.files ?? running));
 header.onRun(() => {
   const { current } = editors;
   const main = project.main();
-  if (current === null || main === null || current === main || running.includes(current)) return;
+  if (current === null || main === null || current === main || live.files.includes(current)) return;
   if (isProgram(current)) notice(t("runsMain", main, current));
 });
 core.on("notice", ({ message, bad }) => notice(message, bad));

@@ -3,15 +3,12 @@
 // board. `node test/board.mjs ADDRESS PORT`; the address has a token, the port is known to the bridge.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
-import { open } from "./browser.mjs";
+import { controls, open } from "./browser.mjs";
 
 const [, , address, port] = process.argv;
 const { browser, page, errors } = await open({ patience: 120_000 });
 
-const button = (name) => page.getByRole("button", { name, exact: true });
-const mode = (wanted) => page.getByRole("status").first().filter({ hasText: wanted }).waitFor();
-const tab = (name) => page.getByRole("tab", { name, exact: true }).click();
-const panel = (name) => page.getByRole("tabpanel", { name, exact: true });
+const { button, mode, tab, panel } = controls(page);
 const dialog = (name) => page.getByRole("dialog", { name });
 const agree = (name, words) =>
   dialog(name).getByRole("button", { name: words, exact: true }).click();

@@ -23,6 +23,16 @@ export async function open(options = {}) {
   return { browser, page, errors };
 }
 
+/** What people look for first in a page. */
+export function controls(page) {
+  return {
+    button: (name) => page.getByRole("button", { name, exact: true }),
+    tab: (name) => page.getByRole("tab", { name, exact: true }).click(),
+    panel: (name) => page.getByRole("tabpanel", { name, exact: true }),
+    mode: (wanted) => page.getByRole("status").first().filter({ hasText: wanted }).waitFor(),
+  };
+}
+
 /** Ends a test that fails, with what could be read in the page at that time. */
 async function fail(error, page, errors) {
   console.error(error, ...errors);

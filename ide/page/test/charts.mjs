@@ -2,14 +2,11 @@
 // and on the virtual Uno, the way from a step to its line and back, zoom, keyboard, languages.
 // `node test/charts.mjs ADDRESS`.
 import assert from "node:assert/strict";
-import { open } from "./browser.mjs";
+import { controls, open } from "./browser.mjs";
 
 const [, , given] = process.argv;
 const { browser, page, errors } = await open({ patience: 120_000 });
-const button = (name) => page.getByRole("button", { name, exact: true });
-const tab = (name) => page.getByRole("tab", { name, exact: true }).click();
-const panel = (name) => page.getByRole("tabpanel", { name, exact: true });
-const mode = (wanted) => page.getByRole("status").first().filter({ hasText: wanted }).waitFor();
+const { button, tab, panel, mode } = controls(page);
 
 const chart = panel("Chart");
 const part = (name) => chart.getByRole("button", { name });

@@ -2,12 +2,12 @@
 // nothing in its address. What is on the screen alone leads to a lamp that blinks on the virtual Uno,
 // and to an exercise that runs. `node test/first_steps.mjs ADDRESS`.
 import assert from "node:assert/strict";
-import { open } from "./browser.mjs";
+import { controls, open } from "./browser.mjs";
 
 const [, , given] = process.argv;
 const { browser, page, errors } = await open();
 const seen = (element) => element.filter({ visible: true }).first();
-const mode = (wanted) => page.getByRole("status").first().filter({ hasText: wanted }).waitFor();
+const { mode } = controls(page);
 
 await page.goto(given.replace(/\?.*/, ""));
 await page.getByRole("textbox", { name: "blink.awl" }).waitFor();

@@ -2,15 +2,12 @@
 // values and what has become of its statements, on the simulator and on the virtual Uno; charts and
 // function blocks of IEC 61499 as files of a project. `node test/languages.mjs ADDRESS`.
 import assert from "node:assert/strict";
-import { open } from "./browser.mjs";
+import { controls, open } from "./browser.mjs";
 
 const [, , given] = process.argv;
 const address = given.replace(/\?.*/, "");
 const { browser, page, errors } = await open({ patience: 120_000 });
-const button = (name) => page.getByRole("button", { name, exact: true });
-const tab = (name) => page.getByRole("tab", { name, exact: true }).click();
-const panel = (name) => page.getByRole("tabpanel", { name, exact: true });
-const mode = (wanted) => page.getByRole("status").first().filter({ hasText: wanted }).waitFor();
+const { button, tab, panel, mode } = controls(page);
 const text = (name) => page.getByRole("textbox", { name });
 
 async function example(name) {

@@ -30,9 +30,18 @@ export async function loadCore(folder) {
   return core;
 }
 
+/** What esbuild makes of sources, as one text. */
+export async function bundled(options) {
+  const { outputFiles } = await build({
+    bundle: true,
+    write: false,
+    logLevel: "warning",
+    ...options,
+  });
+  return outputFiles[0].text;
+}
+
 /** A source of the page with all that it imports. */
 export async function loadSource(path) {
-  const options = { bundle: true, format: "esm", write: false, logLevel: "warning" };
-  const { outputFiles } = await build({ ...options, entryPoints: [path] });
-  return load(outputFiles[0].text);
+  return load(await bundled({ format: "esm", entryPoints: [path] }));
 }

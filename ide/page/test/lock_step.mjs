@@ -4,9 +4,8 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
-import { build } from "esbuild";
 import { open } from "./browser.mjs";
-import { innerFolder } from "./load.mjs";
+import { bundled, innerFolder } from "./load.mjs";
 
 const [, , address, given] = process.argv;
 const folder = await innerFolder(given);
@@ -34,12 +33,10 @@ const contents = `
       return { refusal: String(refusal) };
     }
   };`;
-const options = { bundle: true, format: "iife", write: false, logLevel: "warning" };
 const stdin = { contents, resolveDir: process.cwd() };
 // The core would look for its file beside itself.
 const define = { "import.meta.url": '"http://core/"' };
-const { outputFiles } = await build({ ...options, stdin, define });
-await page.addScriptTag({ content: outputFiles[0].text });
+await page.addScriptTag({ content: await bundled({ format: "iife", stdin, define }) });
 const core = await readFile(join(folder, "ide_core_bg.wasm"));
 await page.evaluate(async (text) => {
   const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));

@@ -3,15 +3,31 @@
 // awl-sim. `node test/page.mjs ADDRESS FIGURES.csv`; the figures are what awl-sim writes.
 import { readFile } from "node:fs/promises";
 import assert from "node:assert/strict";
-import { open } from "./browser.mjs";
+import { controls, open } from "./browser.mjs";
 
 const [, , address, figures] = process.argv;
 const { browser, page, errors } = await open();
 
-const button = (name) => page.getByRole("button", { name, exact: true });
-const tab = (name) => page.getByRole("tab", { name, exact: true }).click();
-const panel = (name) => page.getByRole("tabpanel", { name });
-const mode = (wanted) => page.getByRole("status").first().filter({ hasText: wanted }).waitFor();
+const { button, tab, panel, mode } = controls(page);
+
+const SIGNALS = ["Push", "Height", "Raise", "Lower"];
+
+/** Chooses the signals in a panel. */
+async function choose(name) {
+  for (const signal of SIGNALS) {
+    await panel(name).getByLabel("Signal", { exact: true }).fill(signal);
+    await page.keyboard.press("Enter");
+  }
+}
+
+/** Has the oscilloscope plot them. */
+async function plot() {
+  await choose("Oscilloscope");
+  await panel("Oscilloscope")
+    .locator(".uplot")
+    .nth(SIGNALS.length - 1)
+    .waitFor();
+}
 
 /** Puts the cursor at the end of the text, and writes. */
 async function write(text) {
@@ -57,16 +73,8 @@ await page.getByRole("button", { name: "Release all" }).click();
 await panel("Watch").getByRole("cell", { name: "0", exact: true }).first().waitFor();
 
 // Four signals are plotted, one below the other.
-const SIGNALS = ["Push", "Height", "Raise", "Lower"];
 await tab("Oscilloscope");
-for (const signal of SIGNALS) {
-  await panel("Oscilloscope").getByLabel("Signal", { exact: true }).fill(signal);
-  await page.keyboard.press("Enter");
-}
-await panel("Oscilloscope")
-  .locator(".uplot")
-  .nth(SIGNALS.length - 1)
-  .waitFor();
+await plot();
 assert.equal(await panel("Oscilloscope").locator(".uplot").count(), SIGNALS.length);
 for (const signal of SIGNALS)
   await panel("Oscilloscope")
@@ -95,10 +103,7 @@ await page.keyboard.press("Escape");
 
 // The same figures as awl-sim.
 await tab("Capture");
-for (const signal of SIGNALS) {
-  await panel("Capture").getByLabel("Signal", { exact: true }).fill(signal);
-  await page.keyboard.press("Enter");
-}
+await choose("Capture");
 await button("Simulate").click();
 const download = page.waitForEvent("download");
 await button("Save CSV").click();
@@ -160,14 +165,7 @@ await panel("Oscilloscope")
 
 // Four signals of it are plotted and recorded; their values are in the range of those of awl-sim.
 await panel("Oscilloscope").getByRole("button", { name: "Hold", exact: true }).click();
-for (const signal of SIGNALS) {
-  await panel("Oscilloscope").getByLabel("Signal", { exact: true }).fill(signal);
-  await page.keyboard.press("Enter");
-}
-await panel("Oscilloscope")
-  .locator(".uplot")
-  .nth(SIGNALS.length - 1)
-  .waitFor();
+await plot();
 await tab("Capture");
 await panel("Capture").getByLabel("Seconds", { exact: true }).fill("4");
 await button("Record").click();

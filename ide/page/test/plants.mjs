@@ -3,7 +3,7 @@
 // pictures in both themes at two widths, on which axe-core looks as well.
 import { readFile } from "node:fs/promises";
 import assert from "node:assert/strict";
-import { open, watched } from "./browser.mjs";
+import { controls, open, watched } from "./browser.mjs";
 
 const [, , address, pictures] = process.argv;
 const AXE = await readFile(new URL("../node_modules/axe-core/axe.min.js", import.meta.url), "utf8");
@@ -13,10 +13,7 @@ async function opened(fragment, options) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
   const page = watched(await context.newPage(), errors);
   await page.goto(`${address}#${fragment}`);
-  const button = (name) => page.getByRole("button", { name, exact: true });
-  const tab = (name) => page.getByRole("tab", { name, exact: true }).click();
-  const panel = (name) => page.getByRole("tabpanel", { name, exact: true });
-  const mode = (wanted) => page.getByRole("status").first().filter({ hasText: wanted }).waitFor();
+  const { button, tab, panel, mode } = controls(page);
   const axe = async (where) => {
     await page.evaluate(AXE);
     const { violations } = await page.evaluate(() => window.axe.run());

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 use client::Operand;
 use client::service::Watched;
-use client::trace::{write_csv_header, write_csv_row};
+use client::trace::{counted_scans, write_csv_header, write_csv_row};
 
 use super::context::{Context, notice};
 use uno200::args::{Watch, WatchFormat};
@@ -93,7 +93,7 @@ impl Rows<'_> {
             self.header()?;
             self.has_header = true;
         }
-        let scan = self.count(watched.scan);
+        let scan = *self.scans.insert(counted_scans(self.scans, watched.scan));
         let mut out = io::stdout().lock();
         match self.format {
             WatchFormat::Csv => {
@@ -114,15 +114,5 @@ impl Rows<'_> {
             }
         }
         out.flush()
-    }
-
-    /// The scan with the words that went before it.
-    fn count(&mut self, scan: u16) -> u64 {
-        let scan = match self.scans {
-            None => scan.into(),
-            Some(before) => before + u64::from(scan.wrapping_sub(before as u16)),
-        };
-        self.scans = Some(scan);
-        scan
     }
 }

@@ -180,6 +180,12 @@ function isInPage(target: TargetKind): boolean {
   return target === "simulator" || target === "virtualUno";
 }
 
+/** Whether it has the program of the page, and tells what that does. */
+export function tellsOfProgram({ mode, agreement }: Status): boolean {
+  const isThis = agreement === "same" || agreement === "native";
+  return isThis && isConnected(mode);
+}
+
 function isConnected(mode: string): boolean {
   return mode !== "OFFLINE" && mode !== "LOST";
 }

@@ -13,7 +13,7 @@ export class LiveView {
   private timer = 0;
   private asked = "";
   /** The files of the program that was assembled last. */
-  private files: string[] = [];
+  files: string[] = [];
   private file = "";
   private lines: Line[] = [];
 

@@ -5,7 +5,8 @@ import type { Core } from "../core/core";
 import type { Chart as Charts } from "../core/protocol";
 import type { Editors } from "../editor/editors";
 import { button, h, s } from "../page/dom";
-import type { Header } from "../page/header";
+import { tellsOfProgram, type Header } from "../page/header";
+import { Walk } from "../page/walk";
 import type { Project } from "../project/project";
 import { onLanguage } from "../text/language";
 
@@ -17,6 +18,7 @@ export class Chart {
   readonly element: HTMLElement;
   private place = h("div", { class: "sheets" });
   private tools: HTMLElement;
+  private walk: Walk<Shape>;
   private isShown = false;
   private timer = 0;
   private charts: Charts | null = null;
@@ -40,8 +42,9 @@ export class Chart {
       button("chartFit", () => this.fit()),
     );
     this.element = h("div", { class: "chart" }, this.tools, this.place);
+    this.walk = new Walk(this.element, () => this.shapes());
     this.element.addEventListener("keydown", (event) => this.keys(event));
-    this.place.addEventListener("click", ({ target }) => this.goTo(this.shapeOf(target)));
+    this.place.addEventListener("click", ({ target }) => this.goTo(this.walk.at(target)));
     editors.onCursor(() => this.mark());
     editors.onCurrent(() => this.soon());
     project.onFiles(() => this.soon());
@@ -50,9 +53,8 @@ export class Chart {
       this.situation = situation;
       this.show();
     });
-    header.onStatus(({ mode, agreement }) => {
-      const isThis = agreement === "same" || agreement === "native";
-      if ((isThis && mode !== "OFFLINE" && mode !== "LOST") || this.situation.id === 0) return;
+    header.onStatus((status) => {
+      if (tellsOfProgram(status) || this.situation.id === 0) return;
       this.situation = { id: 0, steps: [] };
       this.show();
     });
@@ -100,7 +102,7 @@ export class Chart {
       this.place.replaceChildren(this.svg);
       this.scale(this.zoom);
       this.show();
-      this.shapes()[0]?.button.setAttribute("tabindex", "0");
+      this.walk.begin();
     }
   }
 
@@ -134,47 +136,22 @@ export class Chart {
       if (at <= line && (!current || at > current.element.line)) current = shape;
     }
     for (const shape of this.shapes()) shape.group.classList.toggle("current", shape === current);
-    const hasFocus = this.element.contains(document.activeElement);
-    if (current && !hasFocus) current.group.scrollIntoView({ block: "nearest", inline: "nearest" });
+    this.walk.reveal(current);
   }
 
   private shapes(): Shape[] {
     return this.sheets.flatMap(({ steps, transitions }) => [...steps, ...transitions]);
   }
 
-  private shapeOf(target: EventTarget | null): Shape | undefined {
-    return this.shapes().find(({ group }) => target instanceof Node && group.contains(target));
-  }
-
   private goTo(shape: Shape | undefined): void {
     if (shape && this.charts) this.editors.openLine(this.charts.file, shape.element.line);
   }
 
-  private focus(shape: Shape): void {
-    for (const { button } of this.shapes()) button.setAttribute("tabindex", "-1");
-    shape.button.setAttribute("tabindex", "0");
-    shape.button.focus();
-  }
-
   private keys(event: KeyboardEvent): void {
-    const shapes = this.shapes();
-    const shape = this.shapeOf(event.target);
-    if (!shape || event.altKey || event.ctrlKey || event.metaKey) return;
-    const at = shapes.indexOf(shape);
-    const goals: Record<string, number> = {
-      ArrowRight: at + 1,
-      ArrowDown: at + 1,
-      ArrowLeft: at - 1,
-      ArrowUp: at - 1,
-      Home: 0,
-      End: shapes.length - 1,
-    };
-    const goal = goals[event.key];
-    if (goal !== undefined) {
-      const next = shapes[goal];
-      if (next) this.focus(next);
-    } else if (event.key === "Enter" || event.key === " ") this.goTo(shape);
-    else return;
-    event.preventDefault();
+    this.walk.keys(event, (shape) => {
+      const leads = event.key === "Enter" || event.key === " ";
+      if (leads) this.goTo(shape);
+      return leads;
+    });
   }
 }

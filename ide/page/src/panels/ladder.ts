@@ -12,8 +12,9 @@ import type { Editors } from "../editor/editors";
 import { Rung } from "../ladder/rung";
 import type { Shape } from "../ladder/shapes";
 import { button, h } from "../page/dom";
-import type { Header } from "../page/header";
+import { tellsOfProgram, type Header } from "../page/header";
 import { valuesMenu } from "../page/values";
+import { Walk } from "../page/walk";
 import type { Project } from "../project/project";
 import { onLanguage, t, type Key } from "../text/language";
 
@@ -37,6 +38,7 @@ export class Ladder {
   readonly element: HTMLElement;
   private title = h("h2");
   private place = h("div", { class: "rungs" });
+  private walk: Walk<Shape>;
   private isShown = false;
   private timer = 0;
   private network: Network | null = null;
@@ -56,6 +58,7 @@ export class Ladder {
     header: Header,
   ) {
     this.element = h("div", { class: "ladder" }, this.title, this.place);
+    this.walk = new Walk(this.element, () => this.shapes());
     this.element.addEventListener("keydown", (event) => this.keys(event));
     this.element.addEventListener("click", (event) => this.clicked(event));
     editors.onCursor(() => this.soon());
@@ -71,9 +74,8 @@ export class Ladder {
       this.power = { id, rungs };
       this.show();
     });
-    header.onStatus(({ mode, agreement }) => {
-      const isThis = agreement === "same" || agreement === "native";
-      if (isThis && mode !== "OFFLINE" && mode !== "LOST") return;
+    header.onStatus((status) => {
+      if (tellsOfProgram(status)) return;
       if (this.lines.size === 0 && this.power.rungs.length === 0) return;
       [this.lines, this.power] = [new Map(), { id: 0, rungs: [] }];
       this.show();
@@ -143,7 +145,7 @@ export class Ladder {
       h("p", { class: "part" }, t("ladderPartOf", network.first, last, network.count));
     this.place.replaceChildren(...(part ? [part] : []), ...parts);
     this.show();
-    this.shapes()[0]?.button.setAttribute("tabindex", "0");
+    this.walk.begin();
   }
 
   /** Why a rung is not drawn. */
@@ -176,16 +178,11 @@ export class Ladder {
       if (isHere) current ??= shape;
       shape.group.classList.toggle("current", isHere);
     }
-    const hasFocus = this.element.contains(document.activeElement);
-    if (current && !hasFocus) current.group.scrollIntoView({ block: "nearest", inline: "nearest" });
+    this.walk.reveal(current);
   }
 
   private shapes(): Shape[] {
     return this.rungs.flatMap((rung) => rung?.shapes ?? []);
-  }
-
-  private shapeOf(target: EventTarget | null): Shape | undefined {
-    return this.shapes().find(({ group }) => target instanceof Node && group.contains(target));
   }
 
   private valuesOf(shape: Shape, pin?: LadderPin): Value[] {
@@ -199,44 +196,23 @@ export class Ladder {
 
   /** A click on an operand with a value opens its menu, one elsewhere leads to the line. */
   private clicked(event: MouseEvent): void {
-    const shape = this.shapeOf(event.target);
+    const shape = this.walk.at(event.target);
     if (!shape || !(event.target instanceof Element)) return;
     const pin = shape.pinAt(event.target);
     const values = pin ? this.valuesOf(shape, pin) : [];
     if (values.length > 0) {
-      this.focus(shape);
+      this.walk.focus(shape);
       valuesMenu(this.core, values, event.target);
     } else this.goTo(shape.element.line);
   }
 
-  private focus(shape: Shape): void {
-    for (const { button } of this.shapes()) button.setAttribute("tabindex", "-1");
-    shape.button.setAttribute("tabindex", "0");
-    shape.button.focus();
-  }
-
   private keys(event: KeyboardEvent): void {
-    const shapes = this.shapes();
-    const shape = this.shapeOf(event.target);
-    if (!shape || event.altKey || event.ctrlKey || event.metaKey) return;
-    const at = shapes.indexOf(shape);
-    const goals: Record<string, number> = {
-      ArrowRight: at + 1,
-      ArrowDown: at + 1,
-      ArrowLeft: at - 1,
-      ArrowUp: at - 1,
-      Home: 0,
-      End: shapes.length - 1,
-    };
-    const goal = goals[event.key];
-    const values = this.valuesOf(shape);
-    if (goal !== undefined) {
-      const next = shapes[goal];
-      if (next) this.focus(next);
-    } else if (event.key === "Enter" && values.length > 0)
-      valuesMenu(this.core, values, shape.button);
-    else if (event.key === "Enter" || event.key === " ") this.goTo(shape.element.line);
-    else return;
-    event.preventDefault();
+    this.walk.keys(event, (shape) => {
+      const values = this.valuesOf(shape);
+      if (event.key === "Enter" && values.length > 0) valuesMenu(this.core, values, shape.button);
+      else if (event.key === "Enter" || event.key === " ") this.goTo(shape.element.line);
+      else return false;
+      return true;
+    });
   }
 }

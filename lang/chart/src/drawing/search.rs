@@ -97,45 +97,41 @@ impl Grid {
         }
     }
 
-    fn block(&mut self, wall: Rect) {
-        let wall = wall.grown(CLEARANCE / 2);
-        for y in range(&self.ys, wall.y + 1, wall.bottom() - 1) {
-            for x in stretches(&self.xs, wall.x, wall.right()) {
-                self.add(0, x, y, BLOCKED);
-            }
-        }
-        for x in range(&self.xs, wall.x + 1, wall.right() - 1) {
-            for y in stretches(&self.ys, wall.y, wall.bottom()) {
-                self.add(1, x, y, BLOCKED);
+    /// Adds to the cost of going level: of the stretches `along` in the rows `across`.
+    fn level(&mut self, along: (i32, i32), across: (i32, i32), cost: u32) {
+        for y in range(&self.ys, across.0, across.1) {
+            for x in stretches(&self.xs, along.0, along.1) {
+                self.add(0, x, y, cost);
             }
         }
     }
 
+    /// The same of going up and down, in columns.
+    fn upright(&mut self, along: (i32, i32), across: (i32, i32), cost: u32) {
+        for x in range(&self.xs, across.0, across.1) {
+            for y in stretches(&self.ys, along.0, along.1) {
+                self.add(1, x, y, cost);
+            }
+        }
+    }
+
+    fn block(&mut self, wall: Rect) {
+        let wall = wall.grown(CLEARANCE / 2);
+        let (right, bottom) = (wall.right(), wall.bottom());
+        self.level((wall.x, right), (wall.y + 1, bottom - 1), BLOCKED);
+        self.upright((wall.y, bottom), (wall.x + 1, right - 1), BLOCKED);
+    }
+
     fn line(&mut self, (a, b): (Point, Point), crossing: u32) {
         let line = Rect::between(a, b);
+        let (wide, high) = ((line.x, line.right()), (line.y, line.bottom()));
         let near = CLEARANCE / 2;
         if a.x == b.x {
-            for x in range(&self.xs, a.x - near, a.x + near) {
-                for y in stretches(&self.ys, line.y, line.bottom()) {
-                    self.add(1, x, y, UPON);
-                }
-            }
-            for x in stretches(&self.xs, a.x, a.x + 1) {
-                for y in range(&self.ys, line.y, line.bottom()) {
-                    self.add(0, x, y, crossing);
-                }
-            }
+            self.upright(high, (a.x - near, a.x + near), UPON);
+            self.level((a.x, a.x + 1), high, crossing);
         } else {
-            for y in range(&self.ys, a.y - near, a.y + near) {
-                for x in stretches(&self.xs, line.x, line.right()) {
-                    self.add(0, x, y, UPON);
-                }
-            }
-            for y in stretches(&self.ys, a.y, a.y + 1) {
-                for x in range(&self.xs, line.x, line.right()) {
-                    self.add(1, x, y, crossing);
-                }
-            }
+            self.level(wide, (a.y - near, a.y + near), UPON);
+            self.upright((a.y, a.y + 1), wide, crossing);
         }
     }
 
