@@ -102,20 +102,14 @@ fn assert_charts_are_the_same(code: Code, program: fn(u64) -> String) {
     assert_same(code, "r.sfc", program, &inputs.to_vec());
 }
 
-/// Each third one in an ordinary run; `CASES_STEP=1` takes all.
-fn some_cases() -> Vec<Case> {
-    let step = effort("CASES_STEP", 3) as usize;
-    Case::structured().into_iter().step_by(step).collect()
-}
-
 #[test]
 fn cases_are_the_same_on_the_board() {
-    assert_cases_are_the_same(Code::Bytecode, some_cases());
+    assert_cases_are_the_same(Code::Bytecode, Case::structured());
 }
 
 #[test]
 fn cases_are_the_same_translated() {
-    assert_cases_are_the_same(Code::Native, some_cases());
+    assert_cases_are_the_same(Code::Native, Case::structured());
 }
 
 #[test]
