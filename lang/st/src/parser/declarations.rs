@@ -205,7 +205,7 @@ impl Parser<'_> {
     /// Declarations up to a word that ends them.
     fn declarations(&mut self) -> Vec<Declaration> {
         let mut declarations = Vec::new();
-        while self.is_name() || self.token().kind == Kind::Address {
+        while self.is_name() || self.token().kind == Kind::Address || self.is_word("AT") {
             match self.declaration() {
                 Ok(declaration) => {
                     self.semicolon();
@@ -246,7 +246,11 @@ impl Parser<'_> {
         while self.take_sign(",") {
             names.push(self.name("a name")?);
         }
-        let at = if self.take_word("AT") { Some(self.place()?) } else { None };
+        let mut at = if self.take_word("AT") { Some(self.place()?) } else { None };
+        if at.is_some() && self.is_sign(",") {
+            self.further_places(&mut names)?;
+            at = None;
+        }
         if self.is_sign(":=") {
             let span = self.token().span;
             let message = "the type is missing before the initial value";
@@ -256,6 +260,7 @@ impl Parser<'_> {
         }
         self.need_sign(":")?;
         let of_type = self.type_text();
+        self.no_edge();
         let at = if self.is_word("AT") { Some(self.late_place(&names)?) } else { at };
         let initial = self.initial_value()?;
         let coarse = self.coarse_within(before, self.token().span.start);
@@ -269,6 +274,8 @@ impl Parser<'_> {
         let [first_text, second_text] = [first, second].map(|token| self.text_of(token));
         let (message, meant, span) = if first.kind == Kind::Address {
             ("a variable has a name", format!("Name AT {first_text}"), first.span)
+        } else if self.is_word("AT") {
+            ("a variable has a name", format!("Name AT {second_text}"), span)
         } else if is_type(self.word_at(0)) && !is_keyword(second_text) && second.kind == Kind::Word
         {
             let kind = first_text.to_ascii_uppercase();
@@ -282,6 +289,34 @@ impl Parser<'_> {
             return None;
         };
         Some(Diagnostic::new(Code::Syntax, span, message).suggest(meant))
+    }
+
+    /// More names with addresses in one declaration, which all get their type.
+    fn further_places(&mut self, names: &mut Vec<Name>) -> Outcome<()> {
+        let comma = self.token().span;
+        let first = names.first().map_or("", |name| name.text.as_str());
+        let message = "a variable with an address has a declaration of its own";
+        let found = Diagnostic::new(Code::Syntax, comma, message);
+        self.report(found.help(format!("`{first} AT ... : BOOL;`, and so on for the next one")));
+        while self.take_sign(",") {
+            names.push(self.name("a name")?);
+            if self.take_word("AT") {
+                self.place()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// `BOOL R_EDGE`: inputs that are edges.
+    fn no_edge(&mut self) {
+        for (word, block) in [("R_EDGE", "R_TRIG"), ("F_EDGE", "F_TRIG")] {
+            if self.is_word(word) {
+                let message = format!("{word}: inputs are values, not edges");
+                let found = Diagnostic::new(Code::NotThere, self.token().span, message);
+                self.report(found.help(format!("an instance of {block} in the block finds the edge")));
+                self.step();
+            }
+        }
     }
 
     /// AT after the type, where it does not belong.

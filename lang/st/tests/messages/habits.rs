@@ -54,6 +54,13 @@ pub const HABITS: &[(&str, &str, &[Answer])] = &[
     ("", "i := ADD(IN1 := j, IN2 := 3, IN4 := 4);", &[Answer("E0209", "IN4", &["IN1, IN2"])]),
     ("", "i := SUB(j, 3, IN3 := 4);", &[Answer("E0209", "SUB", &["2 arguments needed"])]),
     ("", "i := REAL_TO_INT(X := r);", &[Answer("E0209", "X", &["it has IN"])]),
+    ("AT %I0.0 : BOOL;", "a := b;", &[Answer("E0200", "AT %I0.0", &["Name AT %I0.0"])]),
+    (
+        "x AT %I0.1, y AT %I0.2 : BOOL;",
+        "x := y;",
+        &[Answer("E0200", ",", &["a declaration of its own", "`x AT"])],
+    ),
+    ("x : BOOL R_EDGE;", "a := x;", &[Answer("E0210", "R_EDGE", &["R_TRIG"])]),
     ("", "d(IN := a, PT := 2s);", &[Answer("E0200", "2s", &["T#2s"])]),
     ("", "t := 5s;", &[Answer("E0200", "5s", &["T#5s"])]),
     ("", "t := 200ms;", &[Answer("E0200", "200ms", &["T#200ms"])]),
