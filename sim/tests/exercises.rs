@@ -28,11 +28,14 @@ fn scenarios(exercise: &Path) -> Vec<PathBuf> {
 }
 
 fn outcome(exercise: &Path, program: &str, scenario: &Path) -> (Scenario, Outcome) {
-    let opened = open_machine(&exercise.join(program), &[], Target::Host);
+    // In AWL or as a chart.
+    let file = ["awl", "sfc"].map(|ending| exercise.join(program).with_extension(ending));
+    let file = file.iter().find(|file| file.is_file()).expect("a program");
+    let opened = open_machine(file, &[], Target::Host);
     let Opened { mut machine, symbols, scan_ms, warnings, .. } =
         opened.unwrap_or_else(|error| panic!("{}/{program}: {error}", exercise.display()));
     // What a start program does not yet use is warned of.
-    let is_whole = program == "solution.awl";
+    let is_whole = program == "solution";
     assert!(!is_whole || warnings.is_empty(), "{}: {warnings:?}", exercise.display());
     let origin = scenario.display().to_string();
     let text = fs::read_to_string(scenario).unwrap();
@@ -57,19 +60,19 @@ fn outcome(exercise: &Path, program: &str, scenario: &Path) -> (Scenario, Outcom
 #[test]
 fn solutions_solve_and_start_programs_do_not() {
     let exercises = exercises();
-    assert_eq!(exercises.len(), 8);
+    assert_eq!(exercises.len(), 11);
     for exercise in &exercises {
         let name = exercise.display();
         let scenarios = scenarios(exercise);
         assert!(scenarios.len() >= 2, "{name}: one behaviour is no exercise");
         let mut missing = 0;
         for path in &scenarios {
-            let (scenario, solved) = outcome(exercise, "solution.awl", path);
+            let (scenario, solved) = outcome(exercise, "solution", path);
             assert_eq!(solved.exit_code(), 0, "{}: {:#?}", path.display(), solved.failures);
             assert_eq!((solved.unreached_expectations, solved.unreached_settings), (0, 0));
             let goal = scenario.goal.unwrap_or_else(|| panic!("{}: no goal", path.display()));
             assert!(goal.de.is_some() && goal.es.is_some(), "{}", path.display());
-            let (_, begun) = outcome(exercise, "start.awl", path);
+            let (_, begun) = outcome(exercise, "start", path);
             assert!(begun.fault.is_none(), "{name}");
             missing += usize::from(begun.exit_code() == 1);
         }

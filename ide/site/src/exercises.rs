@@ -15,11 +15,9 @@ pub fn exercises(files: &[(String, String)]) -> Vec<(String, Value)> {
     let mut list = Vec::new();
     let mut all = Vec::new();
     for (path, _) in files {
-        let Some(name) = path.strip_prefix(FOLDER).and_then(|path| path.strip_suffix("/start.awl"))
-        else {
-            continue;
-        };
-        let exercise = exercise(files, name);
+        let folder = path.strip_prefix(FOLDER).and_then(|path| path.rsplit_once("/start."));
+        let Some((name, ending)) = folder else { continue };
+        let exercise = exercise(files, name, ending);
         list.push(json!({ "name": name, "title": exercise["title"] }));
         all.push((format!("exercise-{name}"), exercise));
     }
@@ -27,7 +25,8 @@ pub fn exercises(files: &[(String, String)]) -> Vec<(String, Value)> {
     all
 }
 
-fn exercise(files: &[(String, String)], name: &str) -> Value {
+/// `ending`: in which language it is.
+fn exercise(files: &[(String, String)], name: &str, ending: &str) -> Value {
     let folder = format!("{FOLDER}{name}/");
     let here = || files.iter().filter_map(|(path, text)| Some((path.strip_prefix(&folder)?, text)));
     let text = |file: &str| here().find(|(path, _)| *path == file).map_or("", |(_, text)| text);
@@ -38,8 +37,10 @@ fn exercise(files: &[(String, String)], name: &str) -> Value {
     });
     let scenarios: Vec<_> = here().filter(|(path, _)| path.ends_with(".scn")).collect();
     let plant = scenarios.iter().rev().find_map(|(_, text)| plant_of(text)).unwrap_or_default();
-    let main = format!("{}.awl", name.trim_start_matches(|c: char| c.is_ascii_digit() || c == '_'));
-    let mut project = vec![json!({ "name": main, "text": text("start.awl") })];
+    let stem = name.trim_start_matches(|c: char| c.is_ascii_digit() || c == '_');
+    let main = format!("{stem}.{ending}");
+    let start = text(&format!("start.{ending}"));
+    let mut project = vec![json!({ "name": main, "text": start })];
     let mut hidden = Vec::new();
     let mut spec = plant.to_owned();
     if plant.ends_with(".plant") {
