@@ -40,8 +40,6 @@ pub struct Problem {
     pub severity: Severity,
     /// Its code, if its language has codes.
     pub code: Option<&'static str>,
-    /// The page that explains the code, in Markdown.
-    pub page: Option<&'static str>,
     /// What is wrong: a sentence without full stop.
     pub message: String,
     /// What to do about it.
@@ -75,7 +73,6 @@ impl Problem {
             span,
             severity: code.severity(),
             code: code.text(),
-            page: code.page(),
             message,
             help: label.into_iter().chain(help).collect(),
             related: related.into_iter().map(|(span, words)| (inside(span), words)).collect(),

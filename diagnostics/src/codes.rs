@@ -48,10 +48,6 @@ macro_rules! codes {
             fn severity(self) -> $crate::Severity {
                 self.severity()
             }
-
-            fn page(self) -> Option<&'static str> {
-                Some(self.page())
-            }
         }
     };
 }

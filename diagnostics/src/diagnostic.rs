@@ -35,9 +35,6 @@ pub trait Code: Copy {
 
     /// How bad it is.
     fn severity(self) -> Severity;
-
-    /// The page that explains it, in Markdown; `None` where there is none.
-    fn page(self) -> Option<&'static str>;
 }
 
 impl Code for () {
@@ -47,10 +44,6 @@ impl Code for () {
 
     fn severity(self) -> Severity {
         Severity::Error
-    }
-
-    fn page(self) -> Option<&'static str> {
-        None
     }
 }
 

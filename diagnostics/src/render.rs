@@ -246,10 +246,6 @@ mod tests {
                 Test::Twice => Severity::Warning,
             }
         }
-
-        fn page(self) -> Option<&'static str> {
-            None
-        }
     }
 
     fn source(text: &str) -> Source {

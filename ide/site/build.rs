@@ -1,12 +1,17 @@
-//! Lists the files that become part of the tools: the built page, its core, the examples.
+//! Lists the files that become part of the tools: the built page, its core, the examples,
+//! what explains errors.
 
 use std::env;
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const FOLDERS: [(&str, &str); 3] =
-    [("PAGE", "../page/dist"), ("CORE", "core"), ("EXAMPLES", "../../examples")];
+const FOLDERS: [(&str, &str); 4] = [
+    ("PAGE", "../page/dist"),
+    ("CORE", "core"),
+    ("EXAMPLES", "../../examples"),
+    ("ERRORS", "../../docs/errors"),
+];
 
 fn main() {
     let here = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());

@@ -62,10 +62,6 @@ impl Code for Warning {
     fn severity(self) -> Severity {
         Severity::Warning
     }
-
-    fn page(self) -> Option<&'static str> {
-        None
-    }
 }
 
 /// All that is wrong with one text.

@@ -87,8 +87,6 @@ pub enum TextWish {
     /// A plant as `awl-sim --plant` takes it; files are those of the project. Answer:
     /// [`PlantInfo`](plant::PlantInfo).
     AboutPlant { spec: String },
-    /// The page of a diagnostic's code. Answer: text in Markdown.
-    Explain { code: String },
 }
 
 /// What is to be done with the target.

@@ -7,10 +7,8 @@ mod reach;
 mod status;
 
 use awl_sim::operand::Operand;
-use awl_sim::plant::file;
 use client::line::Framing;
 use client::show::state::{Agreement, Link, Order, is_input};
-use project::Code;
 use serde::Serialize;
 
 use crate::apart::{self, Wanted};
@@ -298,11 +296,6 @@ impl Session {
                 answer(self.charts.as_ref().map(Charts::chart))
             }
             TextWish::AboutPlant { spec } => self.about_plant(&spec),
-            TextWish::Explain { code } => {
-                let page = Code::find(&code).map(Code::page);
-                let page = page.or_else(|| file::Code::find(&code).map(file::Code::page));
-                answer(page.ok_or_else(|| format!("{code}: no such code"))?)
-            }
         }
     }
 

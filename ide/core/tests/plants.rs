@@ -129,8 +129,6 @@ fn a_plant_with_a_mistake_says_where_and_runs_nothing() {
     let refused = page.about().unwrap_err();
     assert!(refused.starts_with("door.plant:9:1: unknown statement prt"), "{refused}");
     assert_eq!(page.target(TargetWish::Run).unwrap_err(), refused);
-    let page_of = page.ask(Wish::Text(TextWish::Explain { code: "e0600".to_owned() })).unwrap();
-    assert!(page_of.as_str().unwrap().starts_with("# E0600"));
 }
 
 #[test]

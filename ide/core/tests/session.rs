@@ -170,8 +170,6 @@ fn a_mistake_is_told_with_what_mends_it() {
     page.wish(Wish::Project(ProjectWish::Edit { file: "lamp.awl".to_owned(), text }));
     assert_eq!(page.problems(), []);
     page.target(TargetWish::Run);
-    let page_of: String = page.answer(Wish::Text(TextWish::Explain { code: problem.code.clone() }));
-    assert!(page_of.contains(&problem.code), "{page_of}");
 }
 
 #[test]
@@ -444,8 +442,6 @@ fn structured_text_of_two_files() {
     let edits: ide_core::protocol::Edits =
         page.answer(Wish::Text(TextWish::Format { file: file.clone() }));
     assert_eq!(edits.len(), 0, "it has its layout");
-    let code: String = page.answer(Wish::Text(TextWish::Explain { code: "E0205".to_owned() }));
-    assert!(code.starts_with("# E0205"));
     // Both files run, and each has its values: those of a function right after its statements.
     page.wish(look(&["Main.n"]));
     page.wish(view("main.st", 1, 7));

@@ -205,12 +205,6 @@ export class Ide {
     }
     this.reply(wish, items);
   }
-  do_explain(wish) {
-    this.reply(
-      wish,
-      `# ${wish.code}: the number of a timer\n\nText.\n\n\`\`\`\nTON T5, 20\n\`\`\`\n`,
-    );
-  }
   do_simulate(wish) {
     const { signals, forMs, scanMs } = wish;
     const times = Array.from({ length: Math.floor(forMs / scanMs) }, (_, scan) => scan * scanMs);

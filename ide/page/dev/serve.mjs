@@ -57,6 +57,8 @@ async function answer(path) {
   if (path === "/version/examples/list.json") return exampleNames();
   const name = /^\/version\/examples\/([\w-]+)\.json$/.exec(path)?.[1];
   if (name) return example(name);
+  const code = /^\/version\/errors\/(\w+\.md)$/.exec(path)?.[1];
+  if (code) return readFile(at(`../../../docs/errors/${code}`));
   const file = path === "/" ? "/index.html" : path;
   if (/^\/version\/ide_core/.test(file)) {
     const real = at(`../../../target/ide-core/${file.slice("/version/".length)}`);

@@ -109,6 +109,16 @@ await works(versionOf(first));
 await page.goto("about:blank");
 await page.goto(`http://127.0.0.1:${port}/?anything#example=tank`);
 await editor("tank.awl").waitFor();
+// Neither was what explains an error.
+await editor("tank.awl").focus();
+await page.keyboard.press("Control+End");
+await page.keyboard.type("\nLD I9.9\n");
+await page.getByRole("tab", { name: "Problems", exact: true }).click();
+await page
+  .getByRole("button", { name: /^E\d{4}$/ })
+  .first()
+  .click();
+await page.getByRole("dialog").getByText("Wrong:").waitFor();
 await page.goto(`http://127.0.0.1:${port}/#example=station1`);
 
 // Another version comes with the next load, and is kept in place of the first.

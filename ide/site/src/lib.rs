@@ -58,6 +58,9 @@ pub fn files(core: &Core) -> BTreeMap<String, Vec<u8>> {
     for (name, project) in examples::projects() {
         inner.insert(format!("examples/{name}.json"), project.into_bytes());
     }
+    for (name, page) in files::ERRORS {
+        inner.insert(format!("errors/{name}"), page.to_vec());
+    }
     let version = version_of(&inner);
     let paths: Vec<String> = inner.keys().map(|path| format!("{version}/{path}")).collect();
     inner.insert(LIST.to_owned(), serde_json::json!(paths).to_string().into_bytes());
@@ -89,7 +92,8 @@ mod tests {
         let files = files(&core(1));
         let inner = |name: &str| files.keys().find(|path| path.ends_with(&format!("/{name}")));
         let version = inner("page.js").unwrap().split('/').next().unwrap();
-        for name in ["page.css", "worker.js", SCRIPT, MODULE, "examples/station1.json"] {
+        let others = ["examples/station1.json", "errors/E0205.md"];
+        for name in ["page.css", "worker.js", SCRIPT, MODULE].into_iter().chain(others) {
             assert_eq!(*inner(name).unwrap(), format!("{version}/{name}"));
         }
         let outer: Vec<_> = files.keys().filter(|path| !path.starts_with(version)).collect();

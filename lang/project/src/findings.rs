@@ -62,10 +62,6 @@ impl diagnostics::Code for Code {
     fn severity(self) -> Severity {
         Severity::of_code(self.text())
     }
-
-    fn page(self) -> Option<&'static str> {
-        Some(Code::page(self))
-    }
 }
 
 /// What was found in a text.

@@ -16,6 +16,7 @@ pub const ENDINGS: &[(&str, &str)] = &[
     ("svg", "image/svg+xml"),
     ("png", "image/png"),
     ("txt", "text/plain; charset=utf-8"),
+    ("md", "text/markdown; charset=utf-8"),
 ];
 
 /// What a browser may do with the page at a host: nothing but what is served here, in no frame of

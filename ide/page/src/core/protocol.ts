@@ -253,7 +253,6 @@ export interface Questions {
   ladder: { wish: At; answer: Ladder | null };
   chart: { wish: { file: string }; answer: Chart | null };
   aboutPlant: { wish: { spec: string }; answer: PlantInfo };
-  explain: { wish: { code: string }; answer: string };
   simulate: {
     wish: { signals: string[]; forMs: number; scanMs: number; plant: string | null };
     answer: Recording;

@@ -4,6 +4,7 @@ import type { Command, EditorView, KeyBinding } from "@codemirror/view";
 import { Refusal, type Core } from "../core/core";
 import type { Place } from "../core/protocol";
 import { ask, dialog } from "../page/dialog";
+import { addressOf } from "../offline/address";
 import { notice } from "../page/notices";
 import type { Project } from "../project/project";
 import { t } from "../text/language";
@@ -96,10 +97,13 @@ export class Commands {
   }
 
   async explain(code: string): Promise<void> {
-    await this.guard(async () => {
-      const page = await this.core.ask({ do: "explain", code });
-      await dialog({ title: code, body: [markdown(page)] });
-    });
+    try {
+      const answer = await fetch(addressOf(`errors/${code}.md`));
+      if (!answer.ok) throw new Error(String(answer.status));
+      await dialog({ title: code, body: [markdown(await answer.text())] });
+    } catch (error) {
+      notice(t("noExplanation", code, String(error)), true);
+    }
   }
 
   /** Ctrl and a click go to the definition, too. */

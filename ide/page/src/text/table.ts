@@ -270,6 +270,11 @@ export const TABLE = {
   closeFile: ["Close {0}", "{0} schließen", "Cerrar {0}"],
   replaceBy: ["Write {0}", "{0} schreiben", "Escribir {0}"],
   explain: ["About {0}", "Zu {0}", "Sobre {0}"],
+  noExplanation: [
+    "The page about {0} cannot be fetched: is the server of this page still there? ({1})",
+    "Die Seite zu {0} lässt sich nicht holen: Gibt es den Server dieser Seite noch? ({1})",
+    "No se puede traer la página sobre {0}: ¿sigue ahí el servidor de esta página? ({1})",
+  ],
   noDefinition: [
     "Nothing here is declared anywhere.",
     "Nichts hier ist irgendwo vereinbart.",
