@@ -1,4 +1,4 @@
-//! Cases: AWL files that carry their scenario and its expectations in `//$` lines. Reads, assembles
+//! Cases: files in AWL or Structured Text that carry their scenario and its expectations in `//$` lines. Reads, assembles
 //! and runs them.
 //!
 //! `README.md` says how a case is written. The examples are cases too, with their scenario in a
@@ -67,6 +67,19 @@ impl Case {
         files(&root).iter().filter(has_scenario).map(example).collect()
     }
 
+    /// The cases in Structured Text.
+    pub fn structured() -> Vec<Case> {
+        let root = folder("../lang/st/tests/cases");
+        let cases = files_of(&root, "st").into_iter().map(|path| (path.clone(), read(&path)));
+        // Those with a scenario in a file of its own are left out.
+        cases
+            .filter(|(_, text)| text.contains(MARK))
+            .map(|(path, text)| {
+                Case::new(format!("lang/st/tests/cases/{}", name_of(&root, &path)), text)
+            })
+            .collect()
+    }
+
     /// A case from its text.
     pub fn new(file: String, awl: String) -> Case {
         let (mut scenario, mut faults) = (String::new(), Vec::new());
@@ -86,6 +99,12 @@ impl Case {
     /// Assembles the case. Errors come as the assembler shows them; warnings are none of ours.
     pub fn prepare(self) -> Result<Prepared, String> {
         let source = Source::new(&*self.file, &*self.awl).map_err(|e| e.to_string())?;
+        let source = if self.file.ends_with(".st") {
+            let joined = project::join(vec![source]);
+            joined.map_err(|findings| format!("{}: {findings:?}", self.file))?.awl
+        } else {
+            source
+        };
         let assembly = assemble(&source, Vec::new());
         let errors = assembly
             .diagnostics
@@ -216,13 +235,18 @@ pub fn read(path: &Path) -> String {
 /// # Panics
 /// If the folder cannot be read.
 pub fn files(folder: &Path) -> Vec<PathBuf> {
+    files_of(folder, "awl")
+}
+
+/// The files with an ending in a folder and the folders in it, by name.
+fn files_of(folder: &Path, ending: &str) -> Vec<PathBuf> {
     let entries =
         fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let mut found = Vec::new();
     for path in entries.map_while(Result::ok).map(|entry| entry.path()) {
         if path.is_dir() {
-            found.extend(files(&path));
-        } else if path.extension().is_some_and(|extension| extension == "awl") {
+            found.extend(files_of(&path, ending));
+        } else if path.extension().is_some_and(|extension| extension == ending) {
             found.push(path);
         }
     }

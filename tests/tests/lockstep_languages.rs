@@ -1,5 +1,5 @@
-//! Random programs in Structured Text and random charts, host and board side by side: interpreted
-//! and translated. What they mean is for the tests of their languages to say.
+//! Cases and random programs in Structured Text, and random charts, host and board side by side:
+//! interpreted and translated. What they mean is for the tests of their languages to say.
 //!
 //! `RANDOM_PROGRAMS=5000 cargo test --package tests --features uno --test lockstep_languages` runs
 //! longer, `RANDOM_SEED` starts elsewhere. A failure names its seed.
@@ -20,8 +20,9 @@ use awl_sim::machine::Machine;
 use awl_sim::machine::uno::Code;
 use awl_sim::operand::Operand;
 use fastrand::Rng;
+use tests::case::Case;
 use tests::effort::effort;
-use tests::lockstep::{Pair, board};
+use tests::lockstep::{Pair, assert_cases_are_the_same, board};
 
 /// Programs of an ordinary run; a scan of one takes the board up to 50 ms.
 const PROGRAMS: u64 = 20;
@@ -99,6 +100,16 @@ fn assert_structured_text_is_the_same(code: Code) {
 fn assert_charts_are_the_same(code: Code, program: fn(u64) -> String) {
     let inputs = random_text::INPUTS.map(|name| ("BOOL", format!("Main.{name}")));
     assert_same(code, "r.sfc", program, &inputs.to_vec());
+}
+
+#[test]
+fn cases_are_the_same_on_the_board() {
+    assert_cases_are_the_same(Code::Bytecode, Case::structured());
+}
+
+#[test]
+fn cases_are_the_same_translated() {
+    assert_cases_are_the_same(Code::Native, Case::structured());
 }
 
 #[test]

@@ -119,6 +119,7 @@ pub fn conversions() -> impl Iterator<Item = String> {
         "TO_STRING",
         "INT_TO_STRING",
         "DINT_TO_STRING",
+        "REAL_TO_STRING",
         "STRING_TO_INT",
         "STRING_TO_DINT",
         "STRING_TO_REAL",

@@ -1,6 +1,6 @@
 //! Examples and cases in Structured Text, and examples as charts, with their scenarios: what these
 //! expect is there. An example that exists in AWL, too, has to do what the scenario of that one
-//! says.
+//! says. A case in a folder of `cases` carries its scenario itself, in lines that begin with `//$`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,9 +10,16 @@ use awl_sim::plant::PlantSpec;
 use awl_sim::run::{Job, Length, run};
 use awl_sim::scenario::{Context, Scenario, program_of};
 
+/// The scenario that a case carries, each statement on its line.
+fn scenario_in(case: &str) -> String {
+    let lines = case.lines().map(|line| line.strip_prefix("//$ ").unwrap_or_default());
+    lines.collect::<Vec<_>>().join("\n")
+}
+
 /// What is wrong with a program after its scenario.
 fn failures(program: &Path, scenario: &Path) -> Vec<String> {
     let text = fs::read_to_string(scenario).expect("a scenario");
+    let text = if scenario == program { scenario_in(&text) } else { text };
     let name = program.display().to_string();
     let file = |path: &Path| File {
         name: path.display().to_string(),
@@ -35,6 +42,9 @@ fn failures(program: &Path, scenario: &Path) -> Vec<String> {
         Ok(parsed) => parsed,
         Err(problems) => return vec![format!("{name}: {}", problems.render(false))],
     };
+    if !parsed.expects_something() {
+        return vec![format!("{name}: nothing is expected")];
+    }
     let scan_ms = parsed.scan_ms.unwrap_or(1);
     let plant = parsed.plant.as_ref().map(|spec| spec.build().expect("a plant"));
     let job = Job { scan_ms, length: Length::Scenario, signals: Vec::new(), plant, progress: None };
@@ -74,4 +84,27 @@ fn programs_do_what_their_scenarios_expect() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn cases_do_what_they_expect() {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
+    let entries = fs::read_dir(cases).expect("a folder").flatten().map(|entry| entry.path());
+    let folders: Vec<PathBuf> = entries.filter(|path| path.is_dir()).collect();
+    let all: Vec<PathBuf> = folders.iter().flat_map(|folder| programs(folder)).collect();
+    let wrong: Vec<String> = all.iter().flat_map(|case| failures(case, case)).collect();
+    assert!(wrong.is_empty(), "{} failures\n{}", wrong.len(), wrong.join("\n"));
+    assert!(all.len() >= 300, "{} cases", all.len());
+}
+
+#[test]
+fn every_case_says_what_it_is_about() {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
+    let entries = fs::read_dir(cases).expect("a folder").flatten().map(|entry| entry.path());
+    for case in entries.filter(|path| path.is_dir()).flat_map(|folder| programs(&folder)) {
+        let text = fs::read_to_string(&case).expect("a case");
+        let first = text.lines().next().unwrap_or_default();
+        let is_sentence = first.starts_with("// ") && first.ends_with('.');
+        assert!(is_sentence, "{}: the first line is a comment with the rule", case.display());
+    }
 }

@@ -12,6 +12,7 @@ use crate::model::{
     UnitKind, Value,
 };
 use crate::names::Named;
+use crate::standard::Standard;
 use crate::tree::{Argument, Name};
 
 /// Functions that are an operator between all their arguments.
@@ -84,16 +85,6 @@ impl Checker<'_> {
             return self.conversion(name, from, to, arguments, span);
         }
         self.standard(name, &text, arguments, wanted, span)
-    }
-
-    fn plain<'t>(&mut self, name: &Name, arguments: &'t [Argument]) -> Vec<&'t Argument> {
-        for argument in arguments {
-            if argument.is_output {
-                let message = format!("{}: a function has no outputs", name.text);
-                self.error(Code::Arguments, argument.value.span, message);
-            }
-        }
-        arguments.iter().collect()
     }
 
     /// Reports a wrong number of arguments.
@@ -175,7 +166,11 @@ impl Checker<'_> {
         wanted: Option<&Type>,
         span: Span,
     ) -> Expression {
-        let given = self.plain(name, arguments);
+        if Standard::find(text).is_none() {
+            self.unknown_name(name, "function");
+            return invalid(span);
+        }
+        let Some(given) = self.in_order(name, arguments, span) else { return invalid(span) };
         let count = given.len();
         if let Some(operator) = in_table(&OPERATORS, text) {
             let most = if matches!(text, "SUB" | "DIV" | "MOD" | "NE") { 2 } else { usize::MAX };
@@ -213,10 +208,7 @@ impl Checker<'_> {
             "MIN" | "MAX" | "LIMIT" => self.choice(name, text, &given, wanted, span),
             "SEL" | "MUX" => self.select(name, text, &given, wanted, span),
             "MOVE" => invalid(span),
-            _ => {
-                self.unknown_name(name, "function");
-                invalid(span)
-            }
+            _ => invalid(span),
         }
     }
 
@@ -417,7 +409,7 @@ impl Checker<'_> {
         arguments: &[Argument],
         span: Span,
     ) -> Expression {
-        let given = self.plain(name, arguments);
+        let Some(given) = self.in_order(name, arguments, span) else { return invalid(span) };
         if !self.has_count(name, given.len(), 1, 1) {
             return invalid(span);
         }
@@ -425,6 +417,11 @@ impl Checker<'_> {
         let value = match &from {
             Some(from) => self.value_of(&one.value, from),
             None => self.expression(&one.value, None),
+        };
+        // The number of a value of an enumeration is an INT.
+        let value = match value.of_type {
+            Type::Enumeration(_) if to.is_whole() => Expression { of_type: Type::Int, ..value },
+            _ => value,
         };
         if value.of_type == Type::Invalid {
             return value;
@@ -436,7 +433,6 @@ impl Checker<'_> {
         let is_number = |kind: &Type| kind.is_number() || *kind == Type::Time;
         let exists = match of_type {
             Type::Bool => is_number(&to) || to.is_bits() || to == Type::Bool,
-            Type::Enumeration(_) => to.is_whole(),
             kind if is_number(kind) => {
                 is_number(&to) || to == Type::Bool || kind.is_whole() && to.is_bits()
             }

@@ -1,6 +1,7 @@
 //! From syntax trees to a checked program: names, types, constants, rules. What is wrong in one
 //! statement does not keep the next from being checked.
 
+mod arguments;
 mod calls;
 mod constants;
 mod declarations;

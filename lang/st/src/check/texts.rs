@@ -157,6 +157,9 @@ impl Checker<'_> {
                 let value = self.convert_if(value, &wide);
                 Some(standard(Function::ToText, vec![value], Type::String(most), span))
             }
+            (Type::Real, Type::String(_)) => {
+                Some(standard(Function::ToText, vec![value], Type::String(15), span))
+            }
             _ => None,
         }
     }

@@ -8,6 +8,7 @@ mod compare;
 mod control;
 mod convert;
 mod edges;
+mod global_reads;
 mod hardware;
 mod logic;
 mod memory;
@@ -69,6 +70,8 @@ struct Generator<'a> {
     as_routines: BTreeSet<usize>,
     /// Names that stand for addresses.
     located: HashSet<String>,
+    /// What functions read, by the number of the unit.
+    global_reads: Vec<global_reads::GlobalReads>,
     writer: Writer,
     frame: Frame,
     /// Whether there is AWL beside, whose names are not known.
@@ -138,6 +141,7 @@ fn written(
         devices,
         as_routines,
         located: located(program),
+        global_reads: global_reads::of_units(program),
         writer: Writer::default(),
         frame,
         has_awl: around.has_main,

@@ -181,12 +181,17 @@ impl Generator<'_> {
         self.writer.boxed("BTI", &format!("{length}, {to}"));
     }
 
-    /// A number without the blanks that the instruction puts before it.
+    /// A number without the blanks that the instruction puts before it. A REAL has three decimals;
+    /// one that is too long for 15 characters is blanks alone.
     fn numeral_into(&mut self, number: &Expression, most: u8, to: &str, room: u8) {
-        let (mnemonic, width) = if number.of_type == Type::Int { ("ITS", 8) } else { ("DTS", 12) };
+        let (mnemonic, format, width) = match number.of_type {
+            Type::Int => ("ITS", "0", 8),
+            Type::Real => ("RTS", "16#F3", 15),
+            _ => ("DTS", "0", 12),
+        };
         let from = self.operand(number);
         let padded = self.text_temporary(width);
-        self.writer.boxed(mnemonic, &format!("{from}, 0, {padded}"));
+        self.writer.boxed(mnemonic, &format!("{from}, {format}, {padded}"));
         let start = self.writer.temporary(Storage::Byte);
         let [first, count] = [Storage::Word; 2].map(|one| self.writer.temporary(one));
         self.writer.boxed("MOVB", &format!("1, {start}"));
@@ -194,6 +199,11 @@ impl Generator<'_> {
         self.writer.boxed("BTI", &format!("{start}, {first}"));
         self.writer.boxed("MOVW", &format!("{}, {count}", width + 1));
         self.writer.boxed("-I", &format!("{first}, {count}"));
+        if number.of_type == Type::Real {
+            self.load(&Logic::Compare('W', "=", first.clone(), "0".to_owned()));
+            self.writer.boxed_here("MOVW", &format!("0, {count}"));
+            self.writer.forget();
+        }
         if most <= room {
             self.slice(&padded, &first, &count, to);
             return;

@@ -238,18 +238,22 @@ impl Generator<'_> {
         let mut is_read = false;
         let is_located = self.is_located(operand);
         crate::check::inside(expression, &mut |one| {
-            if let ExpressionKind::Read(place) = &one.kind {
-                let found = self.locate(place);
-                // Two addresses may be the same memory.
-                is_read |= found.text == operand
-                    || found.is_computed() && operand.starts_with(&found.text)
-                    || is_located && self.is_located(&found.text);
+            match &one.kind {
+                ExpressionKind::Read(place) => {
+                    let found = self.locate(place);
+                    // Two addresses may be the same memory.
+                    is_read |= found.text == operand
+                        || found.is_computed() && operand.starts_with(&found.text)
+                        || is_located && self.is_located(&found.text);
+                }
+                ExpressionKind::Call(number, _) => is_read |= self.function_reads(*number, operand),
+                _ => {}
             }
         });
         is_read
     }
 
-    fn is_located(&self, operand: &str) -> bool {
+    pub(super) fn is_located(&self, operand: &str) -> bool {
         awl_asm::Address::parse(operand).is_ok() || self.located.contains(operand)
     }
 

@@ -484,13 +484,17 @@ impl Evaluator {
     }
 
     fn function(&mut self, name: &Name, arguments: &[Argument], prefix: &str) -> Value {
+        // Names of standard functions here are in the order of the alphabet.
+        let mut arguments: Vec<&Argument> = arguments.iter().collect();
+        arguments.sort_by_key(|one| one.name.as_ref().map(|name| upper(&name.text)));
         let values: Vec<Value> =
             arguments.iter().map(|one| self.expression(&one.value, prefix)).collect();
         let name = upper(&name.text);
         if let Some(unit) = self.unit(&name) {
             return self.own_function(&unit, &values);
         }
-        if let Some((_, to)) = name.split_once("_TO_") {
+        let to = name.strip_prefix("TO_").or_else(|| Some(name.split_once("_TO_")?.1));
+        if let Some(to) = to {
             return convert(values[0].clone(), to);
         }
         let best = |better: BinaryOperator| {

@@ -477,7 +477,11 @@ impl Generator {
             10 => format!("ABS({})", self.whole(kind)),
             11 => {
                 let function = self.pick(&["MIN", "MAX"]);
-                format!("{function}({}, {})", self.whole(kind), self.whole(kind))
+                let (one, other) = (self.whole(kind), self.whole(kind));
+                match self.rng.u8(..4) {
+                    0 => format!("{function}(IN2 := {one}, IN1 := {other})"),
+                    _ => format!("{function}({one}, {other})"),
+                }
             }
             12 if !is_plain && self.rng.bool() => {
                 let from = self.pick(&["SINT", "USINT", "INT", "UINT", "DINT", "UDINT", "REAL"]);
@@ -487,14 +491,16 @@ impl Generator {
                 let from = self.pick(&["WORD", "TIME", "BOOL"]);
                 format!("{from}_TO_{kind}({})", self.value(from))
             }
-            12 if kind == "INT" && !is_plain => match self.rng.u8(..5) {
+            12 if kind == "INT" && !is_plain => match self.rng.u8(..6) {
+                4 => "TO_INT(s)".to_owned(),
                 0 => format!("DINT_TO_INT({})", self.whole("DINT")),
                 1 => format!("REAL_TO_INT({})", self.real()),
                 2 => format!("WORD_TO_INT({})", self.bits()),
                 3 => format!("BOOL_TO_INT({})", self.condition()),
                 _ => self.pick(&["count1.CV", "count2.CV"]).to_owned(),
             },
-            12 if kind == "DINT" && !is_plain => match self.rng.u8(..3) {
+            12 if kind == "DINT" && !is_plain => match self.rng.u8(..4) {
+                2 => "TO_DINT(s)".to_owned(),
                 0 => format!("TIME_TO_DINT({})", self.time()),
                 1 => format!("REAL_TO_DINT({})", self.real()),
                 _ => format!("WORD_TO_DINT({})", self.bits()),
@@ -507,7 +513,13 @@ impl Generator {
                     self.condition()
                 )
             }
-            _ => format!("SEL({}, {}, {})", self.condition(), self.whole(kind), self.whole(kind)),
+            _ => {
+                let (which, no, yes) = (self.condition(), self.whole(kind), self.whole(kind));
+                match self.rng.u8(..4) {
+                    0 => format!("SEL(IN1 := {yes}, G := {which}, IN0 := {no})"),
+                    _ => format!("SEL({which}, {no}, {yes})"),
+                }
+            }
         };
         self.depth -= 1;
         text

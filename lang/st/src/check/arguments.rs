@@ -1,0 +1,96 @@
+//! Arguments of standard functions: by place or by name, brought into the order of the parameters.
+
+use diagnostics::Span;
+
+use super::Checker;
+use super::names::upper;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::standard::Standard;
+use crate::tree::{Argument, Name};
+
+/// The only parameter of a conversion, with its type.
+const OF_CONVERSION: &[(&str, &str)] = &[("IN", "")];
+
+impl Checker<'_> {
+    /// The arguments of a standard function or conversion in the order of its parameters; `None`
+    /// if they are wrong, which is reported. How many there have to be is not looked at.
+    pub(super) fn in_order<'t>(
+        &mut self,
+        function: &Name,
+        arguments: &'t [Argument],
+        span: Span,
+    ) -> Option<Vec<&'t Argument>> {
+        let parameters = Standard::find(&function.text).map_or(OF_CONVERSION, |it| it.parameters);
+        let mut slots: Vec<Option<&Argument>> = Vec::new();
+        let mut are_right = true;
+        for (at, argument) in arguments.iter().enumerate() {
+            if argument.is_output {
+                let message = format!("{}: a function has no outputs", function.text);
+                self.error(Code::Arguments, argument.value.span, message);
+                are_right = false;
+                continue;
+            }
+            let slot = match &argument.name {
+                None => Some(at),
+                Some(name) => slot_of(parameters, &upper(&name.text), arguments.len()),
+            };
+            let place = argument.name.as_ref().map_or(argument.value.span, |name| name.span);
+            let Some(slot) = slot else {
+                let names: Vec<&str> = parameters.iter().map(|(name, _)| *name).collect();
+                let message = format!("{} has no such input", function.text);
+                let found = Diagnostic::new(Code::Arguments, place, message);
+                self.report(found.help(format!("it has {}", names.join(", "))));
+                are_right = false;
+                continue;
+            };
+            if slots.len() <= slot {
+                slots.resize(slot + 1, None);
+            }
+            match slots.get_mut(slot) {
+                Some(free @ None) => *free = Some(argument),
+                _ => {
+                    let message = format!("{}: this input is given twice", function.text);
+                    self.error(Code::Arguments, place, message);
+                    are_right = false;
+                }
+            }
+        }
+        if are_right && let Some(missing) = slots.iter().position(Option::is_none) {
+            let name = name_of(parameters, missing);
+            self.error(Code::Arguments, span, format!("{}: {name} is not given", function.text));
+            are_right = false;
+        }
+        are_right.then(|| slots.into_iter().flatten().collect())
+    }
+}
+
+/// `IN1` is `IN` and 1.
+fn numbered(name: &str) -> Option<(&str, usize)> {
+    let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    let number = name.get(letters.len()..)?.parse().ok()?;
+    Some((letters, number))
+}
+
+/// Which parameter has a name. Numbers of the last one go on, for functions that take more than
+/// they name: `IN3` of `ADD`, but not farther than `count` arguments reach.
+fn slot_of(parameters: &[(&str, &str)], name: &str, count: usize) -> Option<usize> {
+    if let Some(slot) = parameters.iter().position(|(one, _)| *one == name) {
+        return Some(slot);
+    }
+    let last = parameters.len().checked_sub(1)?;
+    let (letters, number) = numbered(name)?;
+    let (own, first) = numbered(parameters.get(last)?.0)?;
+    let slot = last + number.checked_sub(first)?;
+    (own == letters && slot < count).then_some(slot)
+}
+
+/// The name of a parameter, also of one beyond those that are named.
+fn name_of(parameters: &[(&str, &str)], slot: usize) -> String {
+    match (parameters.get(slot), parameters.last().and_then(|(name, _)| numbered(name))) {
+        (Some((name, _)), _) => (*name).to_owned(),
+        (None, Some((letters, first))) => {
+            format!("{letters}{}", first + (slot + 1).saturating_sub(parameters.len()))
+        }
+        (None, None) => format!("argument {}", slot + 1),
+    }
+}
