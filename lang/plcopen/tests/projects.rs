@@ -42,7 +42,8 @@ fn chart(condition: &str, more: &str) -> String {
         "",
         &format!(
             "<SFC>\n<step localId=\"1\" name=\"Off\" initialStep=\"true\"/>\n\
-         <transition localId=\"2\">{}<condition><inline name=\"\"><ST>a</ST></inline></condition></transition>\n\
+         <transition localId=\"2\">{}<condition><inline name=\"\"><ST>a</ST></inline>\
+         </condition></transition>\n\
          <step localId=\"3\" name=\"On\">{}</step>\n\
          <transition localId=\"4\">{}<condition>{condition}</condition></transition>\n\
          <jumpStep localId=\"5\" targetName=\"Off\">{}</jumpStep>\n{more}</SFC>",
@@ -131,13 +132,19 @@ fn conditions_are_texts_names_and_drawings() {
 
 #[test]
 fn a_macro_step_is_replaced_by_what_is_in_it() {
-    let inner = "<macroStep localId=\"7\" name=\"Wash\"><connectionPointIn><connection refLocalId=\"2\"/>\
-        </connectionPointIn><body><SFC><step localId=\"1\" name=\"Soak\"/><transition localId=\"2\">\
+    let inner = "<macroStep localId=\"7\" name=\"Wash\"><connectionPointIn>\
+        <connection refLocalId=\"2\"/></connectionPointIn><body><SFC>\
+        <step localId=\"1\" name=\"Soak\"/><transition localId=\"2\">\
         <connectionPointIn><connection refLocalId=\"1\"/></connectionPointIn><condition>\
         <reference name=\"b\"/></condition></transition><step localId=\"3\" name=\"Off\">\
-        <connectionPointIn><connection refLocalId=\"2\"/></connectionPointIn></step></SFC></body></macroStep>";
+        <connectionPointIn><connection refLocalId=\"2\"/></connectionPointIn></step></SFC></body>\
+        </macroStep>";
     let text = chart("<reference name=\"c\"/>", inner)
-        .replace("<step localId=\"3\" name=\"On\"><connectionPointIn><connection refLocalId=\"2\"/></connectionPointIn></step>", "")
+        .replace(
+            "<step localId=\"3\" name=\"On\"><connectionPointIn><connection refLocalId=\"2\"/>\
+             </connectionPointIn></step>",
+            "",
+        )
         .replace("refLocalId=\"3\"", "refLocalId=\"7\"");
     let found = imported(&text);
     assert!(found.diagnostics.is_empty(), "{:?}", found.diagnostics);
@@ -175,8 +182,9 @@ fn wrong_projects_are_told_with_their_places() {
     assert_eq!(on(&to(3, "actionBlock")), none);
     assert_eq!(on(&to(2, "actionBlock")), ["E0706 8 `2` actionBlock N belongs to no step"]);
     // Lines in a circle end.
-    let circle = "<selectionConvergence localId=\"8\"><connectionPointIn><connection refLocalId=\"8\"/>\
-        </connectionPointIn></selectionConvergence><step localId=\"9\" name=\"N\"><connectionPointIn>\
+    let circle = "<selectionConvergence localId=\"8\"><connectionPointIn>\
+        <connection refLocalId=\"8\"/></connectionPointIn></selectionConvergence>\
+        <step localId=\"9\" name=\"N\"><connectionPointIn>\
         <connection refLocalId=\"8\"/></connectionPointIn></step>";
     assert_eq!(on(circle), none);
     assert_eq!(
@@ -198,8 +206,10 @@ fn large_and_deep_files_are_refused() {
     };
     assert_eq!(codes(&" ".repeat(50_000_000)), ["E0700"]);
     let laughs = "<!DOCTYPE p [<!ENTITY a \"ha\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;\">\
-        <!ENTITY c \"&b;&b;&b;&b;&b;&b;&b;&b;&b;&b;\"><!ENTITY d \"&c;&c;&c;&c;&c;&c;&c;&c;&c;&c;\">\
-        <!ENTITY e \"&d;&d;&d;&d;&d;&d;&d;&d;&d;&d;\"><!ENTITY f \"&e;&e;&e;&e;&e;&e;&e;&e;&e;&e;\">\
+        <!ENTITY c \"&b;&b;&b;&b;&b;&b;&b;&b;&b;&b;\">\
+        <!ENTITY d \"&c;&c;&c;&c;&c;&c;&c;&c;&c;&c;\">\
+        <!ENTITY e \"&d;&d;&d;&d;&d;&d;&d;&d;&d;&d;\">\
+        <!ENTITY f \"&e;&e;&e;&e;&e;&e;&e;&e;&e;&e;\">\
         ]><project>&f;</project>";
     assert!(!codes(laughs).is_empty());
     let nested = |open: &str, close: &str, inside: &str| {

@@ -101,7 +101,7 @@ fn root(reader: &mut Reader, node: Node, out: &mut Traced) -> Vec<Chart> {
                 }
                 "Project" => "IEC 61131-10 is another format: export as PLCopen XML, version 2.01",
                 "TcPlcObject" => "this is a file of TwinCAT itself: export it as PLCopen XML",
-                _ => "such a file begins with <project xmlns=\"http://www.plcopen.org/xml/tc6_0201\">",
+                _ => "it begins with <project xmlns=\"http://www.plcopen.org/xml/tc6_0201\">",
             }));
             Vec::new()
         }

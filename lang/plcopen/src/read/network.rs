@@ -120,7 +120,7 @@ impl<'a, 'i> Network<'a, 'i> {
 
 fn wrong_way(reader: &mut Reader, line: &Text, to: Node, from: Node) {
     let message = format!("{} comes after {}", title(to), title(from));
-    let help = "steps and transitions are in turn: alternatives diverge after a step and converge before \
-                one, parallel branches diverge after a transition and converge before one";
+    let help = "steps and transitions are in turn: alternatives diverge after a step and converge \
+                before one, parallel branches diverge after a transition and converge before one";
     reader.error(Code::Wiring, line.span, message, help);
 }
