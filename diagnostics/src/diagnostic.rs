@@ -66,6 +66,15 @@ pub struct Diagnostic<C> {
     pub related: Vec<(Span, String)>,
 }
 
+impl<C> Diagnostic<C> {
+    /// The same about another text, where `place` says what is where.
+    pub fn moved(mut self, place: impl Fn(Span) -> Span) -> Diagnostic<C> {
+        self.span = place(self.span);
+        self.related.iter_mut().for_each(|(span, _)| *span = place(*span));
+        self
+    }
+}
+
 impl<C: Code> Diagnostic<C> {
     /// A diagnostic with a message.
     pub fn new(code: C, span: Span, message: impl Into<String>) -> Diagnostic<C> {

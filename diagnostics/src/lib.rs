@@ -7,6 +7,7 @@ pub mod diagnostic;
 pub mod origins;
 pub mod render;
 pub mod source;
+pub mod traced;
 pub mod windows_1252;
 pub mod xml;
 

@@ -12,13 +12,14 @@ use crate::{avr, packages, same_names};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 /// The libraries that run anywhere, and what uses them all.
-const LIBRARIES: [&str; 12] = [
+const LIBRARIES: [&str; 13] = [
     "plc-isa",
     "plc-vm",
     "plc-link",
     "awl-asm",
     "st",
     "chart",
+    "plcopen",
     "project",
     "awl-sim",
     "analysis",

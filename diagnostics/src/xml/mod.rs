@@ -1,8 +1,10 @@
 //! XML with places in its text: parsing, and where elements and attributes are; writing. What a
 //! document means is said by those who read and write it.
 
+mod places;
 mod write;
 
+pub use places::{Places, operator, with_known_references};
 pub use roxmltree::{Attribute, Document, Node};
 use roxmltree::{ParsingOptions, TextPos};
 pub use write::Writer;

@@ -5,11 +5,11 @@
 use std::collections::HashMap;
 
 use awl_asm::suggest::nearest;
+use diagnostics::xml::Places;
 
 use crate::condition::{Wrong, condition};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Block, Event, Text, Transition, Variable};
-use crate::places::Places;
 use crate::rest::without_rest;
 
 /// Checks a block that was read from a file with this text.
@@ -164,7 +164,7 @@ impl Checker {
             Wrong::NoEvent(at) => {
                 let name = at.text(&text.text);
                 let message = format!("{name}: there is no event or variable of this name");
-                let span = Places::of(text, file).span(at);
+                let span = Places::of(&text.text, text.span, file).span(at);
                 let mut error = Diagnostic::new(Code::UnknownName, span, message);
                 let variables = block.variables().map(|one| one.name.text.as_str());
                 error.suggestion = nearest(name, events().chain(variables)).map(str::to_owned);
@@ -180,7 +180,7 @@ impl Checker {
                 (Some(at), message, help)
             }
         };
-        let span = at.map_or(text.span, |at| Places::of(text, file).span(at));
+        let span = at.map_or(text.span, |at| Places::of(&text.text, text.span, file).span(at));
         self.diagnostics.push(Diagnostic::new(Code::Condition, span, message).help(help));
     }
 

@@ -9,9 +9,7 @@ pub mod generate;
 pub mod interpreter;
 pub mod model;
 pub mod parsed;
-mod places;
 mod rest;
-mod syntax;
 pub mod xml;
 
 pub use data_type::DataType;

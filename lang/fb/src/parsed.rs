@@ -1,6 +1,7 @@
 //! The texts of a block as syntax trees: what its transitions ask for, what its algorithms do. It
 //! knows no types.
 
+use diagnostics::xml::Places;
 use diagnostics::{Source, Span};
 use st::parser::{parse_expression, parse_statements};
 use st::tree::{Expression, Statement, StatementKind};
@@ -8,7 +9,6 @@ use st::visit;
 
 use crate::condition::condition;
 use crate::model::{Block, Text};
-use crate::places::Places;
 
 /// A transition, with numbers in place of names.
 #[derive(Debug, Clone)]
@@ -78,7 +78,7 @@ pub fn parse(block: &Block, file: &Source) -> Parsed {
 
 impl Parsed {
     fn report(&mut self, wrong: Vec<st::Diagnostic>, text: &Text, file: &Source) {
-        let places = Places::of(text, &file.text);
+        let places = Places::of(&text.text, text.span, &file.text);
         for mut one in wrong {
             one.span = places.span(one.span);
             one.related.iter_mut().for_each(|(span, _)| *span = places.span(*span));

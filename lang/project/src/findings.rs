@@ -17,6 +17,8 @@ pub enum Code {
     Chart(chart::Code),
     /// Of function blocks of IEC 61499.
     Block(fb::Code),
+    /// Of projects of PLCopen.
+    Plcopen(plcopen::Code),
 }
 
 impl Code {
@@ -27,6 +29,7 @@ impl Code {
             Code::St(code) => code.text(),
             Code::Chart(code) => code.text(),
             Code::Block(code) => code.text(),
+            Code::Plcopen(code) => code.text(),
         }
     }
 
@@ -42,6 +45,7 @@ impl Code {
             Code::St(code) => code.page(),
             Code::Chart(code) => code.page(),
             Code::Block(code) => code.page(),
+            Code::Plcopen(code) => code.page(),
         }
     }
 
@@ -50,7 +54,9 @@ impl Code {
         let awl = awl_asm::diagnostic::Code::ALL.iter().copied().map(Code::Awl);
         let st = st::Code::ALL.iter().copied().map(Code::St);
         let charts = chart::Code::ALL.iter().copied().map(Code::Chart);
-        awl.chain(st).chain(charts).chain(fb::Code::ALL.iter().copied().map(Code::Block))
+        let blocks = fb::Code::ALL.iter().copied().map(Code::Block);
+        let plcopen = plcopen::Code::ALL.iter().copied().map(Code::Plcopen);
+        awl.chain(st).chain(charts).chain(blocks).chain(plcopen)
     }
 }
 
@@ -106,5 +112,11 @@ pub(crate) fn from_chart(one: chart::Diagnostic) -> Diagnostic {
 /// One of a function block of IEC 61499.
 pub(crate) fn from_block(one: fb::Diagnostic) -> Diagnostic {
     let code = Code::Block(one.code);
+    with_code(one, code)
+}
+
+/// One of a project of PLCopen.
+pub(crate) fn from_plcopen(one: plcopen::Diagnostic) -> Diagnostic {
+    let code = Code::Plcopen(one.code);
     with_code(one, code)
 }

@@ -25,11 +25,13 @@ pub enum Language {
     Chart,
     /// A function block of IEC 61499, as XML.
     Block,
+    /// A project of PLCopen.
+    Xml,
 }
 
 /// Endings of files in these languages; where a program is looked for, the first one that is there
 /// counts.
-pub const ENDINGS: [&str; 4] = ["awl", "st", "sfc", "fbt"];
+pub const ENDINGS: [&str; 5] = ["awl", "st", "sfc", "fbt", "xml"];
 
 impl Language {
     /// That of a file.
@@ -39,6 +41,7 @@ impl Language {
             Some("st") => Language::StructuredText,
             Some("sfc") => Language::Chart,
             Some("fbt") => Language::Block,
+            Some("xml") => Language::Xml,
             _ => Language::Awl,
         }
     }
@@ -147,6 +150,12 @@ pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
             let fb::xml::Read { block, diagnostics } = fb::xml::read(source);
             let errors = errors_of(diagnostics, findings::from_block);
             block.map(|block| fb::xml::write(&block)).ok_or(errors)
+        }
+        // Other tools write it, in their own way.
+        Language::Xml => {
+            let plcopen::Imported { diagnostics, .. } = plcopen::read(source);
+            let errors = errors_of(diagnostics, findings::from_plcopen);
+            if errors.is_empty() { Ok(source.text.clone()) } else { Err(errors) }
         }
     }
 }

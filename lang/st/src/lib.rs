@@ -19,6 +19,7 @@ pub mod lexer;
 pub mod model;
 pub mod names;
 pub mod parser;
+pub mod places;
 pub mod standard;
 pub mod tree;
 pub mod visit;

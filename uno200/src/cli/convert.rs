@@ -27,10 +27,17 @@ pub(super) fn convert(arguments: &Convert) -> Result<bool> {
     }
     match arguments.input.extension().and_then(|one| one.to_str()).map(str::to_lowercase).as_deref()
     {
-        Some("xml") => from_chart(arguments),
+        Some("xml") => {
+            let source = read_source(&arguments.input)?;
+            match plcopen::is_project(&source) {
+                true => from_project(arguments, &source),
+                false => from_chart(arguments, &source),
+            }
+        }
         Some("sfc") => from_text(arguments),
         _ => bail!(
-            "{}: charts are converted: those of SFCEdit (.xml), and charts as text (.sfc)",
+            "{}: charts are converted: projects of PLCopen and charts of SFCEdit (.xml), and \
+             charts as text (.sfc)",
             arguments.input.display()
         ),
     }
@@ -83,15 +90,46 @@ fn counted(charts: &[Chart]) -> Result<bool> {
     print(&lines.concat()).map(|()| true)
 }
 
+/// A project of PLCopen to a text, a picture of its charts, or how much there is in them.
+fn from_project(arguments: &Convert, source: &Source) -> Result<bool> {
+    if arguments.target.is_some() || arguments.variables.is_some() || arguments.table {
+        bail!(
+            "{}: --target, --variables and --table are for charts of SFCEdit; this is a project of \
+             PLCopen",
+            arguments.input.display()
+        );
+    }
+    let mut report = Report::new(arguments.messages, false);
+    let plcopen::Imported { text, charts, diagnostics } = plcopen::read(source);
+    if !told(&mut report, source, diagnostics) {
+        return Ok(false);
+    }
+    if arguments.summary {
+        return counted(&charts);
+    }
+    if is_picture(arguments) {
+        return draw(arguments, &charts, source);
+    }
+    let reading = chart::text::read(&Source::new(source.name.as_str(), text.text())?);
+    let found = reading.diagnostics.into_iter().map(|one| one.moved(|span| text.place(span)));
+    if !told(&mut report, source, found.collect()) {
+        return Ok(false);
+    }
+    let Some(output) = &arguments.output else { return print(text.text()).map(|()| true) };
+    if ending(output, &["sfc", "st"])? == "st" && !charts.is_empty() {
+        bail!("{}: there are charts in it: write it as .sfc", arguments.input.display());
+    }
+    write_whole(output, text.text().as_bytes()).map(|()| true)
+}
+
 /// A chart of SFCEdit to Structured Text, the set/reset way.
-fn from_chart(arguments: &Convert) -> Result<bool> {
-    let source = read_source(&arguments.input)?;
+fn from_chart(arguments: &Convert, source: &Source) -> Result<bool> {
     let mut report = Report::new(arguments.messages, false);
     let rows = match &arguments.variables {
         Some(path) => {
-            let source = read_source(path)?;
-            let (rows, found) = variables::read(&source);
-            report.show(&source, &found);
+            let table = read_source(path)?;
+            let (rows, found) = variables::read(&table);
+            report.show(&table, &found);
             if has_errors(&found) {
                 return Ok(false);
             }
@@ -99,20 +137,20 @@ fn from_chart(arguments: &Convert) -> Result<bool> {
         }
         None => Table::default(),
     };
-    let reading = sfcedit::read(&source);
+    let reading = sfcedit::read(source);
     let mut found = reading.diagnostics;
-    let Some(project) = reading.project else { return Ok(told(&mut report, &source, found)) };
+    let Some(project) = reading.project else { return Ok(told(&mut report, source, found)) };
     if arguments.summary {
         let charts = sfcedit::model::charts(&project, &mut found);
-        return Ok(told(&mut report, &source, found) && counted(&charts)?);
+        return Ok(told(&mut report, source, found) && counted(&charts)?);
     }
     if is_picture(arguments) {
         let charts = sfcedit::model::charts(&project, &mut found);
-        return Ok(told(&mut report, &source, found) && draw(arguments, &charts, &source)?);
+        return Ok(told(&mut report, source, found) && draw(arguments, &charts, source)?);
     }
     let (plan, more) = plan(&project, &rows);
     found.extend(more);
-    if !told(&mut report, &source, found) {
+    if !told(&mut report, source, found) {
         return Ok(false);
     }
     let target = arguments.target.unwrap_or(Target::Uno200);

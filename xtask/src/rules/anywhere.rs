@@ -11,6 +11,7 @@ const LIBRARIES: &[&str] = &[
     "lang/chart/src/",
     "lang/st/src/",
     "lang/fb/src/",
+    "lang/plcopen/src/",
     "lang/project/src/",
     "analysis/src/",
     "ide/core/src/",

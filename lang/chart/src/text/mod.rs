@@ -14,7 +14,7 @@ use diagnostics::{Source, Span};
 use crate::diagnostic::Diagnostic;
 use crate::model::Chart;
 
-pub use write::write;
+pub use write::{Written, WrittenPart, write, write_chart};
 
 /// A text with charts.
 #[derive(Debug, Clone, PartialEq, Default)]

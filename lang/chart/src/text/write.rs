@@ -1,11 +1,14 @@
 //! Writes a document as text. Reading that text gives the same document.
 
+use std::cmp::Reverse;
 use std::fmt::Write;
+
+use diagnostics::Span;
 
 use super::{Document, Piece};
 use crate::model::{
-    Action, Body, Chart, Forcing, Instance, Position, Qualifier, Situation, Standard, Step, StepId,
-    StepKind, Transition,
+    Action, Body, Chart, Code, Forcing, Instance, Origin, Position, Qualifier, Situation, Standard,
+    Step, StepId, StepKind, Transition,
 };
 
 /// The text of a document.
@@ -18,24 +21,72 @@ pub fn write(document: &Document) -> String {
                 if !text.is_empty() && !text.ends_with('\n') {
                     text.push('\n');
                 }
-                Writer { text: &mut text, indent: 0 }.chart(chart, None);
+                text += &write_chart(chart).text;
             }
         }
     }
     text
 }
 
-struct Writer<'t> {
-    text: &'t mut String,
+/// A chart as text, and what in it comes from where.
+#[derive(Debug, Default)]
+pub struct Written {
+    /// The text.
+    pub text: String,
+    /// Stretches of the text, each with the place where what is written there was read; what is in
+    /// an element after the element.
+    pub parts: Vec<WrittenPart>,
+}
+
+/// A stretch of a written text.
+#[derive(Debug, Clone, Copy)]
+pub struct WrittenPart {
+    /// Where it is written.
+    pub written: Span,
+    /// Where it was read.
+    pub origin: Span,
+    /// Whether it is code, written as it was read.
+    pub is_code: bool,
+}
+
+/// The text of a chart.
+pub fn write_chart(chart: &Chart) -> Written {
+    let mut writer = Writer { out: Written::default(), indent: 0 };
+    writer.chart(chart, None);
+    writer.out.parts.sort_by_key(|part| (part.written.start, Reverse(part.written.end)));
+    writer.out
+}
+
+struct Writer {
+    out: Written,
     indent: usize,
 }
 
-impl Writer<'_> {
+impl Writer {
     fn line(&mut self, line: &str) {
         if !line.is_empty() {
-            let _ = write!(self.text, "{:indent$}{line}", "", indent = self.indent * 4);
+            let _ = write!(self.out.text, "{:indent$}{line}", "", indent = self.indent * 4);
         }
-        self.text.push('\n');
+        self.out.text.push('\n');
+    }
+
+    /// Notes where what is written from an offset on comes from.
+    fn note(&mut self, start: usize, origin: Origin) {
+        let written = Span::new(start, self.out.text.len());
+        self.out.parts.push(WrittenPart { written, origin: origin.0, is_code: false });
+    }
+
+    /// A line with codes in it, in this order.
+    fn coded(&mut self, line: &str, codes: &[&Code]) {
+        let mut at = self.out.text.len();
+        self.line(line);
+        for code in codes {
+            let rest = self.out.text.get(at..).unwrap_or("");
+            let Some(start) = rest.find(&code.text).map(|start| at + start) else { continue };
+            at = start + code.text.len();
+            let (written, origin) = (Span::new(start, at), code.origin.0);
+            self.out.parts.push(WrittenPart { written, origin, is_code: true });
+        }
     }
 
     fn comment(&mut self, comment: &str) {
@@ -74,6 +125,7 @@ impl Writer<'_> {
     }
 
     fn step(&mut self, chart: &Chart, step: &Step) {
+        let start = self.out.text.len();
         self.comment(&step.comment);
         let word = if step.is_initial { "INITIAL_STEP" } else { "STEP" };
         let mut head = format!("{word} {}{}:", step.name, at(step.at));
@@ -88,17 +140,23 @@ impl Writer<'_> {
         self.line(&head);
         self.indent += 1;
         for forcing in &step.forcings {
+            let start = self.out.text.len();
             self.line(&order(forcing));
+            self.note(start, forcing.origin);
         }
         for instance in &step.block {
-            let line = instance_text(chart, instance);
-            self.line(&line);
+            let (start, line) = (self.out.text.len(), instance_text(chart, instance));
+            let codes = [&instance.time, &instance.condition, &instance.event];
+            self.coded(&line, &codes.into_iter().flatten().collect::<Vec<_>>());
+            self.note(start, instance.origin);
         }
         self.indent -= 1;
         self.line("END_STEP");
+        self.note(start, step.origin);
     }
 
     fn transition(&mut self, chart: &Chart, transition: &Transition) {
+        let start = self.out.text.len();
         self.comment(&transition.comment);
         let name = transition.name.iter().map(|name| format!(" {name}"));
         let priority = transition.priority.iter().map(|one| format!(" (PRIORITY := {one})"));
@@ -108,24 +166,28 @@ impl Writer<'_> {
         self.line(&format!("TRANSITION{head}{} FROM {from} TO {to}", at(transition.at)));
         self.indent += 1;
         if let Some(code) = &transition.crossing {
-            self.line(&format!("{{crossing {}}}", code.text));
+            self.coded(&format!("{{crossing {}}}", code.text), &[code]);
         }
-        self.line(&format!(":= {};", transition.condition.text));
+        let condition = &transition.condition;
+        self.coded(&format!(":= {};", condition.text), &[condition]);
         self.indent -= 1;
         self.line("END_TRANSITION");
+        self.note(start, transition.origin);
     }
 
     fn action(&mut self, chart: &Chart, action: &Action) {
+        let start = self.out.text.len();
         self.comment(&action.comment);
         self.line(&format!("ACTION {}:", action.name));
         self.indent += 1;
         match &action.body {
             Body::Variable => {}
-            Body::Code(code) => self.line(&code.text),
+            Body::Code(code) => self.coded(&code.text, &[code]),
             Body::Chart(inner) => self.chart(inner, Some(chart.standard)),
         }
         self.indent -= 1;
         self.line("END_ACTION");
+        self.note(start, action.origin);
     }
 }
 

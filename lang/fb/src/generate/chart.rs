@@ -1,12 +1,12 @@
 //! The execution control chart as statements.
 
 use diagnostics::Span;
+use diagnostics::xml::Places;
 
 use super::out::Out;
 use super::{COUNT, Form, Generator, one_line};
 use crate::model::{Action, Block, Event};
 use crate::parsed::Transition;
-use crate::places::Places;
 
 impl Generator<'_> {
     pub(super) fn body(&mut self) {
@@ -73,7 +73,9 @@ impl Generator<'_> {
         let condition = written.map(|one| &one.condition);
         let start = condition.and_then(|condition| condition.text.find(text.as_str()));
         let places = match condition.zip(start) {
-            Some((condition, start)) => Places::of(condition, self.file).from(start),
+            Some((condition, start)) => {
+                Places::of(&condition.text, condition.span, self.file).from(start)
+            }
             None => Places::whole(place),
         };
         let names = &self.names;
@@ -214,7 +216,7 @@ impl Generator<'_> {
         }
         let place = algorithm.name.span;
         self.out.line(place, &format!("        // {}", algorithm.name.text));
-        let places = Places::of(&algorithm.text, self.file);
+        let places = Places::of(&algorithm.text.text, algorithm.text.span, self.file);
         let names = &self.names;
         let renamed = |word: &str| names.copy(word).map(str::to_owned);
         self.out.inside(|out| {

@@ -90,11 +90,11 @@ impl Generator<'_> {
     fn section(&mut self, word: &str, write: impl FnOnce(&mut Self)) {
         let place = self.block.name.span;
         self.out.line(place, word);
-        let before = self.out.text.len();
+        let before = self.out.traced.text().len();
         write(self);
-        if self.out.text.len() == before {
+        if self.out.traced.text().len() == before {
             // An empty section says nothing.
-            self.out.take_back(word.len() + 1);
+            self.out.traced.take_back(word.len() + 1);
             return;
         }
         self.out.line(place, "END_VAR");

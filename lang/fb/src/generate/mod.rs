@@ -6,11 +6,11 @@ mod declare;
 mod out;
 
 use diagnostics::{Source, Span};
+use st::places;
 use st::tree::File;
 
 use crate::model::{Block, Text, Variable};
 use crate::parsed::{Parsed, parse};
-use crate::syntax;
 use out::Out;
 
 /// What becomes of a block.
@@ -40,23 +40,19 @@ pub fn translate(block: &Block, source: &Source, form: Form) -> Translation {
     let out = write(block, &parsed, source, form);
     let mut diagnostics = parsed.diagnostics;
     // It is never longer than a text can be: the file is not, and this has no more than its parts.
-    let Ok(written) = Source::new(source.name.as_str(), out.text.as_str()) else {
+    let Ok(written) = Source::new(source.name.as_str(), out.traced.text()) else {
         return Translation { file: File::default(), diagnostics };
     };
     let (mut file, wrong) = st::parser::parse(&written);
     if diagnostics.is_empty() {
         // What an initial value says wrong; everything else was read before.
-        diagnostics.extend(wrong.into_iter().map(|mut one| {
-            one.span = out.place(one.span);
-            one.related.iter_mut().for_each(|(span, _)| *span = out.place(*span));
-            one
-        }));
+        diagnostics.extend(wrong.into_iter().map(|one| one.moved(|span| out.traced.place(span))));
     }
-    let mut place = |span: &mut Span| *span = out.place(*span);
-    syntax::places(
+    let mut place = |span: &mut Span| *span = out.traced.place(*span);
+    places::in_file(
         &mut file,
         &mut |name| {
-            name.span = out.place(name.span);
+            name.span = out.traced.place(name.span);
             let is_own = block.variables().any(|one| one.name.names(&name.text));
             if let Some(event) = name.text.strip_suffix(COUNT.0).filter(|_| !is_own) {
                 name.text = format!("{event}{}", COUNT.1);
@@ -73,7 +69,7 @@ pub fn text(block: &Block, source: &Source) -> Result<String, Vec<st::Diagnostic
     if !parsed.diagnostics.is_empty() {
         return Err(parsed.diagnostics);
     }
-    Ok(write(block, &parsed, source, Form::FunctionBlock).text)
+    Ok(write(block, &parsed, source, Form::FunctionBlock).traced.text().to_owned())
 }
 
 fn write(block: &Block, parsed: &Parsed, source: &Source, form: Form) -> Out {

@@ -1,40 +1,33 @@
 //! Structured Text that is being written, and where in the block's file each byte of it comes from.
 
 use diagnostics::Span;
+use diagnostics::traced::Traced;
+use diagnostics::xml::Places;
 use st::lexer::{Kind, cut};
-
-use crate::places::Places;
 
 /// The text so far.
 #[derive(Debug, Default)]
 pub(super) struct Out {
-    pub(super) text: String,
-    /// For each byte of the text.
-    places: Vec<Span>,
+    pub(super) traced: Traced,
     depth: usize,
 }
 
 impl Out {
-    fn push(&mut self, text: &str, place: Span) {
-        self.text.push_str(text);
-        self.places.resize(self.text.len(), place);
-    }
-
     /// The beginning of a line that comes from a place.
     pub(super) fn begin(&mut self, place: Span) {
-        self.push(&"    ".repeat(self.depth), place);
+        self.traced.push(&"    ".repeat(self.depth), place);
     }
 
     /// A line that comes from a place.
     pub(super) fn line(&mut self, place: Span, text: &str) {
         self.begin(place);
         self.more(place, text);
-        self.push("\n", place);
+        self.traced.push("\n", place);
     }
 
     /// More of a line.
     pub(super) fn more(&mut self, place: Span, text: &str) {
-        self.push(text, place);
+        self.traced.push(text, place);
     }
 
     /// Lines that belong into others.
@@ -42,12 +35,6 @@ impl Out {
         self.depth += 1;
         write(self);
         self.depth -= 1;
-    }
-
-    /// Takes back so many bytes.
-    pub(super) fn take_back(&mut self, bytes: usize) {
-        self.text.truncate(self.text.len().saturating_sub(bytes));
-        self.places.truncate(self.text.len());
     }
 
     /// A stretch of a text of the block, with names replaced by others.
@@ -65,7 +52,7 @@ impl Out {
             let word = token.span.text(text);
             let Some(name) = renamed(word) else { continue };
             self.as_written(text, at, token.span.start as usize, places);
-            self.push(&name, places.span(token.span));
+            self.traced.push(&name, places.span(token.span));
             at = token.span.end as usize;
         }
         self.as_written(text, at, text.len(), places);
@@ -76,22 +63,10 @@ impl Out {
         for (at, character) in part.char_indices() {
             let start = from + at;
             let place = places.span(Span::new(start, start + character.len_utf8()));
-            self.text.push(character);
-            self.places.resize(self.text.len(), place);
+            self.traced.push(character.encode_utf8(&mut [0; 4]), place);
             if character == '\n' {
-                self.push(&"    ".repeat(self.depth), place);
+                self.traced.push(&"    ".repeat(self.depth), place);
             }
-        }
-    }
-
-    /// Where a stretch of the written text comes from.
-    pub(super) fn place(&self, written: Span) -> Span {
-        let at = |offset: u32| self.places.get(offset as usize).copied();
-        let first = at(written.start).or(self.places.last().copied()).unwrap_or_default();
-        let last = written.end.checked_sub(1).filter(|last| *last >= written.start).and_then(at);
-        match last {
-            Some(last) if last.end >= first.start => Span { start: first.start, end: last.end },
-            _ => first,
         }
     }
 }

@@ -1,13 +1,14 @@
 //! A block from XML. All that is wrong comes in one run; what is not kept is told.
 
-use diagnostics::xml::{self, Broken, Node, attribute, elements, tag, value};
+use diagnostics::xml::{
+    self, Broken, Node, attribute, elements, operator, tag, value, with_known_references,
+};
 use diagnostics::{Source, Span};
 
 use crate::check::check;
 use crate::data_type::DataType;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Action, Algorithm, Block, Event, Place, State, Text, Transition, Variable};
-use crate::places::{operator, with_known_references};
 
 /// What is in a file.
 #[derive(Debug)]

@@ -1,15 +1,13 @@
 //! Where the characters of a text are in the file that it was read from: references such as `&lt;`
 //! are longer there than what they stand for.
 
-use diagnostics::Span;
-
-use crate::model::Text;
+use crate::source::Span;
 
 /// References to operators that XML does not know, and what is read in their place: as many bytes.
 const OPERATORS: [(&str, &str); 2] = [("&ge;", "\u{2265} "), ("&le;", "\u{2264} ")];
 
 /// How Structured Text writes what is read for an operator.
-pub(crate) fn operator(character: char) -> Option<&'static str> {
+pub fn operator(character: char) -> Option<&'static str> {
     match character {
         '\u{2265}' => Some(">="),
         '\u{2264}' => Some("<="),
@@ -18,43 +16,44 @@ pub(crate) fn operator(character: char) -> Option<&'static str> {
 }
 
 /// A file whose references XML knows, all places as they were.
-pub(crate) fn with_known_references(file: &str) -> String {
+pub fn with_known_references(file: &str) -> String {
     OPERATORS.iter().fold(file.to_owned(), |file, (name, text)| file.replace(name, text))
 }
 
 /// For each byte of a text where it is in the file.
-pub(crate) struct Places {
+#[derive(Debug, Clone)]
+pub struct Places {
     whole: Span,
     starts: Vec<u32>,
 }
 
 impl Places {
     /// Those of a text. Where it cannot be found, all of it is at its place.
-    pub(crate) fn of(text: &Text, file: &str) -> Places {
-        let raw = with_known_references(text.span.text(file));
+    pub fn of(text: &str, span: Span, file: &str) -> Places {
+        let raw = with_known_references(span.text(file));
         let found = [true, false].into_iter().find_map(|is_attribute| {
             let (read, starts) = read(&raw, is_attribute);
-            let first = read.find(&text.text)?;
-            Some(starts.get(first..=first + text.text.len())?.to_vec())
+            let first = read.find(text)?;
+            Some(starts.get(first..=first + text.len())?.to_vec())
         });
         let starts = found.unwrap_or_default();
-        let starts = starts.into_iter().map(|at| text.span.start + at).collect();
-        Places { whole: text.span, starts }
+        let starts = starts.into_iter().map(|at| span.start + at).collect();
+        Places { whole: span, starts }
     }
 
     /// All at one place.
-    pub(crate) fn whole(place: Span) -> Places {
+    pub fn whole(place: Span) -> Places {
         Places { whole: place, starts: Vec::new() }
     }
 
     /// Those of what is behind an offset of the text.
-    pub(crate) fn from(mut self, offset: usize) -> Places {
+    pub fn from(mut self, offset: usize) -> Places {
         self.starts.drain(..offset.min(self.starts.len()));
         self
     }
 
     /// Where a stretch of the text is.
-    pub(crate) fn span(&self, inside: Span) -> Span {
+    pub fn span(&self, inside: Span) -> Span {
         let at = |offset: u32| self.starts.get(offset as usize).copied();
         match (at(inside.start), at(inside.end)) {
             (Some(start), Some(end)) => Span { start, end },
@@ -123,10 +122,10 @@ mod tests {
     fn references_are_longer_in_the_file() {
         let file = "<T C=\" a &lt; b&#13;&#10;&amp; c&ge;5\"/>";
         let span = Span::new(6, file.len() - 3);
-        let text = Text { text: "a < b\n& c>= 5".to_owned(), span };
-        let places = Places::of(&text, file);
+        let text = "a < b\n& c>= 5";
+        let places = Places::of(text, span, file);
         let of = |word: &str| {
-            let start = text.text.find(word).unwrap_or(0);
+            let start = text.find(word).unwrap_or(0);
             places.span(Span::new(start, start + word.len())).text(file)
         };
         assert_eq!(["a", "<", "b", "&", "c", "5"].map(of), ["a", "&lt;", "b", "&amp;", "c", "5"]);
@@ -134,7 +133,7 @@ mod tests {
 
     #[test]
     fn what_cannot_be_found_is_at_its_whole_place() {
-        let text = Text { text: "other".to_owned(), span: Span::new(1, 3) };
-        assert_eq!(Places::of(&text, "abcd").span(Span::new(0, 2)), Span::new(1, 3));
+        let places = Places::of("other", Span::new(1, 3), "abcd");
+        assert_eq!(places.span(Span::new(0, 2)), Span::new(1, 3));
     }
 }

@@ -1,0 +1,8 @@
+//! Projects in XML of PLCopen (TC6): read as Structured Text with charts. It opens no files, and
+//! never runs a program. What is read and what is not is in docs/charts.md.
+
+pub mod diagnostic;
+mod read;
+
+pub use diagnostic::{Code, Diagnostic};
+pub use read::{Imported, is_project, read};

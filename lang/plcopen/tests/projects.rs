@@ -1,0 +1,284 @@
+//! Projects: what becomes of them, and what is said about those that are wrong.
+
+use diagnostics::Source;
+use fastrand::Rng;
+use plcopen::{Imported, is_project, read};
+
+const PLANT: &str = include_str!("projects/plant.xml");
+
+fn source(text: &str) -> Source {
+    Source::new("plant.xml", text).expect("a short text")
+}
+
+fn imported(text: &str) -> Imported {
+    read(&source(text))
+}
+
+/// What is said, each with the line and the text at its place.
+fn said(text: &str) -> Vec<String> {
+    let source = source(text);
+    let all = read(&source).diagnostics.into_iter().map(|one| {
+        let line = source.position(one.span.start as usize).0;
+        format!("{} {line} `{}` {}", one.code.text(), one.span.text(text), one.message)
+    });
+    all.collect()
+}
+
+/// A project with this body of a program, and what is in the program before it.
+fn program(before: &str, body: &str) -> String {
+    format!(
+        "<project xmlns=\"http://www.plcopen.org/xml/tc6_0200\"><types><pous>\n\
+         <pou name=\"Lamp\" pouType=\"program\">{before}<body>{body}</body></pou>\n\
+         </pous></types></project>"
+    )
+}
+
+/// A chart of two steps, with the condition of the way back.
+fn chart(condition: &str, more: &str) -> String {
+    let into = |id: &str| {
+        format!("<connectionPointIn><connection refLocalId=\"{id}\"/></connectionPointIn>")
+    };
+    program(
+        "",
+        &format!(
+            "<SFC>\n<step localId=\"1\" name=\"Off\" initialStep=\"true\"/>\n\
+         <transition localId=\"2\">{}<condition><inline name=\"\"><ST>a</ST></inline>\
+         </condition></transition>\n\
+         <step localId=\"3\" name=\"On\">{}</step>\n\
+         <transition localId=\"4\">{}<condition>{condition}</condition></transition>\n\
+         <jumpStep localId=\"5\" targetName=\"Off\">{}</jumpStep>\n{more}</SFC>",
+            into("1"),
+            into("2"),
+            into("3"),
+            into("4"),
+        ),
+    )
+}
+
+/// The condition of the way back in a chart.
+fn condition(condition: &str, more: &str) -> String {
+    let found = imported(&chart(condition, more));
+    assert!(found.diagnostics.is_empty(), "{:?}", found.diagnostics);
+    let last = found.charts[0].transitions.values().last().expect("a transition");
+    last.condition.text.clone()
+}
+
+#[test]
+fn a_project_becomes_a_text() {
+    let found = imported(PLANT);
+    assert!(found.diagnostics.is_empty(), "{:?}", found.diagnostics);
+    assert_eq!(found.text.text(), include_str!("projects/plant.sfc"));
+    let text = found.text.text();
+    let reading = chart::text::read(&Source::new("plant.sfc", text).expect("a short text"));
+    assert!(reading.diagnostics.is_empty(), "{:?}", reading.diagnostics);
+    // What is in the text is where it was read in the file.
+    for word in ["Level > 5", "Twice := Value", "FillB", "T#2s", "ARRAY"] {
+        let start = text.find(word).expect(word);
+        let place = found.text.place(diagnostics::Span::new(start, start + word.len()));
+        let there = place.text(PLANT);
+        let is_there = there == word || word == "ARRAY" && there == "array";
+        assert!(is_there || there.contains("FillB"), "{word}: {there}");
+    }
+}
+
+#[test]
+fn namespaces_of_all_versions_and_none_are_read() {
+    for other in ["tc6_0200", "tc6.xsd", "tc6_0101"] {
+        assert!(imported(&PLANT.replace("tc6_0201", other)).diagnostics.is_empty(), "{other}");
+    }
+    let bare = PLANT.replace(" xmlns=\"http://www.plcopen.org/xml/tc6_0201\"", "");
+    assert!(imported(&bare).diagnostics.is_empty());
+    let prefixed = "<ppx:pou xmlns:ppx=\"http://www.plcopen.org/xml/tc6_0201\" name=\"F\" \
+                    pouType=\"functionBlock\"><ppx:body><ppx:ST/></ppx:body></ppx:pou>";
+    assert_eq!(imported(prefixed).text.text(), "FUNCTION_BLOCK F\n\nEND_FUNCTION_BLOCK\n");
+}
+
+#[test]
+fn files_are_told_apart_by_what_is_in_them() {
+    assert!(is_project(&source(PLANT)));
+    assert!(is_project(&source("<TcPlcObject/>")));
+    assert!(!is_project(&source("<project><grafcet name=\"G\"/></project>")));
+    assert!(!is_project(&source("<project")));
+}
+
+#[test]
+fn conditions_are_texts_names_and_drawings() {
+    let inline = |text: &str| format!("<inline name=\"\"><ST><p>{text}</p></ST></inline>");
+    assert_eq!(condition(&inline("a &lt; 5"), ""), "a < 5");
+    assert_eq!(condition(&inline(":= a AND b;"), ""), "a AND b");
+    assert_eq!(condition("<reference name=\"Full\"/>", ""), "Full");
+    let line = "<connectionPointIn><connection refLocalId=\"9\"/></connectionPointIn>";
+    let variable = |id: u32, name: &str| {
+        format!(
+            "<inVariable localId=\"{id}\" negated=\"{}\"><expression>{name}</expression></inVariable>",
+            id == 8
+        )
+    };
+    assert_eq!(condition(line, &variable(9, "Full")), "Full");
+    let input = |id: u32| {
+        format!(
+            "<variable formalParameter=\"\"><connectionPointIn><connection refLocalId=\"{id}\"/></connectionPointIn></variable>"
+        )
+    };
+    let block = format!(
+        "<block localId=\"9\" typeName=\"GE\"><inputVariables>{}{}</inputVariables></block>{}{}",
+        input(7),
+        input(8),
+        variable(7, "x"),
+        variable(8, "y"),
+    );
+    assert_eq!(condition(line, &block), "x >= NOT (y)");
+}
+
+#[test]
+fn a_macro_step_is_replaced_by_what_is_in_it() {
+    let inner = "<macroStep localId=\"7\" name=\"Wash\"><connectionPointIn>\
+        <connection refLocalId=\"2\"/></connectionPointIn><body><SFC>\
+        <step localId=\"1\" name=\"Soak\"/><transition localId=\"2\">\
+        <connectionPointIn><connection refLocalId=\"1\"/></connectionPointIn><condition>\
+        <reference name=\"b\"/></condition></transition><step localId=\"3\" name=\"Off\">\
+        <connectionPointIn><connection refLocalId=\"2\"/></connectionPointIn></step></SFC></body>\
+        </macroStep>";
+    let text = chart("<reference name=\"c\"/>", inner)
+        .replace(
+            "<step localId=\"3\" name=\"On\"><connectionPointIn><connection refLocalId=\"2\"/>\
+             </connectionPointIn></step>",
+            "",
+        )
+        .replace("refLocalId=\"3\"", "refLocalId=\"7\"");
+    let found = imported(&text);
+    assert!(found.diagnostics.is_empty(), "{:?}", found.diagnostics);
+    let chart = &found.charts[0];
+    let mut ways: Vec<String> =
+        chart.transitions.values().map(|one| chart.transition_title(one)).collect();
+    ways.sort();
+    assert_eq!(ways, ["Off_to_Soak", "Soak_to_Wash_Off", "Wash_Off_to_Off"]);
+}
+
+#[test]
+fn wrong_projects_are_told_with_their_places() {
+    let on = |wrong: &str| said(&chart("<reference name=\"b\"/>", wrong));
+    let none = Vec::<String>::new();
+    assert_eq!(on(""), none);
+    assert_eq!(
+        on("<step localId=\"3\" name=\"Other\"/>"),
+        ["E0705 8 `3` localId 3 is there twice"]
+    );
+    assert_eq!(
+        on("<step localId=\"8\" name=\"ON\"/>"),
+        ["E0705 8 `ON` ON: a step of this name is there already"]
+    );
+    assert_eq!(
+        on("<step localId=\"8\" name=\"Two\" initialStep=\"true\"/>"),
+        ["E0706 8 `Two` Two: a second initial step of Lamp"]
+    );
+    let to = |id: u32, kind: &str| {
+        format!(
+            "<{kind} localId=\"8\" name=\"N\"><connectionPointIn><connection refLocalId=\"{id}\"/></connectionPointIn></{kind}>"
+        )
+    };
+    assert_eq!(on(&to(77, "step")), ["E0704 8 `77` step N: there is no element 77"]);
+    assert_eq!(on(&to(3, "step")), ["E0706 8 `3` step N comes after step On"]);
+    assert_eq!(on(&to(3, "actionBlock")), none);
+    assert_eq!(on(&to(2, "actionBlock")), ["E0706 8 `2` actionBlock N belongs to no step"]);
+    // Lines in a circle end.
+    let circle = "<selectionConvergence localId=\"8\"><connectionPointIn>\
+        <connection refLocalId=\"8\"/></connectionPointIn></selectionConvergence>\
+        <step localId=\"9\" name=\"N\"><connectionPointIn>\
+        <connection refLocalId=\"8\"/></connectionPointIn></step>";
+    assert_eq!(on(circle), none);
+    assert_eq!(
+        said(&program("", "<LD/>")),
+        ["E0702 2 `LD` Lamp is written in LD, which is not read"]
+    );
+    let actions = "<actions><action name=\"Turn\"><body><FBD/></body></action></actions>";
+    let text = chart("<reference name=\"b\"/>", "").replace("<body>", &format!("{actions}<body>"));
+    assert_eq!(said(&text), ["E0702 2 `FBD` action Turn is written in FBD, which is not read"]);
+    let added = "<addData><data name=\"vendor\" handleUnknown=\"discard\"><x/></data></addData>";
+    let text = program(added, "<ST/>").replace("</pous>", &format!("{added}</pous>"));
+    assert_eq!(said(&text), ["W0700 3 `data` vendor: what a vendor has added is left out"]);
+}
+
+#[test]
+fn large_and_deep_files_are_refused() {
+    let codes = |text: &str| -> Vec<&str> {
+        imported(text).diagnostics.iter().map(|one| one.code.text()).collect()
+    };
+    assert_eq!(codes(&" ".repeat(50_000_000)), ["E0700"]);
+    let laughs = "<!DOCTYPE p [<!ENTITY a \"ha\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;\">\
+        <!ENTITY c \"&b;&b;&b;&b;&b;&b;&b;&b;&b;&b;\">\
+        <!ENTITY d \"&c;&c;&c;&c;&c;&c;&c;&c;&c;&c;\">\
+        <!ENTITY e \"&d;&d;&d;&d;&d;&d;&d;&d;&d;&d;\">\
+        <!ENTITY f \"&e;&e;&e;&e;&e;&e;&e;&e;&e;&e;\">\
+        ]><project>&f;</project>";
+    assert!(!codes(laughs).is_empty());
+    let nested = |open: &str, close: &str, inside: &str| {
+        format!("{}{inside}{}", open.repeat(10_000), close.repeat(10_000))
+    };
+    // Whatever is read of it, it ends, and something is said.
+    let array = nested("<array><baseType>", "</baseType></array>", "<INT/>");
+    let types = format!(
+        "<project><types><dataTypes><dataType name=\"T\"><baseType>{array}</baseType></dataType></dataTypes></types></project>"
+    );
+    assert!(!codes(&types).is_empty());
+    let steps =
+        nested("<macroStep localId=\"1\" name=\"M\"><body><SFC>", "</SFC></body></macroStep>", "");
+    assert!(!codes(&program("", &format!("<SFC>{steps}</SFC>"))).is_empty());
+}
+
+#[test]
+fn any_text_is_read_or_refused() {
+    let mut random = Rng::with_seed(7);
+    let snippets = [
+        "<step ",
+        "</SFC>",
+        "localId=\"1\"",
+        "&lt;",
+        "]]>",
+        "<!--",
+        "\"",
+        "<macroStep>",
+        "é",
+        "END_VAR",
+    ];
+    let (mut good, mut bad) = (0, 0);
+    for _ in 0..1_500 {
+        let mut text: Vec<char> = PLANT.chars().collect();
+        for _ in 0..random.usize(1..4) {
+            let at = random.usize(..text.len());
+            match random.u8(..4) {
+                0 => {
+                    let end = (at + random.usize(..60)).min(text.len());
+                    text.drain(at..end);
+                }
+                1 => text[at] = random.char(' '..='~'),
+                2 => {
+                    let snippet = snippets[random.usize(..snippets.len())];
+                    text.splice(at..at, snippet.chars());
+                }
+                _ => {
+                    let digit = text.iter().enumerate().skip(at).find(|(_, c)| c.is_ascii_digit());
+                    if let Some((at, _)) = digit {
+                        text[at] = random.char('0'..='9');
+                    }
+                }
+            }
+        }
+        let text: String = text.into_iter().collect();
+        let found = imported(&text);
+        match found.text.text().is_empty() {
+            true => {
+                assert!(!found.diagnostics.is_empty());
+                bad += 1;
+            }
+            false => {
+                let written = Source::new("p.sfc", found.text.text()).expect("a short text");
+                for one in chart::text::read(&written).diagnostics {
+                    assert!(found.text.place(one.span).end as usize <= text.len());
+                }
+                good += 1;
+            }
+        }
+    }
+    assert!(good > 100 && bad > 100, "{good} good, {bad} bad");
+}
