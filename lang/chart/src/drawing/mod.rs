@@ -31,6 +31,8 @@ pub use shapes::{Drawing, Point, Rect, Sheet};
 
 /// Most steps, and most transitions, of a chart that is drawn.
 pub const ELEMENTS_MAX: usize = 300;
+/// Places in the text are between this and its negative.
+pub const PLACE_MAX: i32 = 1_000_000;
 /// Charts are side by side up to this width.
 const WIDTH: i32 = 1100;
 /// Free around everything.
