@@ -364,6 +364,15 @@ impl Chart {
         self.steps.iter().filter(|(_, step)| step.is_initial).map(|(id, _)| *id)
     }
 
+    /// The chart and those in its actions, each before those in it: as they are drawn.
+    pub fn with_inner(&self) -> Vec<&Chart> {
+        let inner = self.actions.values().filter_map(|action| match &action.body {
+            Body::Chart(inner) => Some(inner.with_inner()),
+            Body::Variable | Body::Code(_) => None,
+        });
+        std::iter::once(self).chain(inner.flatten()).collect()
+    }
+
     /// The transitions in the order in which alternatives are tried: by priority, those without
     /// one after those with one, then as in the text.
     pub fn by_priority(&self) -> Vec<TransitionId> {

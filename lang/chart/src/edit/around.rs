@@ -7,7 +7,7 @@ use diagnostics::Source;
 use st::lexer::{Kind, cut};
 use st::parser::parse;
 
-use super::Refusal;
+use super::refusal::Refusal;
 use crate::generate::declared;
 use crate::model::{Chart, is_same_name};
 use crate::text::{Document, Piece};

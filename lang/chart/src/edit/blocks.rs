@@ -2,10 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use super::change::{Change, Element};
+use super::change::Change;
 use super::draft::{Draft, Outcome};
+use super::kinds::Element;
+use super::kinds::Wanted;
 use super::legible::expression;
-use super::{Refusal, Wanted};
+use super::refusal::Refusal;
 use crate::generate::wrong_qualifier;
 use crate::model::{Action, ActionId, Body, Instance, Origin, StepId};
 

@@ -1,19 +1,8 @@
 //! What edits consist of: one element of a chart gets another value. Each change has an inverse, so
 //! that edits have one.
 
-use super::ChartPath;
+use super::kinds::ChartPath;
 use crate::model::{Action, ActionId, Chart, Step, StepId, Transition, TransitionId};
-
-/// An element of a chart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Element {
-    /// A step.
-    Step(StepId),
-    /// A transition.
-    Transition(TransitionId),
-    /// An action.
-    Action(ActionId),
-}
 
 /// An element and what becomes of it; `None`: it is not there.
 #[derive(Debug, Clone, PartialEq)]

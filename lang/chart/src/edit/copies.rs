@@ -4,10 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use diagnostics::Source;
 
-use super::change::{Change, Element};
+use super::change::Change;
 use super::draft::{Draft, Outcome};
+use super::editing::Editing;
+use super::kinds::Element;
+use super::kinds::{ChartPath, Edit};
 use super::naming::numbered;
-use super::{ChartPath, Edit, Editing, Refusal};
+use super::refusal::Refusal;
 use crate::model::{ActionId, Chart, Position, Step, StepId, Transition, TransitionId};
 use crate::text::{Document, Piece, read, write};
 

@@ -3,11 +3,15 @@
 
 use std::collections::BTreeSet;
 
-use super::change::{Change, Element, Undo};
+use super::change::{Change, Undo};
+use super::editing::Editing;
 use super::index::Index;
-use super::legible::Legible;
-use super::{ChartPath, Edit, Editing, Refusal, always};
-use crate::model::{ActionId, Body, Chart, Standard, Step, StepId, Transition, TransitionId};
+use super::kinds::{ChartPath, Edit, Element};
+use super::legible::{Legible, check_name};
+use super::refusal::Refusal;
+use crate::model::{
+    Action, ActionId, Body, Chart, Code, Standard, Step, StepId, Transition, TransitionId,
+};
 
 pub(super) type Outcome<T = ()> = Result<T, Refusal>;
 
@@ -143,7 +147,7 @@ impl<'e> Draft<'e> {
             if index.transition_names.of(&key).any(|other| *other != id) {
                 return Err(Refusal::TransitionTaken(name.clone()));
             }
-            super::naming::check(name)?;
+            check_name(name)?;
         }
         Legible::of(chart).transition(&one)?;
         self.set_here(Change::Transition(id, Some(one)));
@@ -176,9 +180,16 @@ impl<'e> Draft<'e> {
             Element::Action(id) => {
                 let action = self.action(id)?;
                 let comment = if action.body == Body::Variable { String::new() } else { comment };
-                self.set_here(Change::Action(id, Some(crate::model::Action { comment, ..action })));
+                self.set_here(Change::Action(id, Some(Action { comment, ..action })));
                 Ok(())
             }
         }
     }
+}
+
+/// The condition of transitions that nobody has given one.
+const ALWAYS: &str = "TRUE";
+
+fn always(from: BTreeSet<StepId>, to: BTreeSet<StepId>) -> Transition {
+    Transition { from, to, condition: Code::new(ALWAYS), ..Transition::default() }
 }

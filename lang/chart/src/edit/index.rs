@@ -1,11 +1,12 @@
-//! Finds things in a chart that is being edited: names, ends of transitions, users of actions, words
-//! in code. It follows from the chart, and follows each change of it.
+//! Finds things in a chart that is being edited: names, ends of transitions, users of actions,
+//! words in code. It follows from the chart, and follows each change of it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use st::lexer::{Kind, cut};
 
-use super::change::{Change, Element};
+use super::change::Change;
+use super::kinds::Element;
 use crate::model::{Action, ActionId, Body, Chart, Code, Step, StepId, Transition, TransitionId};
 
 /// Several values for each key.

@@ -2,9 +2,10 @@
 //! must not become something else in the text.
 
 use diagnostics::{Source, Span};
+use st::keywords::is_keyword;
 use st::parser::parse_expression;
 
-use super::Refusal;
+use super::refusal::Refusal;
 use crate::model::{Action, Body, Chart, Code, Origin, Step, Transition};
 use crate::text::{Document, Piece, read, write};
 
@@ -72,4 +73,29 @@ pub(super) fn expression(text: &str, what: &str) -> Result<Code, Refusal> {
         None => Ok(Code::new(text)),
         Some(first) => Err(Refusal::Code { what: what.to_owned(), message: first.message }),
     }
+}
+
+/// The words of charts, beside those of Structured Text.
+const WORDS: [&str; 9] = [
+    "STEP",
+    "INITIAL_STEP",
+    "END_STEP",
+    "TRANSITION",
+    "END_TRANSITION",
+    "ACTION",
+    "END_ACTION",
+    "FROM",
+    "PRIORITY",
+];
+
+/// Whether a text can be a name.
+pub(super) fn check_name(name: &str) -> Result<(), Refusal> {
+    let is_letter = |c: char| c.is_alphabetic() || c == '_';
+    let is_name =
+        name.starts_with(is_letter) && name.chars().all(|c| c == '_' || c.is_alphanumeric());
+    if !is_name {
+        return Err(Refusal::NotAName(name.to_owned()));
+    }
+    let is_word = is_keyword(name) || WORDS.iter().any(|word| word.eq_ignore_ascii_case(name));
+    if is_word { Err(Refusal::Keyword(name.to_owned())) } else { Ok(()) }
 }

@@ -1,42 +1,19 @@
 //! Names of steps: which are free, who says them, and how all who do follow a new one.
 
 use diagnostics::Span;
-use st::keywords::is_keyword;
 use st::parser::{parse_expression, parse_statements};
 use st::tree::{Expression, ExpressionKind};
 use st::visit;
 
-use super::change::{Change, Element};
+use super::change::Change;
 use super::draft::{Draft, Outcome};
-use super::{ChartPath, Editing, Refusal};
+use super::editing::Editing;
+use super::kinds::{ChartPath, Element};
+use super::legible::check_name;
+use super::refusal::Refusal;
 use crate::hierarchy::Hierarchy;
 use crate::model::{Body, Code, Situation, Standard, Step, StepId, is_same_name};
 use crate::text::Piece;
-
-/// The words of charts, beside those of Structured Text.
-const WORDS: [&str; 9] = [
-    "STEP",
-    "INITIAL_STEP",
-    "END_STEP",
-    "TRANSITION",
-    "END_TRANSITION",
-    "ACTION",
-    "END_ACTION",
-    "FROM",
-    "PRIORITY",
-];
-
-/// Whether a text can be a name.
-pub(super) fn check(name: &str) -> Outcome {
-    let is_letter = |c: char| c.is_alphabetic() || c == '_';
-    let is_name =
-        name.starts_with(is_letter) && name.chars().all(|c| c == '_' || c.is_alphanumeric());
-    if !is_name {
-        return Err(Refusal::NotAName(name.to_owned()));
-    }
-    let is_word = is_keyword(name) || WORDS.iter().any(|word| word.eq_ignore_ascii_case(name));
-    if is_word { Err(Refusal::Keyword(name.to_owned())) } else { Ok(()) }
-}
 
 /// What a piece of code is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -227,7 +204,7 @@ impl Editing {
     pub(super) fn is_free(&self, path: &ChartPath, name: &str) -> bool {
         let name = name.to_uppercase();
         let mut indexes = self.relatives(path).filter_map(|path| self.charts.get(path));
-        check(&name).is_ok()
+        check_name(&name).is_ok()
             && !self.around.declares(path.piece, &name)
             && !indexes.any(|index| index.names.has(&name) || index.words.has(&name))
     }
@@ -243,7 +220,7 @@ pub(super) fn numbered(name: &str, from: usize, is_free: impl Fn(&str) -> bool) 
 impl Draft<'_> {
     pub(super) fn rename(&mut self, id: StepId, name: &str) -> Outcome {
         let name = name.trim();
-        check(name)?;
+        check_name(name)?;
         let old = self.step(id)?.name;
         self.select.push(Element::Step(id));
         if !is_same_name(&old, name) {

@@ -1,11 +1,11 @@
-//! Edits of places. In a chart whose steps all have one, a new step has one, too: otherwise the whole
-//! chart would be laid out anew.
+//! Edits of places. In a chart whose steps all have one, a new step has one, too: otherwise the
+//! whole chart would be laid out anew.
 
 use std::collections::BTreeMap;
 
-use super::Refusal;
-use super::change::Element;
 use super::draft::{Draft, Outcome};
+use super::kinds::Element;
+use super::refusal::Refusal;
 use crate::drawing::PLACE_MAX;
 use crate::model::{Position, Step, StepId, Transition, TransitionId};
 

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use super::Refusal;
-use super::change::{Change, Element};
+use super::change::Change;
 use super::draft::{Draft, Outcome};
+use super::kinds::Element;
 use super::naming::numbered;
+use super::refusal::Refusal;
 use crate::model::{Position, Step, StepId, Transition, TransitionId};
 
 impl Draft<'_> {

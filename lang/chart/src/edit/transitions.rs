@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::change::Element;
 use super::draft::{Draft, Outcome};
+use super::kinds::Element;
 use super::legible::expression;
 use crate::model::{StepId, Transition, TransitionId};
 

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use chart::drawn::Drawn;
 use chart::edit::{ChartPath, Edit, Editing, Element, Wanted};
-use chart::model::{ActionId, Body, Chart, Position, Qualifier, Standard, StepId, TransitionId};
+use chart::model::{ActionId, Chart, Position, Qualifier, Standard, StepId, TransitionId};
 use chart::text::{Document, Piece, read, write};
 use diagnostics::Source;
 use fastrand::Rng;
@@ -23,27 +23,13 @@ fn document(text: &str) -> Document {
     reading.document
 }
 
-fn all_charts(document: &Document) -> Vec<&Chart> {
-    fn add<'c>(chart: &'c Chart, all: &mut Vec<&'c Chart>) {
-        all.push(chart);
-        for action in chart.actions.values() {
-            if let Body::Chart(inner) = &action.body {
-                add(inner, all);
-            }
-        }
-    }
-    let mut all = Vec::new();
-    document.charts().for_each(|chart| add(chart, &mut all));
-    all
-}
-
 /// What must be true of charts that are edited.
 pub fn check(editing: &Editing) {
     let text = editing.text();
     // It is read as it is written: names once, transitions once, ends that are there, qualifiers
     // with their times. Ids alone are others.
     assert_eq!(write(&document(&text)), text);
-    for chart in all_charts(editing.document()) {
+    for chart in editing.document().charts().flat_map(Chart::with_inner) {
         let initial = chart.initial_steps().count();
         let is_sfc = chart.standard == Standard::Sfc;
         assert!(!is_sfc || initial == usize::from(!chart.steps.is_empty()), "{initial} in\n{text}");
