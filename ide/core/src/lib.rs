@@ -7,6 +7,7 @@
 mod apart;
 mod build;
 mod chart;
+mod chart_edits;
 mod editor;
 mod ladder;
 mod lock_step;

@@ -14,6 +14,7 @@ use serde::Serialize;
 use crate::apart::{self, Wanted};
 use crate::build;
 use crate::chart::Charts;
+use crate::chart_edits;
 use crate::editor::Editor;
 use crate::ladder::Shown;
 use crate::outside::{Outside, Then};
@@ -292,8 +293,16 @@ impl Session {
             TextWish::Chart { file } => {
                 self.drawings += 1;
                 let (id, drawing) = (self.drawings, editor.chart(&file));
-                self.show_charts(drawing.map(|drawing| Charts { id, file, drawing }));
+                let charts = editor.charts(&file);
+                self.show_charts(drawing.map(|drawing| Charts { id, file, drawing, charts }));
                 answer(self.charts.as_ref().map(Charts::chart))
+            }
+            TextWish::EditChart { file, edits } => answer(chart_edits::edit(editor, &file, &edits)),
+            TextWish::ChartEdits { file, sheet, selection } => {
+                answer(chart_edits::allowed(editor, &file, sheet, &selection))
+            }
+            TextWish::CopyChart { file, sheet, selection } => {
+                answer(chart_edits::copy(editor, &file, sheet, &selection))
             }
             TextWish::AboutPlant { spec } => self.about_plant(&spec),
         }

@@ -260,10 +260,15 @@ impl<'c> Hierarchy<'c> {
 
     /// The step that a forcing order names.
     pub(crate) fn forced_step(&self, chart: usize, name: &str) -> Option<Key> {
+        self.step_inside(chart, name).map(|key| self.entry(key))
+    }
+
+    /// The step of a name in a partial chart and the expansions in it.
+    pub(crate) fn step_inside(&self, partial: usize, name: &str) -> Option<Key> {
         let mut steps = self.steps().into_iter();
         let found = steps
-            .find(|((at, _), step)| self.partial(*at) == chart && is_same_name(&step.name, name));
-        found.map(|(key, _)| self.entry(key))
+            .find(|((at, _), step)| self.partial(*at) == partial && is_same_name(&step.name, name));
+        found.map(|(key, _)| key)
     }
 
     fn find_orders(&self) -> Vec<Order> {

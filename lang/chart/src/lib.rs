@@ -2,14 +2,16 @@
 //! It opens no files, and never runs a program.
 //!
 //! [`text`] reads a file into the [`model`]; [`translate`] makes Structured Text of it, which
-//! becomes AWL like any other. [`interpret`] executes a chart without translating it. [`drawing`]
-//! says what it looks like, [`svg`] writes that as a picture. [`sfcedit`] reads charts of another
-//! editor, [`set_reset`] makes Structured Text of those for other controllers.
+//! becomes AWL like any other. [`interpret`] executes a chart without translating it. [`edit`]
+//! changes it. [`drawing`] says what it looks like, [`svg`] writes that as a picture. [`sfcedit`]
+//! reads charts of another editor, [`set_reset`] makes Structured Text of those for other
+//! controllers.
 
 mod check;
 pub mod diagnostic;
 pub mod drawing;
 pub mod drawn;
+pub mod edit;
 mod generate;
 mod hierarchy;
 pub mod interpret;

@@ -44,8 +44,18 @@ pub struct Chart {
     pub transitions: BTreeMap<TransitionId, Transition>,
     /// Its actions.
     pub actions: BTreeMap<ActionId, Action>,
-    /// The number of the next element.
-    next: u32,
+    /// The number of the element that was added last.
+    last: Last,
+}
+
+/// How many elements a chart has had. It says nothing about the chart as it is.
+#[derive(Debug, Clone, Copy, Default)]
+struct Last(u32);
+
+impl PartialEq for Last {
+    fn eq(&self, _: &Last) -> bool {
+        true
+    }
 }
 
 /// A step.
@@ -310,28 +320,29 @@ impl Chart {
         Chart { name: name.into(), ..Chart::default() }
     }
 
-    fn next(&mut self) -> u32 {
-        self.next += 1;
-        self.next
+    /// A number that no element has had.
+    pub(crate) fn fresh(&mut self) -> u32 {
+        self.last.0 += 1;
+        self.last.0
     }
 
     /// Adds a step.
     pub fn add_step(&mut self, step: Step) -> StepId {
-        let id = StepId(self.next());
+        let id = StepId(self.fresh());
         self.steps.insert(id, step);
         id
     }
 
     /// Adds a transition.
     pub fn add_transition(&mut self, transition: Transition) -> TransitionId {
-        let id = TransitionId(self.next());
+        let id = TransitionId(self.fresh());
         self.transitions.insert(id, transition);
         id
     }
 
     /// Adds an action.
     pub fn add_action(&mut self, action: Action) -> ActionId {
-        let id = ActionId(self.next());
+        let id = ActionId(self.fresh());
         self.actions.insert(id, action);
         id
     }
@@ -351,6 +362,15 @@ impl Chart {
     /// The steps that are active at the beginning.
     pub fn initial_steps(&self) -> impl Iterator<Item = StepId> {
         self.steps.iter().filter(|(_, step)| step.is_initial).map(|(id, _)| *id)
+    }
+
+    /// The chart and those in its actions, each before those in it: as they are drawn.
+    pub fn with_inner(&self) -> Vec<&Chart> {
+        let inner = self.actions.values().filter_map(|action| match &action.body {
+            Body::Chart(inner) => Some(inner.with_inner()),
+            Body::Variable | Body::Code(_) => None,
+        });
+        std::iter::once(self).chain(inner.flatten()).collect()
     }
 
     /// The transitions in the order in which alternatives are tried: by priority, those without

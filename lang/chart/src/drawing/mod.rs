@@ -15,11 +15,12 @@ pub mod shapes;
 pub mod standard;
 mod wiring;
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use diagnostics::Source;
 
-use crate::model::{Body, Chart, Origin, Step, StepKind, Transition};
+use crate::model::{Body, Chart, Origin, Position, Step, StepKind, Transition, TransitionId};
 use boxes::{block, label, label_room, label_start, note};
 use measures::{BLOCK_GAP, CORRIDOR, Measures, TITLE_HEIGHT, short, text_width};
 use shapes::{ActionShape, Look, StepShape, TransitionShape};
@@ -31,6 +32,8 @@ pub use shapes::{Drawing, Point, Rect, Sheet};
 
 /// Most steps, and most transitions, of a chart that is drawn.
 pub const ELEMENTS_MAX: usize = 300;
+/// Places in the text are between this and its negative.
+pub const PLACE_MAX: i32 = 1_000_000;
 /// Charts are side by side up to this width.
 const WIDTH: i32 = 1100;
 /// Free around everything.
@@ -86,11 +89,42 @@ fn add(
     Ok(())
 }
 
+/// Where the steps of a chart are drawn, as places in its text would say it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Places {
+    /// The middles of steps.
+    pub steps: BTreeMap<StepId, Position>,
+    /// The middles of bars that have a place in the text and are drawn there.
+    pub bars: BTreeMap<TransitionId, Position>,
+    /// Whether they follow from places in the text.
+    pub is_given: bool,
+}
+
+/// Where the steps of a chart are drawn.
+pub fn places(chart: &Chart) -> Places {
+    let (placement, is_given) = placement(chart, &room::room(chart));
+    let position = |at: Point| Position { x: at.x, y: at.y };
+    let bars = placement.bars.into_iter().filter(|_| is_given);
+    Places {
+        steps: placement.steps.into_iter().map(|(id, at)| (id, position(at))).collect(),
+        bars: bars.map(|(id, at)| (id, position(at))).collect(),
+        is_given,
+    }
+}
+
+/// Places by the text, or automatic ones; and whether they are by the text.
+fn placement(chart: &Chart, room: &room::Room) -> (layout::Placement, bool) {
+    match places::given(chart, room) {
+        Some(placement) => (placement, true),
+        None => (layout::automatic(chart, room), false),
+    }
+}
+
 /// One chart, from its upper left corner on.
 fn sheet(chart: &Chart, name: &str, source: &Source) -> Sheet {
     let room = room::room(chart);
     let m = room.measures;
-    let placement = places::given(chart, &room).unwrap_or_else(|| layout::automatic(chart, &room));
+    let (placement, is_placed) = placement(chart, &room);
     let line = |origin: Origin| source.position(origin.0.start as usize).0;
     let steps = chart.steps.iter().filter_map(|(id, step)| {
         let mut shape = step_shape(chart, step, *placement.steps.get(id)?, &m);
@@ -116,7 +150,7 @@ fn sheet(chart: &Chart, name: &str, source: &Source) -> Sheet {
         Some(shape)
     });
     let transitions = transitions.collect();
-    framed(Sheet { name: name.to_owned(), steps, transitions, ..Sheet::default() })
+    framed(Sheet { name: name.to_owned(), is_placed, steps, transitions, ..Sheet::default() })
 }
 
 /// The block of a step with the line to it.
@@ -216,6 +250,7 @@ fn packed(mut sheets: Vec<Sheet>) -> Drawing {
 impl Sheet {
     fn move_by(&mut self, by: Point) {
         self.title = self.title.moved(by);
+        self.origin = self.origin.moved(by);
         self.frame = self.frame.moved(by);
         self.steps.iter_mut().for_each(|step| step.move_by(by));
         self.transitions.iter_mut().for_each(|one| one.move_by(by));

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use super::PLACE_MAX;
 use super::layout::Placement;
 use super::measures::CORRIDOR;
 use super::room::Room;
@@ -35,7 +36,8 @@ pub(super) fn given(chart: &Chart, room: &Room) -> Option<Placement> {
 /// What a coordinate of the text is in the drawing.
 type Axis = BTreeMap<i32, i32>;
 
-/// Coordinates in order, each at least as far from those before as they ask for.
+/// Coordinates in order, each at least as far from those before as they ask for. Where nothing is
+/// moved apart, they are as in the text.
 fn axis(mut list: Vec<i32>, least: impl Fn(&Axis, i32) -> Option<i32>) -> Axis {
     list.sort_unstable();
     list.dedup();
@@ -45,7 +47,7 @@ fn axis(mut list: Vec<i32>, least: impl Fn(&Axis, i32) -> Option<i32>) -> Axis {
             let free = (i64::from(one) - i64::from(*before)).min(FREE_MAX);
             at.saturating_add(free as i32)
         };
-        let next = axis.last_key_value().map_or(0, free);
+        let next = axis.last_key_value().map_or(one.clamp(-PLACE_MAX, PLACE_MAX), free);
         let least = least(&axis, one).unwrap_or(next);
         axis.insert(one, next.max(least));
     }

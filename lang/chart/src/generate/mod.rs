@@ -24,6 +24,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Body, Chart, Standard};
 use crate::text::{self, Region};
 pub use declare::globals as declared;
+pub(crate) use sound::wrong_qualifier;
 
 use actions::Actions;
 use evolution::Evolution;

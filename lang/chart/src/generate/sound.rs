@@ -252,8 +252,9 @@ fn never_stable(hierarchy: &Hierarchy, found: &mut Vec<Diagnostic>) {
     found.push(one.help("the transitions between them are always crossed; a condition ends that"));
 }
 
-/// Which qualifiers GRAFCET has depends on what the action is.
-fn qualifier(action: &Action, instance: &Instance, found: &mut Vec<Diagnostic>) {
+/// Which qualifiers GRAFCET has depends on what the action is: what is wrong with that of an
+/// instance.
+pub(crate) fn wrong_qualifier(action: &Action, instance: &Instance) -> Option<&'static str> {
     use Qualifier::{D, L, N, P, P0, P1, R, S};
     let is_variable = action.body == Body::Variable;
     let help = match instance.qualifier {
@@ -262,11 +263,14 @@ fn qualifier(action: &Action, instance: &Instance, found: &mut Vec<Diagnostic>) 
         _ if is_variable => Some("a variable has N, L, D, S or R in a GRAFCET"),
         _ => Some("code is executed at activation, P1, or deactivation, P0, in a GRAFCET"),
     };
-    let help = help.or_else(|| {
+    help.or_else(|| {
         let has_event = matches!(instance.qualifier, S | R | P | P1) || instance.event.is_none();
         (!has_event).then_some("an event belongs to a stored action: S, R, P1")
-    });
-    if let Some(help) = help {
+    })
+}
+
+fn qualifier(action: &Action, instance: &Instance, found: &mut Vec<Diagnostic>) {
+    if let Some(help) = wrong_qualifier(action, instance) {
         let message = format!("{}({}): not in a GRAFCET", action.name, instance.qualifier.text());
         let one = Diagnostic::new(Code::BadQualifier, instance.origin.0, message);
         found.push(one.help(help));

@@ -2,6 +2,8 @@
 
 mod compiled;
 mod drawing;
+mod edit_refusals;
+mod edits;
 mod evaluator;
 mod grafcet;
 mod messages;
