@@ -313,7 +313,9 @@ impl Parser<'_> {
             if self.is_word(word) {
                 let message = format!("{word}: inputs are values, not edges");
                 let found = Diagnostic::new(Code::NotThere, self.token().span, message);
-                self.report(found.help(format!("an instance of {block} in the block finds the edge")));
+                self.report(
+                    found.help(format!("an instance of {block} in the block finds the edge")),
+                );
                 self.step();
             }
         }
