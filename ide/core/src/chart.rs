@@ -1,11 +1,8 @@
 //! The charts that the page shows: their data, and the steps whose bits the PLC is asked for. How
-//! a text becomes a drawing, the library `chart` says.
+//! a text becomes a drawing is in `chart`.
 
 use analysis::drawing::shapes::{Drawing, Look, Point, Rect, Sheet, StepShape, TransitionShape};
 use analysis::drawing::{self, TooLarge};
-
-use analysis::chart::Chart;
-use analysis::chart::model::Standard;
 
 use crate::protocol::chart as page;
 
@@ -18,8 +15,6 @@ pub struct Charts {
     pub file: String,
     /// The drawing, or why there is none.
     pub drawing: Result<Drawing, TooLarge>,
-    /// What is drawn, sheet by sheet.
-    pub charts: Vec<Chart>,
 }
 
 impl Charts {
@@ -33,7 +28,7 @@ impl Charts {
             obstacle: drawing.err().map(TooLarge::to_string),
             width,
             height,
-            sheets: self.sheets().iter().zip(&self.charts).map(sheet).collect(),
+            sheets: self.sheets().iter().map(sheet).collect(),
         }
     }
 
@@ -72,15 +67,12 @@ impl Charts {
     }
 }
 
-fn sheet((sheet, chart): (&Sheet, &Chart)) -> page::Sheet {
+fn sheet(sheet: &Sheet) -> page::Sheet {
     page::Sheet {
         name: sheet.name.clone(),
         title: point(&sheet.title),
-        origin: point(&sheet.origin),
-        is_placed: sheet.is_placed,
-        is_grafcet: chart.standard == Standard::Grafcet,
-        steps: sheet.steps.iter().map(|one| step(one, chart)).collect(),
-        transitions: sheet.transitions.iter().map(|one| transition(sheet, one, chart)).collect(),
+        steps: sheet.steps.iter().map(step).collect(),
+        transitions: sheet.transitions.iter().map(|one| transition(sheet, one)).collect(),
     }
 }
 
@@ -96,65 +88,42 @@ fn line((a, b): &(Point, Point)) -> [i32; 4] {
     [a.x, a.y, b.x, b.y]
 }
 
-fn step(shape: &StepShape, chart: &Chart) -> page::Step {
-    let look = match shape.look {
+fn step(step: &StepShape) -> page::Step {
+    let look = match step.look {
         Look::Plain => "plain",
         Look::Macro => "macro",
         Look::Enclosing => "enclosing",
     };
-    let step = chart.steps.get(&shape.id).cloned().unwrap_or_default();
-    // Forcing orders are drawn below the instances.
-    let mut instances = step.block.iter().zip(0..).map(|(one, index)| {
-        let action = chart.actions.get(&one.action).map_or("", |action| &action.name);
-        page::Instance {
-            index,
-            qualifier: one.qualifier.text().to_owned(),
-            time: one.time.as_ref().map(|time| time.text.clone()),
-            action: action.to_owned(),
-        }
-    });
-    let actions = shape.actions.iter().map(|action| page::Action {
+    let actions = step.actions.iter().map(|action| page::Action {
         frame: frame(action.frame),
         divider: action.divider,
         qualifier: action.qualifier.clone(),
         name: action.name.clone(),
-        instance: instances.next(),
     });
     page::Step {
-        line: shape.line as u32,
-        name: shape.name.clone(),
-        note: shape.note.clone(),
-        frame: frame(shape.frame),
-        is_initial: shape.is_initial,
-        is_linked: shape.is_linked,
+        line: step.line as u32,
+        name: step.name.clone(),
+        note: step.note.clone(),
+        frame: frame(step.frame),
+        is_initial: step.is_initial,
+        is_linked: step.is_linked,
         look: look.to_owned(),
         actions: actions.collect(),
-        full_name: step.name,
-        comment: step.comment,
-        is_placed: step.at.is_some(),
     }
 }
 
-fn transition(sheet: &Sheet, shape: &TransitionShape, chart: &Chart) -> page::Transition {
+fn transition(sheet: &Sheet, one: &TransitionShape) -> page::Transition {
     let place = |id: &drawing::StepId| sheet.steps.iter().position(|step| step.id == *id);
-    let side = |ids: &[drawing::StepId]| ids.iter().filter_map(place).map(|at| at as u32).collect();
     let points = |points: &Vec<Point>| points.iter().map(point).collect();
-    let one = chart.transitions.get(&shape.id).cloned().unwrap_or_default();
     page::Transition {
-        line: shape.line as u32,
-        title: shape.title.clone(),
-        from: side(&shape.from),
-        to: side(&shape.to),
-        bar: line(&shape.bar),
-        text: shape.text.clone(),
-        label: point(&shape.label),
-        lines: shape.lines.iter().map(points).collect(),
-        doubles: shape.doubles.iter().map(line).collect(),
-        arrows: shape.arrows.iter().map(point).collect(),
-        condition: one.condition.text,
-        name: one.name,
-        priority: one.priority,
-        comment: one.comment,
-        is_placed: one.at.is_some(),
+        line: one.line as u32,
+        title: one.title.clone(),
+        from: one.from.iter().filter_map(place).map(|at| at as u32).collect(),
+        bar: line(&one.bar),
+        text: one.text.clone(),
+        label: point(&one.label),
+        lines: one.lines.iter().map(points).collect(),
+        doubles: one.doubles.iter().map(line).collect(),
+        arrows: one.arrows.iter().map(point).collect(),
     }
 }

@@ -3,9 +3,6 @@
 
 use std::collections::BTreeMap;
 
-use analysis::chart::Chart;
-use analysis::chart::edit::Editing;
-use analysis::chart::text::{program_name, read};
 use analysis::drawing::TooLarge;
 use analysis::ladder::Drawing;
 use analysis::{CompletionKind, Language, Location, OutlineKind, Project};
@@ -243,30 +240,6 @@ impl Editor {
     /// The charts of a file as a drawing; none of a file without charts.
     pub fn chart(&self, name: &str) -> Option<Result<analysis::drawing::Drawing, TooLarge>> {
         self.project.chart(name)
-    }
-
-    /// The charts of a file for editing; or what is wrong with its text. A file without charts gets
-    /// an empty one.
-    pub fn editing(&self, name: &str) -> Result<Editing, String> {
-        let source = self.source(name).ok_or_else(|| format!("there is no file {name}"))?;
-        if Language::of_name(name) != Some(Language::Chart) {
-            return Err(format!("{name}: charts are in files `.sfc`"));
-        }
-        let reading = read(source);
-        if let Some(first) = reading.diagnostics.first() {
-            let (line, _) = source.position(first.span.start as usize);
-            let message = &first.message;
-            return Err(format!("line {line}: {message}: the text is to be mended first"));
-        }
-        let unit = program_name(name);
-        Editing::of(reading.document, &unit).map_err(|refusal| refusal.to_string())
-    }
-
-    /// The charts of a file in the order in which they are drawn.
-    pub fn charts(&self, name: &str) -> Vec<Chart> {
-        let document = self.source(name).map(|source| read(source).document);
-        let charts = document.iter().flat_map(|document| document.charts());
-        charts.flat_map(Chart::with_inner).cloned().collect()
     }
 
     /// A line of a file as a place.

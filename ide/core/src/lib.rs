@@ -7,7 +7,6 @@
 mod apart;
 mod build;
 mod chart;
-mod chart_edits;
 mod editor;
 mod ladder;
 mod lock_step;

@@ -2,7 +2,6 @@
 //! browser does. Times are milliseconds.
 
 pub mod chart;
-pub mod chart_edit;
 pub mod ladder;
 pub mod plant;
 
@@ -85,14 +84,6 @@ pub enum TextWish {
     /// The charts of a file, whose situation is told from then on; of a file without charts none.
     /// Answer: [`Chart`](chart::Chart) or null.
     Chart { file: String },
-    /// The text of a file after edits of its charts, all of them or none. The file stays as it is.
-    /// Answer: [`Edited`](chart_edit::Edited).
-    EditChart { file: String, edits: Vec<chart_edit::ChartEdit> },
-    /// What can be done with what is selected in a chart. Answer:
-    /// [`Allowed`](chart_edit::Allowed)s.
-    ChartEdits { file: String, sheet: u32, selection: chart_edit::Selection },
-    /// The steps that are selected, as text. Answer: [`Copied`](chart_edit::Copied).
-    CopyChart { file: String, sheet: u32, selection: chart_edit::Selection },
     /// A plant as `awl-sim --plant` takes it; files are those of the project. Answer:
     /// [`PlantInfo`](plant::PlantInfo).
     AboutPlant { spec: String },

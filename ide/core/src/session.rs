@@ -14,7 +14,6 @@ use serde::Serialize;
 use crate::apart::{self, Wanted};
 use crate::build;
 use crate::chart::Charts;
-use crate::chart_edits;
 use crate::editor::Editor;
 use crate::ladder::Shown;
 use crate::outside::{Outside, Then};
@@ -293,16 +292,8 @@ impl Session {
             TextWish::Chart { file } => {
                 self.drawings += 1;
                 let (id, drawing) = (self.drawings, editor.chart(&file));
-                let charts = editor.charts(&file);
-                self.show_charts(drawing.map(|drawing| Charts { id, file, drawing, charts }));
+                self.show_charts(drawing.map(|drawing| Charts { id, file, drawing }));
                 answer(self.charts.as_ref().map(Charts::chart))
-            }
-            TextWish::EditChart { file, edits } => answer(chart_edits::edit(editor, &file, &edits)),
-            TextWish::ChartEdits { file, sheet, selection } => {
-                answer(chart_edits::allowed(editor, &file, sheet, &selection))
-            }
-            TextWish::CopyChart { file, sheet, selection } => {
-                answer(chart_edits::copy(editor, &file, sheet, &selection))
             }
             TextWish::AboutPlant { spec } => self.about_plant(&spec),
         }

@@ -23,18 +23,11 @@ pub struct Chart {
 
 /// A chart.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
 pub struct Sheet {
     /// Its name with those of the charts around.
     pub name: String,
     /// Where that is written.
     pub title: (i32, i32),
-    /// Where the place 0, 0 of its text is in the drawing.
-    pub origin: (i32, i32),
-    /// Whether it is drawn at the places that its text gives to steps.
-    pub is_placed: bool,
-    /// Whether it is a GRAFCET.
-    pub is_grafcet: bool,
     /// Its steps.
     pub steps: Vec<Step>,
     /// Its transitions.
@@ -47,14 +40,8 @@ pub struct Sheet {
 pub struct Step {
     /// Its line, from 1.
     pub line: u32,
-    /// Its name; one that is too long ends in dots.
-    pub name: String,
     /// Its name.
-    pub full_name: String,
-    /// Its comment.
-    pub comment: String,
-    /// Whether it has a place of its own.
-    pub is_placed: bool,
+    pub name: String,
     /// What it stands for.
     pub note: String,
     /// Its box.
@@ -80,26 +67,10 @@ pub struct Action {
     pub qualifier: String,
     /// The action.
     pub name: String,
-    /// What it is as an instance; none of a forcing order.
-    pub instance: Option<Instance>,
-}
-
-/// An instance of an action in the block of a step.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Instance {
-    /// Which of the block.
-    pub index: u32,
-    /// Its qualifier.
-    pub qualifier: String,
-    /// Its time.
-    pub time: Option<String>,
-    /// Its action.
-    pub action: String,
 }
 
 /// A transition.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
 pub struct Transition {
     /// Its line, from 1.
     pub line: u32,
@@ -107,18 +78,6 @@ pub struct Transition {
     pub title: String,
     /// The steps before it: which of the sheet.
     pub from: Vec<u32>,
-    /// The steps after it.
-    pub to: Vec<u32>,
-    /// Its condition.
-    pub condition: String,
-    /// Its name.
-    pub name: Option<String>,
-    /// Its priority.
-    pub priority: Option<u32>,
-    /// Its comment.
-    pub comment: String,
-    /// Whether it has a place of its own.
-    pub is_placed: bool,
     /// Its bar.
     pub bar: [i32; 4],
     /// What is written beside that, line by line.

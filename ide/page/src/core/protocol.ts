@@ -152,42 +152,18 @@ export type Frame = [x: number, y: number, width: number, height: number];
 export interface ChartStep {
   line: number;
   name: string;
-  fullName: string;
-  comment: string;
-  isPlaced: boolean;
   note: string;
   frame: Frame;
   isInitial: boolean;
   isLinked: boolean;
   look: "plain" | "macro" | "enclosing";
-  actions: ChartAction[];
-}
-
-export interface ChartAction {
-  frame: Frame;
-  divider: number | null;
-  qualifier: string;
-  name: string;
-  instance: ChartInstance | null;
-}
-
-export interface ChartInstance {
-  index: number;
-  qualifier: string;
-  time: string | null;
-  action: string;
+  actions: { frame: Frame; divider: number | null; qualifier: string; name: string }[];
 }
 
 export interface ChartTransition {
   line: number;
   title: string;
   from: number[];
-  to: number[];
-  condition: string;
-  name: string | null;
-  priority: number | null;
-  comment: string;
-  isPlaced: boolean;
   bar: [x: number, y: number, endX: number, endY: number];
   text: string[];
   label: [number, number];
@@ -199,9 +175,6 @@ export interface ChartTransition {
 export interface ChartSheet {
   name: string;
   title: [number, number];
-  origin: [number, number];
-  isPlaced: boolean;
-  isGrafcet: boolean;
   steps: ChartStep[];
   transitions: ChartTransition[];
 }
@@ -213,68 +186,6 @@ export interface Chart {
   width: number;
   height: number;
   sheets: ChartSheet[];
-}
-
-type ChartPlace = [x: number, y: number];
-/** A step or a transition. */
-type ChartElement = { step: string } | { transition: number };
-/** An action of a step. */
-interface ChartInBlock {
-  step: string;
-  index: number;
-}
-
-interface ChartChanges {
-  addStep: { at: ChartPlace | null; initial: boolean };
-  addStepAfter: ChartElement;
-  addStepBefore: ChartElement;
-  addStepBetween: { transition: number };
-  addBranch: ChartElement & { parallel: boolean };
-  connect: { from: string[]; to: string[] };
-  erase: { steps: string[]; transitions: number[] };
-  rename: { step: string; name: string };
-  setInitial: { step: string; initial?: boolean };
-  setCondition: { transition: number; text: string };
-  setTransition: {
-    transition: number;
-    name: string | null;
-    priority: number | null;
-    from: string[];
-    to: string[];
-  };
-  setAction: ChartInBlock & Omit<ChartInstance, "index">;
-  insertAction: ChartInBlock & Omit<ChartInstance, "index">;
-  removeAction: ChartInBlock;
-  clearActions: { step: string };
-  eraseAction: { action: string };
-  moveAction: ChartInBlock & { to: number };
-  place: {
-    steps: { name: string; at: ChartPlace }[];
-    transitions: { index: number; at: ChartPlace }[];
-  };
-  layout: object;
-  paste: { text: string; at: ChartPlace | null };
-  comment: ChartElement & { text: string };
-}
-
-export type ChartEdit = {
-  [K in keyof ChartChanges]: { kind: K; sheet: number } & ChartChanges[K];
-}[keyof ChartChanges];
-
-export interface ChartSelection {
-  steps: string[];
-  transitions: number[];
-}
-
-export interface ChartEdited {
-  text: string | null;
-  refusal: string | null;
-  select: string[];
-}
-
-export interface ChartAllowed {
-  kind: keyof ChartChanges | "addParallelBranch" | "copy";
-  refusal: string | null;
 }
 
 export interface Recording {
@@ -341,15 +252,6 @@ export interface Questions {
   outline: { wish: { file: string }; answer: Item[] };
   ladder: { wish: At; answer: Ladder | null };
   chart: { wish: { file: string }; answer: Chart | null };
-  editChart: { wish: { file: string; edits: ChartEdit[] }; answer: ChartEdited };
-  chartEdits: {
-    wish: { file: string; sheet: number; selection: ChartSelection };
-    answer: ChartAllowed[];
-  };
-  copyChart: {
-    wish: { file: string; sheet: number; selection: ChartSelection };
-    answer: { text: string | null; refusal: string | null };
-  };
   aboutPlant: { wish: { spec: string }; answer: PlantInfo };
   simulate: {
     wish: { signals: string[]; forMs: number; scanMs: number; plant: string | null };
