@@ -49,6 +49,11 @@ pub fn check() -> Result<()> {
     Ok(())
 }
 
+/// Nothing in the libraries panics, and a page could not say more than that the core has stopped: the
+/// texts of panics are left out, which is a twentieth of the module.
+const WITHOUT_MESSAGES: [&str; 3] =
+    ["-Zunstable-options", "-Cpanic=immediate-abort", "-Zlocation-detail=none"];
+
 /// Builds the packages `of`, without what their commands need, and tells where the module of one of
 /// them is: optimised and small, as a page loads it. All modules are built alike, so std and the
 /// libraries are built once.
@@ -68,8 +73,11 @@ pub fn build(module: &str, of: &[&str]) -> Result<PathBuf> {
     // Messages of panics name sources; where cargo keeps them is nobody's business.
     let home = env::var_os("CARGO_HOME").map(PathBuf::from);
     let home = home.or_else(|| Some(env::home_dir()?.join(".cargo"))).unwrap_or_default();
-    let flags = format!("rustflags=[\"--remap-path-prefix={}=cargo\"]", home.display());
-    build.arg("--config").arg(format!("target.{TARGET}.{flags}"));
+    let mut flags = vec![format!("--remap-path-prefix={}=cargo", home.display())];
+    if !has_target() {
+        flags.extend(WITHOUT_MESSAGES.map(str::to_owned));
+    }
+    build.arg("--config").arg(format!("target.{TARGET}.rustflags={flags:?}"));
     for package in of {
         build.args(["--package", package]);
     }
