@@ -1,5 +1,5 @@
-//! Cases: files in AWL or Structured Text that carry their scenario and its expectations in `//$` lines. Reads, assembles
-//! and runs them.
+//! Cases: files in AWL or Structured Text that carry their scenario and its expectations in `//$`
+//! lines. Reads, assembles and runs them.
 //!
 //! `README.md` says how a case is written. The examples are cases too, with their scenario in a
 //! file of its own. What runs a case is any [`Machine`].

@@ -49,8 +49,8 @@ pub fn check() -> Result<()> {
     Ok(())
 }
 
-/// Nothing in the libraries panics, and a page could not say more than that the core has stopped: the
-/// texts of panics are left out, which is a twentieth of the module.
+/// Nothing in the libraries panics, and a page could not say more than that the core has stopped:
+/// the texts of panics are left out.
 const WITHOUT_MESSAGES: [&str; 3] =
     ["-Zunstable-options", "-Cpanic=immediate-abort", "-Zlocation-detail=none"];
 

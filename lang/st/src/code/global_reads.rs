@@ -3,7 +3,6 @@
 
 use std::collections::BTreeSet;
 
-use super::Generator;
 use crate::check::each_expression;
 use crate::model::{ExpressionKind, Program, Root};
 use crate::names::safe_name;
@@ -58,14 +57,14 @@ fn of_unit(program: &Program, number: usize, found: &mut [Option<GlobalReads>]) 
     own
 }
 
-impl Generator<'_> {
-    /// Whether a function reads an operand, as far as can be told by its name.
-    pub(super) fn function_reads(&self, number: usize, operand: &str) -> bool {
-        let Some(reads) = self.global_reads.get(number) else { return false };
+impl GlobalReads {
+    /// Whether an operand is among them, as far as can be told by its name; `is_located` tells what
+    /// has an address.
+    pub(super) fn have(&self, operand: &str, is_located: impl Fn(&str) -> bool) -> bool {
         let root = operand.split(['.', '[']).next().unwrap_or(operand);
         // Two addresses may be the same memory.
-        let may_be_same = self.is_located(operand)
-            && (reads.addresses || reads.names.iter().any(|name| self.is_located(name)));
-        may_be_same || reads.names.contains(root)
+        let may_be_same = is_located(operand)
+            && (self.addresses || self.names.iter().any(|name| is_located(name)));
+        may_be_same || self.names.contains(root)
     }
 }

@@ -246,14 +246,18 @@ impl Generator<'_> {
                         || found.is_computed() && operand.starts_with(&found.text)
                         || is_located && self.is_located(&found.text);
                 }
-                ExpressionKind::Call(number, _) => is_read |= self.function_reads(*number, operand),
+                ExpressionKind::Call(number, _) => {
+                    let reads = self.global_reads.get(*number);
+                    is_read |= reads
+                        .is_some_and(|reads| reads.have(operand, |name| self.is_located(name)));
+                }
                 _ => {}
             }
         });
         is_read
     }
 
-    pub(super) fn is_located(&self, operand: &str) -> bool {
+    fn is_located(&self, operand: &str) -> bool {
         awl_asm::Address::parse(operand).is_ok() || self.located.contains(operand)
     }
 
