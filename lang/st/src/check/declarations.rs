@@ -28,8 +28,14 @@ impl<'a> Checker<'a> {
                 } else if number.is_some() {
                     self.twice(&unit.name, None);
                 }
-                if self.type_texts.contains_key(&name) {
-                    self.twice(&unit.name, None);
+                match self.type_texts.get(&name).copied() {
+                    Some((file, declared)) if number.is_none() => {
+                        self.file = file;
+                        self.type_of_the_library(&declared.name);
+                        self.file = number;
+                    }
+                    Some(_) => self.twice(&unit.name, None),
+                    None => {}
                 }
                 self.program.units.push(Unit {
                     kind,

@@ -63,6 +63,13 @@ impl<'a> Checker<'a> {
         self.report(found);
     }
 
+    /// Reports a type that is called like a block or function of the library.
+    pub(super) fn type_of_the_library(&mut self, name: &Name) {
+        let message = format!("{}: a standard block or function has this name", name.text);
+        let found = Diagnostic::new(Code::Duplicate, name.span, message);
+        self.report(found.help(format!("another name, such as `{}1`", name.text)));
+    }
+
     /// The type of a name; reported where there is none.
     pub(super) fn named(&mut self, name: &str, span: Span) -> Type {
         let wanted = upper(name);

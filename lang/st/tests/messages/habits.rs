@@ -351,6 +351,13 @@ pub const HABITS: &[(&str, &str, &[Answer])] = &[
 /// Whole texts and their answers.
 pub const TEXTS: &[(&str, &[Answer])] = &[
     (
+        "TYPE Ton : INT; asin : REAL; END_TYPE\nPROGRAM Main VAR x : Ton; END_VAR\nEND_PROGRAM",
+        &[
+            Answer("E0204", "Ton", &["a standard block", "Ton1"]),
+            Answer("E0204", "asin", &["a standard block or function"]),
+        ],
+    ),
+    (
         "PROGRAM Main;\nVAR i : INT; END_VAR;\nBEGIN\ni := 1;\nEND_PROGRAM;",
         &[Answer(
             "E0200",
