@@ -343,6 +343,21 @@ await situation(
   noPorts,
 );
 
+// What explains an error is a file that does not come.
+await situation(
+  server.address,
+  async (page) => {
+    await write(page, "LD I9.9\n");
+    await page.getByRole("tab", { name: "Problems", exact: true }).click();
+    await page
+      .getByRole("button", { name: /^E\d{4}$/ })
+      .first()
+      .click();
+    await said(page, "noExplanation");
+  },
+  (page) => page.route(/errors\/E\d+\.md/, (route) => route.abort()),
+);
+
 // A PLC on the network that does not answer; its port in use; the bridge that is gone.
 const dumb = createServer(() => {});
 await new Promise((listening) => dumb.listen(0, "127.0.0.1", listening));
