@@ -1,5 +1,6 @@
 //! Random programs that compile: every expression has the type that is asked for.
 
+mod conversions;
 mod texts;
 mod units;
 
@@ -491,20 +492,7 @@ impl Generator {
                 let from = self.pick(&["WORD", "TIME", "BOOL"]);
                 format!("{from}_TO_{kind}({})", self.value(from))
             }
-            12 if kind == "INT" && !is_plain => match self.rng.u8(..6) {
-                4 => "TO_INT(s)".to_owned(),
-                0 => format!("DINT_TO_INT({})", self.whole("DINT")),
-                1 => format!("REAL_TO_INT({})", self.real()),
-                2 => format!("WORD_TO_INT({})", self.bits()),
-                3 => format!("BOOL_TO_INT({})", self.condition()),
-                _ => self.pick(&["count1.CV", "count2.CV"]).to_owned(),
-            },
-            12 if kind == "DINT" && !is_plain => match self.rng.u8(..4) {
-                2 => "TO_DINT(s)".to_owned(),
-                0 => format!("TIME_TO_DINT({})", self.time()),
-                1 => format!("REAL_TO_DINT({})", self.real()),
-                _ => format!("WORD_TO_DINT({})", self.bits()),
-            },
+            12 if ["INT", "DINT"].contains(&kind) && !is_plain => self.converted(kind),
             13 if kind == "INT" && !is_plain => {
                 format!(
                     "Compute({}, {}, {})",
