@@ -70,14 +70,12 @@ impl Case {
     /// The cases in Structured Text.
     pub fn structured() -> Vec<Case> {
         let root = folder("../lang/st/tests/cases");
-        let cases = files_of(&root, "st").into_iter().map(|path| (path.clone(), read(&path)));
+        let case = |path: &PathBuf| {
+            Case::new(format!("lang/st/tests/cases/{}", name_of(&root, path)), read(path))
+        };
+        let cases = files_of(&root, "st");
         // Those with a scenario in a file of its own are left out.
-        cases
-            .filter(|(_, text)| text.contains(MARK))
-            .map(|(path, text)| {
-                Case::new(format!("lang/st/tests/cases/{}", name_of(&root, &path)), text)
-            })
-            .collect()
+        cases.iter().map(case).filter(|case| !case.scenario.trim().is_empty()).collect()
     }
 
     /// A case from its text.
@@ -99,12 +97,8 @@ impl Case {
     /// Assembles the case. Errors come as the assembler shows them; warnings are none of ours.
     pub fn prepare(self) -> Result<Prepared, String> {
         let source = Source::new(&*self.file, &*self.awl).map_err(|e| e.to_string())?;
-        let source = if self.file.ends_with(".st") {
-            let joined = project::join(vec![source]);
-            joined.map_err(|findings| format!("{}: {findings:?}", self.file))?.awl
-        } else {
-            source
-        };
+        let joined = project::join(vec![source]);
+        let source = joined.map_err(|findings| format!("{}: {findings:?}", self.file))?.awl;
         let assembly = assemble(&source, Vec::new());
         let errors = assembly
             .diagnostics

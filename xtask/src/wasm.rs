@@ -60,7 +60,7 @@ const WITHOUT_MESSAGES: [&str; 3] =
 pub fn build(module: &str, of: &[&str]) -> Result<PathBuf> {
     packages::ensure_installed(packages::NODE)?;
     let folder = root().join("target/wasm");
-    let mut build = compiler()?;
+    let (mut build, more_flags) = compiler()?;
     build.current_dir(root()).args(["build", "--quiet", "--locked", "--lib", "--target", TARGET]);
     build.arg("--no-default-features").arg("--target-dir").arg(&folder).arg("--release");
     build.args(["--config", "profile.release.debug=false"]);
@@ -74,9 +74,7 @@ pub fn build(module: &str, of: &[&str]) -> Result<PathBuf> {
     let home = env::var_os("CARGO_HOME").map(PathBuf::from);
     let home = home.or_else(|| Some(env::home_dir()?.join(".cargo"))).unwrap_or_default();
     let mut flags = vec![format!("--remap-path-prefix={}=cargo", home.display())];
-    if !has_target() {
-        flags.extend(WITHOUT_MESSAGES.map(str::to_owned));
-    }
+    flags.extend(more_flags.iter().map(|flag| (*flag).to_owned()));
     build.arg("--config").arg(format!("target.{TARGET}.rustflags={flags:?}"));
     for package in of {
         build.args(["--package", package]);
@@ -107,10 +105,10 @@ pub fn compilers() -> Result<String> {
 }
 
 /// A cargo that can build for the target: rustup's where it has the target, otherwise Debian's,
-/// which builds std from source.
-fn compiler() -> Result<Command> {
+/// which builds std from source; and flags for it.
+fn compiler() -> Result<(Command, &'static [&'static str])> {
     if has_target() {
-        return Ok(cargo());
+        return Ok((cargo(), &[]));
     }
     packages::ensure_installed(packages::AVR_COMPILER)?;
     packages::ensure_installed(packages::WASM_LINKER)?;
@@ -119,7 +117,7 @@ fn compiler() -> Result<Command> {
         .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", DEBIAN_LINKER)
         .env_remove("CARGO")
         .args(["-Z", "build-std=std,panic_abort", "-Z", "build-std-features=optimize_for_size"]);
-    Ok(debian)
+    Ok((debian, &WITHOUT_MESSAGES))
 }
 
 fn report_of_node(script: &Path) -> Result<String> {

@@ -8,6 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use diagnostics::Span;
+pub(crate) use st::names::is_same as is_same_name;
 
 /// Identifies a step of a chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -309,9 +310,11 @@ impl Qualifier {
     }
 }
 
-/// Whether two names are the same to the language.
-pub(crate) fn is_same_name(a: &str, b: &str) -> bool {
-    a.to_uppercase() == b.to_uppercase()
+impl Action {
+    /// A variable as an action.
+    pub fn variable(name: impl Into<String>, origin: Origin) -> Action {
+        Action { name: name.into(), body: Body::Variable, comment: String::new(), origin }
+    }
 }
 
 impl Chart {

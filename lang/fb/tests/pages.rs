@@ -1,14 +1,11 @@
 //! The pages of the codes of function blocks: the wrong example of a page gets its code alone, the
 //! right one no diagnostic at all.
 
+#[path = "../../../diagnostics/tests/page_examples/mod.rs"]
+mod page_examples;
+
 use diagnostics::Source;
 use fb::{Code, xml};
-
-/// The block in the example after a line.
-fn example<'p>(page: &'p str, line: &str) -> &'p str {
-    let (_, behind) = page.split_once(&format!("\n{line}\n\n```xml\n")).expect("an example");
-    behind.split_once("```").expect("its end").0
-}
 
 fn codes(text: &str) -> Vec<&'static str> {
     let source = Source::new("page.fbt", text).expect("a short text");
@@ -18,10 +15,6 @@ fn codes(text: &str) -> Vec<&'static str> {
 #[test]
 fn the_examples_of_every_page_do_what_the_page_says() {
     for code in Code::ALL {
-        let (page, text) = (code.page(), code.text());
-        assert!(page.starts_with(&format!("# {text}: ")), "{text}");
-        assert_eq!(codes(example(page, "Wrong:")), [text], "the wrong example of {text}");
-        let right = codes(example(page, "Right:"));
-        assert!(right.is_empty(), "the right example of {text} gets {right:?}");
+        page_examples::check(code.text(), code.page(), "xml", codes);
     }
 }

@@ -151,6 +151,13 @@ fn variable_of(unit: &Unit, word: &str) -> Option<(Named, Option<Type>)> {
     Some((Named::of_unit(unit, variable), Some(variable.of_type.clone())))
 }
 
+/// Whether a text can be a name: letters, digits and `_`, no digit first. Words of the language
+/// are no matter here.
+pub fn is_name(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_alphabetic() || c == '_')
+        && text.chars().all(|c| c.is_alphanumeric() || c == '_')
+}
+
 /// Whether two names are one.
 pub fn is_same(a: &str, b: &str) -> bool {
     a.to_uppercase() == b.to_uppercase()

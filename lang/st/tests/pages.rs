@@ -1,14 +1,11 @@
 //! The pages of the codes of Structured Text: the wrong example of a page gets its code alone, the
 //! right one no diagnostic at all.
 
+#[path = "../../../diagnostics/tests/page_examples/mod.rs"]
+mod page_examples;
+
 use diagnostics::Source;
 use st::{Around, Code, compile};
-
-/// The program in the block after a line.
-fn example<'p>(page: &'p str, line: &str) -> &'p str {
-    let (_, behind) = page.split_once(&format!("\n{line}\n\n```st\n")).expect("an example");
-    behind.split_once("```").expect("its end").0
-}
 
 fn codes(program: &str) -> Vec<&'static str> {
     let source = Source::new("page.st", program).expect("a short text");
@@ -19,10 +16,6 @@ fn codes(program: &str) -> Vec<&'static str> {
 #[test]
 fn the_examples_of_every_page_do_what_the_page_says() {
     for code in Code::ALL {
-        let (page, text) = (code.page(), code.text());
-        assert!(page.starts_with(&format!("# {text}: ")), "{text}");
-        assert_eq!(codes(example(page, "Wrong:")), [text], "the wrong example of {text}");
-        let right = codes(example(page, "Right:"));
-        assert!(right.is_empty(), "the right example of {text} gets {right:?}");
+        page_examples::check(code.text(), code.page(), "st", codes);
     }
 }

@@ -86,12 +86,16 @@ fn programs_do_what_their_scenarios_expect() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-#[test]
-fn cases_do_what_they_expect() {
+/// The cases that carry their scenario.
+fn cases() -> Vec<PathBuf> {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
     let entries = fs::read_dir(cases).expect("a folder").flatten().map(|entry| entry.path());
-    let folders: Vec<PathBuf> = entries.filter(|path| path.is_dir()).collect();
-    let all: Vec<PathBuf> = folders.iter().flat_map(|folder| programs(folder)).collect();
+    entries.filter(|path| path.is_dir()).flat_map(|folder| programs(&folder)).collect()
+}
+
+#[test]
+fn cases_do_what_they_expect() {
+    let all = cases();
     let wrong: Vec<String> = all.iter().flat_map(|case| failures(case, case)).collect();
     assert!(wrong.is_empty(), "{} failures\n{}", wrong.len(), wrong.join("\n"));
     assert!(all.len() >= 300, "{} cases", all.len());
@@ -99,9 +103,7 @@ fn cases_do_what_they_expect() {
 
 #[test]
 fn every_case_says_what_it_is_about() {
-    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
-    let entries = fs::read_dir(cases).expect("a folder").flatten().map(|entry| entry.path());
-    for case in entries.filter(|path| path.is_dir()).flat_map(|folder| programs(&folder)) {
+    for case in cases() {
         let text = fs::read_to_string(&case).expect("a case");
         let first = text.lines().next().unwrap_or_default();
         let is_sentence = first.starts_with("// ") && first.ends_with('.');

@@ -124,7 +124,7 @@ fn placement(chart: &Chart, room: &room::Room) -> (layout::Placement, bool) {
 fn sheet(chart: &Chart, name: &str, source: &Source) -> Sheet {
     let room = room::room(chart);
     let m = room.measures;
-    let (placement, is_placed) = placement(chart, &room);
+    let (placement, _) = placement(chart, &room);
     let line = |origin: Origin| source.position(origin.0.start as usize).0;
     let steps = chart.steps.iter().filter_map(|(id, step)| {
         let mut shape = step_shape(chart, step, *placement.steps.get(id)?, &m);
@@ -150,7 +150,7 @@ fn sheet(chart: &Chart, name: &str, source: &Source) -> Sheet {
         Some(shape)
     });
     let transitions = transitions.collect();
-    framed(Sheet { name: name.to_owned(), is_placed, steps, transitions, ..Sheet::default() })
+    framed(Sheet { name: name.to_owned(), steps, transitions, ..Sheet::default() })
 }
 
 /// The block of a step with the line to it.
@@ -250,7 +250,6 @@ fn packed(mut sheets: Vec<Sheet>) -> Drawing {
 impl Sheet {
     fn move_by(&mut self, by: Point) {
         self.title = self.title.moved(by);
-        self.origin = self.origin.moved(by);
         self.frame = self.frame.moved(by);
         self.steps.iter_mut().for_each(|step| step.move_by(by));
         self.transitions.iter_mut().for_each(|one| one.move_by(by));

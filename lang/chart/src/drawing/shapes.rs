@@ -46,10 +46,6 @@ pub struct Sheet {
     pub title: Point,
     /// What it takes, with its title.
     pub frame: Rect,
-    /// Where the place 0, 0 of its text is.
-    pub origin: Point,
-    /// Whether it is drawn at the places that its text gives to steps.
-    pub is_placed: bool,
     /// Its steps in the order of the text.
     pub steps: Vec<StepShape>,
     /// Its transitions in the order of the text.

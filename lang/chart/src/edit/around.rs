@@ -22,11 +22,7 @@ pub(super) struct Around {
 
 impl Around {
     pub(super) fn of(document: &Document) -> Around {
-        let texts = document.pieces.iter().filter_map(|piece| match piece {
-            Piece::Text(text) => Some(text.as_str()),
-            Piece::Chart(_) => None,
-        });
-        let Ok(source) = Source::new("around", texts.collect::<String>()) else {
+        let Ok(source) = Source::new("around", text(document)) else {
             return Around::default();
         };
         let (file, _) = parse(&source);
@@ -49,19 +45,21 @@ impl Around {
     }
 }
 
+/// The text around the charts.
+fn text(document: &Document) -> String {
+    let texts = document.pieces.iter().map(|piece| match piece {
+        Piece::Text(text) => text.as_str(),
+        Piece::Chart(_) => "",
+    });
+    texts.collect()
+}
+
 /// Adds a chart without steps where a document has none.
 pub(super) fn with_chart(document: &mut Document, name: &str) -> Result<(), Refusal> {
     if document.charts().next().is_some() {
         return Ok(());
     }
-    let text: String = document
-        .pieces
-        .iter()
-        .map(|piece| match piece {
-            Piece::Text(text) => text.as_str(),
-            Piece::Chart(_) => "",
-        })
-        .collect();
+    let text = text(document);
     let (at, unit) = beginning(&text)?;
     let (before, after) = text.split_at(at);
     let chart = Chart::new(unit.unwrap_or_else(|| name.to_owned()));

@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 
 use super::change::Change;
 use super::draft::{Draft, Outcome};
-use super::kinds::Element;
-use super::kinds::Wanted;
+use super::kinds::{Element, Wanted};
 use super::legible::expression;
 use super::refusal::Refusal;
 use crate::generate::wrong_qualifier;
@@ -27,8 +26,7 @@ impl Draft<'_> {
         }
         let name = expression(name, "the action")?.text;
         let id = ActionId(self.fresh()?);
-        let (comment, origin) = (String::new(), Origin::default());
-        let action = Action { name, body: Body::Variable, comment, origin };
+        let action = Action::variable(name, Origin::default());
         self.set_here(Change::Action(id, Some(action)));
         Ok(id)
     }

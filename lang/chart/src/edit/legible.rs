@@ -3,10 +3,11 @@
 
 use diagnostics::{Source, Span};
 use st::keywords::is_keyword;
+use st::names::is_name;
 use st::parser::parse_expression;
 
 use super::refusal::Refusal;
-use crate::model::{Action, Body, Chart, Code, Origin, Step, Transition};
+use crate::model::{Action, Chart, Code, Origin, Step, Transition};
 use crate::text::{Document, Piece, read, write};
 
 /// A chart for one element.
@@ -33,11 +34,9 @@ impl Legible<'_> {
         let mut own = step.clone();
         for instance in &mut own.block {
             let name = self.chart.actions.get(&instance.action).map_or("", |one| &one.name);
-            instance.action = alone.action_named(name).unwrap_or_else(|| {
-                let (name, body) = (name.to_owned(), Body::Variable);
-                let (comment, origin) = (String::new(), Origin::default());
-                alone.add_action(Action { name, body, comment, origin })
-            });
+            instance.action = alone
+                .action_named(name)
+                .unwrap_or_else(|| alone.add_action(Action::variable(name, Origin::default())));
         }
         alone.steps.insert(id, own);
         check(alone, &step.name)
@@ -90,10 +89,7 @@ const WORDS: [&str; 9] = [
 
 /// Whether a text can be a name.
 pub(super) fn check_name(name: &str) -> Result<(), Refusal> {
-    let is_letter = |c: char| c.is_alphabetic() || c == '_';
-    let is_name =
-        name.starts_with(is_letter) && name.chars().all(|c| c == '_' || c.is_alphanumeric());
-    if !is_name {
+    if !is_name(name) {
         return Err(Refusal::NotAName(name.to_owned()));
     }
     let is_word = is_keyword(name) || WORDS.iter().any(|word| word.eq_ignore_ascii_case(name));

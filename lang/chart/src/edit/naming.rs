@@ -213,8 +213,8 @@ impl Editing {
 /// A name with other digits at its end, from a number on: the first that is free.
 pub(super) fn numbered(name: &str, from: usize, is_free: impl Fn(&str) -> bool) -> String {
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
-    let names = (from..).map(|number| format!("{stem}{number}"));
-    names.into_iter().find(|name| is_free(name)).unwrap_or_default()
+    let mut names = (from..).map(|number| format!("{stem}{number}"));
+    names.find(|name| is_free(name)).unwrap_or_default()
 }
 
 impl Draft<'_> {

@@ -13,6 +13,12 @@ use crate::model::{Position, Step, StepId, Transition, TransitionId};
 const ROW: i32 = 100;
 const COLUMN: i32 = 160;
 
+/// Whether a place is one.
+fn check_near(at: Position) -> Outcome {
+    let is_near = at.x.max(at.y) <= PLACE_MAX && at.x.min(at.y) >= -PLACE_MAX;
+    if is_near { Ok(()) } else { Err(Refusal::TooFar) }
+}
+
 impl Draft<'_> {
     /// Whether all steps have a place.
     pub(super) fn is_placed(&self) -> Outcome<bool> {
@@ -21,9 +27,7 @@ impl Draft<'_> {
 
     /// Whether a place is one, and free.
     pub(super) fn check_place(&self, at: Position) -> Outcome {
-        if at.x.max(at.y) > PLACE_MAX || at.x.min(at.y) < -PLACE_MAX {
-            return Err(Refusal::TooFar);
-        }
+        check_near(at)?;
         match self.index()?.places.of(&(at.x, at.y)).next() {
             Some(there) => Err(Refusal::PlaceTaken(self.name(*there))),
             None => Ok(()),
@@ -104,9 +108,7 @@ impl Draft<'_> {
             self.put_step(*id, Step { at: Some(*at), ..step })?;
         }
         for (id, at) in transitions {
-            if at.x.max(at.y) > PLACE_MAX || at.x.min(at.y) < -PLACE_MAX {
-                return Err(Refusal::TooFar);
-            }
+            check_near(*at)?;
             let one = self.transition(*id)?;
             self.put_transition(*id, Transition { at: Some(*at), ..one })?;
         }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::drawing::PLACE_MAX;
+
 /// Why an edit is refused. Nothing has changed then.
 #[expect(missing_docs, reason = "the message says what each means")]
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -99,7 +101,7 @@ impl fmt::Display for Refusal {
                 write!(f, "{what} would be read as something else; comments are apart from it")
             }
             PlaceTaken(name) => write!(f, "{name} is at this place"),
-            TooFar => write!(f, "a place is between -1000000 and 1000000"),
+            TooFar => write!(f, "a place is between -{PLACE_MAX} and {PLACE_MAX}"),
             NoPlaces => write!(f, "nothing has a place: the layout is automatic already"),
             NotACopy(why) => write!(f, "this is no copy of steps: {why}"),
             OtherStandard => write!(f, "the copy is of the other standard, SFC or GRAFCET"),

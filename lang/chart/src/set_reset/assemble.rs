@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use diagnostics::Span;
+use st::names::is_name;
 
 use super::plan::{Assignment, Cause, ChartPlan, Device, Plan, StepPlan};
 use super::style;
@@ -80,11 +81,6 @@ enum Does<'a> {
     Set(&'a str),
     /// `R V`
     Reset(&'a str),
-}
-
-fn is_name(text: &str) -> bool {
-    text.starts_with(|c: char| c.is_alphabetic() || c == '_')
-        && text.chars().all(|c| c.is_alphanumeric() || c == '_')
 }
 
 fn does(text: &str) -> Option<Does<'_>> {

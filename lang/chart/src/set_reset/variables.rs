@@ -5,6 +5,7 @@ use std::collections::HashMap;
 
 use awl_asm::suggest::nearest;
 use diagnostics::{Source, Span};
+use st::names::is_name;
 
 use crate::diagnostic::{Code, Diagnostic};
 
@@ -136,9 +137,7 @@ impl<'t> Row<'t> {
                 bad(self.cells[0].1, message).help("for example `Start,input,BOOL`"),
             ));
         };
-        let is_name = name.starts_with(|c: char| c.is_alphabetic() || c == '_')
-            && name.chars().all(|c| c.is_alphanumeric() || c == '_');
-        if !is_name {
+        if !is_name(name) {
             return Err(Box::new(bad(*at, format!("`{name}` is no name"))));
         }
         let Some((_, found)) = Kind::ALL.iter().find(|(text, _)| text.eq_ignore_ascii_case(kind))

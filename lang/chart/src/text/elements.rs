@@ -439,10 +439,9 @@ impl Reader<'_> {
             actions.entry(action.name.to_uppercase()).or_insert(*id);
         }
         for (step, at, (name, span)) in open.instances {
-            let action = *actions.entry(name.to_uppercase()).or_insert_with(|| {
-                let (body, comment) = (Body::Variable, String::new());
-                chart.add_action(Action { name, body, comment, origin: Origin(span) })
-            });
+            let action = *actions
+                .entry(name.to_uppercase())
+                .or_insert_with(|| chart.add_action(Action::variable(name, Origin(span))));
             let instance = chart.steps.get_mut(&step).and_then(|step| step.block.get_mut(at));
             if let Some(instance) = instance {
                 instance.action = action;

@@ -6,6 +6,7 @@ use chart::text::write_chart;
 use diagnostics::Span;
 use diagnostics::traced::Traced;
 use diagnostics::xml::{Node, Places, elements, tag};
+use st::names::is_same;
 
 use super::chart::chart;
 use super::formatted::{formatted, language};
@@ -32,11 +33,6 @@ impl<'a, 'i> Surroundings<'_, 'a, 'i> {
         let mut list = child(self.node, "transitions").into_iter().flat_map(elements);
         list.find(|one| optional(*one, "name").is_some_and(|other| is_same(&other.text, name)))
     }
-}
-
-/// Whether two names are the same to the language.
-pub(super) fn is_same(a: &str, b: &str) -> bool {
-    a.to_uppercase() == b.to_uppercase()
 }
 
 /// Reports a body in a language that is not read. `of`: whose it is.

@@ -10,8 +10,9 @@ use chart::model::{
 };
 use diagnostics::Span;
 use diagnostics::xml::{Node, attribute, elements, tag};
+use st::names::is_same;
 
-use super::body::{Surroundings, is_same, refuse};
+use super::body::{Surroundings, refuse};
 use super::condition::condition;
 use super::formatted::{documentation, formatted, language};
 use super::macro_step::expand;
@@ -400,8 +401,7 @@ impl<'a, 'i> Builder<'_, '_, 'a, 'i> {
                 return Some(known);
             }
             let origin = Origin(name.span);
-            let (body, comment) = (Body::Variable, String::new());
-            return Some(self.chart.add_action(Action { name: name.text, body, comment, origin }));
+            return Some(self.chart.add_action(Action::variable(name.text, origin)));
         }
         let found = child(node, "inline").and_then(language);
         let Some(found) = found else {

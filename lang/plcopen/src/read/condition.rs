@@ -3,8 +3,9 @@
 use chart::model::{Code, Origin};
 use diagnostics::Span;
 use diagnostics::xml::{Node, elements, tag};
+use st::names::is_same;
 
-use super::body::{Surroundings, is_same, refuse};
+use super::body::{Surroundings, refuse};
 use super::formatted::{formatted, language};
 use super::network::{Network, lines_into, lines_of, title};
 use super::reader::{Reader, Text, child, is_true, optional};

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use diagnostics::Span;
 use diagnostics::xml::{Node, attribute, elements, tag, value};
+use st::names::is_name;
 
 use crate::diagnostic::{Code, Diagnostic};
 
@@ -55,10 +56,7 @@ impl<'f> Reader<'f> {
     /// An attribute that has to be a name of the language.
     pub(super) fn name(&mut self, node: Node, attribute: &str) -> Option<Text> {
         let name = self.needed(node, attribute)?;
-        let mut characters = name.text.chars();
-        let is_name = characters.next().is_some_and(|c| c.is_alphabetic() || c == '_')
-            && characters.all(|c| c.is_alphanumeric() || c == '_');
-        if !is_name {
+        if !is_name(&name.text) {
             let message = format!("`{}` is no name", name.text);
             let help = "a name has letters, digits and `_`, and begins with no digit";
             self.error(Code::Incomplete, name.span, message, help);

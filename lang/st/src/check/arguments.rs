@@ -5,22 +5,19 @@ use diagnostics::Span;
 use super::Checker;
 use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::standard::Standard;
 use crate::tree::{Argument, Name};
 
-/// The only parameter of a conversion, with its type.
-const OF_CONVERSION: &[(&str, &str)] = &[("IN", "")];
-
 impl Checker<'_> {
-    /// The arguments of a standard function or conversion in the order of its parameters; `None`
-    /// if they are wrong, which is reported. How many there have to be is not looked at.
+    /// The arguments of a standard function or conversion in the order of its parameters, which are
+    /// names with their types; `None` if they are wrong, which is reported. How many there have to
+    /// be is not looked at.
     pub(super) fn in_order<'t>(
         &mut self,
         function: &Name,
+        parameters: &[(&str, &str)],
         arguments: &'t [Argument],
         span: Span,
     ) -> Option<Vec<&'t Argument>> {
-        let parameters = Standard::find(&function.text).map_or(OF_CONVERSION, |it| it.parameters);
         let mut slots: Vec<Option<&Argument>> = Vec::new();
         let mut are_right = true;
         for (at, argument) in arguments.iter().enumerate() {

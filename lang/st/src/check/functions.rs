@@ -43,6 +43,9 @@ const OF_REAL: [(&str, Function); 6] = [
     ("TAN", Function::Tan),
 ];
 
+/// The only parameter of a conversion; it takes several types.
+const OF_CONVERSION: &[(&str, &str)] = &[("IN", "")];
+
 const SHIFTS: [(&str, Function); 4] = [
     ("SHL", Function::Shl),
     ("SHR", Function::Shr),
@@ -166,11 +169,12 @@ impl Checker<'_> {
         wanted: Option<&Type>,
         span: Span,
     ) -> Expression {
-        if Standard::find(text).is_none() {
+        let Some(function) = Standard::find(text) else {
             self.unknown_name(name, "function");
             return invalid(span);
-        }
-        let Some(given) = self.in_order(name, arguments, span) else { return invalid(span) };
+        };
+        let given = self.in_order(name, function.parameters, arguments, span);
+        let Some(given) = given else { return invalid(span) };
         let count = given.len();
         if let Some(operator) = in_table(&OPERATORS, text) {
             let most = if matches!(text, "SUB" | "DIV" | "MOD" | "NE") { 2 } else { usize::MAX };
@@ -204,10 +208,8 @@ impl Checker<'_> {
                     .collect();
                 self.chain(BinaryOperator::Power, values, span)
             }
-            "EXPT" => invalid(span),
             "MIN" | "MAX" | "LIMIT" => self.choice(name, text, &given, wanted, span),
             "SEL" | "MUX" => self.select(name, text, &given, wanted, span),
-            "MOVE" => invalid(span),
             _ => invalid(span),
         }
     }
@@ -409,7 +411,8 @@ impl Checker<'_> {
         arguments: &[Argument],
         span: Span,
     ) -> Expression {
-        let Some(given) = self.in_order(name, arguments, span) else { return invalid(span) };
+        let given = self.in_order(name, OF_CONVERSION, arguments, span);
+        let Some(given) = given else { return invalid(span) };
         if !self.has_count(name, given.len(), 1, 1) {
             return invalid(span);
         }
