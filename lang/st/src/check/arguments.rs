@@ -21,9 +21,7 @@ impl Checker<'_> {
         let mut slots: Vec<Option<&Argument>> = Vec::new();
         let mut are_right = true;
         for (at, argument) in arguments.iter().enumerate() {
-            if argument.is_output {
-                let message = format!("{}: a function has no outputs", function.text);
-                self.error(Code::Arguments, argument.value.span, message);
+            if self.is_output(&function.text, argument) {
                 are_right = false;
                 continue;
             }
@@ -31,7 +29,7 @@ impl Checker<'_> {
                 None => Some(at),
                 Some(name) => slot_of(parameters, &upper(&name.text), arguments.len()),
             };
-            let place = argument.name.as_ref().map_or(argument.value.span, |name| name.span);
+            let place = place(argument);
             let Some(slot) = slot else {
                 let names: Vec<&str> = parameters.iter().map(|(name, _)| *name).collect();
                 let message = format!("{} has no such input", function.text);
@@ -46,8 +44,7 @@ impl Checker<'_> {
             match slots.get_mut(slot) {
                 Some(free @ None) => *free = Some(argument),
                 _ => {
-                    let message = format!("{}: this input is given twice", function.text);
-                    self.error(Code::Arguments, place, message);
+                    self.given_twice(&function.text, place);
                     are_right = false;
                 }
             }
@@ -59,6 +56,25 @@ impl Checker<'_> {
         }
         are_right.then(|| slots.into_iter().flatten().collect())
     }
+
+    /// Reports `=>` in the call of a function.
+    pub(super) fn is_output(&mut self, function: &str, argument: &Argument) -> bool {
+        if argument.is_output {
+            let message = format!("{function}: a function has no outputs");
+            self.error(Code::Arguments, argument.value.span, message);
+        }
+        argument.is_output
+    }
+
+    /// Reports a second value for the input of a call.
+    pub(super) fn given_twice(&mut self, callee: &str, place: Span) {
+        self.error(Code::Arguments, place, format!("{callee}: this input is given twice"));
+    }
+}
+
+/// Where an argument is told to be wrong: at its name, if it has one.
+pub(super) fn place(argument: &Argument) -> Span {
+    argument.name.as_ref().map_or(argument.value.span, |name| name.span)
 }
 
 /// `IN1` is `IN` and 1.

@@ -3,6 +3,7 @@
 use diagnostics::Span;
 
 use super::Checker;
+use super::arguments::place;
 use super::expressions::needed;
 use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
@@ -112,6 +113,10 @@ impl Checker<'_> {
             };
             if let (Some(name), Some(variable)) = (&argument.name, unit.variables.get(at)) {
                 self.note(name.span, Named::of_unit(&unit, variable), false);
+            }
+            let given = call.inputs.iter().map(|(given, _)| *given);
+            if given.chain(call.in_outs.iter().map(|(given, _)| *given)).any(|given| given == at) {
+                self.given_twice(&unit.name, place(argument));
             }
             self.argument(&unit, at, argument, &mut call);
         }

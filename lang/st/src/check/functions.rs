@@ -3,6 +3,7 @@
 use diagnostics::Span;
 
 use super::Checker;
+use super::arguments::place;
 use super::expressions::{invalid, known};
 use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
@@ -118,7 +119,12 @@ impl Checker<'_> {
             unit.variables.iter().filter(|one| one.section == SectionKind::Input).collect();
         let result = unit.variables.last().map_or(Type::Invalid, |one| one.of_type.base().clone());
         let mut given: Vec<Option<Expression>> = vec![None; inputs.len()];
+        let mut are_right = true;
         for (at, argument) in arguments.iter().enumerate() {
+            if self.is_output(&unit.name, argument) {
+                are_right = false;
+                continue;
+            }
             let slot = match &argument.name {
                 None => at,
                 Some(name) => {
@@ -126,6 +132,7 @@ impl Checker<'_> {
                     let Some(slot) = same else {
                         let message = format!("{}: {} has no such input", name.text, unit.name);
                         self.error(Code::Arguments, name.span, message);
+                        are_right = false;
                         continue;
                     };
                     if let Some(input) = inputs.get(slot) {
@@ -140,8 +147,10 @@ impl Checker<'_> {
                 break;
             };
             let value = self.value_of(&argument.value, &input.of_type);
-            if let Some(slot) = given.get_mut(slot) {
-                *slot = Some(value);
+            match given.get_mut(slot) {
+                Some(Some(_)) => self.given_twice(&unit.name, place(argument)),
+                Some(free) => *free = Some(value),
+                None => {}
             }
         }
         let mut all = Vec::new();
@@ -152,8 +161,11 @@ impl Checker<'_> {
                     all.push(known(input.initial.clone(), input.of_type.base().clone(), span));
                 }
                 None => {
-                    let message = format!("{}: {} is not given", unit.name, input.name);
-                    self.error(Code::Arguments, span, message);
+                    // What is wrong with the arguments may be why.
+                    if are_right {
+                        let message = format!("{}: {} is not given", unit.name, input.name);
+                        self.error(Code::Arguments, span, message);
+                    }
                     return invalid(span);
                 }
             }
