@@ -28,6 +28,6 @@ pub use answer::{
     Completion, CompletionKind, Edit, FileEdit, Fix, Hover, Location, Outline, OutlineKind,
     Problem, Refusal, Signature,
 };
-pub use chart::drawing;
+pub use chart;
 pub use language::Language;
 pub use project::Project;

@@ -6,7 +6,8 @@ use std::rc::Rc;
 
 use awl_asm::symbols::load;
 use awl_sim::scenario::plant_file_of;
-use chart::drawing::{self, TooLarge, draw};
+use chart::Chart;
+use chart::text::Document;
 use diagnostics::source::SourceError;
 use diagnostics::{Source, Span};
 use project::ENDINGS;
@@ -282,13 +283,13 @@ impl Project {
         drawing_at(&entry.source, &model.assembly, offset)
     }
 
-    /// The charts of a text as a drawing; `None` where it has none.
-    pub fn chart(&self, name: &str) -> Option<Result<drawing::Drawing, TooLarge>> {
-        let entry = self.texts.get(name).filter(|entry| entry.language == Language::Chart)?;
-        let reading = chart::text::read(&entry.source);
-        let mut charts = reading.document.charts().peekable();
-        charts.peek()?;
-        Some(draw(charts, &entry.source))
+    /// The charts of a text and those in their actions, each before those in it, by their names
+    /// with those of the charts around.
+    pub fn charts(&self, name: &str) -> Vec<(String, Chart)> {
+        let entry = self.texts.get(name).filter(|entry| entry.language == Language::Chart);
+        let document = entry.map(|entry| chart::text::read(&entry.source).document);
+        let charts = document.iter().flat_map(Document::charts).flat_map(Chart::named_with_inner);
+        charts.map(|(name, chart)| (name, chart.clone())).collect()
     }
 
     /// The change that gives a text its canonical layout; `None` if it has that.

@@ -21,6 +21,15 @@ pub fn cargo() -> Command {
     command
 }
 
+/// A program of this repository, built and run, without its arguments. It is chosen by its name and
+/// not by its package, so that all packages' features are on: one build of what they share is
+/// enough for all programs and tests.
+pub fn tool(name: &str) -> Command {
+    let mut command = cargo();
+    command.args(["run", "--quiet", "--bin", name, "--"]);
+    command
+}
+
 /// Runs a program to its end; its output goes to the terminal.
 pub fn run(command: &mut Command) -> Result<()> {
     let words = describe(command);

@@ -18,7 +18,7 @@ pub fn run() -> Result<()> {
     packages::ensure_installed(packages::VIRTUAL_BOARD)?;
     let result = gate();
     let mut stack = cargo();
-    stack.args(["test", "--quiet", "--package", "tests", "--test", "stack"]).args(WITH_BOARD);
+    stack.args(["test", "--quiet", "--workspace", "--test", "stack"]).args(WITH_BOARD);
     run_command(stack.args(["--", "--nocapture"]))?;
     result
 }

@@ -7,7 +7,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 
-use crate::process::{cargo, root, run};
+use crate::process::{cargo, root, run, tool};
 use crate::{avr, packages, same_names};
 
 const TARGET: &str = "wasm32-unknown-unknown";
@@ -38,9 +38,9 @@ const DEBIAN_LINKER: &str = "wasm-ld-19";
 pub fn check() -> Result<()> {
     let module = build(MODULE, &LIBRARIES)?;
     let folder = root().join("target/wasm/node");
-    run(cargo().args(["run", "--quiet", "--package", "bind", "--"]).arg(&module).arg(&folder))?;
+    run(tool("bind").arg(&module).arg(&folder))?;
     let there = report_of_node(&folder.join(MODULE).with_extension("js"))?;
-    let here = output(cargo().args(["run", "--quiet", "--package", "wasm-smoke"]))?;
+    let here = output(&mut tool("wasm-smoke"))?;
     for (there, here) in there.lines().zip(here.lines()).filter(|(there, here)| there != here) {
         eprintln!("  node:          {there}\n  this computer: {here}");
     }

@@ -3,7 +3,6 @@
 
 use std::collections::BTreeMap;
 
-use analysis::drawing::TooLarge;
 use analysis::ladder::Drawing;
 use analysis::{CompletionKind, Language, Location, OutlineKind, Project};
 use awl_sim::plant::{PlantSpec, SpecErrors, parse_spec_with};
@@ -237,9 +236,9 @@ impl Editor {
         self.project.ladder(name, self.byte(name, at))
     }
 
-    /// The charts of a file as a drawing; none of a file without charts.
-    pub fn chart(&self, name: &str) -> Option<Result<analysis::drawing::Drawing, TooLarge>> {
-        self.project.chart(name)
+    /// The charts of a file by their names, those in actions after the one around.
+    pub fn charts(&self, name: &str) -> Vec<(String, analysis::chart::Chart)> {
+        self.project.charts(name)
     }
 
     /// A line of a file as a place.

@@ -1,7 +1,6 @@
 //! What the page asks and what it is told, as JSON. Offsets in texts count UTF-16 code units, as a
 //! browser does. Times are milliseconds.
 
-pub mod chart;
 pub mod ladder;
 pub mod plant;
 
@@ -81,8 +80,8 @@ pub enum TextWish {
     /// The network there as a ladder, whose power flow is told from then on. Answer:
     /// [`Ladder`](ladder::Ladder) or null.
     Ladder { file: String, at: u32 },
-    /// The charts of a file, whose situation is told from then on; of a file without charts none.
-    /// Answer: [`Chart`](chart::Chart) or null.
+    /// The situation of the charts of a file is told from then on; of a file without charts none.
+    /// Answer: [`Chart`] or null.
     Chart { file: String },
     /// A plant as `awl-sim --plant` takes it; files are those of the project. Answer:
     /// [`PlantInfo`](plant::PlantInfo).
@@ -273,6 +272,15 @@ pub struct Problem {
     pub suggestion: Option<String>,
     /// Other places that have to do with it.
     pub related: Vec<(Place, String)>,
+}
+
+/// Charts whose situation is told.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Chart {
+    /// What they are called where their situation is told; another one each time.
+    pub id: u32,
+    /// The file that they are in.
+    pub file: String,
 }
 
 /// A place in a file.

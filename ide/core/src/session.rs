@@ -19,7 +19,7 @@ use crate::ladder::Shown;
 use crate::outside::{Outside, Then};
 use crate::plc::{Lines, Plc};
 use crate::protocol::{
-    ApartWish, Event, LookWish, ProjectWish, Request, TargetKind, TargetWish, TextWish, Wish,
+    ApartWish, Chart, Event, LookWish, ProjectWish, Request, TargetKind, TargetWish, TextWish, Wish,
 };
 use crate::pulse::Pulse;
 use crate::recorder::Recorder;
@@ -291,9 +291,13 @@ impl Session {
             }
             TextWish::Chart { file } => {
                 self.drawings += 1;
-                let (id, drawing) = (self.drawings, editor.chart(&file));
-                self.show_charts(drawing.map(|drawing| Charts { id, file, drawing }));
-                answer(self.charts.as_ref().map(Charts::chart))
+                let charts = editor.charts(&file);
+                self.show_charts(Charts::of(self.drawings, file, charts));
+                answer(
+                    self.charts
+                        .as_ref()
+                        .map(|Charts { id, file, .. }| Chart { id: *id, file: file.clone() }),
+                )
             }
             TextWish::AboutPlant { spec } => self.about_plant(&spec),
         }

@@ -60,7 +60,7 @@ async function answer(path) {
   const code = /^\/version\/errors\/(\w+\.md)$/.exec(path)?.[1];
   if (code) return readFile(at(`../../../docs/errors/${code}`));
   const file = path === "/" ? "/index.html" : path;
-  if (/^\/version\/ide_core/.test(file)) {
+  if (/^\/version\/ide_/.test(file)) {
     const real = at(`../../../target/ide-core/${file.slice("/version/".length)}`);
     return readFile(real).catch(() => readFile(at("./fake_core.js")));
   }

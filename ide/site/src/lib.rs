@@ -16,35 +16,34 @@ const VERSION: &str = "version/";
 /// What the page fetches to keep itself in the browser: which files its version has.
 const LIST: &str = "files.json";
 
-/// The core, as wasm-bindgen gives it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Core {
-    /// `ide_core.js`
-    pub script: Vec<u8>,
-    /// `ide_core_bg.wasm`
-    pub module: Vec<u8>,
-}
+/// The modules of WebAssembly that the page loads: the core, and what draws and edits charts, which
+/// it loads when it needs it.
+pub const MODULES: [&str; 2] = ["ide_core", "ide_charts"];
 
-/// Names of the core's files.
-pub const SCRIPT: &str = "ide_core.js";
-/// See [`SCRIPT`].
-pub const MODULE: &str = "ide_core_bg.wasm";
+/// The modules, as wasm-bindgen gives them: files by their names.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Modules(pub BTreeMap<String, Vec<u8>>);
 
-impl Core {
-    /// The one that is committed.
-    pub fn kept() -> Core {
-        let file = |name: &str| {
-            let found = files::CORE.iter().find(|(file, _)| *file == name);
-            found.map(|(_, bytes)| bytes.to_vec()).unwrap_or_default()
+impl Modules {
+    /// The names of their files: a script and WebAssembly for each.
+    pub fn names() -> impl Iterator<Item = String> {
+        MODULES.iter().flat_map(|name| [format!("{name}.js"), format!("{name}_bg.wasm")])
+    }
+
+    /// Those that are committed.
+    pub fn kept() -> Modules {
+        let file = |name: String| {
+            let (_, bytes) = files::CORE.iter().find(|(file, _)| *file == name)?;
+            Some((name, bytes.to_vec()))
         };
-        Core { script: file(SCRIPT), module: file(MODULE) }
+        Modules(Modules::names().filter_map(file).collect())
     }
 }
 
 /// The files by their paths, `/` between parts; `index.html` is the page. All but that and the
 /// script that keeps the page in the browser are in a folder whose name is another one whenever
 /// anything in it is: what belongs together comes together, whatever a browser has kept.
-pub fn files(core: &Core) -> BTreeMap<String, Vec<u8>> {
+pub fn files(modules: &Modules) -> BTreeMap<String, Vec<u8>> {
     let mut inner = BTreeMap::new();
     let mut outer = BTreeMap::new();
     for (path, bytes) in files::PAGE {
@@ -53,8 +52,7 @@ pub fn files(core: &Core) -> BTreeMap<String, Vec<u8>> {
             None => outer.insert((*path).to_owned(), bytes.to_vec()),
         };
     }
-    inner.insert(SCRIPT.to_owned(), core.script.clone());
-    inner.insert(MODULE.to_owned(), core.module.clone());
+    inner.extend(modules.0.clone());
     for (name, project) in examples::projects() {
         inner.insert(format!("examples/{name}.json"), project.into_bytes());
     }
@@ -83,18 +81,19 @@ fn version_of(files: &BTreeMap<String, Vec<u8>>) -> String {
 mod tests {
     use super::*;
 
-    fn core(byte: u8) -> Core {
-        Core { script: vec![byte], module: vec![] }
+    fn modules(byte: u8) -> Modules {
+        Modules(Modules::names().map(|name| (name, vec![byte])).collect())
     }
 
     #[test]
     fn everything_is_in_the_folder_of_its_version() {
-        let files = files(&core(1));
+        let files = files(&modules(1));
         let inner = |name: &str| files.keys().find(|path| path.ends_with(&format!("/{name}")));
         let version = inner("page.js").unwrap().split('/').next().unwrap();
         let others = ["examples/station1.json", "errors/E0205.md"];
-        for name in ["page.css", "worker.js", SCRIPT, MODULE].into_iter().chain(others) {
-            assert_eq!(*inner(name).unwrap(), format!("{version}/{name}"));
+        let names = ["page.css", "worker.js"].into_iter().chain(others).map(str::to_owned);
+        for name in names.chain(Modules::names()) {
+            assert_eq!(*inner(&name).unwrap(), format!("{version}/{name}"));
         }
         let outer: Vec<_> = files.keys().filter(|path| !path.starts_with(version)).collect();
         assert_eq!(outer, ["index.html", "sw.js"]);
@@ -108,15 +107,18 @@ mod tests {
 
     #[test]
     fn another_core_is_another_version() {
-        let paths = |byte| files(&core(byte)).into_keys().collect::<Vec<_>>();
+        let paths = |byte| files(&modules(byte)).into_keys().collect::<Vec<_>>();
         assert_eq!(paths(1), paths(1));
         assert_ne!(paths(1), paths(2));
     }
 
     #[test]
-    fn the_core_is_there() {
-        let Core { script, module } = Core::kept();
-        assert!(module.starts_with(b"\0asm"));
-        assert!(String::from_utf8_lossy(&script).contains(MODULE));
+    fn the_modules_are_there() {
+        let Modules(kept) = Modules::kept();
+        for name in MODULES {
+            let module = format!("{name}_bg.wasm");
+            assert!(kept[&module].starts_with(b"\0asm"));
+            assert!(String::from_utf8_lossy(&kept[&format!("{name}.js")]).contains(&module));
+        }
     }
 }

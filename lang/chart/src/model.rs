@@ -376,6 +376,17 @@ impl Chart {
         std::iter::once(self).chain(inner.flatten()).collect()
     }
 
+    /// As [`with_inner`](Chart::with_inner), each with its name after those of the charts around:
+    /// `Plant.Stir`.
+    pub fn named_with_inner(&self) -> Vec<(String, &Chart)> {
+        let inner = self.actions.values().filter_map(|action| match &action.body {
+            Body::Chart(inner) => Some(inner.named_with_inner()),
+            Body::Variable | Body::Code(_) => None,
+        });
+        let named = |(name, chart)| (format!("{}.{name}", self.name), chart);
+        std::iter::once((self.name.clone(), self)).chain(inner.flatten().map(named)).collect()
+    }
+
     /// The transitions in the order in which alternatives are tried: by priority, those without
     /// one after those with one, then as in the text.
     pub fn by_priority(&self) -> Vec<TransitionId> {

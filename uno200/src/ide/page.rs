@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-use ide_site::Core;
+use ide_site::Modules;
 
 /// What is given away, by its ending.
 pub const ENDINGS: &[(&str, &str)] = &[
@@ -51,7 +51,7 @@ pub enum Page {
 impl Page {
     /// The one that is part of this program.
     pub fn own() -> Page {
-        Page::Own(ide_site::files(&Core::kept()))
+        Page::Own(ide_site::files(&Modules::kept()))
     }
 
     /// The file of an address's path, with its type; `/` is the page itself.
@@ -126,8 +126,10 @@ mod tests {
         let (_, script) = index.split_once("src=\"").unwrap();
         let script = script.split('"').next().unwrap();
         assert_eq!(page.file(&format!("/{script}")).unwrap().1, ENDINGS[1].1);
-        let module = script.replace("page.js", ide_site::MODULE);
-        assert!(page.file(&module).unwrap().0.starts_with(b"\0asm"));
+        for module in ide_site::MODULES {
+            let module = script.replace("page.js", &format!("{module}_bg.wasm"));
+            assert!(page.file(&module).unwrap().0.starts_with(b"\0asm"));
+        }
         assert!(page.file("/Cargo.toml").is_none() && page.file("/..").is_none());
     }
 }

@@ -89,7 +89,7 @@ fn measure() -> Result<Vec<Record>> {
     packages::ensure_installed(packages::VIRTUAL_BOARD)?;
     let elf = firmware::build()?;
     let mut command = cargo();
-    command.args(["run", "--quiet", "--package", "tests", "--bin", "measure"]).args(WITH_BOARD);
+    command.args(["run", "--quiet", "--bin", "measure"]).args(WITH_BOARD);
     command.env(awl_asm::firmware::VARIABLE, elf);
     let output =
         command.stderr(std::process::Stdio::inherit()).output().context("cannot start cargo")?;

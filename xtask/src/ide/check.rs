@@ -11,7 +11,7 @@ use anyhow::{Context, Result, ensure};
 
 use super::{build, core};
 use crate::packages;
-use crate::process::{cargo, root, run};
+use crate::process::{WITH_BOARD, cargo, root, run, tool};
 
 /// The page as it is committed.
 const PAGE: &str = "ide/page/dist";
@@ -100,7 +100,7 @@ pub fn log() -> Result<()> {
 fn check_board(folder: &Path, sources: &Path) -> Result<()> {
     packages::ensure_installed(packages::VIRTUAL_BOARD)?;
     packages::ensure_installed(packages::AVR_LINKER)?;
-    run(cargo().args(["build", "--quiet", "--package", "virtual-uno", "--features", "link"]))?;
+    run(cargo().args(["build", "--quiet", "--bin", "virtual-uno"]).args(WITH_BOARD))?;
     let mut board = Serving::start(&mut Command::new(root().join("target/debug/virtual-uno")))?;
     let port = board.line()?;
     let mut server = Serving::page(folder, &["--port", &port])?;
@@ -124,20 +124,18 @@ fn files(folder: &Path) -> Result<BTreeMap<PathBuf, Vec<u8>>> {
 
 fn figures() -> Result<()> {
     let plant = ide_site::plant_of("station1").unwrap_or_default();
-    run(cargo()
-        .args(["run", "--quiet", "--package", "awl-sim", "--", "examples/station1.awl"])
-        .args([
-            "--plant",
-            plant,
-            "--for",
-            "60s",
-            "--scan-time",
-            "1ms",
-            "--trace",
-            "Push,Height,Raise,Lower",
-            "-o",
-            FIGURES,
-        ]))
+    run(tool("awl-sim").arg("examples/station1.awl").args([
+        "--plant",
+        plant,
+        "--for",
+        "60s",
+        "--scan-time",
+        "1ms",
+        "--trace",
+        "Push,Height,Raise,Lower",
+        "-o",
+        FIGURES,
+    ]))
 }
 
 /// A server, or a board, that ends with this.
@@ -146,7 +144,7 @@ struct Serving(Child);
 impl Serving {
     /// Serves the page in a folder.
     fn page(folder: &Path, arguments: &[&str]) -> Result<Serving> {
-        run(cargo().args(["build", "--quiet", "--package", "uno200"]))?;
+        run(cargo().args(["build", "--quiet", "--bin", "uno200"]))?;
         // Not by way of cargo, which would be ended in its place.
         let mut ide = Command::new(root().join(UNO200));
         ide.args(["ide", "--no-open", "--listen", "127.0.0.1:0", "--page"]).arg(folder);

@@ -1,54 +1,58 @@
-//! The core of the page that is part of the tools: who installs them needs no compiler for
+//! The modules of WebAssembly that are part of the tools: who installs them needs no compiler for
 //! WebAssembly.
 
 use std::fs;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, ensure};
-use ide_site::{Core, MODULE, SCRIPT};
+use ide_site::{MODULES, Modules};
 
-use crate::process::{cargo, root, run};
+use crate::process::{root, run, tool};
 use crate::wasm;
 
-/// Where the tools take it from.
+/// Where the tools take them from.
 const KEPT: &str = "ide/site/core";
-/// Which compilers built that, a line each: others make other code.
+/// Which compilers built them, a line each: others make other code.
 const COMPILERS: &str = "ide/site/core/compilers.txt";
 
-/// Where it is built.
+/// Where they are built.
 pub fn folder() -> PathBuf {
     root().join("target/ide-core")
 }
 
-/// Builds it.
-pub fn build() -> Result<Core> {
-    let module = wasm::build("ide-core", &["ide-core"])?;
+/// Builds them.
+pub fn build() -> Result<Modules> {
+    let packages = MODULES.map(|module| module.replace('_', "-"));
+    let packages: Vec<&str> = packages.iter().map(String::as_str).collect();
     let folder = folder();
-    let mut bind = cargo();
-    run(bind
-        .args(["run", "--quiet", "--package", "bind", "--"])
-        .args([&module, &folder])
-        .arg("web"))?;
-    let read = |name| fs::read(folder.join(name)).with_context(|| format!("no {name} was built"));
-    Ok(Core { script: read(SCRIPT)?, module: read(MODULE)? })
+    for module in &packages {
+        let module = wasm::build(module, &packages)?;
+        run(tool("bind").args([&module, &folder]).arg("web"))?;
+    }
+    let read = |name: String| {
+        let bytes = fs::read(folder.join(&name)).with_context(|| format!("no {name} was built"))?;
+        Ok((name, bytes))
+    };
+    Modules::names().map(read).collect::<Result<_>>().map(Modules)
 }
 
-/// Puts it where the tools take it from.
-pub fn keep(core: &Core) -> Result<()> {
+/// Puts them where the tools take them from.
+pub fn keep(modules: &Modules) -> Result<()> {
     let kept = root().join(KEPT);
     fs::create_dir_all(&kept)?;
-    fs::write(kept.join(SCRIPT), &core.script)?;
-    fs::write(kept.join(MODULE), &core.module)?;
+    for (name, bytes) in &modules.0 {
+        fs::write(kept.join(name), bytes)?;
+    }
     fs::write(root().join(COMPILERS), wasm::compilers()?)?;
     println!("{KEPT}");
     Ok(())
 }
 
-/// Compares it with the one that is part of the tools. With other compilers than those that are
-/// recorded it cannot be the same.
-pub fn check(core: &Core) -> Result<()> {
-    let kept = |name| fs::read(root().join(KEPT).join(name)).unwrap_or_default();
-    if kept(SCRIPT) == core.script && kept(MODULE) == core.module {
+/// Compares them with those that are part of the tools. With other compilers than those that are
+/// recorded they cannot be the same.
+pub fn check(modules: &Modules) -> Result<()> {
+    let kept = |name: &String| fs::read(root().join(KEPT).join(name)).unwrap_or_default();
+    if modules.0.iter().all(|(name, bytes)| kept(name) == *bytes) {
         return Ok(());
     }
     let recorded = fs::read_to_string(root().join(COMPILERS)).unwrap_or_default();

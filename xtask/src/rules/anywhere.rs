@@ -14,6 +14,7 @@ const LIBRARIES: &[&str] = &[
     "lang/plcopen/src/",
     "lang/project/src/",
     "analysis/src/",
+    "ide/charts/src/",
     "ide/core/src/",
     "client/src/",
     "flash/src/",

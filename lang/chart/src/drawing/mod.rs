@@ -20,7 +20,7 @@ use std::fmt;
 
 use diagnostics::Source;
 
-use crate::model::{Body, Chart, Origin, Position, Step, StepKind, Transition, TransitionId};
+use crate::model::{Chart, Origin, Position, Step, StepKind, Transition, TransitionId};
 use boxes::{block, label, label_room, label_start, note};
 use measures::{BLOCK_GAP, CORRIDOR, Measures, TITLE_HEIGHT, short, text_width};
 use shapes::{ActionShape, Look, StepShape, TransitionShape};
@@ -62,31 +62,15 @@ pub fn draw<'c>(
     charts: impl IntoIterator<Item = &'c Chart>,
     source: &Source,
 ) -> Result<Drawing, TooLarge> {
-    let mut sheets = Vec::new();
-    for chart in charts {
-        add(chart, String::new(), source, &mut sheets)?;
-    }
-    Ok(packed(sheets))
-}
-
-fn add(
-    chart: &Chart,
-    around: String,
-    source: &Source,
-    sheets: &mut Vec<Sheet>,
-) -> Result<(), TooLarge> {
-    let name = format!("{around}{}", chart.name);
-    let count = chart.steps.len().max(chart.transitions.len());
-    if count > ELEMENTS_MAX {
-        return Err(TooLarge { chart: name, count });
-    }
-    sheets.push(sheet(chart, &name, source));
-    for action in chart.actions.values() {
-        if let Body::Chart(inner) = &action.body {
-            add(inner, format!("{name}."), source, sheets)?;
+    let charts = charts.into_iter().flat_map(Chart::named_with_inner);
+    let sheets = charts.map(|(name, chart)| {
+        let count = chart.steps.len().max(chart.transitions.len());
+        if count > ELEMENTS_MAX {
+            return Err(TooLarge { chart: name, count });
         }
-    }
-    Ok(())
+        Ok(sheet(chart, &name, source))
+    });
+    Ok(packed(sheets.collect::<Result<_, _>>()?))
 }
 
 /// Where the steps of a chart are drawn, as places in its text would say it.
@@ -124,7 +108,7 @@ fn placement(chart: &Chart, room: &room::Room) -> (layout::Placement, bool) {
 fn sheet(chart: &Chart, name: &str, source: &Source) -> Sheet {
     let room = room::room(chart);
     let m = room.measures;
-    let (placement, _) = placement(chart, &room);
+    let (placement, is_placed) = placement(chart, &room);
     let line = |origin: Origin| source.position(origin.0.start as usize).0;
     let steps = chart.steps.iter().filter_map(|(id, step)| {
         let mut shape = step_shape(chart, step, *placement.steps.get(id)?, &m);
@@ -150,7 +134,7 @@ fn sheet(chart: &Chart, name: &str, source: &Source) -> Sheet {
         Some(shape)
     });
     let transitions = transitions.collect();
-    framed(Sheet { name: name.to_owned(), steps, transitions, ..Sheet::default() })
+    framed(Sheet { name: name.to_owned(), is_placed, steps, transitions, ..Sheet::default() })
 }
 
 /// The block of a step with the line to it.
@@ -250,6 +234,7 @@ fn packed(mut sheets: Vec<Sheet>) -> Drawing {
 impl Sheet {
     fn move_by(&mut self, by: Point) {
         self.title = self.title.moved(by);
+        self.origin = self.origin.moved(by);
         self.frame = self.frame.moved(by);
         self.steps.iter_mut().for_each(|step| step.move_by(by));
         self.transitions.iter_mut().for_each(|one| one.move_by(by));

@@ -46,6 +46,10 @@ pub struct Sheet {
     pub title: Point,
     /// What it takes, with its title.
     pub frame: Rect,
+    /// Whether the steps are where the text says; otherwise the layout is automatic.
+    pub is_placed: bool,
+    /// Where the place `{at 0 0}` is.
+    pub origin: Point,
     /// Its steps in the order of the text.
     pub steps: Vec<StepShape>,
     /// Its transitions in the order of the text.

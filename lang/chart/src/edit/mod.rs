@@ -15,6 +15,7 @@ mod index;
 mod kinds;
 mod legible;
 mod naming;
+mod origins;
 mod places;
 mod refusal;
 mod steps;

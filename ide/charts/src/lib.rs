@@ -1,0 +1,91 @@
+//! Charts of the IDE: draws them and changes them. Questions in, answers out; the text is all there
+//! is of a chart, and nothing is known here of the project around it, of PLCs and of the page.
+//!
+//! [`Charts`] answers, [`protocol`] is what it is asked. A page loads it when a chart is looked at
+//! for the first time; the same code runs natively in tests.
+
+mod drawn;
+mod opened;
+mod places;
+pub mod protocol;
+mod wanted;
+
+use opened::Opened;
+use protocol::{Answer, Number, Question, Reply, Request};
+
+/// What answers. It keeps the text that it was asked about last, so that elements are the same ones
+/// from edit to edit.
+#[derive(Debug, Default)]
+pub struct Charts {
+    opened: Option<Opened>,
+}
+
+impl Charts {
+    /// As [`answer`](Charts::answer), both as JSON.
+    pub fn request_json(&mut self, request: &str) -> String {
+        let reply = match serde_json::from_str(request) {
+            Ok(Request { id, question }) => Reply::of(id, self.answer(question)),
+            // What is no question has a number all the same, unless it is no request.
+            Err(error) => {
+                let number = serde_json::from_str(request).map_or(0, |Number { id }| id);
+                Reply::of(number, Err(error.to_string()))
+            }
+        };
+        // Numbers, texts and lists of them always are JSON.
+        serde_json::to_string(&reply).unwrap_or_default()
+    }
+
+    /// Answers, or says why not.
+    pub fn answer(&mut self, question: Question) -> Result<Answer, String> {
+        match question {
+            Question::Draw { text, name } => Ok(Answer::Charts(self.open(text, name)?.draw())),
+            Question::Edit { text, name, chart, edits } => {
+                let opened = self.open(text, name)?;
+                let select = opened.edit(chart, edits)?;
+                let (text, charts) = (opened.text().to_owned(), opened.draw());
+                Ok(Answer::Edited { text, charts, select })
+            }
+            Question::Allowed { text, name, chart, edits } => {
+                Ok(Answer::Allowed(self.open(text, name)?.allowed(chart, edits)?))
+            }
+            Question::Copy { text, name, chart, steps } => {
+                Ok(Answer::Copy(self.open(text, name)?.copy(chart, &steps)?))
+            }
+        }
+    }
+
+    /// The text, read anew if it is another one.
+    fn open(&mut self, text: String, name: String) -> Result<&mut Opened, String> {
+        let kept = self.opened.take().filter(|opened| opened.is(&text, &name));
+        let opened = match kept {
+            Some(opened) => opened,
+            None => Opened::of(text, name)?,
+        };
+        Ok(self.opened.insert(opened))
+    }
+}
+
+/// What JavaScript calls.
+#[cfg(target_arch = "wasm32")]
+mod page {
+    use wasm_bindgen::prelude::wasm_bindgen;
+
+    /// [`Charts`](crate::Charts); what it takes and gives is JSON.
+    #[wasm_bindgen]
+    #[derive(Default)]
+    pub struct Charts(crate::Charts);
+
+    #[wasm_bindgen]
+    impl Charts {
+        /// Before any text.
+        #[wasm_bindgen(constructor)]
+        pub fn new() -> Charts {
+            Charts::default()
+        }
+
+        /// See [`request_json`](crate::Charts::request_json).
+        pub fn request(&mut self, json: &str) -> String {
+            self.0.request_json(json)
+        }
+    }
+}

@@ -1,0 +1,337 @@
+//! What is asked about charts, and the answers, as JSON; the page's `chart/protocol.ts` says the
+//! same. A rectangle is left, top, width, height; a line from one point to another four numbers, too.
+
+use std::fmt;
+use std::str::FromStr;
+
+use chart::edit::Element;
+use chart::model::{StepId, TransitionId};
+use serde::{Deserialize, Serialize};
+
+/// A point of a drawing, or a place in a text.
+pub type At = (i32, i32);
+
+/// A question with its number.
+#[derive(Debug, Deserialize)]
+pub struct Request {
+    /// Which comes with the answer.
+    pub id: u32,
+    /// What is asked.
+    #[serde(flatten)]
+    pub question: Question,
+}
+
+/// The number of a request.
+#[derive(Debug, Deserialize)]
+pub struct Number {
+    /// As in [`Request`].
+    pub id: u32,
+}
+
+/// A question. Each has the text as it is, and what a chart is called that is not there yet.
+#[expect(missing_docs, reason = "the fields are told with their variant")]
+#[derive(Debug, Deserialize)]
+#[serde(tag = "do", rename_all = "camelCase")]
+pub enum Question {
+    /// The charts of a text. Answer: [`Charts`].
+    Draw { text: String, name: String },
+    /// All of the edits of a chart, which is the number of a sheet, or none. Answer: the text, its
+    /// charts and what is to be selected.
+    Edit { text: String, name: String, chart: usize, edits: Vec<Edit> },
+    /// Which edits would be refused. Answer: for each why, or null.
+    Allowed { text: String, name: String, chart: usize, edits: Vec<Edit> },
+    /// Steps with the transitions among them as a text, which can be pasted. Answer: the text.
+    Copy { text: String, name: String, chart: usize, steps: Vec<ElementId> },
+}
+
+/// What is answered to a request.
+#[derive(Debug, Serialize)]
+pub struct Reply {
+    id: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    answer: Option<Answer>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refused: Option<String>,
+}
+
+impl Reply {
+    /// To the request of a number.
+    pub fn of(id: u32, outcome: Result<Answer, String>) -> Reply {
+        match outcome {
+            Ok(answer) => Reply { id, answer: Some(answer), refused: None },
+            Err(message) => Reply { id, answer: None, refused: Some(message) },
+        }
+    }
+}
+
+/// An answer.
+#[expect(missing_docs, reason = "the questions say what is answered")]
+#[derive(Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Answer {
+    Charts(Charts),
+    Edited { text: String, charts: Charts, select: Vec<ElementId> },
+    Allowed(Vec<Option<String>>),
+    Copy(String),
+}
+
+/// An element of a chart, as `s3` or `t4`: a step or a transition, and its number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
+pub struct ElementId(pub Element);
+
+impl fmt::Display for ElementId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Element::Step(StepId(number)) => write!(f, "s{number}"),
+            Element::Transition(TransitionId(number)) => write!(f, "t{number}"),
+            // Actions are edited with their steps.
+            Element::Action(action) => write!(f, "a{}", action.0),
+        }
+    }
+}
+
+impl From<ElementId> for String {
+    fn from(id: ElementId) -> String {
+        id.to_string()
+    }
+}
+
+impl FromStr for ElementId {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<ElementId, String> {
+        let numbered = |kind| text.strip_prefix(kind)?.parse().ok();
+        let step = numbered('s').map(|number| Element::Step(StepId(number)));
+        let transition = || numbered('t').map(|number| Element::Transition(TransitionId(number)));
+        let element = step.or_else(transition);
+        element.map(ElementId).ok_or_else(|| format!("{text:?} is no step and no transition"))
+    }
+}
+
+impl TryFrom<String> for ElementId {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<ElementId, String> {
+        text.parse()
+    }
+}
+
+/// An edit: see [`chart::edit::Edit`], whose variants it has.
+#[expect(missing_docs, reason = "the edits of charts say what each means")]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(rename_all = "camelCase", rename_all_fields = "camelCase")]
+pub enum Edit {
+    AddStep {
+        at: Option<At>,
+        is_initial: bool,
+    },
+    AddAfter {
+        of: ElementId,
+    },
+    AddBefore {
+        of: ElementId,
+    },
+    AddBranch {
+        of: ElementId,
+        is_parallel: bool,
+    },
+    Connect {
+        from: Vec<ElementId>,
+        to: Vec<ElementId>,
+    },
+    Erase {
+        elements: Vec<ElementId>,
+    },
+    Rename {
+        step: ElementId,
+        name: String,
+    },
+    SetInitial {
+        step: ElementId,
+        is_initial: bool,
+    },
+    SetCondition {
+        transition: ElementId,
+        text: String,
+    },
+    SetTransition {
+        transition: ElementId,
+        name: Option<String>,
+        priority: Option<u32>,
+        from: Vec<ElementId>,
+        to: Vec<ElementId>,
+    },
+    SetAction {
+        step: ElementId,
+        index: usize,
+        action: Wanted,
+    },
+    InsertAction {
+        step: ElementId,
+        index: usize,
+        action: Wanted,
+    },
+    RemoveAction {
+        step: ElementId,
+        index: usize,
+    },
+    ClearActions {
+        step: ElementId,
+    },
+    MoveAction {
+        step: ElementId,
+        index: usize,
+        to: usize,
+    },
+    /// Places as they are in the drawing, without its origin.
+    Place {
+        elements: Vec<(ElementId, At)>,
+    },
+    Layout {},
+    Paste {
+        text: String,
+        at: Option<At>,
+    },
+    Comment {
+        of: ElementId,
+        text: String,
+    },
+}
+
+/// An action of a block as a person writes it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Wanted {
+    /// `N`, `L` and so on.
+    pub qualifier: String,
+    /// The time of qualifiers that have one: `T#2s`.
+    pub time: Option<String>,
+    /// The name of an action, a variable or an address.
+    pub action: String,
+}
+
+/// The charts of a text.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Charts {
+    /// How wide all of it is.
+    pub width: i32,
+    /// How high.
+    pub height: i32,
+    /// The charts, those in actions after the one around.
+    pub sheets: Vec<Sheet>,
+    /// Why it cannot be drawn; then there are no sheets.
+    pub obstacle: Option<String>,
+    /// Why it cannot be edited.
+    pub mistake: Option<Mistake>,
+}
+
+/// Why a text cannot be edited.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Mistake {
+    /// Its line, from 1.
+    pub line: u32,
+    /// What it is.
+    pub message: String,
+}
+
+/// A chart.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Sheet {
+    /// Its name with those of the charts around.
+    pub name: String,
+    /// Where that is written.
+    pub title: At,
+    /// What it takes.
+    pub frame: [i32; 4],
+    /// Whether it is a GRAFCET.
+    pub is_grafcet: bool,
+    /// Whether the text says where its steps are; otherwise the layout is automatic.
+    pub is_placed: bool,
+    /// Where the place (0, 0) of its text is: a place is a point of the drawing without this.
+    pub origin: At,
+    /// Its steps.
+    pub steps: Vec<Step>,
+    /// Its transitions.
+    pub transitions: Vec<Transition>,
+}
+
+/// A step.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Step {
+    /// Which one.
+    pub id: ElementId,
+    /// Its line, from 1.
+    pub line: u32,
+    /// Its name as drawn; one that is too long ends in dots.
+    pub name: String,
+    /// Its name.
+    pub full_name: String,
+    /// What it stands for.
+    pub note: String,
+    /// Its comment.
+    pub comment: String,
+    /// Its box.
+    pub frame: [i32; 4],
+    /// Whether it is active at the beginning.
+    pub is_initial: bool,
+    /// Whether it becomes active with the enclosing step.
+    pub is_linked: bool,
+    /// `plain`, `macro`, `enclosing`.
+    pub look: &'static str,
+    /// Its actions, then its forcing orders.
+    pub actions: Vec<Action>,
+}
+
+/// An action of a step, or a forcing order.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Action {
+    /// Its line, from 1.
+    pub line: u32,
+    /// Its box.
+    pub frame: [i32; 4],
+    /// Where the qualifier ends and the name begins.
+    pub divider: Option<i32>,
+    /// Qualifier and time, as drawn.
+    pub qualifier: String,
+    /// The action with its condition or event, as drawn.
+    pub name: String,
+    /// What there is to be edited; of a forcing order nothing.
+    pub written: Option<Wanted>,
+}
+
+/// A transition.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Transition {
+    /// Which one.
+    pub id: ElementId,
+    /// Its line, from 1.
+    pub line: u32,
+    /// How it is called.
+    pub title: String,
+    /// Its name.
+    pub name: Option<String>,
+    /// Its priority.
+    pub priority: Option<u32>,
+    /// Its condition as written.
+    pub condition: String,
+    /// Its comment.
+    pub comment: String,
+    /// The steps before it.
+    pub from: Vec<ElementId>,
+    /// The steps after it.
+    pub to: Vec<ElementId>,
+    /// Its bar.
+    pub bar: [i32; 4],
+    /// What is written beside that, line by line.
+    pub text: Vec<String>,
+    /// Where that begins.
+    pub label: At,
+    /// The lines from steps and to steps.
+    pub lines: Vec<Vec<At>>,
+    /// Double lines: the upper ones.
+    pub doubles: Vec<[i32; 4]>,
+    /// Where arrows point up.
+    pub arrows: Vec<At>,
+}
