@@ -126,6 +126,28 @@ async function after(...names) {
   }
 }
 
+const name = "mouse.sfc";
+/** Chooses an item of a menu. */
+const choose = async (menu, item) => {
+  await button(menu).click();
+  await page.getByRole("menuitem", { name: item }).click();
+};
+
+/** Drags from a point of the window to another one. */
+const drag = async (from, to, options = {}) => {
+  await page.mouse.move(...from);
+  await page.mouse.down(options);
+  await page.mouse.move((from[0] + to[0]) / 2, (from[1] + to[1]) / 2);
+  await page.mouse.move(...to, { steps: 3 });
+  await page.mouse.up(options);
+};
+
+/** The middle of what is drawn. */
+const middle = async (node) => {
+  const { x, y, width, height } = await node.boundingBox();
+  return [x + width / 2, y + height / 2];
+};
+
 // With keys alone: the panel, its button, then a key for each thing.
 await listen(page);
 await load(page, file("press.sfc"), file("other.sfc"));
@@ -226,22 +248,6 @@ for (const target of ["Simulator", "Virtual Uno"]) {
 }
 
 // With the mouse alone: buttons, menus, drags.
-const name = "mouse.sfc";
-const choose = async (menu, item) => {
-  await button(menu).click();
-  await page.getByRole("menuitem", { name: item }).click();
-};
-const drag = async (from, to, options = {}) => {
-  await page.mouse.move(...from);
-  await page.mouse.down(options);
-  await page.mouse.move((from[0] + to[0]) / 2, (from[1] + to[1]) / 2);
-  await page.mouse.move(...to, { steps: 3 });
-  await page.mouse.up(options);
-};
-const middle = async (node) => {
-  const { x, y, width, height } = await node.boundingBox();
-  return [x + width / 2, y + height / 2];
-};
 await load(page, file(name));
 await button("First step").click();
 await step("S1").waitFor();
@@ -391,7 +397,7 @@ assert(
 await key("Control+ArrowRight");
 await page.waitForFunction((before) => globalThis.texts["drag.sfc"] !== before, placed);
 await choose("Change", "Lay out");
-await isText(chain(4), "drag.sfc");
+await page.waitForFunction(() => !globalThis.texts["drag.sfc"].includes("{at"));
 await key("Control+z");
 await key("Control+z");
 await key("Control+z");
@@ -426,14 +432,15 @@ console.log("places, a band, other files, pictures");
 // A mistake in the text: the drawing is there, with the way to the mistake, and is not changed.
 await load(page, file("broken.sfc", `${chain(3)}STEP\n`));
 await step("S2").click();
-await button("Line 13").waitFor();
+const toMistake = chart.getByRole("button", { name: /^Line \d+$/ });
+await toMistake.waitFor();
 await key("n");
 await page
   .getByRole("alert")
   .filter({ hasText: /mistake in line/ })
   .waitFor();
-await button("Line 13").click();
-await page.locator(".cm-activeLine", { hasText: "STEP" }).waitFor();
+await toMistake.click();
+await page.waitForFunction(() => document.activeElement.classList.contains("cm-content"));
 
 // Fingers: a tap selects, two write, two fingers make it larger, one moves the ground.
 const context = await browser.newContext({

@@ -7,6 +7,8 @@ import type { Frame } from "./protocol";
 import { Shape, title } from "./shape";
 
 export const ZOOM = { min: 0.1, max: 3, step: 1.25 };
+/** What is as large as fits is not larger, and to be read not smaller. */
+const ZOOM_FIT = { min: 0.7, max: 1.5 };
 /** So far around what can be seen elements have nodes, in pixels. */
 const AHEAD = 300;
 /** Free ground around a drawing, and what is left between an element and the edge, in its units. */
@@ -204,10 +206,20 @@ export class Canvas {
 
   /** As large as fits. */
   fit(): void {
+    this.scale(Math.min(this.fitting(), ZOOM_FIT.max));
+    this.refresh();
+  }
+
+  /** The beginning of another drawing: as much of it as can be read. */
+  begin(): void {
+    this.scale(Math.min(1, Math.max(ZOOM_FIT.min, this.fitting())));
+    this.element.scrollTo(0, 0);
+  }
+
+  private fitting(): number {
     const [, , width, height] = this.bounds;
     const { clientWidth, clientHeight } = this.element;
-    this.scale(Math.min(clientWidth / width, clientHeight / height, 1.5));
-    this.refresh();
+    return Math.min(clientWidth / width, clientHeight / height);
   }
 
   /** Scrolls so far that a frame can be seen. */

@@ -38,7 +38,7 @@ export class ChartsModule {
 
   private begin(): Worker {
     const worker = new Worker(addressOf("charts.js"), { type: "module" });
-    worker.onerror = (event) => this.end(event.message);
+    worker.onerror = (event) => this.end(event.message || "charts.js");
     worker.onmessage = ({ data }: MessageEvent<string | { broken: string }>) => {
       if (typeof data === "string") this.take(JSON.parse(data) as Answer);
       else this.end(data.broken);

@@ -105,6 +105,7 @@ export class ChartEditor {
     else if (this.only !== null && !drawn?.sheet(this.only)) this.only = null;
     const hadFocus = this.hasFocus;
     this.draw();
+    if (drawn && !before) this.canvas.begin();
     if (drawn && before) this.selection.follow(before, drawn, find);
     else this.selection.set(0, []);
     if (hadFocus && !this.field.isOpen) this.focus();

@@ -1,6 +1,8 @@
 // The whole drawing as a picture that stands for itself: for a file, in SVG or PNG, or for paper.
 import { h, s } from "../page/dom";
+import { notice } from "../page/notices";
 import { save } from "../project/files";
+import { t } from "../text/language";
 import type { Canvas } from "./canvas";
 import type { Drawn } from "./drawn";
 import type { Frame } from "./protocol";
@@ -79,6 +81,7 @@ export class Pictures {
     canvas.getContext("2d")?.drawImage(image, 0, 0, canvas.width, canvas.height);
     const blob = await new Promise<Blob | null>((done) => canvas.toBlob(done, "image/png"));
     if (blob) save(`${made.name}.png`, blob, "image/png");
+    else notice(t("noPicture"), true);
   }
 
   /** Gives the drawing, and nothing else of the page, to the printer. */
