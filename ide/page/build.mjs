@@ -27,6 +27,8 @@ const page = await build({
   ...options,
   entryPoints: { page: "src/page.ts" },
   outdir: VERSION,
+  // What is not needed at first comes in a file of its own.
+  splitting: true,
   // Styles of the editor come from a sheet that the Content-Security-Policy allows.
   alias: { "style-mod": "./src/editor/style-mod.ts" },
 });
@@ -36,6 +38,13 @@ const worker = await build({
   entryPoints: { worker: "src/core/worker.ts" },
   outdir: VERSION,
   external: ["./ide_core.js"],
+});
+// So is the module of charts: `ide_charts.js` and `ide_charts_bg.wasm`.
+await build({
+  ...options,
+  entryPoints: { charts: "src/chart/worker.ts" },
+  outdir: VERSION,
+  external: ["./ide_charts.js"],
 });
 // Its address is the same for all versions, and what it keeps is below it.
 await build({

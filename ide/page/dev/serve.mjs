@@ -64,7 +64,7 @@ async function answer(path) {
     const real = at(`../../../target/ide-core/${file.slice("/version/".length)}`);
     return readFile(real).catch(() => readFile(at("./fake_core.js")));
   }
-  if (!/^\/(version\/)?[\w.]+$/.test(file)) throw new Error("no such file");
+  if (!/^\/(version\/)?[\w.-]+$/.test(file)) throw new Error("no such file");
   return readFile(at(`../dist${file}`));
 }
 

@@ -30,19 +30,23 @@ await part(/^initial step Wait, N Ready$/).waitFor();
 assert.equal(await chart.getByRole("group", { name: /^chart / }).count(), 2, "Stir, too");
 await part(/^step Heat, N Heater, D T#4s Slow$/).waitFor();
 
-// A step leads to its line by a click, a transition by Enter; the cursor marks what it is in.
+// F12 leads from a step or a transition to its line; the cursor marks what it is in; arrows go along
+// the lines.
 await part(/^step FillB/).click();
+await page.keyboard.press("F12");
 await activeLine(/^STEP FillB/);
-await part(/^transition Together: Together: TRUE/).focus();
-await page.keyboard.press("Enter");
+await part(/^transition Together: Together: TRUE/).click();
+await page.keyboard.press("F12");
 await activeLine(/^TRANSITION Together/);
 await chart.locator(".current", { hasText: "Together" }).waitFor();
-await part(/^step FillB/).focus();
-await page.keyboard.press("ArrowRight");
+await part(/^step FillB/).click();
+await page.keyboard.press("ArrowDown");
+await page.keyboard.press("ArrowDown");
 assert.match(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), /FullB/);
 
 // Larger, and as large as fits.
-const width = () => chart.locator("svg").evaluate((svg) => svg.getBoundingClientRect().width);
+const width = () =>
+  chart.locator(".sheets svg").evaluate((svg) => svg.getBoundingClientRect().width);
 const before = await width();
 await button("Larger").click();
 assert((await width()) > before);

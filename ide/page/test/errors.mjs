@@ -358,6 +358,16 @@ await situation(
   (page) => page.route(/errors\/E\d+\.md/, (route) => route.abort()),
 );
 
+// What draws charts does not come either.
+await situation(
+  `${server.plain}#example=mixing-sfc`,
+  async (page) => {
+    await page.getByRole("tab", { name: "Chart", exact: true }).click();
+    await said(page, "chartBroken");
+  },
+  (page) => page.route(/charts\.js$/, (route) => route.abort()),
+);
+
 // A PLC on the network that does not answer; its port in use; the bridge that is gone.
 const dumb = createServer(() => {});
 await new Promise((listening) => dumb.listen(0, "127.0.0.1", listening));

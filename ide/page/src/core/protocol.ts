@@ -147,45 +147,10 @@ export interface Power {
   elements: (boolean | null)[];
 }
 
-export type Frame = [x: number, y: number, width: number, height: number];
-
-export interface ChartStep {
-  line: number;
-  name: string;
-  note: string;
-  frame: Frame;
-  isInitial: boolean;
-  isLinked: boolean;
-  look: "plain" | "macro" | "enclosing";
-  actions: { frame: Frame; divider: number | null; qualifier: string; name: string }[];
-}
-
-export interface ChartTransition {
-  line: number;
-  title: string;
-  from: number[];
-  bar: [x: number, y: number, endX: number, endY: number];
-  text: string[];
-  label: [number, number];
-  lines: [number, number][][];
-  doubles: [x: number, y: number, endX: number, endY: number][];
-  arrows: [number, number][];
-}
-
-export interface ChartSheet {
-  name: string;
-  title: [number, number];
-  steps: ChartStep[];
-  transitions: ChartTransition[];
-}
-
+/** Charts whose steps are told. */
 export interface Chart {
   id: number;
   file: string;
-  obstacle: string | null;
-  width: number;
-  height: number;
-  sheets: ChartSheet[];
 }
 
 export interface Recording {

@@ -8,6 +8,8 @@ export interface MenuItem {
   hint?: string;
   checked?: boolean;
   disabled?: boolean;
+  /** Why it cannot be chosen now; it can still be reached, to be read. */
+  why?: string;
 }
 
 /** Groups of items; a line is drawn between groups. */
@@ -61,10 +63,12 @@ function itemElement(item: MenuItem, end: (act: () => void) => void): HTMLElemen
         type: "button",
         role: isChoice ? "menuitemradio" : "menuitem",
         "aria-checked": isChoice ? String(item.checked) : undefined,
+        "aria-disabled": item.why !== undefined && "true",
+        title: item.why,
         tabindex: -1,
       },
       set: { disabled: item.disabled ?? false },
-      on: { click: () => end(item.act) },
+      on: { click: () => item.why === undefined && end(item.act) },
     },
     h("span", {}, item.text),
     item.hint && h("kbd", { attributes: { "aria-hidden": "true" } }, item.hint),

@@ -1,0 +1,26 @@
+// How an action of a block is written in one line: `Motor`, `L T#2s Motor`, and back.
+import type { Wanted } from "./protocol";
+
+const QUALIFIER = /^(N|P0|P1|P|S|R|L|DS|SD|SL|D)\s+(\S[^]*)$/i;
+const TIMED = /^(L|D|SD|DS|SL)$/i;
+/** A time, then the action with what belongs to it. */
+const WITH_TIME = /^(\S.*?)\s+([A-Za-z_%][\w.%]*(?:\s*\{[^]*\})*)$/;
+
+/** What a line means; what it lacks, the module of charts says. */
+export function wanted(line: string): Wanted {
+  const [, qualifier, rest] = QUALIFIER.exec(line.trim()) ?? [];
+  if (!qualifier || !rest) return { qualifier: "N", time: null, action: line.trim() };
+  const [, time, action] = (TIMED.test(qualifier) && WITH_TIME.exec(rest)) || [];
+  const isTimed = time !== undefined && action !== undefined;
+  return {
+    qualifier: qualifier.toUpperCase(),
+    time: isTimed ? time : null,
+    action: isTimed ? action : rest,
+  };
+}
+
+/** The line of an action. */
+export function line({ qualifier, time, action }: Wanted): string {
+  const isPlain = qualifier === "N" && !/^(N|P0|P1|P|S|R|L|DS|SD|SL|D)\s/i.test(action);
+  return [isPlain ? null : qualifier, time, action].filter(Boolean).join(" ");
+}
