@@ -23,22 +23,24 @@ const MARK: &str =
 pub fn text() -> Result<String> {
     let before = fs::read_to_string(root().join(FILE)).with_context(|| format!("no {FILE}"))?;
     let (by_hand, _) = before.split_once(MARK).context("docs/blocks.md: its mark is missing")?;
-    let mut text = format!("{by_hand}{MARK}");
+    let mut text = format!(
+        "{by_hand}{MARK}\n| block | | program, bytes | memory, bytes | cycles at most |\n\
+         |---|---|---|---|---|\n"
+    );
     for block in &BLOCKS {
-        page(block, &mut text)?;
+        let Cost { bytes, memory, cycles } = Cost::of(block)?;
+        let (name, anchor) = (block.name, block.name.to_lowercase());
+        let comment = block.comment();
+        let first = comment.lines().next().unwrap_or_default().trim_end_matches('.');
+        let row = format!("[{name}](#{anchor}) | {first} | {bytes} | {memory} | {cycles}");
+        let _ = writeln!(text, "| {row} |");
     }
+    BLOCKS.iter().for_each(|block| page(block, &mut text));
     Ok(text)
 }
 
-fn page(block: &Block, text: &mut String) -> Result<()> {
-    let Cost { bytes, memory, cycles } = Cost::of(block)?;
-    let name = block.name;
-    let _ = write!(
-        text,
-        "\n### {name}\n\n{}\n\n{bytes} bytes of program, {memory} bytes of memory, \
-         at most {cycles} cycles.\n",
-        block.comment()
-    );
+fn page(block: &Block, text: &mut String) {
+    let _ = write!(text, "\n### {}\n\n{}\n", block.name, block.comment());
     let parameters = block.parameters();
     for (title, is_output) in [("input", false), ("output", true)] {
         let _ = write!(text, "\n| {title} | type | |\n|---|---|---|\n");
@@ -46,7 +48,6 @@ fn page(block: &Block, text: &mut String) -> Result<()> {
             let _ = writeln!(text, "| `{}` | `{}` | {} |", one.name, one.declared, one.comment);
         }
     }
-    Ok(())
 }
 
 /// What an instance more costs that is called once, without arguments.
