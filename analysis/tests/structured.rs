@@ -292,6 +292,21 @@ fn hovers() {
     assert_eq!(project.hover("p/blocks.st", at(&project, "p/blocks.st", "// Turns a|")), None);
 }
 
+#[test]
+fn blocks_of_the_library_say_what_they_are() {
+    let mut project = Project::new();
+    let text = "PROGRAM Main\nVAR Loop : PID; END_VAR\nLoop(KP := 2.0);\nEND_PROGRAM\n";
+    project.set("p/main.st", text).unwrap();
+    for (piece, parts) in [
+        (": PI|D", ["A PID controller in parallel form", "VAR_INPUT SP : REAL, setpoint"]),
+        ("(K|P", ["**KP**: REAL, VAR_INPUT of PID", "gain"]),
+    ] {
+        let hover = project.hover("p/main.st", at(&project, "p/main.st", piece));
+        let text = hover.unwrap_or_else(|| panic!("nothing at {piece}")).text;
+        assert!(parts.iter().all(|part| text.contains(part)), "{piece}: {text}");
+    }
+}
+
 /// What can be written where the text of `main.st` has a piece that is replaced.
 fn completed(piece: &str, by: &str) -> Vec<Completion> {
     let mut project = project();
@@ -318,7 +333,12 @@ fn completions() {
         (N, "n := Pump.|", &["Start", "Limit", "On"], &["Delay"]),
         (N, "Pump(Limit := 3, |", &["Start := ", "On => ", "n"], &["Limit := "]),
         (N, "n := Twice(|", &["x := ", "n"], &["Start := "]),
-        ("n : INT;", "n : |", &["INT", "TON", "Motor", "State", "Recipe", "ARRAY"], &["Main", "n"]),
+        (
+            "n : INT;",
+            "n : |",
+            &["INT", "TON", "PID", "Motor", "State", "Recipe", "ARRAY"],
+            &["Main", "n"],
+        ),
         ("n : INT;", "n AT |", &["%I0.0", "%Q0.5"], &["INT"]),
         ("END_PROGRAM\n", "END_PROGRAM\n|", &["PROGRAM", "FUNCTION_BLOCK", "TYPE"], &["IF", "n"]),
         (N, "// |", &[], &["IF"]),

@@ -3,6 +3,7 @@
 
 mod avr;
 mod bench;
+mod block_pages;
 mod board;
 mod budgets;
 mod demo;

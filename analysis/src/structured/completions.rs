@@ -2,6 +2,7 @@
 
 use awl_asm::Address;
 use st::cursor::{self, At, Cursor};
+use st::library::BLOCKS;
 use st::model::{ELEMENTARY, SectionKind, Type, Unit, UnitKind, Variable};
 use st::names::is_same;
 use st::standard::{FUNCTIONS, conversions};
@@ -252,6 +253,11 @@ impl Place<'_, '_> {
             let doc = explain(&Named::Unit(block.name.to_uppercase()), None, self.model);
             let one = self.one(&block.name, CompletionKind::Routine, "FUNCTION_BLOCK");
             Completion { doc: doc.unwrap_or_default(), ..one }
+        }));
+        let others = BLOCKS.iter().filter(|block| self.program.unit(block.name).is_none());
+        all.extend(others.map(|block| {
+            let one = self.one(block.name, CompletionKind::Routine, "FUNCTION_BLOCK");
+            Completion { doc: block.comment(), ..one }
         }));
         all.extend(self.words(words::TYPES));
         all

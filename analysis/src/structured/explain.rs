@@ -3,6 +3,7 @@
 
 use awl_asm::Address;
 use diagnostics::{Source, Span};
+use st::library::Block;
 use st::model::{SectionKind, Type, Unit, UnitKind, Value, Variable};
 use st::names::{Named, is_same};
 
@@ -189,9 +190,28 @@ fn find_type(model: &Model, is_it: impl Fn(&Type) -> bool) -> Option<Type> {
 /// The comment at a declaration: the one after it in its line, else that in the lines before.
 fn comment(named: &Named, model: &Model) -> Option<String> {
     let st = model.st()?;
+    if let Named::Unit(unit) | Named::Variable(unit, _) = named
+        && st.compiled.program.unit(unit).is_some_and(|unit| unit.file.is_none())
+    {
+        return of_library(named);
+    }
     let declared = st.compiled.names.iter().find(|name| name.declares && name.of == *named)?;
     let source = model.st_source(declared.file)?;
     after(source, declared.span).or_else(|| before(source, declared.span))
+}
+
+/// What the library of signal blocks says of a block or its parameter.
+fn of_library(named: &Named) -> Option<String> {
+    let text = match named {
+        Named::Unit(name) => Block::find(name)?.comment(),
+        Named::Variable(of, name) => {
+            let parameters = Block::find(of)?.parameters();
+            let parameter = parameters.into_iter().find(|one| is_same(one.name, name))?;
+            parameter.comment.to_owned()
+        }
+        _ => return None,
+    };
+    (!text.is_empty()).then_some(text)
 }
 
 fn after(source: &Source, span: Span) -> Option<String> {

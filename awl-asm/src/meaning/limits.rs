@@ -258,9 +258,10 @@ impl Operands<'_> {
             }
             _ => return None,
         };
-        (count > size - place).then(|| {
+        // Local memory can begin after its end where there are too many variables.
+        let most = size.saturating_sub(place);
+        (count > most).then(|| {
             let message = format!("{count}: the range ends after {last}");
-            let most = size - place;
             Diagnostic::new(Code::ConstantRange, self.span(index), message)
                 .help(format!("at most {most} fit here"))
         })

@@ -16,6 +16,7 @@ pub mod format;
 mod habits;
 pub mod keywords;
 pub mod lexer;
+pub mod library;
 pub mod model;
 pub mod names;
 pub mod parser;

@@ -348,7 +348,7 @@ pub struct Unit {
     pub kind: UnitKind,
     /// Its name.
     pub name: String,
-    /// The number of its file; `None`: a standard block.
+    /// The number of its file; `None`: a standard block or one of the library.
     pub file: Option<usize>,
     /// Where its name is.
     pub span: Span,
@@ -363,7 +363,8 @@ pub struct Unit {
 /// A checked program.
 #[derive(Debug, Clone, Default)]
 pub struct Program {
-    /// Its units: those of the files in their order, then the standard blocks.
+    /// Its units: those of the files in their order, then the standard blocks, then those of the
+    /// library that it uses.
     pub units: Vec<Unit>,
     /// Its global variables.
     pub globals: Vec<Variable>,

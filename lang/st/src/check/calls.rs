@@ -7,7 +7,10 @@ use super::arguments::place;
 use super::expressions::needed;
 use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{BlockCall, Place, RoutineArgument, SectionKind, StatementKind, Type, UnitKind};
+use crate::model::{
+    BlockCall, Expression, Place, RoutineArgument, SectionKind, Statement, StatementKind, Type,
+    UnitKind,
+};
 use crate::names::Named;
 use crate::tree::{self, Argument, Name};
 
@@ -37,7 +40,34 @@ impl Checker<'_> {
             let found = Diagnostic::new(Code::SideEffect, span, message);
             self.report(found.help("a FUNCTION_BLOCK or PROGRAM can"));
         }
-        self.block_call(instance, block, arguments, span)
+        let (enable, arguments) = self.enable(block, arguments);
+        let call = self.block_call(instance, block, &arguments, span)?;
+        Some(match enable {
+            Some(condition) => {
+                StatementKind::If(vec![(condition, vec![Statement { kind: call, span }])], vec![])
+            }
+            None => call,
+        })
+    }
+
+    /// The argument EN, a condition without which nothing of the call happens, and the other ones.
+    /// A block can have an input of this name.
+    fn enable(
+        &mut self,
+        block: usize,
+        arguments: &[Argument],
+    ) -> (Option<Expression>, Vec<Argument>) {
+        let unit = self.program.units.get(block);
+        let has_own =
+            unit.is_some_and(|unit| unit.variables.iter().any(|one| upper(&one.name) == "EN"));
+        let is_enable = |one: &Argument| {
+            let is_it = one.name.as_ref().is_some_and(|name| upper(&name.text) == "EN");
+            is_it && !one.is_output && !has_own
+        };
+        let mut others = arguments.to_vec();
+        let at = others.iter().position(is_enable);
+        let enable = at.map(|at| others.remove(at));
+        (enable.map(|one| self.value_of(&one.value, &Type::Bool)), others)
     }
 
     fn call_of_name(

@@ -95,7 +95,7 @@ impl Checker<'_> {
                 around
             }
             (_, Type::Struct(_) | Type::Block(..)) => {
-                let message = "the values of a structure are `(a := 1, b := 2)`";
+                let message = "the values of a structure or instance are `(a := 1, b := 2)`";
                 self.error(Code::WrongType, text.span, message);
                 around
             }

@@ -2,11 +2,11 @@
 
 use awl_asm::Address;
 
-use super::Checker;
 use super::names::upper;
+use super::{Checker, Instances};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{Coarse, SectionKind, Type, Unit, UnitKind, Variable};
-use crate::names::Named;
+use crate::model::{Coarse, SectionKind, Type, Unit, UnitKind, Value, Variable};
+use crate::names::{Named, is_same};
 use crate::tree;
 
 impl<'a> Checker<'a> {
@@ -130,16 +130,23 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn section(&mut self, section: &tree::Section) {
+    fn section(&mut self, section: &'a tree::Section) {
         for declared in &section.declarations {
             if section.kind == SectionKind::External {
                 self.external(declared);
                 continue;
             }
             let of_type = self.type_of(&declared.of_type, &enumeration_name(declared));
-            let initial = self.initial(declared.initial.as_ref(), &declared.of_type, &of_type);
+            let members = match declared.initial.as_ref().map(|initial| &initial.kind) {
+                Some(tree::ExpressionKind::Members(members)) => Some(members),
+                _ => None,
+            };
+            let members = members.filter(|_| matches!(of_type, Type::Block(..)));
+            let written = declared.initial.as_ref().filter(|_| members.is_none());
+            let initial = self.initial(written, &declared.of_type, &of_type);
             self.check_section(section, declared, &of_type);
             let at = declared.at.as_ref().and_then(|at| self.address(at, &of_type));
+            let first = self.variables().len();
             for name in &declared.names {
                 if self.is_taken(name) {
                     continue;
@@ -157,7 +164,55 @@ impl<'a> Checker<'a> {
                     has_initial: declared.initial.is_some(),
                 });
             }
+            if let Some(members) = members {
+                let (file, unit) = (self.file, self.unit);
+                let variables = first..self.variables().len();
+                self.instances.push(Instances { file, unit, variables, members });
+            }
         }
+    }
+
+    /// The variables of the unit, or the global ones.
+    fn variables(&self) -> &[Variable] {
+        self.unit().map_or(&self.program.globals, |unit| &unit.variables)
+    }
+
+    /// The initial values of the inputs of instances, once all blocks are declared.
+    pub(super) fn instances(&mut self) {
+        for one in std::mem::take(&mut self.instances) {
+            (self.file, self.unit) = (one.file, one.unit);
+            let of_type = self.variables().get(one.variables.start).map(|one| &one.of_type);
+            let block = of_type.and_then(Type::block);
+            let Some(block) = block.and_then(|number| self.program.units.get(number)).cloned()
+            else {
+                continue;
+            };
+            let mut values: Vec<Value> =
+                block.variables.iter().map(|variable| variable.initial.clone()).collect();
+            for (name, value) in one.members {
+                let same = |variable: &Variable| {
+                    variable.section == SectionKind::Input && is_same(&variable.name, &name.text)
+                };
+                let at = block.variables.iter().position(same);
+                let Some((variable, slot)) =
+                    at.and_then(|at| block.variables.get(at).zip(values.get_mut(at)))
+                else {
+                    let message = format!("{}: {} has no such input", name.text, block.name);
+                    self.error(Code::Arguments, name.span, message);
+                    continue;
+                };
+                self.note(name.span, Named::of_unit(&block, variable), false);
+                *slot = self.initial_value(value, &variable.of_type, slot.clone());
+            }
+            let variables = match self.unit.and_then(|unit| self.program.units.get_mut(unit)) {
+                Some(unit) => &mut unit.variables,
+                None => &mut self.program.globals,
+            };
+            for variable in variables.get_mut(one.variables).into_iter().flatten() {
+                variable.initial = Value::List(values.clone());
+            }
+        }
+        self.unit = None;
     }
 
     /// A variable of these that is added next need not be exact.
@@ -181,8 +236,7 @@ impl<'a> Checker<'a> {
     }
 
     fn is_taken(&mut self, name: &tree::Name) -> bool {
-        let list = if self.unit.is_some() { self.locals() } else { &self.program.globals };
-        let first = list.iter().find(|other| upper(&other.name) == upper(&name.text));
+        let first = self.variables().iter().find(|other| upper(&other.name) == upper(&name.text));
         let Some(span) = first.map(|first| first.span) else { return false };
         self.twice(name, Some(span));
         true

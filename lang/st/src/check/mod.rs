@@ -19,6 +19,7 @@ mod unrolled;
 mod unwritten;
 
 use std::collections::HashMap;
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use diagnostics::{Source, Span};
@@ -27,6 +28,7 @@ pub(crate) use recursion::{each_assignment, each_expression, inside};
 
 use crate::around::Around;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::library;
 use crate::model::{Program, Type, Unit, UnitKind, Value, Variable};
 use crate::names::{Name, Named};
 use crate::parser;
@@ -41,7 +43,8 @@ pub(crate) struct Checked {
 
 /// Checks the files of a program.
 pub(crate) fn check(sources: &[Source], files: &[tree::File], around: &Around) -> Checked {
-    let library = LIBRARY.get_or_init(library);
+    let standard = STANDARD.get_or_init(standard);
+    let used = library::used(files);
     let mut checker = Checker {
         around,
         program: Program::default(),
@@ -55,17 +58,20 @@ pub(crate) fn check(sources: &[Source], files: &[tree::File], around: &Around) -
         unit: None,
         loops: Vec::new(),
         unrolled: Vec::new(),
+        instances: Vec::new(),
     };
     for (source, file) in sources.iter().zip(files) {
         let settings = file.settings.iter().map(|span| span.text(&source.text).to_owned());
         checker.program.settings.extend(settings);
     }
+    let of_library = standard.iter().chain(used).map(|file| (None, file));
     let all: Vec<(Option<usize>, &tree::File)> =
-        (0..).map(Some).zip(files).chain(library.iter().map(|file| (None, file))).collect();
+        (0..).map(Some).zip(files).chain(of_library).collect();
     checker.collect_types(&all);
     checker.collect_units(&all);
     checker.collect_globals(&all);
     checker.declare_units(&all);
+    checker.instances();
     checker.bodies(&all);
     checker.recursion();
     checker.written_in_two_programs();
@@ -77,13 +83,13 @@ pub(crate) fn check(sources: &[Source], files: &[tree::File], around: &Around) -
     Checked { program, diagnostics, names }
 }
 
-/// The tree of [`library`], read once.
-static LIBRARY: OnceLock<[tree::File; 2]> = OnceLock::new();
+/// The trees of [`standard`], read once.
+static STANDARD: OnceLock<[tree::File; 2]> = OnceLock::new();
 
 /// The standard blocks, and functions that no instruction computes.
-fn library() -> [tree::File; 2] {
+fn standard() -> [tree::File; 2] {
     [include_str!("../blocks.st"), include_str!("../functions.st")].map(|text| {
-        let source = Source::new("library.st", text).ok();
+        let source = Source::new("standard.st", text).ok();
         source.map(|source| parser::parse(&source).0).unwrap_or_default()
     })
 }
@@ -101,7 +107,7 @@ pub(crate) struct Checker<'a> {
     diagnostics: Vec<(usize, Diagnostic)>,
     /// The names that were found.
     names: Vec<Name>,
-    /// The file that is being checked; `None`: the standard blocks.
+    /// The file that is being checked; `None`: the standard blocks and those of the library.
     file: Option<usize>,
     /// The unit that is being checked.
     unit: Option<usize>,
@@ -109,6 +115,19 @@ pub(crate) struct Checker<'a> {
     loops: Vec<Option<String>>,
     /// The loops around that are taken for their passes.
     unrolled: Vec<Unrolled>,
+    /// Initial values of instances, for when all blocks are declared.
+    instances: Vec<Instances<'a>>,
+}
+
+/// Instances whose declaration gives their inputs initial values.
+struct Instances<'a> {
+    file: Option<usize>,
+    /// The unit that declares them; `None`: they are global.
+    unit: Option<usize>,
+    /// Their numbers among the variables there.
+    variables: Range<usize>,
+    /// The initial values.
+    members: &'a [(tree::Name, tree::Expression)],
 }
 
 /// A loop that is taken for its passes.
@@ -126,7 +145,7 @@ impl Checker<'_> {
         if let Some(file) = self.file {
             self.diagnostics.push((file, diagnostic));
         } else {
-            debug_assert!(false, "the standard blocks: {}", diagnostic.message);
+            debug_assert!(false, "a block of the library: {}", diagnostic.message);
         }
     }
 

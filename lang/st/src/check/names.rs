@@ -5,6 +5,7 @@ use awl_asm::suggest::nearest;
 use super::Checker;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::habits;
+use crate::library::BLOCKS;
 use crate::model::{ELEMENTARY, Root, Type, UnitKind, Value};
 use crate::standard::{FUNCTIONS, conversions};
 use crate::tree::Name;
@@ -118,8 +119,9 @@ impl Checker<'_> {
         let kinds = ELEMENTARY.iter().map(|(name, _)| *name);
         let declared = self.type_texts.values().map(|(_, kind)| kind.name.text.as_str());
         let blocks = self.program.units.iter().filter(|unit| unit.kind == UnitKind::Block);
-        let mut names: Vec<&str> =
-            kinds.chain(declared).chain(blocks.map(|unit| unit.name.as_str())).collect();
+        let blocks = blocks.map(|unit| unit.name.as_str());
+        let of_library = BLOCKS.iter().map(|block| block.name);
+        let mut names: Vec<&str> = kinds.chain(declared).chain(blocks).chain(of_library).collect();
         names.sort_unstable();
         let found = habits::type_name(name).or_else(|| nearest(name, names.iter().copied()));
         let message = format!("{name}: there is no type of this name");

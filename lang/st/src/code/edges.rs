@@ -33,7 +33,8 @@ pub(super) fn edges(program: &Program) -> Edges {
             Owner::Unit(number) => program.units.get(number).map(|unit| &unit.variables),
         };
         let variable = variables.and_then(|variables| variables.get(key.1));
-        let of_type = variable.map(|variable| &variable.of_type);
+        // A CLK with an initial value would be taken for one that was there.
+        let of_type = variable.filter(|one| !one.has_initial).map(|one| &one.of_type);
         matches!(of_type, Some(Type::Block(block, _)) if falls(program, *block).is_some())
     };
     let gives = |call: &BlockCall| call.inputs.iter().any(|(at, _)| *at == CLK);

@@ -4,6 +4,7 @@ use awl_asm::escapes;
 
 use super::Generator;
 use super::edges::M;
+use super::hardware::Key;
 use super::timers::Owner;
 use super::writer::Storage;
 use crate::model::{SectionKind, Type, UnitKind, Value, Variable};
@@ -151,8 +152,13 @@ impl Generator<'_> {
         }
         let is_retained = is_retained || variable.is_retained;
         let instances = instances(&variable.of_type, name);
+        // What the declaration says of inputs; of an array nothing.
+        let given = match (&variable.of_type, &variable.initial) {
+            (Type::Block(..), Value::List(values)) => values.as_slice(),
+            _ => &[],
+        };
         for (number, name) in &instances {
-            self.declare_instance(*number, name, owner, at, is_retained, lines);
+            self.declare_instance(*number, name, (owner, at), given, is_retained, lines);
         }
         if !instances.is_empty() {
             return;
@@ -167,8 +173,8 @@ impl Generator<'_> {
         &self,
         number: usize,
         name: &str,
-        owner: Owner,
-        at: usize,
+        key: Key,
+        given: &[Value],
         is_retained: bool,
         lines: &mut Vec<String>,
     ) {
@@ -178,8 +184,8 @@ impl Generator<'_> {
             return;
         }
         let Some(unit) = self.program.units.get(number) else { return };
-        let short = self.short.get(&(owner, at));
-        let is_edge = self.edges.contains(&(owner, at));
+        let short = self.short.get(&key);
+        let is_edge = self.edges.contains(&key);
         for (inner, variable) in unit.variables.iter().enumerate() {
             if is_edge && inner == M {
                 continue;
@@ -192,7 +198,9 @@ impl Generator<'_> {
                 }
                 continue;
             }
-            self.declare(variable, &name, Owner::Unit(number), inner, is_retained, lines);
+            let mut variable = variable.clone();
+            variable.initial = given.get(inner).cloned().unwrap_or(variable.initial);
+            self.declare(&variable, &name, Owner::Unit(number), inner, is_retained, lines);
         }
     }
 }

@@ -174,10 +174,11 @@ fn written(
     all.join("\n") + "\n"
 }
 
-/// The functions that are called by what is in the files, and by those.
+/// The functions that are called by what is in the files, by blocks, and by those.
 fn called(program: &Program) -> HashSet<usize> {
     let mut found = HashSet::new();
-    let is_written = |unit: &&crate::model::Unit| unit.file.is_some();
+    let is_written =
+        |unit: &&crate::model::Unit| unit.file.is_some() || unit.kind == UnitKind::Block;
     let mut open: Vec<&crate::model::Unit> = program.units.iter().filter(is_written).collect();
     while let Some(unit) = open.pop() {
         crate::check::each_expression(&unit.body, &mut |expression| {

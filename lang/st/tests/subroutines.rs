@@ -42,6 +42,10 @@ fn blocks_are_subroutines_where_that_is_shorter() {
     ] {
         assert!(!is_subroutine(&program(variables, &count.repeat(20), 2), &alone));
     }
+    // There is more than local memory can hold.
+    let many: Vec<String> = (0..17).map(|number| format!("r{number}")).collect();
+    let large = format!("VAR {} : REAL; q : BOOL; n : INT; END_VAR", many.join(", "));
+    assert!(!is_subroutine(&program(&large, &(count.repeat(20) + "q := TRUE;\n"), 2), &alone));
     // Nobody knows what AWL beside it makes of the program.
     let around = Around { has_main: true, ..Around::default() };
     assert!(!is_subroutine(&program(counts, &count.repeat(20), 2), &around));
