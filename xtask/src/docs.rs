@@ -1,5 +1,6 @@
 //! Generated files: docs/instructions.md and the grammars for editors from the tables of the
-//! languages, the pages of the signal blocks, the words that the IDE's page colours, and the README's diagram from the demo.
+//! languages, the pages of the signal blocks, the words that the IDE's page colours, and the
+//! README's diagram from the demo.
 
 use std::fmt::Write as _;
 use std::fs;

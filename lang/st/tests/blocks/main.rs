@@ -96,8 +96,8 @@ fn blocks_do_what_scipy_does() {
     assert!(count >= 19, "{count} tables");
 }
 
-/// 1 Hz, amplitude 1, 10 ms, 1,001 points: the root of the mean square of the difference, as part of
-/// the span, is below 0.0001 %.
+/// 1 Hz, amplitude 1, 10 ms, 1,001 points: the root of the mean square of the difference, as part
+/// of the span, is below 0.0001 %.
 #[test]
 fn a_sine_is_one() {
     let text = "PROGRAM Main\nVAR Wave : SINE; END_VAR\nWave(TS := T#10ms);\nEND_PROGRAM\n";
