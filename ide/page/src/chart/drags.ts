@@ -107,7 +107,7 @@ export function move(editor: ChartEditor, from: PointerEvent): Drag {
 }
 
 /** Draws a line from the lower handle of the step that has the focus to another step. */
-export function connection(editor: ChartEditor, _from: PointerEvent): Drag {
+export function connection(editor: ChartEditor): Drag {
   const { canvas } = editor;
   const step = editor.scene?.focus;
   const path = s("path", { class: "connection" });

@@ -20,7 +20,11 @@ export class Live {
     header: Header,
     private changed: () => void,
   ) {
-    document.onDrawn(() => void this.ask());
+    document.onDrawn((_drawn, before) => {
+      // What is active in one file says nothing of another one.
+      if (!before) this.states.clear();
+      void this.ask();
+    });
     editors.onCurrent(() => void this.ask());
     core.on("problems", () => void this.ask());
     core.on("situation", (situation) => {

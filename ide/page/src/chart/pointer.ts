@@ -55,7 +55,7 @@ export class Pointer {
     if (event.button === 1 || editor.isPanning) return pan(editor, event);
     const spot = editor.canvas.at(event.target);
     if (!spot) {
-      if (isHandle(event)) return connection(editor, event);
+      if (isHandle(event)) return connection(editor);
       return isTouch ? pan(editor, event) : band(editor, event);
     }
     const isSelected = editor.isSelected(spot.item);
