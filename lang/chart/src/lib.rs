@@ -22,6 +22,7 @@ pub mod sfcedit;
 pub mod summary;
 pub mod svg;
 pub mod text;
+mod together;
 
 pub use diagnostic::{Code, Diagnostic};
 pub use generate::{Translation, declared, translate};

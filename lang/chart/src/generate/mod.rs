@@ -3,6 +3,7 @@
 //! AWL.
 
 mod actions;
+mod alternatives;
 mod build;
 mod declare;
 mod evolution;
@@ -72,6 +73,7 @@ pub fn translate(source: &Source, known: &mut HashSet<String>) -> Translation {
         }
         if diagnostics.is_empty() {
             check::check(chart, &mut warnings);
+            alternatives::check(&source.text, &parsed, &mut warnings);
         }
         let mut variables = Variables::default();
         unit.body = unit_body(parsed, &mut variables, &mut diagnostics);
