@@ -25,5 +25,5 @@ pub mod text;
 mod together;
 
 pub use diagnostic::{Code, Diagnostic};
-pub use generate::{Translation, declared, translate};
+pub use generate::{Translation, declared, frame, translate};
 pub use model::Chart;
