@@ -62,6 +62,30 @@ fn a_chart_as_text_is_counted_without_declarations() {
 }
 
 #[test]
+fn a_chart_becomes_a_project_of_plcopen_and_a_text_again() {
+    let folder = folder();
+    let path = folder.path();
+    let text = "INITIAL_STEP Wait: END_STEP STEP Fill: Valve; END_STEP\n\
+                TRANSITION FROM Wait TO Fill := Start; END_TRANSITION\n\
+                TRANSITION FROM Fill TO Wait := Full; END_TRANSITION\n";
+    fs::write(path.join("mix.sfc"), text).unwrap();
+    let (code, _, errors) = convert(path, &["mix.sfc", "-o", "mix.xml"]);
+    assert_eq!((code, errors.as_str()), (Some(0), ""));
+    let (code, _, errors) = convert(path, &["mix.xml", "-o", "again.sfc"]);
+    assert_eq!((code, errors.as_str()), (Some(0), ""));
+    let again = fs::read_to_string(path.join("again.sfc")).unwrap();
+    assert!(again.contains("FROM Wait TO Fill\n    := Start;"), "{again}");
+
+    // What is wrong, and what has no place, leaves no file.
+    fs::write(path.join("wrong.sfc"), text.replace("Full", "")).unwrap();
+    assert_eq!(convert(path, &["wrong.sfc", "-o", "wrong.xml"]).0, Some(1));
+    fs::write(path.join("g.sfc"), format!("{{grafcet}}\n{text}")).unwrap();
+    let (code, _, errors) = convert(path, &["g.sfc", "-o", "g.xml"]);
+    assert!(code == Some(1) && errors.contains("E0707"), "{errors}");
+    assert!(!path.join("wrong.xml").exists() && !path.join("g.xml").exists());
+}
+
+#[test]
 fn a_chart_becomes_a_picture() {
     let folder = folder();
     let path = folder.path();

@@ -27,6 +27,7 @@ diagnostics::codes! {
     NeverLeft = "W0301";
     NeverJoined = "W0302";
     NeverExecuted = "W0303";
+    Alternatives = "W0304";
     XmlIgnored = "W0340";
     StyleDiffers = "W0341";
     NeverWritten = "W0342";

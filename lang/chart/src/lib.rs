@@ -22,7 +22,8 @@ pub mod sfcedit;
 pub mod summary;
 pub mod svg;
 pub mod text;
+mod together;
 
 pub use diagnostic::{Code, Diagnostic};
-pub use generate::{Translation, declared, translate};
+pub use generate::{Translation, declared, frame, translate};
 pub use model::Chart;

@@ -12,5 +12,6 @@ diagnostics::codes! {
     Unknown = "E0704";
     Twice = "E0705";
     Wiring = "E0706";
+    NoPlace = "E0707";
     Ignored = "W0700";
 }

@@ -5,16 +5,25 @@
 mod page_examples;
 
 use diagnostics::Source;
-use plcopen::{Code, read};
+use plcopen::{Code, read, write};
 
 fn codes(text: &str) -> Vec<&'static str> {
     let source = Source::new("lamp.xml", text).expect("a short text");
     read(&source).diagnostics.iter().map(|one| one.code.text()).collect()
 }
 
+/// What has no place in a project is a text.
+fn codes_of_text(text: &str) -> Vec<&'static str> {
+    let source = Source::new("lamp.sfc", text).expect("a short text");
+    write(&source).diagnostics.iter().map(|one| one.code.text()).collect()
+}
+
 #[test]
 fn the_examples_of_every_page_do_what_the_page_says() {
     for code in Code::ALL {
-        page_examples::check(code.text(), code.page(), "xml", codes);
+        match code {
+            Code::NoPlace => page_examples::check(code.text(), code.page(), "sfc", codes_of_text),
+            _ => page_examples::check(code.text(), code.page(), "xml", codes),
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! `convert`: from one form of a program to another. What fails leaves no file.
 
+use std::collections::HashSet;
 use std::io::Write;
 use std::path::Path;
 
@@ -43,17 +44,23 @@ pub(super) fn convert(arguments: &Convert) -> Result<bool> {
     }
 }
 
-/// A chart as text to a picture, or how much there is in it, whatever its names stand for.
+/// A chart as text to a picture or a project of PLCopen, or how much there is in it, whatever its
+/// names stand for.
 fn from_text(arguments: &Convert) -> Result<bool> {
     let is_st = arguments.target.is_some() || arguments.variables.is_some() || arguments.table;
-    if is_st || (!arguments.summary && !is_picture(arguments) && arguments.output.is_some()) {
+    let output = arguments.output.as_deref().filter(|_| !arguments.summary);
+    let is_project = output.is_some_and(|output| has_ending(output, "xml"));
+    if is_st || output.is_some_and(|output| !is_project && !has_ending(output, "svg")) {
         bail!(
-            "{}: of a chart as text a picture is made, `-o chart.svg`; `uno200 build` makes AWL \
-             of it",
+            "{}: of a chart as text a picture is made, `-o chart.svg`, or a project of PLCopen, \
+             `-o chart.xml`; `uno200 build` makes AWL of it",
             arguments.input.display()
         );
     }
     let source = read_source(&arguments.input)?;
+    if let Some(output) = output.filter(|_| is_project) {
+        return to_project(arguments, &source, output);
+    }
     let reading = chart::text::read(&source);
     let charts: Vec<Chart> = reading.document.charts().cloned().collect();
     let mut report = Report::new(arguments.messages, false);
@@ -63,10 +70,28 @@ fn from_text(arguments: &Convert) -> Result<bool> {
     if arguments.summary { counted(&charts) } else { draw(arguments, &charts, &source) }
 }
 
+/// A text with charts to a project of PLCopen, if nothing is wrong with it.
+fn to_project(arguments: &Convert, source: &Source, output: &Path) -> Result<bool> {
+    let mut report = Report::new(arguments.messages, false);
+    let translation = chart::translate(source, &mut HashSet::new());
+    let is_sound = told(&mut report, source, translation.diagnostics);
+    if !told(&mut report, source, translation.of_st) || !is_sound {
+        return Ok(false);
+    }
+    let plcopen::Exported { text, diagnostics } = plcopen::write(source);
+    if !told(&mut report, source, diagnostics) {
+        return Ok(false);
+    }
+    write_whole(output, text.as_bytes()).map(|()| true)
+}
+
 /// Whether a picture is wanted.
 fn is_picture(arguments: &Convert) -> bool {
-    let ending = arguments.output.as_deref().and_then(Path::extension);
-    ending.is_some_and(|ending| ending.eq_ignore_ascii_case("svg"))
+    arguments.output.as_deref().is_some_and(|output| has_ending(output, "svg"))
+}
+
+fn has_ending(path: &Path, ending: &str) -> bool {
+    path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }
 
 /// Writes charts as a picture.

@@ -25,9 +25,11 @@ pub(super) struct Placement {
 /// What is taken of each row: from where to where.
 type Outline = BTreeMap<usize, (i32, i32)>;
 
-/// A step with all that belongs to it, relative to it.
+/// A step with all that belongs to it.
 #[derive(Debug, Clone, Default)]
 struct Block {
+    /// What is added to all columns in it: a block is moved often.
+    shift: i32,
     steps: BTreeMap<StepId, i32>,
     /// Bars of transitions that have a column of their own.
     bars: BTreeMap<TransitionId, i32>,
@@ -36,32 +38,50 @@ struct Block {
 
 impl Block {
     fn move_by(&mut self, by: i32) {
-        self.steps.values_mut().chain(self.bars.values_mut()).for_each(|x| *x += by);
-        for (from, to) in self.outline.values_mut() {
-            (*from, *to) = (*from + by, *to + by);
-        }
+        self.shift += by;
+    }
+
+    /// The column of a step.
+    fn step(&self, step: StepId) -> Option<i32> {
+        self.steps.get(&step).map(|x| x + self.shift)
+    }
+
+    /// The column of a bar.
+    fn bar(&self, bar: TransitionId) -> Option<i32> {
+        self.bars.get(&bar).map(|x| x + self.shift)
     }
 
     fn take(&mut self, row: usize, from: i32, to: i32) {
+        let (from, to) = (from - self.shift, to - self.shift);
         let taken = self.outline.entry(row).or_insert((from, to));
         *taken = (taken.0.min(from), taken.1.max(to));
     }
 
     /// How far another one must be moved to be to the right of this one.
     fn room_for(&self, other: &Block) -> Option<i32> {
-        let rows = other.outline.iter();
-        let beside = rows.filter_map(|(row, (from, _))| {
-            self.outline.get(row).map(|(_, to)| to + CORRIDOR - from)
+        let is_smaller = self.outline.len() < other.outline.len();
+        let rows = if is_smaller { &self.outline } else { &other.outline };
+        let beside = rows.keys().filter_map(|row| {
+            let (to, from) = (self.outline.get(row)?.1, other.outline.get(row)?.0);
+            Some(to + self.shift + CORRIDOR - from - other.shift)
         });
         beside.max()
     }
 
-    /// Takes another one in.
-    fn add(&mut self, other: Block) {
-        self.steps.extend(other.steps);
-        self.bars.extend(other.bars);
+    fn size(&self) -> usize {
+        self.steps.len() + self.outline.len()
+    }
+
+    /// Takes another one in; what is smaller is written anew.
+    fn add(&mut self, mut other: Block) {
+        if self.size() < other.size() {
+            std::mem::swap(self, &mut other);
+        }
+        let by = other.shift - self.shift;
+        self.steps.extend(other.steps.into_iter().map(|(id, x)| (id, x + by)));
+        self.bars.extend(other.bars.into_iter().map(|(id, x)| (id, x + by)));
         for (row, (from, to)) in other.outline {
-            self.take(row, from, to);
+            self.take(row, from + other.shift, to + other.shift);
         }
     }
 }
@@ -75,9 +95,14 @@ struct Layout<'c> {
 /// Places everything.
 pub(super) fn automatic(chart: &Chart, room: &Room) -> Placement {
     let layout = Layout { chart, room, order: order(chart) };
+    let mut blocks = BTreeMap::new();
+    for step in layout.order.steps().iter().rev() {
+        let block = layout.block(*step, &mut blocks);
+        blocks.insert(*step, block);
+    }
     let mut all = Block::default();
     for root in layout.order.roots() {
-        let mut block = layout.block(root);
+        let mut block = blocks.remove(&root).unwrap_or_default();
         let by = all.room_for(&block).unwrap_or(0);
         block.move_by(by);
         all.add(block);
@@ -90,13 +115,13 @@ impl Layout<'_> {
         self.order.row(step)
     }
 
-    /// A step with what it dominates.
-    fn block(&self, step: StepId) -> Block {
+    /// A step with what it dominates, whose blocks are there already.
+    fn block(&self, step: StepId, blocks: &mut BTreeMap<StepId, Block>) -> Block {
         let mut below = Block::default();
         let mut columns = Vec::new();
         for place in self.order.branches(self.chart, step) {
             let mut block = match place {
-                Place::Step(branch) => self.branch(branch),
+                Place::Step(branch) => self.branch(branch, blocks),
                 Place::Bar(transition) => self.bar(step, transition),
             };
             let by = below.room_for(&block).unwrap_or(0);
@@ -107,12 +132,12 @@ impl Layout<'_> {
             below.add(block);
         }
         if columns.is_empty() {
-            columns.extend(below.bars.values());
+            columns.extend(below.bars.keys().filter_map(|bar| below.bar(*bar)));
         }
         let middle = columns.first().zip(columns.last()).map_or(0, |(a, b)| (a + b) / 2);
         below.move_by(-middle);
         for join in self.order.joins(step) {
-            let mut block = self.branch(join);
+            let mut block = self.branch(join, blocks);
             block.move_by(self.below_sources(&below, join));
             let by = below.room_for(&block).unwrap_or(0).max(0);
             block.move_by(by);
@@ -120,19 +145,18 @@ impl Layout<'_> {
         }
         let extent = self.room.extent(step);
         below.take(self.row(step), -extent.left, extent.right);
-        below.steps.insert(step, 0);
+        below.steps.insert(step, -below.shift);
         below
     }
 
-    /// A block with the lines that lead on from it.
-    fn branch(&self, step: StepId) -> Block {
-        let mut block = self.block(step);
-        for (from, x) in block.steps.clone() {
-            let after = self.order.after(from).filter(|to| !block.steps.contains_key(to));
-            for to in after.collect::<Vec<_>>() {
-                for row in self.row(from) + 1..self.row(to) {
-                    block.take(row, x - CLEARANCE, x + CLEARANCE);
-                }
+    /// The block of a step with the lines that lead on from the step.
+    fn branch(&self, step: StepId, blocks: &mut BTreeMap<StepId, Block>) -> Block {
+        let mut block = blocks.remove(&step).unwrap_or_default();
+        let x = block.step(step).unwrap_or(0);
+        let after = self.order.after(step).filter(|to| !block.steps.contains_key(to));
+        for to in after.collect::<Vec<_>>() {
+            for row in self.row(step) + 1..self.row(to) {
+                block.take(row, x - CLEARANCE, x + CLEARANCE);
             }
         }
         block
@@ -158,15 +182,15 @@ impl Layout<'_> {
         let several = sources.len() > 1;
         let of = |(step, transition): &(StepId, TransitionId)| {
             // A branch without a step is led to the others.
-            let bar = below.bars.get(transition).copied();
-            bar.filter(|_| !several).or_else(|| below.steps.get(step).copied())
+            let bar = below.bar(*transition);
+            bar.filter(|_| !several).or_else(|| below.step(*step))
         };
         let direct = |(_, transition): &&(StepId, TransitionId)| {
             !(several && below.bars.contains_key(transition))
         };
         let mut columns: Vec<i32> = sources.iter().filter(direct).filter_map(of).collect();
         if columns.is_empty() {
-            columns.extend(sources.iter().filter_map(|(_, one)| below.bars.get(one)));
+            columns.extend(sources.iter().filter_map(|(_, one)| below.bar(*one)));
         }
         let (min, max) = (columns.iter().min(), columns.iter().max());
         min.zip(max).map_or(0, |(min, max)| (min + max) / 2)
@@ -177,8 +201,8 @@ impl Layout<'_> {
         let heights = self.heights();
         let height = |row: usize| heights.get(row).copied().unwrap_or(0);
         let mut placement = Placement::default();
-        for (id, x) in block.steps {
-            placement.steps.insert(id, Point::new(x, height(self.row(id))));
+        for (id, x) in &block.steps {
+            placement.steps.insert(*id, Point::new(x + block.shift, height(self.row(*id))));
         }
         for (id, transition) in &self.chart.transitions {
             let Some(from) = transition.from.iter().max_by_key(|one| self.row(**one)) else {
@@ -186,8 +210,8 @@ impl Layout<'_> {
             };
             let Some(at) = placement.steps.get(from) else { continue };
             let (bottom, stub) = (self.room.measures.bottom(*at), self.room.stub(*from));
-            if let Some(x) = block.bars.get(id) {
-                placement.bars.insert(*id, Point::new(*x, bottom + stub + self.room.measures.stub));
+            if let Some(x) = block.bar(*id) {
+                placement.bars.insert(*id, Point::new(x, bottom + stub + self.room.measures.stub));
             } else if self.order.is_back(*id) && transition.from.len() == 1 {
                 placement.bars.insert(*id, Point::new(at.x, bottom + stub / 2));
             }
@@ -203,11 +227,7 @@ impl Layout<'_> {
                 row.push(*id);
             }
         }
-        let pitch = |pair: &[Vec<StepId>]| {
-            let (upper, lower) = (pair.first()?, pair.last()?);
-            let pairs = upper.iter().flat_map(|a| lower.iter().map(|b| self.room.pitch(*a, *b)));
-            pairs.max()
-        };
+        let pitch = |pair: &[Vec<StepId>]| self.room.row_pitch(pair.first()?, pair.last()?);
         let mut heights = vec![0];
         for pair in rows.windows(2) {
             heights.push(heights.last().unwrap_or(&0) + pitch(pair).unwrap_or(0));

@@ -5,13 +5,16 @@
 //! has the rules by which lines are drawn, `wiring` leads them around what is in the way.
 
 mod boxes;
+mod layer;
 mod layout;
 pub mod measures;
+mod obstacles;
 mod order;
 mod places;
 mod room;
 mod search;
 pub mod shapes;
+mod sites;
 pub mod standard;
 mod wiring;
 
@@ -31,7 +34,7 @@ pub use measures::DOUBLE;
 pub use shapes::{Drawing, Point, Rect, Sheet};
 
 /// Most steps, and most transitions, of a chart that is drawn.
-pub const ELEMENTS_MAX: usize = 300;
+pub const ELEMENTS_MAX: usize = 2_500;
 /// Places in the text are between this and its negative.
 pub const PLACE_MAX: i32 = 1_000_000;
 /// Charts are side by side up to this width.

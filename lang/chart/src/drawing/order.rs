@@ -25,8 +25,14 @@ pub(super) struct Order {
     /// What leads to a step, without what leads back.
     before: BTreeMap<StepId, Vec<Source>>,
     after: BTreeMap<StepId, Vec<StepId>>,
+    /// The transitions that leave a step, by priority.
+    leaving: BTreeMap<StepId, Vec<TransitionId>>,
     /// The step through which all ways to a step lead.
     dominators: BTreeMap<StepId, StepId>,
+    /// Of how many steps that is true.
+    depths: BTreeMap<StepId, usize>,
+    /// The steps that belong to a step, in order.
+    below: BTreeMap<StepId, Vec<StepId>>,
     /// Transitions that lead back.
     back: BTreeSet<TransitionId>,
 }
@@ -34,11 +40,13 @@ pub(super) struct Order {
 /// Of a chart.
 pub(super) fn order(chart: &Chart) -> Order {
     let mut walk = Walk::default();
+    let mut leaving: BTreeMap<StepId, Vec<TransitionId>> = BTreeMap::new();
     for id in chart.by_priority() {
         if let Some(transition) = chart.transitions.get(&id) {
             for from in &transition.from {
                 let ends = transition.to.iter().map(|to| (*to, id));
                 walk.leaving.entry(*from).or_default().extend(ends);
+                leaving.entry(*from).or_default().push(id);
             }
         }
     }
@@ -49,7 +57,7 @@ pub(super) fn order(chart: &Chart) -> Order {
         walk.from(root);
     }
     walk.finished.reverse();
-    let mut order = Order { steps: walk.finished, back: walk.back, ..Order::default() };
+    let mut order = Order { steps: walk.finished, back: walk.back, leaving, ..Order::default() };
     order.edges(&walk.leaving);
     order.rank();
     order
@@ -119,15 +127,25 @@ impl Order {
             self.rows.insert(step, row);
             if let Some(one) = common {
                 self.dominators.insert(step, one);
+                self.depths.insert(step, self.depth(one) + 1);
+                self.below.entry(one).or_default().push(step);
             }
         }
     }
 
     /// The last step through which all ways to both lead.
-    fn common(&self, a: StepId, b: StepId) -> Option<StepId> {
-        let up = |step: StepId| self.dominators.get(&step).copied();
-        let ways: BTreeSet<StepId> = std::iter::successors(Some(a), |step| up(*step)).collect();
-        std::iter::successors(Some(b), |step| up(*step)).find(|step| ways.contains(step))
+    fn common(&self, mut a: StepId, mut b: StepId) -> Option<StepId> {
+        while a != b {
+            if self.depth(a) < self.depth(b) {
+                (a, b) = (b, a);
+            }
+            a = *self.dominators.get(&a)?;
+        }
+        Some(a)
+    }
+
+    fn depth(&self, step: StepId) -> usize {
+        self.depths.get(&step).copied().unwrap_or(0)
     }
 
     /// The row of a step, from 0.
@@ -154,6 +172,11 @@ impl Order {
         self.after.get(&step).into_iter().flatten().copied()
     }
 
+    /// The steps, each before those that belong to it.
+    pub(super) fn steps(&self) -> &[StepId] {
+        &self.steps
+    }
+
     /// The steps that belong to no other one.
     pub(super) fn roots(&self) -> impl Iterator<Item = StepId> {
         self.steps.iter().copied().filter(|step| !self.dominators.contains_key(step))
@@ -170,13 +193,10 @@ impl Order {
 
     /// What is side by side below a step, from left to right.
     pub(super) fn branches(&self, chart: &Chart, step: StepId) -> Vec<Place> {
-        let leaves =
-            |id: &TransitionId| chart.transitions.get(id).filter(|one| one.from.contains(&step));
-        let leaving: Vec<TransitionId> =
-            chart.by_priority().into_iter().filter(|id| leaves(id).is_some()).collect();
+        let leaving = self.leaving.get(&step).map_or(&[][..], Vec::as_slice);
         let mut places = Vec::new();
-        for id in &leaving {
-            let Some(transition) = leaves(id) else { continue };
+        for id in leaving {
+            let Some(transition) = chart.transitions.get(id) else { continue };
             let own = transition.to.iter().filter(|to| self.is_branch(**to, step));
             let own: Vec<Place> = own.map(|to| Place::Step(*to)).collect();
             if own.is_empty() && leaving.len() > 1 && transition.from.len() == 1 {
@@ -189,7 +209,7 @@ impl Order {
 
     /// What several ways from a step lead to, from above.
     pub(super) fn joins(&self, step: StepId) -> impl Iterator<Item = StepId> {
-        let is_join = move |one: &StepId| self.is_below(*one, step) && self.before(*one).len() != 1;
-        self.steps.iter().copied().filter(is_join)
+        let below = self.below.get(&step).into_iter().flatten().copied();
+        below.filter(|one| self.before(*one).len() != 1)
     }
 }

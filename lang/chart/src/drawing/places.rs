@@ -15,7 +15,7 @@ const FREE_MAX: i64 = 400;
 
 /// Where a chart is drawn as its text says; none if a step has no place or shares it.
 pub(super) fn given(chart: &Chart, room: &Room) -> Option<Placement> {
-    let steps: Option<Vec<(StepId, Position)>> =
+    let steps: Option<Vec<Placed>> =
         chart.steps.iter().map(|(id, step)| Some((*id, step.at?))).collect();
     let steps = steps.filter(|steps| !steps.is_empty())?;
     let mut places: Vec<(i32, i32)> = steps.iter().map(|(_, at)| (at.x, at.y)).collect();
@@ -36,56 +36,74 @@ pub(super) fn given(chart: &Chart, room: &Room) -> Option<Placement> {
 /// What a coordinate of the text is in the drawing.
 type Axis = BTreeMap<i32, i32>;
 
-/// Coordinates in order, each at least as far from those before as they ask for. Where nothing is
-/// moved apart, they are as in the text.
-fn axis(mut list: Vec<i32>, least: impl Fn(&Axis, i32) -> Option<i32>) -> Axis {
-    list.sort_unstable();
-    list.dedup();
+/// A step and its place.
+type Placed = (StepId, Position);
+
+/// Coordinates in order, each at least as far from those before as the steps there ask for, which
+/// is never more than `most`. Where nothing is moved apart, they are as in the text.
+fn axis(
+    lanes: &BTreeMap<i32, Vec<Placed>>,
+    most: i32,
+    asked: impl Fn(&[Placed], &[Placed]) -> Option<i32>,
+) -> Axis {
     let mut axis = Axis::new();
-    for one in list {
+    for (one, here) in lanes {
         let free = |(before, at): (&i32, &i32)| {
-            let free = (i64::from(one) - i64::from(*before)).min(FREE_MAX);
+            let free = (i64::from(*one) - i64::from(*before)).min(FREE_MAX);
             at.saturating_add(free as i32)
         };
-        let next = axis.last_key_value().map_or(one.clamp(-PLACE_MAX, PLACE_MAX), free);
-        let least = least(&axis, one).unwrap_or(next);
-        axis.insert(one, next.max(least));
+        let first = (*one).clamp(-PLACE_MAX, PLACE_MAX);
+        let mut next = axis.last_key_value().map_or(first, free);
+        // The nearest ones first: those that are far enough away ask for nothing.
+        for (before, at) in axis.iter().rev() {
+            if at.saturating_add(most) <= next {
+                break;
+            }
+            let asked = lanes.get(before).and_then(|there| asked(there, here));
+            next = asked.map_or(next, |asked| next.max(at + asked));
+        }
+        axis.insert(*one, next);
     }
     axis
 }
 
 /// Rows: a step is above another one if it is higher by more than half of what it is beside it.
-fn rows(steps: &[(StepId, Position)], room: &Room) -> Axis {
+fn rows(steps: &[Placed], room: &Room) -> Axis {
     let is_above = |a: Position, b: Position| {
         let down = i64::from(b.y) - i64::from(a.y);
         down > 0 && down * 2 >= (i64::from(b.x) - i64::from(a.x)).abs()
     };
-    axis(steps.iter().map(|(_, at)| at.y).collect(), |axis, y| {
-        let here = steps.iter().filter(|(_, at)| at.y == y);
-        let least = here.flat_map(|(lower, b)| {
-            let above = steps.iter().filter(|(_, a)| is_above(*a, *b));
-            above.filter_map(|(upper, a)| Some(axis.get(&a.y)? + room.pitch(*upper, *lower)))
-        });
-        least.max()
+    let mut lanes: BTreeMap<i32, Vec<Placed>> = BTreeMap::new();
+    steps.iter().for_each(|one| lanes.entry(one.1.y).or_default().push(*one));
+    axis(&lanes, room.pitch_max(), |upper, lower| {
+        let pairs = upper.iter().flat_map(|a| lower.iter().map(move |b| (a, b)));
+        let above = pairs.filter(|(a, b)| is_above(a.1, b.1));
+        above.map(|(a, b)| room.pitch(a.0, b.0)).max()
     })
 }
 
 /// Columns: what is not above or below each other is beside each other.
-fn columns(steps: &[(StepId, Position)], ys: &Axis, room: &Room) -> Axis {
-    let is_beside = |(a_id, a): &(StepId, Position), (b_id, b): &(StepId, Position)| {
-        let (a, b) = ((along(ys, a.y), *a_id), (along(ys, b.y), *b_id));
-        let (upper, lower) = if a.0 <= b.0 { (a, b) } else { (b, a) };
-        lower.0 - upper.0 < room.pitch(upper.1, lower.1)
+fn columns(steps: &[Placed], ys: &Axis, room: &Room) -> Axis {
+    let mut lanes: BTreeMap<i32, Vec<Placed>> = BTreeMap::new();
+    for (id, at) in steps {
+        let y = along(ys, at.y);
+        lanes.entry(at.x).or_default().push((*id, Position { y, ..*at }));
+    }
+    lanes.values_mut().for_each(|lane| lane.sort_by_key(|(_, at)| at.y));
+    let is_beside = |a: &Placed, b: &Placed| {
+        let (upper, lower) = if a.1.y <= b.1.y { (a, b) } else { (b, a) };
+        lower.1.y - upper.1.y < room.pitch(upper.0, lower.0)
     };
-    axis(steps.iter().map(|(_, at)| at.x).collect(), |axis, x| {
-        let here = || steps.iter().filter(|(_, at)| at.x == x);
-        let least = steps.iter().filter_map(|one| {
-            let left = axis.get(&one.1.x)?;
-            let beside = here().filter(|other| is_beside(one, other));
-            let width = beside.map(|other| room.extent(other.0).left).max()?;
-            Some(left + room.extent(one.0).right + CORRIDOR + width)
-        });
-        least.max()
+    let (widest, highest) = (room.extent_max(), room.pitch_max());
+    axis(&lanes, widest.right + CORRIDOR + widest.left, |left, right| {
+        let near = |b: &Placed| {
+            let start = left.partition_point(|a| a.1.y <= b.1.y - highest);
+            let end = left.partition_point(|a| a.1.y < b.1.y + highest);
+            left.get(start..end).unwrap_or(&[])
+        };
+        let pairs = right.iter().flat_map(|b| near(b).iter().map(move |a| (a, b)));
+        let beside = pairs.filter(|(a, b)| is_beside(a, b));
+        beside.map(|(a, b)| room.extent(a.0).right + CORRIDOR + room.extent(b.0).left).max()
     })
 }
 

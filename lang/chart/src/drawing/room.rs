@@ -97,13 +97,46 @@ impl Room {
 
     /// How far the middle of a step is below that of another one at least.
     pub(super) fn pitch(&self, upper: StepId, lower: StepId) -> i32 {
-        let (a, b) = (self.need(upper), self.need(lower));
+        self.pitch_of(self.need(upper), self.need(lower))
+    }
+
+    fn pitch_of(&self, a: Need, b: Need) -> i32 {
         let Measures { step_height, stub, .. } = self.measures;
         let free = if a.divided.1 || b.divided.0 {
-            self.stub(upper) + self.stub(lower) + stub
+            3 * stub + 2 * (a.out + b.out)
         } else {
             2 * stub + a.out + b.out
         };
         step_height + free
+    }
+
+    /// How far a row of steps is below another one at least.
+    pub(super) fn row_pitch(&self, upper: &[StepId], lower: &[StepId]) -> Option<i32> {
+        let needs = |row: &[StepId], is_divided: fn(&Need) -> bool| {
+            [false, true].map(|wanted| {
+                let all = row.iter().map(|id| self.need(*id));
+                all.filter(|one| is_divided(one) == wanted).max_by_key(|one| one.out)
+            })
+        };
+        let (upper, lower) = (needs(upper, |one| one.divided.1), needs(lower, |one| one.divided.0));
+        let pairs = upper
+            .iter()
+            .flatten()
+            .flat_map(|a| lower.iter().flatten().map(|b| self.pitch_of(*a, *b)));
+        pairs.max()
+    }
+
+    /// No step is further below another one than that, for all that they need.
+    pub(super) fn pitch_max(&self) -> i32 {
+        let out = self.needs.values().map(|need| need.out).max().unwrap_or(0);
+        let most = Need { out, divided: (true, true), ..Need::default() };
+        self.pitch_of(most, most)
+    }
+
+    /// What no step takes more of to the left and to the right.
+    pub(super) fn extent_max(&self) -> Extent {
+        let all = || self.needs.values().map(|need| need.extent);
+        let left = all().map(|one| one.left).max().unwrap_or(0);
+        Extent { left, right: all().map(|one| one.right).max().unwrap_or(0) }
     }
 }

@@ -1,10 +1,13 @@
 //! The way of a line around what is in its way: the cheapest one on a grid whose lines pass by all
 //! that is there. Bends cost, crossings cost more, and lying upon another line costs most.
+//!
+//! A search looks at a window around both ends. Every way that leaves the window is longer than
+//! what the way in it costs, or the window is made larger.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::collections::BTreeMap;
 
 use super::measures::CLEARANCE;
+use super::obstacles::{Terrain, Window};
 use super::shapes::{Point, Rect};
 
 const BEND: u32 = 40;
@@ -12,17 +15,10 @@ const CROSSING: u32 = 60;
 const CROSSING_DOUBLE: u32 = 400;
 const UPON: u32 = 2000;
 const BLOCKED: u32 = u32::MAX;
-
-/// What is in the way.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Terrain {
-    /// No line goes through these.
-    pub(super) walls: Vec<Rect>,
-    /// Lines that may be crossed, but not lain upon.
-    pub(super) lines: Vec<(Point, Point)>,
-    /// Those of them that are double: what crosses one looks as if it belonged to it.
-    pub(super) doubles: Vec<(Point, Point)>,
-}
+/// How far the first window reaches beyond both ends.
+const MARGIN: u32 = 200;
+/// More than any drawing is wide or high.
+const MARGIN_MAX: u32 = 100_000_000;
 
 /// The directions, clockwise.
 const STEPS: [(i32, i32); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
@@ -34,12 +30,8 @@ struct Grid {
     ys: Vec<i32>,
     /// What it costs to go to the right from a crossing, and down.
     costs: [Vec<u32>; 2],
-}
-
-fn sorted(mut list: Vec<i32>) -> Vec<i32> {
-    list.sort_unstable();
-    list.dedup();
-    list
+    /// Whether nothing is outside.
+    is_all: bool,
 }
 
 /// Those of a sorted list that are in a range, ends included.
@@ -54,28 +46,8 @@ fn stretches(list: &[i32], from: i32, to: i32) -> std::ops::Range<usize> {
 }
 
 impl Grid {
-    fn new(terrain: &Terrain, ends: [Point; 2]) -> Grid {
-        let mut xs: Vec<i32> = ends.iter().map(|end| end.x).collect();
-        let mut ys: Vec<i32> = ends.iter().map(|end| end.y).collect();
-        for wall in &terrain.walls {
-            xs.extend([wall.x - CLEARANCE, wall.right() + CLEARANCE]);
-            ys.extend([wall.y - CLEARANCE, wall.bottom() + CLEARANCE]);
-        }
-        for (a, b) in &terrain.lines {
-            if a.x == b.x {
-                xs.extend([a.x, a.x - CLEARANCE, a.x + CLEARANCE]);
-            } else {
-                ys.extend([a.y, a.y - CLEARANCE, a.y + CLEARANCE]);
-            }
-        }
-        let edge = |list: &mut Vec<i32>| {
-            let (min, max) = (list.iter().min().copied(), list.iter().max().copied());
-            list.extend(min.map(|min| min - 2 * CLEARANCE));
-            list.extend(max.map(|max| max + 2 * CLEARANCE));
-        };
-        edge(&mut xs);
-        edge(&mut ys);
-        let (xs, ys) = (sorted(xs), sorted(ys));
+    fn new(terrain: &Terrain, ends: [Point; 2], window: Window) -> Grid {
+        let [xs, ys] = terrain.coordinates(ends, window);
         let lengths = |list: &[i32]| -> Vec<u32> {
             let ends = list.iter().skip(1).chain(list.last());
             list.iter().zip(ends).map(|(a, b)| a.abs_diff(*b)).collect()
@@ -83,10 +55,11 @@ impl Grid {
         let (wide, high) = (lengths(&xs), lengths(&ys));
         let right = ys.iter().flat_map(|_| wide.iter().copied()).collect();
         let down = high.iter().flat_map(|length| xs.iter().map(move |_| *length)).collect();
-        let mut grid = Grid { xs, ys, costs: [right, down] };
-        terrain.walls.iter().for_each(|wall| grid.block(*wall));
-        terrain.lines.iter().for_each(|line| grid.line(*line, CROSSING));
-        terrain.doubles.iter().for_each(|line| grid.line(*line, CROSSING_DOUBLE));
+        let is_all = terrain.is_all_in(window);
+        let mut grid = Grid { xs, ys, costs: [right, down], is_all };
+        terrain.walls_in(window).for_each(|wall| grid.block(wall));
+        terrain.lines_in(window).for_each(|line| grid.line(line, CROSSING));
+        terrain.doubles_in(window).for_each(|line| grid.line(line, CROSSING_DOUBLE));
         grid
     }
 
@@ -159,54 +132,139 @@ impl Grid {
     }
 }
 
+fn distance(a: Point, b: Point) -> u32 {
+    a.x.abs_diff(b.x) + a.y.abs_diff(b.y)
+}
+
+/// Around two points.
+fn around(a: Point, b: Point, margin: u32) -> Window {
+    let margin = margin.min(MARGIN_MAX) as i32;
+    let wider = |a: i32, b: i32| (a.min(b) - margin, a.max(b) + margin);
+    Window { xs: wider(a.x, b.x), ys: wider(a.y, b.y) }
+}
+
 /// The way from a point that is left downward to one that is not entered upward, with its cost.
 /// None if walls are around one of them.
 pub(super) fn search(terrain: &Terrain, from: Point, to: Point) -> Option<(Vec<Point>, u32)> {
-    let grid = Grid::new(terrain, [from, to]);
-    let (start, end) = (grid.at(from)? * 4 + DOWN, grid.at(to)?);
-    let states = grid.xs.len() * grid.ys.len() * 4;
-    let mut costs = vec![BLOCKED; states];
-    let mut before = vec![usize::MAX; states];
-    let mut open = BinaryHeap::from([Reverse((0, start))]);
-    *costs.get_mut(start)? = 0;
-    while let Some(Reverse((cost, state))) = open.pop() {
-        let (at, heading) = (state / 4, state % 4);
-        if at == end && heading == DOWN {
-            return Some((points(&grid, &before, state), cost));
-        }
-        if costs.get(state).is_none_or(|known| cost > *known) {
-            continue;
-        }
-        let mut reach = |next: usize, more: u32| {
-            let cost = cost.saturating_add(more);
-            if let Some(known) = costs.get_mut(next).filter(|known| cost < **known) {
-                *known = cost;
-                if let Some(before) = before.get_mut(next) {
-                    *before = state;
+    let mut margin = MARGIN;
+    loop {
+        let grid = Grid::new(terrain, [from, to], around(from, to, margin));
+        let found = Search::new(&grid, from, to)?.run();
+        margin = match found {
+            Some((points, cost)) => {
+                let detour = cost.saturating_sub(distance(from, to)) / 2;
+                if grid.is_all || detour <= margin {
+                    return Some((points, cost));
                 }
-                open.push(Reverse((cost, next)));
+                detour
             }
+            None if grid.is_all => return None,
+            None => margin.saturating_mul(4),
         };
-        if let Some((next, more)) = grid.go(at, heading) {
-            reach(next * 4 + heading, more);
-        }
-        for turned in [(heading + 1) % 4, (heading + 3) % 4] {
-            if !(at == end && turned == UP) {
-                reach(at * 4 + turned, BEND);
-            }
-        }
     }
-    None
 }
 
-fn points(grid: &Grid, before: &[usize], end: usize) -> Vec<Point> {
-    let mut states = vec![end];
-    let mut state = end;
-    while let Some(&earlier) = before.get(state).filter(|one| **one != usize::MAX) {
-        states.push(earlier);
-        state = earlier;
+/// A search in a grid. A state is a crossing with the direction in which it is left.
+struct Search<'g> {
+    grid: &'g Grid,
+    start: usize,
+    end: usize,
+    costs: Vec<u32>,
+}
+
+impl<'g> Search<'g> {
+    fn new(grid: &'g Grid, from: Point, to: Point) -> Option<Search<'g>> {
+        let costs = vec![BLOCKED; grid.xs.len() * grid.ys.len() * 4];
+        Some(Search { grid, start: grid.at(from)? * 4 + DOWN, end: grid.at(to)? * 4 + DOWN, costs })
     }
-    simplified(states.into_iter().rev().map(|state| grid.point(state / 4)).collect())
+
+    fn cost(&self, state: usize) -> u32 {
+        self.costs.get(state).copied().unwrap_or(BLOCKED)
+    }
+
+    /// Whether a direction can be taken at a crossing.
+    fn can_turn(&self, at: usize, heading: usize) -> bool {
+        at != self.end / 4 || heading != UP
+    }
+
+    /// What is left to pay at least: the distance, and bends until the end is entered from above.
+    fn left(&self, state: usize) -> u32 {
+        let (at, end) = (self.grid.point(state / 4), self.grid.point(self.end / 4));
+        let is_beside = |x: i32| if state % 4 == 0 { end.x < x } else { end.x > x };
+        let bends = match state % 4 {
+            DOWN if at.y > end.y => 4,
+            DOWN if at.x == end.x => 0,
+            DOWN | UP => 2,
+            _ if at.y > end.y || is_beside(at.x) => 3,
+            _ => 1,
+        };
+        distance(at, end) + bends * BEND
+    }
+
+    fn run(mut self) -> Option<(Vec<Point>, u32)> {
+        // States by the least that a way through them costs.
+        let mut open = BTreeMap::from([(self.left(self.start), vec![self.start])]);
+        *self.costs.get_mut(self.start)? = 0;
+        // All that may be on a cheapest way gets its cost: which of them is drawn is decided later.
+        while let Some(mut entry) = open.first_entry() {
+            let all = *entry.key();
+            let Some(state) = entry.get_mut().pop() else {
+                entry.remove();
+                continue;
+            };
+            if all > self.cost(self.end) {
+                break;
+            }
+            let cost = self.cost(state);
+            if all > cost.saturating_add(self.left(state)) {
+                continue;
+            }
+            for (next, more) in self.after(state).into_iter().flatten() {
+                let cost = cost.saturating_add(more);
+                let left = self.left(next);
+                if let Some(known) = self.costs.get_mut(next).filter(|known| cost < **known) {
+                    *known = cost;
+                    open.entry(cost.saturating_add(left)).or_default().push(next);
+                }
+            }
+        }
+        let cost = self.cost(self.end);
+        (cost != BLOCKED).then(|| (self.points(), cost))
+    }
+
+    /// Where a state leads to, and what that costs.
+    fn after(&self, state: usize) -> [Option<(usize, u32)>; 3] {
+        let (at, heading) = (state / 4, state % 4);
+        let turned = |by: usize| {
+            let turned = (heading + by) % 4;
+            self.can_turn(at, turned).then_some((at * 4 + turned, BEND))
+        };
+        let ahead = self.grid.go(at, heading).map(|(next, more)| (next * 4 + heading, more));
+        [ahead, turned(1), turned(3)]
+    }
+
+    /// The state before one on a cheapest way to it: the first of those that are the cheapest.
+    fn before(&self, state: usize) -> Option<usize> {
+        let (at, heading) = (state / 4, state % 4);
+        let behind = self.grid.go(at, (heading + 2) % 4);
+        let behind = behind.map(|(before, more)| (before * 4 + heading, more));
+        let turned =
+            |by: usize| self.can_turn(at, heading).then_some((at * 4 + (heading + by) % 4, BEND));
+        let all = [behind, turned(1), turned(3)].into_iter().flatten();
+        let fits = |(before, more): &(usize, u32)| {
+            let cost = self.cost(*before);
+            cost != BLOCKED && cost.saturating_add(*more) == self.cost(state)
+        };
+        let best = all.filter(fits).min_by_key(|(before, _)| (self.cost(*before), *before));
+        best.map(|(before, _)| before)
+    }
+
+    fn points(&self) -> Vec<Point> {
+        let before = |state: &usize| self.before(*state).filter(|_| *state != self.start);
+        let states: Vec<usize> = std::iter::successors(Some(self.end), before).collect();
+        let points = states.into_iter().rev().map(|state| self.grid.point(state / 4));
+        simplified(points.collect())
+    }
 }
 
 /// Without points that are there twice or where nothing bends.

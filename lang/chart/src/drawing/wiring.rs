@@ -2,14 +2,16 @@
 //! ([`super::standard`]) if nothing is in the way of its lines, its bar and its text; otherwise its
 //! bar gets another place, and its lines go around.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::boxes::{label, label_room};
 use super::layout::Placement;
 use super::measures::{BAR, CLEARANCE, DOUBLE};
+use super::obstacles::{Family, Lines, Segment, Terrain, Walls, rect};
 use super::room::Room;
-use super::search::{Terrain, search, simplified};
+use super::search::{search, simplified};
 use super::shapes::{Point, Rect};
+use super::sites::{Sites, edges};
 use super::standard::{Place, Route, converging, diverging, forking, joining, meeting, simple};
 use crate::drawn::Drawn;
 use crate::model::{Chart, StepId, Transition, TransitionId};
@@ -20,20 +22,10 @@ const SHORT_STUB: i32 = 6;
 const TO_DOUBLE: i32 = 10;
 /// From the middle of a bar to where lines may bend.
 const TO_BEND: i32 = 4;
-/// So many places are tried for a bar that has none by the rules.
-const SITES_MAX: usize = 8;
+/// So many places, apart from each other, are tried for a bar that has none by the rules.
+const SITES_MAX: usize = 4;
 /// What it costs to go through the text of another transition.
 const THROUGH_TEXT: u32 = 20_000;
-
-/// Which lines may lie upon each other: they mean the same.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Family {
-    From(StepId),
-    To(StepId),
-    Of(TransitionId),
-}
-
-type Segment = (Family, Point, Point);
 
 /// How a transition is drawn, by the rules.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -49,11 +41,12 @@ struct Wiring<'c> {
     room: &'c Room,
     placement: &'c Placement,
     /// Steps and their blocks.
-    walls: Vec<Rect>,
+    walls: Walls,
     /// Bars with their texts.
-    bars: Vec<Rect>,
-    lines: Vec<Segment>,
-    doubles: Vec<(Point, Point)>,
+    bars: Walls,
+    lines: Lines,
+    /// Where the middle of a bar passes by walls and bars.
+    edges: BTreeSet<i32>,
 }
 
 /// Draws all transitions that have steps before and after them.
@@ -63,10 +56,10 @@ pub(super) fn wire(
     placement: &Placement,
     walls: Vec<Rect>,
 ) -> BTreeMap<TransitionId, Route> {
-    let (bars, lines, doubles) = (Vec::new(), Vec::new(), Vec::new());
-    let mut wiring = Wiring { chart, room, placement, walls, bars, lines, doubles };
+    let mut wiring = Wiring::new(chart, room, placement);
+    walls.into_iter().for_each(|wall| wiring.wall(wall));
     let mut routes = BTreeMap::new();
-    for (_, kind, id) in wiring.order() {
+    for (_, _, kind, id) in wiring.order() {
         if let Some(route) = wiring.route(kind, id) {
             wiring.keep(id, &route);
             routes.insert(id, route);
@@ -95,13 +88,25 @@ fn segments(route: &Route, id: TransitionId) -> impl Iterator<Item = Segment> {
     before.chain(after).chain(between).chain(doubles)
 }
 
-fn rect((_, a, b): &Segment) -> Rect {
-    Rect::between(*a, *b)
-}
+impl<'c> Wiring<'c> {
+    fn new(chart: &'c Chart, room: &'c Room, placement: &'c Placement) -> Wiring<'c> {
+        let (walls, bars) = (Walls::default(), Walls::default());
+        let (lines, edges) = (Lines::default(), BTreeSet::new());
+        Wiring { chart, room, placement, walls, bars, lines, edges }
+    }
 
-impl Wiring<'_> {
-    /// The transitions, those first whose way is clear by the rules.
-    fn order(&self) -> Vec<(u8, Kind, TransitionId)> {
+    fn wall(&mut self, wall: Rect) {
+        self.edges.extend(edges(wall));
+        self.walls.add(wall);
+    }
+
+    fn bar(&mut self, room: Rect) {
+        self.edges.extend(edges(room));
+        self.bars.add(room);
+    }
+
+    /// The transitions, those first whose way is clear by the rules; of others the shortest.
+    fn order(&self) -> Vec<(u8, u32, Kind, TransitionId)> {
         let drawn = Drawn::of(self.chart);
         let of = |kind: Kind, ids: &[TransitionId]| -> Vec<(Kind, TransitionId)> {
             ids.iter().map(|id| (kind, *id)).collect()
@@ -115,16 +120,20 @@ impl Wiring<'_> {
             let ends = ends.unwrap_or_default();
             let at = |side: &[Place]| side.first().map_or(Point::default(), |(_, at)| *at);
             let (from, to) = (at(&ends.0), at(&ends.1));
+            let length = from.y.abs_diff(to.y);
             match kind {
-                _ if self.placement.bars.contains_key(&id) => 4,
-                Kind::Simple if from.x == to.x && from.y < to.y => 0,
-                Kind::Simultaneous => 1,
-                Kind::Divergence | Kind::Convergence if from.y < to.y => 2,
-                _ => 3,
+                _ if self.placement.bars.contains_key(&id) => (4, length),
+                Kind::Simple if from.x == to.x && from.y < to.y => (0, 0),
+                Kind::Simultaneous => (1, 0),
+                Kind::Divergence | Kind::Convergence if from.y < to.y => (2, 0),
+                _ => (3, length),
             }
         };
-        let mut all: Vec<_> =
-            all.into_iter().map(|(kind, id)| (rank(kind, id), kind, id)).collect();
+        let ranked = all.into_iter().map(|(kind, id)| {
+            let (rank, length) = rank(kind, id);
+            (rank, length, kind, id)
+        });
+        let mut all: Vec<_> = ranked.collect();
         all.sort_unstable();
         all
     }
@@ -141,10 +150,10 @@ impl Wiring<'_> {
     }
 
     fn keep(&mut self, id: TransitionId, route: &Route) {
-        self.lines.extend(segments(route, id));
-        self.doubles.extend(&route.doubles);
-        self.bars.push(Rect::between(route.bar.0, route.bar.1).grown(1));
-        self.bars.push(self.label(id, route.bar));
+        segments(route, id).for_each(|line| self.lines.add(line));
+        route.doubles.iter().for_each(|(a, b)| self.lines.add_double(*a, *b));
+        self.bar(Rect::between(route.bar.0, route.bar.1).grown(1));
+        self.bar(self.label(id, route.bar));
     }
 
     fn label(&self, id: TransitionId, bar: (Point, Point)) -> Rect {
@@ -188,8 +197,8 @@ impl Wiring<'_> {
 
     /// Whether there is nothing at all.
     fn is_free(&self, room: Rect) -> bool {
-        let mut all = self.walls.iter().chain(&self.bars);
-        !all.any(|one| one.meets(room)) && !self.lines.iter().any(|line| room.meets(rect(line)))
+        let mut all = self.walls.near(room).chain(self.bars.near(room));
+        !all.any(|one| one.meets(room)) && !self.lines.near(room).any(|one| room.meets(rect(one)))
     }
 
     /// Whether a line goes through nothing and lies upon no other one that means something else.
@@ -199,8 +208,9 @@ impl Wiring<'_> {
             // Lines touch their own steps.
             inner = Rect { y: inner.y + CLEARANCE / 2, height: inner.height - CLEARANCE, ..inner };
         }
-        let is_wall = self.walls.iter().any(|wall| wall.grown(CLEARANCE / 2 - 1).meets(inner));
-        let is_bar = self.bars.iter().any(|bar| bar.meets(rect(line)));
+        let around = rect(line).grown(CLEARANCE);
+        let is_wall = self.walls.near(around).any(|one| one.grown(CLEARANCE / 2 - 1).meets(inner));
+        let is_bar = self.bars.near(around).any(|bar| bar.meets(rect(line)));
         let is_upon = |other: &Segment| {
             let (a, b) = (rect(line), rect(other));
             let is_near = |a: i32, b: i32| (a - b).abs() < CLEARANCE / 2;
@@ -215,7 +225,7 @@ impl Wiring<'_> {
                         && is_near(a.y, b.y)
                         && shares(a.x, a.right(), b.x, b.right()))
         };
-        !is_wall && !is_bar && !self.lines.iter().any(is_upon)
+        !is_wall && !is_bar && !self.lines.near(around).any(is_upon)
     }
 
     fn bottom(&self, step: Point) -> i32 {
@@ -246,24 +256,22 @@ impl Wiring<'_> {
         let below = ends.from.iter().map(|(_, at)| self.bottom(*at) + stub);
         let ys: Vec<i32> =
             below.chain(ends.to.iter().map(|(_, at)| self.top(*at) - stub)).collect();
-        let all = self.walls.iter().chain(&self.bars);
-        let everything = all.clone().copied().chain(self.lines.iter().map(rect));
-        let everything = everything.reduce(Rect::union).unwrap_or_default();
+        let everything = [self.walls.bounds(), self.bars.bounds(), self.lines.bounds()];
+        let everything = everything.into_iter().flatten().reduce(Rect::union).unwrap_or_default();
         let (right, bottom) = (everything.right() + stub, everything.bottom() + stub);
-        let edges = all.flat_map(|one| [one.x - 2 * CLEARANCE, one.right() + 2 * CLEARANCE]);
-        let steps = ends.from.iter().chain(ends.to);
-        let mut xs: Vec<i32> = steps.map(|(_, at)| at.x).chain(edges).chain([right]).collect();
-        xs.sort_unstable();
-        xs.dedup();
-        let mut sites: Vec<Point> =
-            xs.iter().flat_map(|x| ys.iter().map(|y| Point::new(*x, *y))).collect();
-        let far = |site: &Point| -> u32 {
-            let steps = ends.from.iter().chain(ends.to);
-            steps.map(|(_, at)| at.x.abs_diff(site.x) + at.y.abs_diff(site.y)).sum()
-        };
-        sites.sort_by_key(|site| (far(site), *site));
-        let free = sites.into_iter().filter(|site| self.has_room(ends, *site)).take(SITES_MAX);
-        let tried = free.filter_map(|site| self.at(ends, site));
+        let steps = ends.from.iter().chain(ends.to).map(|(_, at)| *at).collect();
+        let sites = Sites::new(steps, &self.edges, right, &ys);
+        let free = sites.filter(|site| self.has_room(ends, *site));
+        let mut last: Vec<Point> = Vec::new();
+        let apart = free.filter(|site| {
+            let is_apart = |other: &Point| {
+                other.y != site.y || other.x.abs_diff(site.x) >= 2 * CLEARANCE as u32
+            };
+            let is_new = last.iter().all(is_apart);
+            last.extend(is_new.then_some(*site));
+            is_new
+        });
+        let tried = apart.take(SITES_MAX).filter_map(|site| self.at(ends, site));
         let best = tried.min_by_key(|(_, cost)| *cost);
         best.or_else(|| self.at(ends, Point::new(right, bottom)))
     }
@@ -282,18 +290,18 @@ impl Wiring<'_> {
         let bar = ends.bar(centre);
         let core = ends.core(centre);
         let mut own: Vec<Segment> = Vec::new();
-        let steps: Vec<Rect> = self.walls.iter().copied().chain([core]).collect();
-        let texts = self.bars.iter().copied().chain([self.label(ends.id, bar)]);
-        let walls: Vec<Rect> = steps.iter().copied().chain(texts).collect();
+        let alone = [core, self.label(ends.id, bar)];
         let mut costs = 0;
         let mut line = |family: Family, from: Point, to: Point| {
-            let others = self.lines.iter().chain(&own).filter(|(other, ..)| *other != family);
-            let lines = others.map(|(_, a, b)| (*a, *b)).collect();
-            let doubles = self.doubles.clone();
-            let mut terrain = Terrain { walls: walls.clone(), lines, doubles };
-            let (points, cost) = search(&terrain, from, to).or_else(|| {
-                terrain.walls.clone_from(&steps);
-                search(&terrain, from, to).map(|(points, cost)| (points, cost + THROUGH_TEXT))
+            let terrain = |walls: &[&Walls], own_walls: &[Rect]| {
+                let own_lines = &own[..];
+                let terrain = Terrain { family, walls, own_walls, lines: &self.lines, own_lines };
+                search(&terrain, from, to)
+            };
+            let around = terrain(&[&self.walls, &self.bars], &alone);
+            let (points, cost) = around.or_else(|| {
+                let through = terrain(&[&self.walls], &alone[..1]);
+                through.map(|(points, cost)| (points, cost + THROUGH_TEXT))
             })?;
             costs += cost;
             let pairs = points.windows(2).filter_map(|pair| Some((family, pair[0], *pair.last()?)));

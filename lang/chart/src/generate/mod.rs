@@ -3,6 +3,7 @@
 //! AWL.
 
 mod actions;
+mod alternatives;
 mod build;
 mod declare;
 mod evolution;
@@ -22,7 +23,7 @@ use st::visit;
 use crate::check;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Body, Chart, Standard};
-use crate::text::{self, Region};
+use crate::text::{self, Reading, Region};
 pub use declare::globals as declared;
 pub(crate) use sound::wrong_qualifier;
 
@@ -72,6 +73,7 @@ pub fn translate(source: &Source, known: &mut HashSet<String>) -> Translation {
         }
         if diagnostics.is_empty() {
             check::check(chart, &mut warnings);
+            alternatives::check(&source.text, &parsed, &mut warnings);
         }
         let mut variables = Variables::default();
         unit.body = unit_body(parsed, &mut variables, &mut diagnostics);
@@ -82,6 +84,19 @@ pub fn translate(source: &Source, known: &mut HashSet<String>) -> Translation {
     diagnostics.sort_by_key(|one| one.span);
     diagnostics.dedup_by(|a, b| a.span == b.span && a.message == b.message);
     Translation { file, diagnostics, of_st }
+}
+
+/// What is around the charts of a text, as a syntax tree, with the variables that charts without a
+/// head declare by use; `known` is as in [`translate`]. Such a chart has no unit in it.
+pub fn frame(source: &Source, reading: &Reading, known: &mut HashSet<String>) -> File {
+    let (mut file, _) = around(source, &reading.regions);
+    known.extend(declare::globals(&file));
+    let charts = reading.document.charts().zip(&reading.regions);
+    for (chart, _) in charts.filter(|(_, region)| !region.has_head) {
+        let mut parsed = Parsed::of(&source.text, chart, &mut Vec::new());
+        file.globals.extend(declare::by_use(&mut parsed, known));
+    }
+    file
 }
 
 /// What is around the charts, as Structured Text.

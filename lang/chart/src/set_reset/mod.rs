@@ -13,4 +13,4 @@ pub mod variables;
 
 pub use assemble::plan;
 pub use table::table;
-pub use targets::{Target, write};
+pub use targets::{Target, plcopen_head, write};

@@ -239,7 +239,7 @@ fn step<'s>(sheet: &'s Sheet, id: &StepId) -> &'s StepShape {
 }
 
 /// What is wrong with a transition.
-fn wrong_line(sheet: &Sheet, one: &TransitionShape) -> Option<String> {
+pub(super) fn wrong_line(sheet: &Sheet, one: &TransitionShape) -> Option<String> {
     let name = &one.title;
     let middle = |frame: Rect| frame.x + frame.width / 2;
     let bottoms = one.from.iter().map(|id| step(sheet, id).frame);
@@ -406,7 +406,8 @@ fn a_chart_that_is_too_large_is_refused() {
     let source = Source::new("t.sfc", text).expect("a text");
     let reading = chart::text::read(&source);
     let refused = draw(reading.document.charts(), &source).expect_err("too large");
-    assert_eq!(refused.to_string(), "t: 301 steps or transitions; up to 300 of each are drawn");
+    let wanted = "t: 2501 steps or transitions; up to 2500 of each are drawn";
+    assert_eq!(refused.to_string(), wanted);
 }
 
 /// The picture of a chart.

@@ -132,3 +132,70 @@ fn warnings_know_the_hierarchy() {
         ACTION None: b := TRUE; END_ACTION\n";
     assert_eq!(told(text), ["W0301 3 S2", "W0300 7 E", "W0300 10 U1", "W0303 12 None"]);
 }
+
+/// What is said about two alternatives with these conditions.
+fn alternatives(first: &str, second: &str) -> Option<String> {
+    let text = format!(
+        "VAR_GLOBAL n, m : INT; x : REAL; t : TON; a, b, c : BOOL; END_VAR\nPROGRAM P\n\
+         INITIAL_STEP A: END_STEP\nSTEP B: END_STEP\nSTEP C: END_STEP\n\
+         TRANSITION FROM A TO B := {first}; END_TRANSITION\n\
+         TRANSITION FROM A TO C := {second}; END_TRANSITION\n\
+         TRANSITION FROM B TO A := b; END_TRANSITION\n\
+         TRANSITION FROM C TO A := c; END_TRANSITION\nEND_PROGRAM\n"
+    );
+    let mut found = compile(&text).of_chart;
+    assert!(found.iter().all(|one| one.code.text() == "W0304"), "{first}, {second}: {found:?}");
+    assert!(found.len() < 2, "{first}, {second}: {found:?}");
+    let message = found.pop()?.message;
+    let values = message.split_once("can be TRUE together").expect("what can be").1;
+    Some(values.trim_start_matches(": ").to_owned())
+}
+
+#[test]
+fn alternatives_that_can_be_true_together_are_told_with_values() {
+    let told = |first, second| alternatives(first, second).expect("something to tell");
+    assert_eq!(told("a", "b"), "a = TRUE, b = TRUE");
+    assert_eq!(told("a OR b", "NOT a"), "a = FALSE, b = TRUE");
+    assert_eq!(told("TRUE", "TRUE"), "");
+    assert_eq!(told("n > 5", "n < 9"), "n = 6");
+    assert_eq!(told("A.T >= T#2s", "A.T >= T#1s AND a"), "A.T = T#2000ms, a = TRUE");
+    assert_eq!(told("n >= m", "m >= n"), "m = n");
+    assert_eq!(told("t.Q", "a XOR b"), "t.Q = TRUE, a = FALSE, b = TRUE");
+    assert_eq!(told("a = FALSE", "b <> TRUE"), "a = FALSE, b = FALSE");
+}
+
+#[test]
+fn alternatives_that_exclude_each_other_are_left_alone() {
+    for (first, second) in [
+        ("a", "NOT a"),
+        ("a AND b", "b AND NOT A"),
+        ("n > 5", "n <= 5"),
+        ("n = 1", "2 = n"),
+        ("5 < n", "n < 6"),
+        ("n < m", "m <= n"),
+        ("A.T >= T#2s", "A.T < T#2s AND a"),
+        ("a = TRUE", "a = FALSE"),
+        ("a XOR b", "(a AND b) OR NOT (a OR b)"),
+        // What depends on each other is left alone.
+        ("n > 5", "n > m"),
+        ("x > 1.5", "x < 1.0"),
+        ("n + m > 5", "n < 2"),
+    ] {
+        assert_eq!(alternatives(first, second), None, "{first}, {second}");
+    }
+}
+
+#[test]
+fn alternatives_with_different_priorities_are_left_alone() {
+    let text = "INITIAL_STEP A: END_STEP\nSTEP B: END_STEP\nSTEP C: END_STEP\n\
+        TRANSITION (PRIORITY := 1) FROM A TO B := a; END_TRANSITION\n\
+        TRANSITION (PRIORITY := 1) FROM A TO C := b; END_TRANSITION\n\
+        TRANSITION FROM B TO A := c; END_TRANSITION\n\
+        TRANSITION FROM C TO A := c; END_TRANSITION\n";
+    assert_eq!(told(text), ["W0304 5 TRANSITION"]);
+    let first = text.replacen("(PRIORITY := 1) ", "", 1);
+    assert_eq!(told(&first), Vec::<String>::new());
+    // In a GRAFCET both are crossed, and that is meant.
+    let both = format!("{{grafcet}}\n{}", text.replace(" (PRIORITY := 1)", ""));
+    assert_eq!(told(&both), Vec::<String>::new());
+}

@@ -71,6 +71,9 @@ pub(super) fn in_body(
     };
     builder.steps();
     builder.transitions();
+    if depth == 0 {
+        builder.named();
+    }
     builder.blocks();
     builder.comments();
     let Builder { mut chart, macros, .. } = builder;
@@ -329,6 +332,16 @@ impl<'a, 'i> Builder<'_, '_, 'a, 'i> {
             self.reader.error(ErrorCode::Incomplete, written.span, message, help);
         }
         number
+    }
+
+    /// The actions of the unit come first, in their order: that is when they are executed.
+    fn named(&mut self) {
+        for node in self.around.actions() {
+            let Some(name) = optional(node, "name") else { continue };
+            if self.chart.action_named(&name.text).is_none() {
+                self.chart.add_action(Action::variable(name.text, Origin(name.span)));
+            }
+        }
     }
 
     fn blocks(&mut self) {

@@ -4,7 +4,7 @@ use diagnostics::traced::Traced;
 use diagnostics::xml::{Node, elements, tag};
 
 use super::reader::{Reader, child, optional};
-use super::variables::variable;
+use super::variables::{comment_behind, variable};
 use crate::diagnostic::Code;
 
 /// Types and values in each other at most.
@@ -23,7 +23,7 @@ pub(super) fn declared(reader: &mut Reader, node: Node, out: &mut Traced) {
         }
     }
     initial(reader, node, out);
-    out.push(";\n", name.span);
+    out.push(&format!(";{}\n", comment_behind(node)), name.span);
     rest(reader, node, &["baseType", "initialValue"], "a type");
 }
 

@@ -27,12 +27,16 @@ pub(super) fn project(reader: &mut Reader, root: Node, out: &mut Traced) -> Vec<
     let mut parts = Parts::default();
     for part in elements(root) {
         match part.tag_name().name() {
-            "fileHeader" | "contentHeader" => {}
+            "fileHeader" => {}
+            "contentHeader" => settings(part, out),
             "types" => parts.types(reader, part),
             "instances" => parts.instances(reader, part),
             "addData" => parts.added(reader, part),
             _ => reader.ignore(part, "a project"),
         }
+    }
+    for line in documentation(root).lines() {
+        out.push(&format!("// {}\n", line.trim()), tag(root));
     }
     if !parts.types.is_empty() {
         out.push("TYPE\n", tag(root));
@@ -50,6 +54,15 @@ pub(super) fn project(reader: &mut Reader, root: Node, out: &mut Traced) -> Vec<
         unit(reader, *node, out)
     });
     charts.collect()
+}
+
+/// Settings of a program stand in the comment of its project.
+fn settings(header: Node, out: &mut Traced) {
+    let Some(comment) = child(header, "Comment") else { return };
+    let lines = comment.text().unwrap_or("").lines().map(str::trim);
+    for line in lines.filter(|line| line.starts_with("//#")) {
+        out.push(&format!("{line}\n"), tag(comment));
+    }
 }
 
 /// Reports types and units whose name another one has.

@@ -62,8 +62,12 @@ pub(super) fn variable(reader: &mut Reader, node: Node, out: &mut Traced, depth:
         }
     }
     initial(reader, node, out);
-    let comment = documentation(node).lines().map(str::trim).collect::<Vec<_>>().join(" ");
-    let comment = if comment.is_empty() { comment } else { format!(" // {comment}") };
-    out.push(&format!(";{comment}\n"), name.span);
+    out.push(&format!(";{}\n", comment_behind(node)), name.span);
     rest(reader, node, &["type", "initialValue"], "a variable");
+}
+
+/// What an element says about itself, as a comment at the end of its line.
+pub(super) fn comment_behind(node: Node) -> String {
+    let comment = documentation(node).lines().map(str::trim).collect::<Vec<_>>().join(" ");
+    if comment.is_empty() { comment } else { format!(" // {comment}") }
 }

@@ -8,6 +8,7 @@ mod plcopen;
 mod st;
 
 use super::plan::Plan;
+pub use plcopen::head as plcopen_head;
 
 /// For whom it is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

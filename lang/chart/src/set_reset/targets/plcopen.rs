@@ -27,7 +27,7 @@ pub(super) fn write(plan: &Plan, name: &str) -> String {
         ("xmlns:xhtml", "http://www.w3.org/1999/xhtml"),
     ];
     out.element("project", &namespaces, |out| {
-        head(out, name);
+        head(out, name, "");
         out.element("types", &[], |out| {
             out.empty("dataTypes", &[]);
             out.element("pous", &[], |out| pous(out, plan, &types));
@@ -39,7 +39,8 @@ pub(super) fn write(plan: &Plan, name: &str) -> String {
     out.finish()
 }
 
-fn head(out: &mut Writer, name: &str) {
+/// The two headers of a project: who has made it, and its name with a comment, if there is one.
+pub fn head(out: &mut Writer, name: &str, comment: &str) {
     out.empty(
         "fileHeader",
         &[
@@ -50,6 +51,9 @@ fn head(out: &mut Writer, name: &str) {
         ],
     );
     out.element("contentHeader", &[("name", name)], |out| {
+        if !comment.is_empty() {
+            out.text("Comment", &[], comment);
+        }
         out.element("coordinateInfo", &[], |out| {
             for language in ["fbd", "ld", "sfc"] {
                 out.element(language, &[], |out| out.empty("scaling", &[("x", "1"), ("y", "1")]));

@@ -1,0 +1,153 @@
+//! What is in the way of a line that is drawn around things: steps, texts, and the lines of other
+//! transitions.
+
+use super::layer::Layer;
+use super::measures::CLEARANCE;
+use super::shapes::{Point, Rect};
+use crate::model::{StepId, TransitionId};
+
+/// Which lines may lie upon each other: they mean the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Family {
+    From(StepId),
+    To(StepId),
+    Of(TransitionId),
+}
+
+pub(super) type Segment = (Family, Point, Point);
+
+pub(super) fn rect((_, a, b): &Segment) -> Rect {
+    Rect::between(*a, *b)
+}
+
+/// Rooms that no line goes through.
+#[derive(Debug, Default)]
+pub(super) struct Walls(Layer<()>);
+
+impl Walls {
+    pub(super) fn add(&mut self, room: Rect) {
+        self.0.add(room, ());
+    }
+
+    /// Those that share a point with a room.
+    pub(super) fn near(&self, room: Rect) -> impl Iterator<Item = Rect> {
+        self.0.near(room).map(|(room, ())| *room)
+    }
+
+    pub(super) fn bounds(&self) -> Option<Rect> {
+        self.0.bounds()
+    }
+}
+
+/// Lines that may be crossed, but not lain upon.
+#[derive(Debug, Default)]
+pub(super) struct Lines {
+    all: Layer<Segment>,
+    /// Those of them that are double: what crosses one looks as if it belonged to it.
+    doubles: Layer<(Point, Point)>,
+}
+
+impl Lines {
+    pub(super) fn add(&mut self, line: Segment) {
+        self.all.add(rect(&line), line);
+    }
+
+    pub(super) fn add_double(&mut self, a: Point, b: Point) {
+        self.doubles.add(Rect::between(a, b), (a, b));
+    }
+
+    /// Those that share a point with a room.
+    pub(super) fn near(&self, room: Rect) -> impl Iterator<Item = &Segment> {
+        self.all.near(room).map(|(_, line)| line)
+    }
+
+    pub(super) fn bounds(&self) -> Option<Rect> {
+        self.all.bounds()
+    }
+}
+
+/// What is in the way of one line.
+#[derive(Debug)]
+pub(super) struct Terrain<'t> {
+    /// Which others it may lie upon.
+    pub(super) family: Family,
+    pub(super) walls: &'t [&'t Walls],
+    /// Walls that are there for this line alone.
+    pub(super) own_walls: &'t [Rect],
+    pub(super) lines: &'t Lines,
+    /// Lines that are not among the others yet.
+    pub(super) own_lines: &'t [Segment],
+}
+
+/// From where to where a search goes, in both directions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Window {
+    pub(super) xs: (i32, i32),
+    pub(super) ys: (i32, i32),
+}
+
+impl Window {
+    fn rect(&self) -> Rect {
+        Rect::between(Point::new(self.xs.0, self.ys.0), Point::new(self.xs.1, self.ys.1))
+    }
+}
+
+impl Terrain<'_> {
+    /// The coordinates of a window at which lines pass by what is there, and on the outside by all
+    /// of it.
+    pub(super) fn coordinates(&self, ends: [Point; 2], window: Window) -> [Vec<i32>; 2] {
+        let mut xs: Vec<i32> = ends.iter().map(|end| end.x).collect();
+        let mut ys: Vec<i32> = ends.iter().map(|end| end.y).collect();
+        for wall in self.walls_in(window) {
+            xs.extend([wall.x - CLEARANCE, wall.right() + CLEARANCE]);
+            ys.extend([wall.y - CLEARANCE, wall.bottom() + CLEARANCE]);
+        }
+        for (a, b) in self.lines_in(window) {
+            if a.x == b.x {
+                xs.extend([a.x, a.x - CLEARANCE, a.x + CLEARANCE]);
+            } else {
+                ys.extend([a.y, a.y - CLEARANCE, a.y + CLEARANCE]);
+            }
+        }
+        let edge = |list: &mut Vec<i32>, (from, to): (i32, i32)| {
+            let (min, max) = (list.iter().min().copied(), list.iter().max().copied());
+            list.extend(min.map(|min| min - 2 * CLEARANCE));
+            list.extend(max.map(|max| max + 2 * CLEARANCE));
+            list.retain(|one| from <= *one && *one <= to);
+            list.sort_unstable();
+            list.dedup();
+        };
+        edge(&mut xs, window.xs);
+        edge(&mut ys, window.ys);
+        [xs, ys]
+    }
+
+    /// Whether nothing is outside of a window, and no way leads around it there.
+    pub(super) fn is_all_in(&self, window: Window) -> bool {
+        let own = self.own_walls.iter().copied().chain(self.own_lines.iter().map(rect));
+        let others = self.walls.iter().filter_map(|walls| walls.bounds());
+        let all = own.chain(others).chain(self.lines.bounds()).reduce(Rect::union);
+        all.is_none_or(|all| {
+            let all = all.grown(4 * CLEARANCE);
+            window.xs.0 <= all.x
+                && all.right() <= window.xs.1
+                && window.ys.0 <= all.y
+                && all.bottom() <= window.ys.1
+        })
+    }
+
+    pub(super) fn walls_in(&self, window: Window) -> impl Iterator<Item = Rect> {
+        let room = window.rect().grown(CLEARANCE);
+        let walls = self.walls.iter().flat_map(move |walls| walls.near(room));
+        walls.chain(self.own_walls.iter().copied())
+    }
+
+    pub(super) fn lines_in(&self, window: Window) -> impl Iterator<Item = (Point, Point)> {
+        let others = self.lines.near(window.rect().grown(CLEARANCE)).chain(self.own_lines);
+        others.filter(|line| line.0 != self.family).map(|(_, a, b)| (*a, *b))
+    }
+
+    pub(super) fn doubles_in(&self, window: Window) -> impl Iterator<Item = (Point, Point)> {
+        self.lines.doubles.near(window.rect().grown(CLEARANCE)).map(|(_, line)| *line)
+    }
+}
