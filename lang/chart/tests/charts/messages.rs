@@ -192,7 +192,7 @@ fn alternatives_with_different_priorities_are_left_alone() {
         TRANSITION (PRIORITY := 1) FROM A TO C := b; END_TRANSITION\n\
         TRANSITION FROM B TO A := c; END_TRANSITION\n\
         TRANSITION FROM C TO A := c; END_TRANSITION\n";
-    assert_eq!(told(text), ["W0304 5 TRANSITION"]);
+    assert_eq!(told(text), ["W0304 4 TRANSITION"]);
     let first = text.replacen("(PRIORITY := 1) ", "", 1);
     assert_eq!(told(&first), Vec::<String>::new());
     // In a GRAFCET both are crossed, and that is meant.
