@@ -22,6 +22,7 @@ const MARGIN_MAX: u32 = 100_000_000;
 
 /// The directions, clockwise.
 const STEPS: [(i32, i32); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
+const RIGHT: usize = 0;
 const DOWN: usize = 1;
 const UP: usize = 3;
 
@@ -190,12 +191,13 @@ impl<'g> Search<'g> {
     /// What is left to pay at least: the distance, and bends until the end is entered from above.
     fn left(&self, state: usize) -> u32 {
         let (at, end) = (self.grid.point(state / 4), self.grid.point(self.end / 4));
-        let is_beside = |x: i32| if state % 4 == 0 { end.x < x } else { end.x > x };
-        let bends = match state % 4 {
+        let heading = state % 4;
+        let is_behind = if heading == RIGHT { end.x < at.x } else { end.x > at.x };
+        let bends = match heading {
             DOWN if at.y > end.y => 4,
             DOWN if at.x == end.x => 0,
             DOWN | UP => 2,
-            _ if at.y > end.y || is_beside(at.x) => 3,
+            _ if at.y > end.y || is_behind => 3,
             _ => 1,
         };
         distance(at, end) + bends * BEND

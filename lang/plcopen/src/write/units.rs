@@ -39,12 +39,12 @@ pub(super) fn body_of(text: &str, unit: &Unit) -> Span {
     let is_word = |kind: Kind, span: Span, word: &str| {
         kind == Kind::Word && span.text(unit.span.text(text)).eq_ignore_ascii_case(word)
     };
-    let declared = all.tokens.iter().filter(|one| is_word(one.kind, one.span, "END_VAR"));
+    let mut declared = all.tokens.iter().filter(|one| is_word(one.kind, one.span, "END_VAR"));
     let head = match &unit.kind {
         UnitKind::Function(result) => result.span.end,
         UnitKind::Program | UnitKind::Block => unit.name.span.end,
     };
-    let start = declared.last().map_or(head, |one| unit.span.start + one.span.end);
+    let start = declared.next_back().map_or(head, |one| unit.span.start + one.span.end);
     let mut words = all.tokens.iter().filter(|one| one.kind == Kind::Word);
     let end = words.next_back().map_or(unit.span.end, |one| unit.span.start + one.span.start);
     Span { start, end: end.max(start) }
