@@ -1,5 +1,6 @@
 //! What is asked about charts, and the answers, as JSON; the page's `chart/protocol.ts` says the
-//! same. A rectangle is left, top, width, height; a line from one point to another four numbers, too.
+//! same. A rectangle is left, top, width, height; a line from one point to another four numbers,
+//! too.
 
 use std::fmt;
 use std::str::FromStr;

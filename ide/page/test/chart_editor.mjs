@@ -8,7 +8,7 @@ import { deflateSync } from "fflate";
 import { controls, open, watched } from "./browser.mjs";
 
 /** Steps of a large chart, and how often it is changed. */
-const LARGE = 290;
+const LARGE = 2000;
 const EDITS = 8;
 
 const [, , given] = process.argv;

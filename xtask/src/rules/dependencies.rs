@@ -39,6 +39,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "ide-site",
         ],
     ),
+    ("ide-charts", &["diagnostics", "chart"]),
     (
         "ide-core",
         &["plc-isa", "diagnostics", "awl-asm", "project", "awl-sim", "analysis", "client", "flash"],
