@@ -44,7 +44,7 @@ impl Checker<'_> {
             match slots.get_mut(slot) {
                 Some(free @ None) => *free = Some(argument),
                 _ => {
-                    self.given_twice(&function.text, place);
+                    self.given_twice(&name_of(parameters, slot), place);
                     are_right = false;
                 }
             }
@@ -66,9 +66,9 @@ impl Checker<'_> {
         argument.is_output
     }
 
-    /// Reports a second value for the input of a call.
-    pub(super) fn given_twice(&mut self, callee: &str, place: Span) {
-        self.error(Code::Arguments, place, format!("{callee}: this input is given twice"));
+    /// Reports a second value for a parameter.
+    pub(super) fn given_twice(&mut self, parameter: &str, place: Span) {
+        self.error(Code::Arguments, place, format!("{parameter} is given twice"));
     }
 }
 

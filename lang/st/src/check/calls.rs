@@ -144,10 +144,6 @@ impl Checker<'_> {
             if let (Some(name), Some(variable)) = (&argument.name, unit.variables.get(at)) {
                 self.note(name.span, Named::of_unit(&unit, variable), false);
             }
-            let given = call.inputs.iter().map(|(given, _)| *given);
-            if given.chain(call.in_outs.iter().map(|(given, _)| *given)).any(|given| given == at) {
-                self.given_twice(&unit.name, place(argument));
-            }
             self.argument(&unit, at, argument, &mut call);
         }
         for (at, variable) in unit.variables.iter().enumerate() {
@@ -215,7 +211,7 @@ impl Checker<'_> {
         let is_twice = call.inputs.iter().any(|(given, _)| *given == at)
             || call.in_outs.iter().chain(&call.outputs).any(|(given, _)| *given == at);
         if is_twice {
-            self.error(Code::Arguments, span, format!("{}: is given twice", variable.name));
+            self.given_twice(&variable.name, place(argument));
         }
         match (variable.section, argument.is_output) {
             (SectionKind::Input, false) => {

@@ -148,7 +148,7 @@ impl Checker<'_> {
             };
             let value = self.value_of(&argument.value, &input.of_type);
             match given.get_mut(slot) {
-                Some(Some(_)) => self.given_twice(&unit.name, place(argument)),
+                Some(Some(_)) => self.given_twice(&input.name, place(argument)),
                 Some(free) => *free = Some(value),
                 None => {}
             }
