@@ -3,8 +3,8 @@
 // a server, and the folder that it gives away. Other programs on a computer take time from this one,
 // so a time may be a few times its budget before that is an error; sizes may not.
 import assert from "node:assert/strict";
-import { readdir, readFile } from "node:fs/promises";
-import { join } from "node:path";
+import { readFile } from "node:fs/promises";
+import { basename, join } from "node:path";
 import { gzipSync } from "node:zlib";
 import { open } from "./browser.mjs";
 import { innerFolder } from "./load.mjs";
@@ -27,14 +27,9 @@ const least = (what, measured, unit, budget) =>
 const median = (values) => values.toSorted((a, b) => a - b)[values.length >> 1];
 const round = (value) => Math.round(value * 100) / 100;
 
-// Everything that is loaded before somebody can work.
-const inner = await innerFolder(folder);
-const loaded = (await readdir(inner)).filter((name) => /\.(js|css|wasm)$/.test(name));
-const files = [...loaded.map((name) => join(inner, name)), join(folder, "index.html")];
-const sizes = await Promise.all(files.map(async (file) => gzipSync(await readFile(file)).length));
-most("page with its core, gzip", round(sizes.reduce((a, b) => a + b) / 1e6), "MB", 1.5, 1);
-
 const { browser, page, errors } = await open();
+const asked = new Set();
+page.on("request", (request) => asked.add(basename(new URL(request.url()).pathname)));
 const button = (name) => page.getByRole("button", { name, exact: true });
 const status = () => page.getByRole("status").first();
 await page.addInitScript(() => {
@@ -78,6 +73,16 @@ for (let run = 0; run < 3; run += 1) {
   firsts.push(await page.evaluate(() => globalThis.firstMs));
 }
 most("first message after loading", round(median(firsts)), "ms", 1000);
+
+// Everything that is loaded before somebody can work; what draws charts is not.
+const inner = await innerFolder(folder);
+const isPart = (name) => /\.(js|css|wasm)$/.test(name) && name !== "sw.js";
+const loaded = [...asked].filter(isPart);
+assert(["page.js", "worker.js", "ide_core_bg.wasm"].every((name) => asked.has(name)), `${loaded}`);
+assert(!asked.has("ide_charts_bg.wasm"), `${loaded}`);
+const files = [...loaded.map((name) => join(inner, name)), join(folder, "index.html")];
+const sizes = await Promise.all(files.map(async (file) => gzipSync(await readFile(file)).length));
+most("page with its core, gzip", round(sizes.reduce((a, b) => a + b) / 1e6), "MB", 1.5, 1);
 
 // A key in a thousand lines, until what it makes wrong is underlined.
 await load(networks(200));
