@@ -78,7 +78,10 @@ most("first message after loading", round(median(firsts)), "ms", 1000);
 const inner = await innerFolder(folder);
 const isPart = (name) => /\.(js|css|wasm)$/.test(name) && name !== "sw.js";
 const loaded = [...asked].filter(isPart);
-assert(["page.js", "worker.js", "ide_core_bg.wasm"].every((name) => asked.has(name)), `${loaded}`);
+assert(
+  ["page.js", "worker.js", "ide_core_bg.wasm"].every((name) => asked.has(name)),
+  `${loaded}`,
+);
 assert(!asked.has("ide_charts_bg.wasm"), `${loaded}`);
 const files = [...loaded.map((name) => join(inner, name)), join(folder, "index.html")];
 const sizes = await Promise.all(files.map(async (file) => gzipSync(await readFile(file)).length));
