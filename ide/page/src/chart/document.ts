@@ -11,9 +11,7 @@ import type { Charts, Edit, ElementId } from "./protocol";
 
 /** So long nothing is drawn while a text is being written. */
 const QUIET_MS = 120;
-/** Languages with charts. */
-const WITH_CHARTS = /\.(sfc|st)$/i;
-/** Files that a chart can be begun in. */
+/** Files of charts. */
 const OF_CHARTS = /\.sfc$/i;
 
 const NOTHING = { width: 0, height: 0, sheets: [], mistake: null };
@@ -27,7 +25,9 @@ export class ChartDocument {
   drawn: Drawn | null = null;
   /** The text that is drawn. */
   text: string | null = null;
-  /** The text that the module has: elements of another one would be others. */
+  /** Counts the texts that the module has read: elements of another one are others. */
+  reading = 0;
+  /** The text that the module has. */
   private held: string | null = null;
   private turn: Promise<unknown> = Promise.resolve();
   private allowedAsked = 0;
@@ -59,7 +59,7 @@ export class ChartDocument {
   /** Whether a first step can be put into the file. */
   get canBegin(): boolean {
     const { drawn, file } = this;
-    return !!drawn?.isEmpty && drawn.isEditable && file !== null && OF_CHARTS.test(file);
+    return !!drawn?.isEmpty && drawn.isEditable && file !== null;
   }
 
   private soon(after = QUIET_MS): void {
@@ -78,10 +78,11 @@ export class ChartDocument {
   private async draw(): Promise<void> {
     const file = this.editors.current;
     const text = file === null ? undefined : this.project.text(file);
-    if (file === null || text === undefined || !WITH_CHARTS.test(file))
+    if (file === null || text === undefined || !OF_CHARTS.test(file))
       return this.take(null, null, null);
     if (file === this.file && text === this.text && text === this.held) return;
     this.held = text;
+    this.reading += 1;
     try {
       const charts = await this.module.ask({ do: "draw", text, name: nameOf(file) });
       if (this.editors.current === file && this.project.text(file) === text)
@@ -90,6 +91,8 @@ export class ChartDocument {
       const obstacle = error instanceof Refusal ? error.message : null;
       if (obstacle !== null) this.take(file, text, { ...NOTHING, obstacle });
       else if (!(error instanceof Overtaken)) throw error;
+      // A module that has ended gives elements other names when it begins anew.
+      else this.held = null;
     }
   }
 
@@ -107,12 +110,13 @@ export class ChartDocument {
 
   /** All of these edits, as one change of the text, or none; which elements are to be selected.
    * Fails with a [`Refusal`]. */
-  edit(chart: number, edits: Edit[]): Promise<ElementId[]> {
-    return this.inTurn(() => this.carryOut(chart, edits));
+  edit(chart: number, edits: Edit[], reading = this.reading): Promise<ElementId[]> {
+    return this.inTurn(() => this.carryOut(chart, edits, reading));
   }
 
-  private async carryOut(chart: number, edits: Edit[]): Promise<ElementId[]> {
+  private async carryOut(chart: number, edits: Edit[], reading: number): Promise<ElementId[]> {
     const { file, text } = await this.ready();
+    if (reading !== this.reading) throw new Refusal(t("chartChangedMeanwhile"));
     const wish = { text, name: nameOf(file), chart, edits };
     const answer = await this.module.ask({ do: "edit", ...wish });
     this.held = answer.text;

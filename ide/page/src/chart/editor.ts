@@ -234,9 +234,9 @@ export class ChartEditor {
     notice(refusal, true);
   }
 
-  /** Edits, and selects what is new. */
-  async change(sheet: number, edits: Edit[]): Promise<void> {
-    const ids = await this.document.edit(sheet, edits);
+  /** Edits, and selects what is new. Elements are those of a reading of the text. */
+  async change(sheet: number, edits: Edit[], reading = this.document.reading): Promise<void> {
+    const ids = await this.document.edit(sheet, edits, reading);
     this.select(sheet, ids, actionOf(edits.at(-1)));
   }
 
@@ -261,8 +261,10 @@ export class ChartEditor {
     if (focus) this.document.goTo(this.lineOf(focus));
   }
 
-  /** Goes on after a field, with keys that were pressed meanwhile. */
-  goOn(early: KeyboardEvent[]): void {
+  /** Goes on after a field, with keys that were pressed meanwhile; not where it was left for another
+   * place, which has the focus. */
+  goOn(early: KeyboardEvent[], isLeft: boolean): void {
+    if (isLeft) return;
     this.focus();
     for (const event of early) this.keyboard.pressed(event);
   }

@@ -4,6 +4,7 @@ import { Refusal } from "../core/core";
 import { h, newId } from "../page/dom";
 import { t, type Args, type Key } from "../text/language";
 import type { Canvas } from "./canvas";
+import { Overtaken } from "./charts";
 import type { Frame } from "./protocol";
 
 const OFFERED_MAX = 8;
@@ -19,8 +20,9 @@ export interface Wish {
   names: Promise<string[]>;
   /** Takes what was written; fails with a [`Refusal`]. */
   take(text: string): Promise<void>;
-  /** The focus goes back, with the keys that were pressed while it took what was written. */
-  done(early: KeyboardEvent[]): void;
+  /** The focus goes back, with the keys that were pressed while it took what was written; not where
+   * it was left for another place. */
+  done(early: KeyboardEvent[], isLeft: boolean): void;
 }
 
 export class Field {
@@ -93,11 +95,12 @@ export class Field {
     this.element.style.width = `${wide}px`;
   }
 
-  private close(): void {
+  /** Closes it; `isLeft`: what a person does next is elsewhere. */
+  private close(isLeft = false): void {
     const { wish } = this;
     this.wish = undefined;
     this.element.hidden = true;
-    wish?.done(this.early.splice(0));
+    wish?.done(this.early.splice(0), isLeft);
   }
 
   private written(): void {
@@ -121,13 +124,13 @@ export class Field {
   private async take(isLeft: boolean): Promise<void> {
     const { wish, input } = this;
     if (!wish || this.isTaking) return;
-    if (isLeft && input.value === wish.value) return this.close();
+    if (isLeft && input.value === wish.value) return this.close(isLeft);
     this.isTaking = true;
     try {
       if (input.value !== wish.value) await wish.take(input.value.trim());
-      this.close();
+      this.close(isLeft);
     } catch (error) {
-      if (!(error instanceof Refusal)) throw error;
+      if (!(error instanceof Refusal || error instanceof Overtaken)) throw error;
       this.say(error.message);
       this.early = [];
       if (!isLeft) input.focus();

@@ -5,6 +5,8 @@ import type { Drawn, Item } from "./drawn";
 import type { ElementId } from "./protocol";
 
 const NAME = /%?[A-Za-z_][\w.]*/g;
+/** Literals with words in them: `T#1s`, `'a'`. */
+const LITERAL = /\w+#[\w.]+|'[^']*'/g;
 const WORDS = /^(and|or|xor|not|true|false|mod)$/i;
 
 /** The names of all steps of a chart. */
@@ -41,7 +43,8 @@ export async function variables(
 }
 
 function namesOf(text: string): string[] {
-  return (text.match(NAME) ?? []).filter((name) => !WORDS.test(name) && !/^T#/i.test(name));
+  const names = text.replace(LITERAL, " ").match(NAME) ?? [];
+  return names.filter((name) => !WORDS.test(name));
 }
 
 /** Where a condition is written, or the actions of a step. */

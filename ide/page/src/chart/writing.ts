@@ -129,14 +129,15 @@ export class Writing {
   ): void {
     const { editor } = this;
     if (editor.field.isOpen) return;
+    const { reading } = editor.document;
     editor.field.open(
       {
         label,
         value,
         at,
         names: Promise.resolve(names),
-        take: async (text) => void (await editor.change(item.sheet, [edit(text)])),
-        done: (early) => editor.goOn(early),
+        take: async (text) => void (await editor.change(item.sheet, [edit(text)], reading)),
+        done: (early, isLeft) => editor.goOn(early, isLeft),
       },
       editor.takeWritten(),
     );

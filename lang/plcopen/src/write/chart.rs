@@ -57,17 +57,22 @@ impl<'c> Drawn<'c> {
         let parallel = chart.transitions.iter().filter(|(_, one)| one.to.len() > 1);
         let branches = parallel.map(|(id, _)| (*id, numbers.next())).collect();
         numbers = Numbers { last: numbers.last, steps, transitions, alternatives, branches };
-        let steps = places(chart);
+        let (steps, is_given) = places(chart);
         let middle = |one: &Transition| {
             let ends = one.from.iter().chain(&one.to).filter_map(|id| steps.get(id));
-            let (sum, count) = ends.fold((Position::default(), 0), |(sum, count), at| {
-                (Position { x: sum.x + at.x, y: sum.y + at.y }, count + 1)
-            });
-            Position { x: sum.x / count.max(1), y: sum.y / count.max(1) }
+            let ends: Vec<&Position> = ends.collect();
+            let count = ends.len().max(1) as i64;
+            let mean = |of: fn(&Position) -> i32| {
+                let sum: i64 = ends.iter().map(|at| i64::from(of(at))).sum();
+                (sum / count) as i32
+            };
+            Position { x: mean(|at| at.x), y: mean(|at| at.y) }
         };
+        // Places of bars are among those of the steps in the text, not among automatic ones.
+        let own = |one: &Transition| one.at.filter(|_| is_given).map(near);
         let transitions = chart.transitions.iter();
         let transitions =
-            transitions.map(|(id, one)| (*id, one.at.unwrap_or_else(|| middle(one)))).collect();
+            transitions.map(|(id, one)| (*id, own(one).unwrap_or_else(|| middle(one)))).collect();
         Drawn { chart, numbers, steps, transitions }
     }
 
@@ -76,16 +81,23 @@ impl<'c> Drawn<'c> {
     }
 }
 
-/// Where steps are: as the text says, or where they are drawn.
-fn places(chart: &Chart) -> BTreeMap<StepId, Position> {
+/// A place that can be drawn.
+fn near(at: Position) -> Position {
+    let limited = |one: i32| one.clamp(-drawing::PLACE_MAX, drawing::PLACE_MAX);
+    Position { x: limited(at.x), y: limited(at.y) }
+}
+
+/// Where steps are: as the text says, which is told, or where they are drawn.
+fn places(chart: &Chart) -> (BTreeMap<StepId, Position>, bool) {
     let places = drawing::places(chart);
     if places.is_given {
-        return chart.steps.iter().filter_map(|(id, step)| Some((*id, step.at?))).collect();
+        let steps = chart.steps.iter();
+        return (steps.filter_map(|(id, step)| Some((*id, near(step.at?)))).collect(), true);
     }
     let least = |of: fn(&Position) -> i32| places.steps.values().map(of).min().unwrap_or(0);
     let (x, y) = (least(|at| at.x) - STEP.0, least(|at| at.y) - STEP.1);
     let moved = |at: Position| Position { x: at.x - x, y: at.y - y };
-    places.steps.into_iter().map(|(id, at)| (id, moved(at))).collect()
+    (places.steps.into_iter().map(|(id, at)| (id, moved(at))).collect(), false)
 }
 
 impl Project<'_> {

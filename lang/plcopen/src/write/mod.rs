@@ -29,7 +29,7 @@ pub struct Exported {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Writes a text with charts as a project. It has no errors: [`chart::translate`] says so.
+/// Writes a text with charts as a project. It has no errors: [`::chart::translate`] says so.
 pub fn write(source: &Source) -> Exported {
     let reading = text::read(source);
     let file = ::chart::frame(source, &reading, &mut HashSet::new());

@@ -9,7 +9,7 @@ use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{
     BlockCall, Expression, Place, RoutineArgument, SectionKind, Statement, StatementKind, Type,
-    UnitKind,
+    UnitKind, Variable,
 };
 use crate::names::Named;
 use crate::tree::{self, Argument, Name};
@@ -58,8 +58,11 @@ impl Checker<'_> {
         arguments: &[Argument],
     ) -> (Option<Expression>, Vec<Argument>) {
         let unit = self.program.units.get(block);
-        let has_own =
-            unit.is_some_and(|unit| unit.variables.iter().any(|one| upper(&one.name) == "EN"));
+        let has_own = unit.is_some_and(|unit| {
+            let is_it =
+                |one: &Variable| one.section == SectionKind::Input && upper(&one.name) == "EN";
+            unit.variables.iter().any(is_it)
+        });
         let is_enable = |one: &Argument| {
             let is_it = one.name.as_ref().is_some_and(|name| upper(&name.text) == "EN");
             is_it && !one.is_output && !has_own

@@ -199,7 +199,12 @@ impl Generator<'_> {
                 continue;
             }
             let mut variable = variable.clone();
-            variable.initial = given.get(inner).cloned().unwrap_or(variable.initial);
+            // Instances in it have those of their own declaration.
+            if variable.of_type.block().is_none()
+                && let Some(value) = given.get(inner)
+            {
+                variable.initial = value.clone();
+            }
             self.declare(&variable, &name, Owner::Unit(number), inner, is_retained, lines);
         }
     }
