@@ -253,8 +253,8 @@ pub struct Convert {
     /// A project of PLCopen or a chart of SFCEdit (.xml), or a chart as text (.sfc)
     #[arg(value_name = "IN")]
     pub input: PathBuf,
-    /// Where the result goes: a text (.st, .sfc), a project (.xml) or a picture (.svg); without it to
-    /// standard output
+    /// Where the result goes: a text (.st, .sfc), a project (.xml) or a picture (.svg); without it
+    /// to standard output
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
     /// For whom Structured Text is written [default: uno200]

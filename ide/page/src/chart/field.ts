@@ -30,6 +30,7 @@ export class Field {
   private names: string[] = [];
   private chosen = -1;
   private isTaking = false;
+  private isOffering = false;
   private early: KeyboardEvent[] = [];
   private list = h("ul", { class: "offered", attributes: { role: "listbox", id: newId() } });
   private refusal = h("p", { class: "refusal", attributes: { role: "alert", id: newId() } });
@@ -69,7 +70,10 @@ export class Field {
     this.wish = wish;
     this.names = [];
     void wish.names.then((names) => {
-      if (this.wish === wish) this.names = names;
+      if (this.wish !== wish) return;
+      this.names = names;
+      // They may come after what they are offered for was written.
+      if (this.isOffering) this.offer(true);
     });
     this.input.setAttribute("aria-label", t(...wish.label));
     this.input.value = written.trimEnd() || wish.value;
@@ -165,6 +169,7 @@ export class Field {
   }
 
   private offer(isOffered: boolean): void {
+    this.isOffering = isOffered;
     const word = this.word().toLowerCase();
     const fits = (name: string) =>
       name.toLowerCase().startsWith(word) && name.toLowerCase() !== word;
