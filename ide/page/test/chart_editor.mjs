@@ -357,6 +357,9 @@ await chart.getByRole("option", { name: "Lamp" }).waitFor();
 await key("Escape");
 await key("Escape");
 await key("Delete");
+await part(/^action/)
+  .nth(1)
+  .waitFor({ state: "detached" });
 await focused("^(action|step)");
 assert.equal(await part(/^action/).count(), 1);
 await step("Fill").click();
