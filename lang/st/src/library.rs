@@ -66,6 +66,7 @@ impl Block {
                     found.push(Parameter { name, declared, comment, is_output });
                 }
                 Some(_) => {}
+                None if code.trim().is_empty() => {}
                 None => section = code.trim(),
             }
         }

@@ -9,9 +9,9 @@ use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{
     BlockCall, Expression, Place, RoutineArgument, SectionKind, Statement, StatementKind, Type,
-    UnitKind, Variable,
+    UnitKind,
 };
-use crate::names::Named;
+use crate::names::{Named, is_same};
 use crate::tree::{self, Argument, Name};
 
 impl Checker<'_> {
@@ -40,37 +40,27 @@ impl Checker<'_> {
             let found = Diagnostic::new(Code::SideEffect, span, message);
             self.report(found.help("a FUNCTION_BLOCK or PROGRAM can"));
         }
-        let (enable, arguments) = self.enable(block, arguments);
-        let call = self.block_call(instance, block, &arguments, span)?;
-        Some(match enable {
-            Some(condition) => {
-                StatementKind::If(vec![(condition, vec![Statement { kind: call, span }])], vec![])
-            }
-            None => call,
-        })
-    }
-
-    /// The argument EN, a condition without which nothing of the call happens, and the other ones.
-    /// A block can have an input of this name.
-    fn enable(
-        &mut self,
-        block: usize,
-        arguments: &[Argument],
-    ) -> (Option<Expression>, Vec<Argument>) {
-        let unit = self.program.units.get(block);
-        let has_own = unit.is_some_and(|unit| {
-            let is_it =
-                |one: &Variable| one.section == SectionKind::Input && upper(&one.name) == "EN";
-            unit.variables.iter().any(is_it)
-        });
-        let is_enable = |one: &Argument| {
-            let is_it = one.name.as_ref().is_some_and(|name| upper(&name.text) == "EN");
-            is_it && !one.is_output && !has_own
+        let Some(enable) = self.enable(block, arguments) else {
+            return self.block_call(instance, block, arguments, span);
         };
         let mut others = arguments.to_vec();
-        let at = others.iter().position(is_enable);
-        let enable = at.map(|at| others.remove(at));
-        (enable.map(|one| self.value_of(&one.value, &Type::Bool)), others)
+        let condition = self.value_of(&others.remove(enable).value, &Type::Bool);
+        let call = self.block_call(instance, block, &others, span)?;
+        Some(StatementKind::If(vec![(condition, vec![Statement { kind: call, span }])], vec![]))
+    }
+
+    /// Which argument is EN, a condition without which nothing of the call happens. A block can
+    /// have an input of this name.
+    fn enable(&self, block: usize, arguments: &[Argument]) -> Option<usize> {
+        let is_it = |name: &str| is_same(name, "EN");
+        let unit = self.program.units.get(block);
+        let mut variables = unit.into_iter().flat_map(|unit| &unit.variables);
+        if variables.any(|one| one.section == SectionKind::Input && is_it(&one.name)) {
+            return None;
+        }
+        arguments.iter().position(|one| {
+            !one.is_output && one.name.as_ref().is_some_and(|name| is_it(&name.text))
+        })
     }
 
     fn call_of_name(

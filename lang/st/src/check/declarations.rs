@@ -1,5 +1,7 @@
 //! Units and their variables.
 
+use std::collections::HashSet;
+
 use awl_asm::Address;
 
 use super::names::upper;
@@ -79,20 +81,33 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// What units do: all of the files; of the library what is used, by these or by each other.
     pub(super) fn bodies(&mut self, files: &[(Option<usize>, &'a tree::File)]) {
-        let mut at = 0;
-        for &(number, file) in files {
-            self.file = number;
-            for unit in &file.units {
-                self.unit = Some(at);
-                let every_scan = self.statements(&unit.every_scan);
-                let body = self.statements(&unit.body);
-                self.unit = None;
-                if let Some(unit) = self.program.units.get_mut(at) {
-                    (unit.every_scan, unit.body) = (every_scan, body);
-                }
-                at += 1;
+        let units =
+            files.iter().flat_map(|&(file, of)| of.units.iter().map(move |unit| (file, unit)));
+        let units: Vec<(Option<usize>, &tree::Unit)> = units.collect();
+        for (number, &(file, unit)) in units.iter().enumerate() {
+            if file.is_some() {
+                self.body(number, file, unit);
             }
+        }
+        let mut done = HashSet::new();
+        while let Some(number) = self.used.pop() {
+            if let Some((None, unit)) = units.get(number)
+                && done.insert(number)
+            {
+                self.body(number, None, unit);
+            }
+        }
+    }
+
+    fn body(&mut self, number: usize, file: Option<usize>, unit: &'a tree::Unit) {
+        (self.file, self.unit) = (file, Some(number));
+        let every_scan = self.statements(&unit.every_scan);
+        let body = self.statements(&unit.body);
+        self.unit = None;
+        if let Some(unit) = self.program.units.get_mut(number) {
+            (unit.every_scan, unit.body) = (every_scan, body);
         }
     }
 

@@ -115,6 +115,7 @@ impl Checker<'_> {
 
     fn own_function(&mut self, number: usize, arguments: &[Argument], span: Span) -> Expression {
         let Some(unit) = self.program.units.get(number).cloned() else { return invalid(span) };
+        self.used.push(number);
         let inputs: Vec<_> =
             unit.variables.iter().filter(|one| one.section == SectionKind::Input).collect();
         let result = unit.variables.last().map_or(Type::Invalid, |one| one.of_type.base().clone());

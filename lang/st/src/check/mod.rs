@@ -52,6 +52,7 @@ pub(crate) fn check(sources: &[Source], files: &[tree::File], around: &Around) -
         type_initials: HashMap::new(),
         type_texts: HashMap::new(),
         unit_names: HashMap::new(),
+        used: Vec::new(),
         diagnostics: Vec::new(),
         names: Vec::new(),
         file: None,
@@ -104,6 +105,8 @@ pub(crate) struct Checker<'a> {
     type_texts: HashMap<String, (Option<usize>, &'a tree::TypeDeclaration)>,
     /// Units by name, upper case.
     unit_names: HashMap<String, usize>,
+    /// The units that are called or instantiated.
+    used: Vec<usize>,
     diagnostics: Vec<(usize, Diagnostic)>,
     /// The names that were found.
     names: Vec<Name>,

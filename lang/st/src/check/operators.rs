@@ -162,8 +162,11 @@ impl Checker<'_> {
     }
 
     /// A function of the library, by the number of its unit.
-    pub(super) fn library(&self, name: &str) -> Option<usize> {
-        self.program.units.iter().position(|unit| unit.file.is_none() && unit.name == name)
+    pub(super) fn library(&mut self, name: &str) -> Option<usize> {
+        let mut units = self.program.units.iter();
+        let number = units.position(|unit| unit.file.is_none() && unit.name == name)?;
+        self.used.push(number);
+        Some(number)
     }
 
     fn no_common(

@@ -80,6 +80,7 @@ impl<'a> Checker<'a> {
             let unit = self.program.units.get(number);
             if let Some(unit) = unit.filter(|unit| unit.kind == UnitKind::Block) {
                 let kind = Type::Block(number, unit.name.clone());
+                self.used.push(number);
                 self.note(span, Named::Unit(wanted), false);
                 return kind;
             }

@@ -198,14 +198,13 @@ impl Generator<'_> {
                 }
                 continue;
             }
-            let mut variable = variable.clone();
             // Instances in it have those of their own declaration.
-            if variable.of_type.block().is_none()
-                && let Some(value) = given.get(inner)
-            {
-                variable.initial = value.clone();
-            }
-            self.declare(&variable, &name, Owner::Unit(number), inner, is_retained, lines);
+            let value = given.get(inner).filter(|_| variable.of_type.block().is_none());
+            let variable = match value {
+                Some(value) => &Variable { initial: value.clone(), ..variable.clone() },
+                None => variable,
+            };
+            self.declare(variable, &name, Owner::Unit(number), inner, is_retained, lines);
         }
     }
 }

@@ -60,8 +60,8 @@ pub(super) fn short_timers(program: &Program) -> Short {
 }
 
 fn is_timer(program: &Program, block: usize) -> bool {
-    let unit = program.units.get(block);
-    unit.is_some_and(|unit| unit.file.is_none() && !unit.every_scan.is_empty())
+    let unit = program.units.get(block).filter(|unit| unit.file.is_none());
+    unit.is_some_and(|unit| ["TON", "TOF", "TP"].contains(&unit.name.as_str()))
 }
 
 /// Each statement, those in others too.
