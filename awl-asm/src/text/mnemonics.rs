@@ -91,13 +91,14 @@ pub(crate) enum Meaning {
     Refused,
 }
 
-/// Longest word in the table.
+/// Longest word in a table.
 const WORD_LEN_MAX: usize = 24;
 
-type Key = [u8; WORD_LEN_MAX];
+/// A word as tables of words are searched for it.
+pub(crate) type Key = [u8; WORD_LEN_MAX];
 
-/// The word in upper case, padded; `None` if no word of the table is that long.
-fn key(word: &str) -> Option<Key> {
+/// The word in upper case, padded; `None` if no word of a table is that long.
+pub(crate) fn key(word: &str) -> Option<Key> {
     let mut key = [0; WORD_LEN_MAX];
     key.get_mut(..word.len())?.copy_from_slice(word.as_bytes());
     key.make_ascii_uppercase();

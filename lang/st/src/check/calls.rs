@@ -8,8 +8,7 @@ use super::expressions::needed;
 use super::names::upper;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{
-    BlockCall, Expression, Place, RoutineArgument, SectionKind, Statement, StatementKind, Type,
-    UnitKind,
+    BlockCall, Place, RoutineArgument, SectionKind, Statement, StatementKind, Type, UnitKind,
 };
 use crate::names::{Named, is_same};
 use crate::tree::{self, Argument, Name};
