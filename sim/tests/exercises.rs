@@ -57,6 +57,23 @@ fn outcome(exercise: &Path, program: &str, scenario: &Path) -> (Scenario, Outcom
     (scenario, outcome)
 }
 
+/// Programs that docs/benchmarks.md compares with the charts that solve exercises.
+#[test]
+fn programs_by_hand_do_what_the_scenarios_expect() {
+    let by_hand = entries(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/by_hand"));
+    assert!(!by_hand.is_empty());
+    for program in by_hand {
+        let name = program.file_stem().unwrap();
+        let exercise =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/exercises").join(name);
+        let program = format!("../../../tests/by_hand/{}", name.display());
+        for scenario in scenarios(&exercise) {
+            let (_, outcome) = outcome(&exercise, &program, &scenario);
+            assert!(outcome.failures.is_empty(), "{}: {:?}", scenario.display(), outcome.failures);
+        }
+    }
+}
+
 #[test]
 fn solutions_solve_and_start_programs_do_not() {
     let exercises = exercises();

@@ -8,6 +8,7 @@
 //! controllers.
 
 mod check;
+mod concurrent;
 pub mod diagnostic;
 pub mod drawing;
 pub mod drawn;

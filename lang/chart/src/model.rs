@@ -74,6 +74,8 @@ pub struct Step {
     pub block: Vec<Instance>,
     /// GRAFCET: what it forces other charts to.
     pub forcings: Vec<Forcing>,
+    /// SFC: that a timer of the controller may take the place of its time; where that was read.
+    pub coarse: Option<Origin>,
     /// A comment.
     pub comment: String,
     /// Where it is drawn.

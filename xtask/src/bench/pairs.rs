@@ -1,6 +1,6 @@
-//! Structured Text beside hand-written AWL that does what the same scenario expects: bytes and
-//! cycles, for docs/benchmarks.md, and whether they are within the budget. It needs no board:
-//! cycles are those of the longest scan, as the assembler tells them.
+//! Structured Text and charts beside hand-written AWL that does what the same scenario expects:
+//! bytes and cycles, for docs/benchmarks.md, and whether they are within the budget. It needs no
+//! board: cycles are those of the longest scan, as the assembler tells them.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -10,13 +10,50 @@ use anyhow::{Context, Result, ensure};
 use awl_asm::assemble::assemble;
 use awl_asm::cost::cost;
 use awl_asm::source::Source;
+use chart::model::Origin;
+use chart::text::Piece;
 
 use crate::budgets;
 use crate::process::root;
 
-/// Folders of hand-written programs; those in Structured Text are below `examples/st`.
-const FOLDERS: [(&str, &str); 2] =
-    [("examples", "examples/st"), ("examples/tutorial", "examples/st/tutorial")];
+/// A language whose programs are compared.
+struct Language {
+    title: &'static str,
+    ending: &'static str,
+    /// Folders of hand-written programs, each with that of the programs in the language.
+    folders: [(&'static str, &'static str); 2],
+    /// What the page says before the tables.
+    words: &'static str,
+    /// How many programs there are at least.
+    least: usize,
+    /// The text with timers of the controller, as far as it can have them.
+    coarse: fn(String) -> Result<String>,
+}
+
+const LANGUAGES: [Language; 2] = [
+    Language {
+        title: "Structured Text",
+        ending: "st",
+        folders: [("examples", "examples/st"), ("examples/tutorial", "examples/st/tutorial")],
+        words: "Programs of `examples/st` beside the hand-written ones of `examples`; both do what \
+                the same scenario expects. *Bytes*\nare those of instructions, *interpreter* and \
+                *native* the cycles of the longest scan as `awl-asm` tells them.\n\n",
+        least: 10,
+        coarse: Ok,
+    },
+    Language {
+        title: "Charts",
+        ending: "sfc",
+        folders: [("examples", "examples/sfc"), ("examples/tutorial", "examples/sfc/tutorial")],
+        words: "The same of charts, SFC of `examples/sfc` and of the exercises (by hand in \
+                `tests/by_hand`), with `{coarse}`\nat each step.\n\n",
+        least: 6,
+        coarse: coarse_steps,
+    },
+];
+
+/// Exercises that are solved by hand, too: files called like the folder of the exercise.
+const EXERCISES_BY_HAND: &str = "tests/by_hand";
 
 /// What a program takes.
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +75,7 @@ impl Size {
 /// A program in both languages.
 struct Pair {
     name: String,
-    st: Size,
+    compiled: Size,
     /// The same with exact timers, where those of the text need not be.
     exact: Option<Size>,
     awl: Size,
@@ -46,20 +83,17 @@ struct Pair {
 
 /// The tables of the page.
 pub fn tables() -> Result<String> {
-    let pairs = pairs()?;
-    let mut page = String::from(
-        "\n## Structured Text\n\n\
-         Programs of `examples/st` beside the hand-written ones of `examples`; both do what the \
-         same scenario expects. *Bytes*\nare those of instructions, *interpreter* and *native* \
-         the cycles of the longest scan as `awl-asm` tells them.\n\n",
-    );
-    let chosen = |pair: &Pair| Some(pair.st);
-    table(&mut page, &pairs, &chosen);
-    page.push_str(
-        "\nThe same with timers that are exact, to the millisecond, in place of those of the \
-         controller (without `{coarse}`):\n\n",
-    );
-    table(&mut page, &pairs, &|pair| pair.exact);
+    let mut page = String::new();
+    for language in &LANGUAGES {
+        let pairs = language.pairs()?;
+        let _ = write!(page, "\n## {}\n\n{}", language.title, language.words);
+        table(&mut page, &pairs, &|pair| Some(pair.compiled));
+        page.push_str(
+            "\nThe same with timers that are exact, to the millisecond, in place of those of the \
+             controller (without `{coarse}`):\n\n",
+        );
+        table(&mut page, &pairs, &|pair| pair.exact);
+    }
     Ok(page)
 }
 
@@ -67,10 +101,10 @@ fn table(page: &mut String, pairs: &[Pair], chosen: &dyn Fn(&Pair) -> Option<Siz
     page.push_str("| program | bytes | AWL |  | interpreter | AWL |  | native | AWL |  |\n");
     page.push_str("|---|---|---|---|---|---|---|---|---|---|\n");
     for pair in pairs {
-        let Some(st) = chosen(pair) else { continue };
+        let Some(compiled) = chosen(pair) else { continue };
         let _ = write!(page, "| {} |", pair.name);
-        for (of_st, of_awl) in st.figures().into_iter().zip(pair.awl.figures()) {
-            let _ = write!(page, " {of_st} | {of_awl} | {:.2} |", of_st as f64 / of_awl as f64);
+        for (of_one, of_awl) in compiled.figures().into_iter().zip(pair.awl.figures()) {
+            let _ = write!(page, " {of_one} | {of_awl} | {:.2} |", of_one as f64 / of_awl as f64);
         }
         page.push('\n');
     }
@@ -81,23 +115,59 @@ fn table(page: &mut String, pairs: &[Pair], chosen: &dyn Fn(&Pair) -> Option<Siz
     page.push('\n');
 }
 
-/// Fails where Structured Text takes more than it may.
+/// Fails where a language takes more than it may.
 pub fn judge() -> Result<()> {
-    let pairs = pairs()?;
-    ensure!(pairs.len() >= 10, "only {} programs are there in both languages", pairs.len());
-    for (of_one, what) in ["bytes", "cycles", "cycles in machine code"].into_iter().enumerate() {
-        let all = ratios(&pairs, &|pair| Some(pair.st), of_one);
-        let most = all.iter().copied().fold(0.0, f64::max);
-        let middle = median(all);
-        println!("Structured Text: {what}: median {middle:.2}, most {most:.2} times those of AWL");
-        ensure!(
-            middle <= budgets::ST_MEDIAN_MAX && most <= budgets::ST_RATIO_MAX,
-            "Structured Text takes more {what} than the budget allows (median {}, most {})",
-            budgets::ST_MEDIAN_MAX,
-            budgets::ST_RATIO_MAX
-        );
+    LANGUAGES.iter().try_for_each(Language::judge)
+}
+
+impl Language {
+    fn judge(&self) -> Result<()> {
+        let pairs = self.pairs()?;
+        let title = self.title;
+        ensure!(pairs.len() >= self.least, "{title}: only {} pairs of programs", pairs.len());
+        for (of_one, what) in ["bytes", "cycles", "cycles in machine code"].into_iter().enumerate()
+        {
+            let all = ratios(&pairs, &|pair| Some(pair.compiled), of_one);
+            let most = all.iter().copied().fold(0.0, f64::max);
+            let middle = median(all);
+            println!("{title}: {what}: median {middle:.2}, most {most:.2} times those of AWL");
+            ensure!(
+                middle <= budgets::COMPILED_MEDIAN_MAX && most <= budgets::COMPILED_RATIO_MAX,
+                "{title}: more {what} than the budget allows (median {}, most {})",
+                budgets::COMPILED_MEDIAN_MAX,
+                budgets::COMPILED_RATIO_MAX
+            );
+        }
+        Ok(())
     }
-    Ok(())
+
+    fn pairs(&self) -> Result<Vec<Pair>> {
+        let mut pairs = Vec::new();
+        for (folder_awl, folder) in self.folders {
+            for path in texts(&root().join(folder), self.ending)? {
+                let by_hand = root().join(folder_awl).join(stem(&path)).with_extension("awl");
+                if by_hand.is_file() {
+                    pairs.push(self.pair(&path, &by_hand)?);
+                }
+            }
+        }
+        for by_hand in texts(&root().join(EXERCISES_BY_HAND), "awl")? {
+            let exercise = root().join("examples/exercises").join(stem(&by_hand));
+            let path = exercise.join("solution").with_extension(self.ending);
+            if path.is_file() {
+                pairs.push(self.pair(&path, &by_hand)?);
+            }
+        }
+        Ok(pairs)
+    }
+
+    fn pair(&self, path: &Path, by_hand: &Path) -> Result<Pair> {
+        let text = (self.coarse)(read(path)?)?;
+        let exact = text.replace("{coarse}", "");
+        let exact = if exact == text { None } else { Some(size(path, exact)?) };
+        let (compiled, awl) = (size(path, text)?, size(by_hand, read(by_hand)?)?);
+        Ok(Pair { name: stem(by_hand), compiled, exact, awl })
+    }
 }
 
 fn ratios(pairs: &[Pair], chosen: &dyn Fn(&Pair) -> Option<Size>, of_one: usize) -> Vec<f64> {
@@ -119,29 +189,26 @@ fn median(mut all: Vec<f64>) -> f64 {
     }
 }
 
-fn pairs() -> Result<Vec<Pair>> {
-    let mut pairs = Vec::new();
-    for (folder_awl, folder_st) in FOLDERS {
-        for path in texts(&root().join(folder_st))? {
-            let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            let by_hand = root().join(folder_awl).join(&name).with_extension("awl");
-            if !by_hand.is_file() {
-                continue;
-            }
-            let text = read(&path)?;
-            let exact = text.replace("{coarse}", "");
-            let exact = if exact == text { None } else { Some(size(&path, exact)?) };
-            let (st, awl) = (size(&path, text)?, size(&by_hand, read(&by_hand)?)?);
-            pairs.push(Pair { name, st, exact, awl });
+/// A text whose charts permit timers of the controller at each step.
+fn coarse_steps(text: String) -> Result<String> {
+    let source = Source::new("chart.sfc", text).map_err(|_| anyhow::anyhow!("too long"))?;
+    let mut document = chart::text::read(&source).document;
+    for piece in &mut document.pieces {
+        if let Piece::Chart(chart) = piece {
+            chart.steps.values_mut().for_each(|step| step.coarse = Some(Origin::default()));
         }
     }
-    Ok(pairs)
+    Ok(chart::text::write(&document))
 }
 
-fn texts(folder: &Path) -> Result<Vec<PathBuf>> {
+fn stem(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+fn texts(folder: &Path, ending: &str) -> Result<Vec<PathBuf>> {
     let entries = fs::read_dir(folder).with_context(|| folder.display().to_string())?;
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-    paths.retain(|path| path.extension().is_some_and(|ending| ending == "st"));
+    paths.retain(|path| path.extension().is_some_and(|found| found == ending));
     paths.sort();
     Ok(paths)
 }

@@ -59,7 +59,13 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     ("wasm-smoke", &["plc-isa", "awl-asm", "awl-sim", "analysis", "client", "flash"]),
-    ("xtask", &["plc-isa", "plc-vm", "awl-asm", "st", "project", "awl-sim", "uno200", "ide-site"]),
+    (
+        "xtask",
+        &[
+            "plc-isa", "plc-vm", "awl-asm", "st", "chart", "project", "awl-sim", "uno200",
+            "ide-site",
+        ],
+    ),
     ("bind", &[]),
 ];
 

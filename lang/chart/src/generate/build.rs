@@ -2,8 +2,8 @@
 
 use diagnostics::Span;
 use st::tree::{
-    BinaryOperator, Declaration, Element, Expression, ExpressionKind, Name, Section, SectionKind,
-    Statement, StatementKind, TypeText, TypeTextKind, UnaryOperator,
+    Argument, BinaryOperator, Declaration, Element, Expression, ExpressionKind, Name, Section,
+    SectionKind, Selector, Statement, StatementKind, TypeText, TypeTextKind, UnaryOperator,
 };
 
 fn expression(kind: ExpressionKind) -> Expression {
@@ -54,6 +54,24 @@ pub(super) fn any(list: impl IntoIterator<Item = Expression>) -> Expression {
 
 pub(super) fn assign(to: Expression, value: Expression) -> Statement {
     statement(StatementKind::Assign(to, value))
+}
+
+/// The output of an instance of the unit.
+pub(super) fn output(instance: &str, output: &str) -> Expression {
+    let name = |text: &str| Name { text: text.to_owned(), span: Span::default() };
+    let selectors = vec![Selector::Field(name(output))];
+    expression(ExpressionKind::Variable(name(instance), selectors))
+}
+
+/// The call of an instance of the unit.
+pub(super) fn call<const N: usize>(instance: &str, inputs: [(&str, Expression); N]) -> Statement {
+    let argument = |(name, value): (&str, Expression)| Argument {
+        name: Some(Name { text: name.to_owned(), span: Span::default() }),
+        is_output: false,
+        value,
+    };
+    let arguments = inputs.into_iter().map(argument).collect();
+    statement(StatementKind::Call(variable(instance), arguments))
 }
 
 /// Gives a BOOL of the unit a value that is known.

@@ -6,45 +6,16 @@
 //! were asked before; otherwise the activation is put off until all were. So the order decides how
 //! much is put off, not what comes out.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use st::tree::{Expression, ExpressionKind, Statement};
 
+use super::asking::{last_readers, order};
 use super::build::{all, assign, element, not, set, variable, when};
 use super::mentions::{Length, Part, Scope, Times, rewrite};
 use super::names::{Variables, step_name};
 use super::parsed::Parsed;
-use crate::model::{Chart, StepId, Transition, TransitionId};
-
-/// The order in which transitions are asked: alternatives by their priority, and what leaves a
-/// step before what enters it as far as the text goes from the first step to the last.
-pub(super) fn order(chart: &Chart) -> Vec<TransitionId> {
-    let by_priority = chart.by_priority();
-    let mut group_of: BTreeMap<StepId, usize> = BTreeMap::new();
-    let mut groups: Vec<usize> = (0..by_priority.len()).collect();
-    fn root(groups: &mut [usize], mut at: usize) -> usize {
-        while let Some(&next) = groups.get(at).filter(|next| **next != at) {
-            at = next;
-        }
-        at
-    }
-    for (at, id) in by_priority.iter().enumerate() {
-        for step in chart.transitions.get(id).iter().flat_map(|one| &one.from) {
-            let other = *group_of.entry(*step).or_insert(at);
-            let (a, b) = (root(&mut groups, at), root(&mut groups, other));
-            if let Some(group) = groups.get_mut(a) {
-                *group = b;
-            }
-        }
-    }
-    let mut members: BTreeMap<usize, Vec<TransitionId>> = BTreeMap::new();
-    for (at, id) in by_priority.iter().enumerate() {
-        members.entry(root(&mut groups, at)).or_default().push(*id);
-    }
-    let mut groups: Vec<Vec<TransitionId>> = members.into_values().collect();
-    groups.sort_by_key(|group| std::cmp::Reverse(group.iter().max().copied()));
-    groups.concat()
-}
+use crate::model::{StepId, Transition, TransitionId};
 
 /// The evolution of a chart.
 pub(super) struct Evolution<'e> {
@@ -59,11 +30,7 @@ impl Evolution<'_> {
     pub(super) fn statements(&mut self) -> Vec<Statement> {
         let chart = self.parsed.chart;
         let order = order(chart);
-        let mut last_reader: BTreeMap<StepId, usize> = BTreeMap::new();
-        for (at, id) in order.iter().enumerate() {
-            let steps = chart.transitions.get(id).into_iter().flat_map(|one| &one.from);
-            last_reader.extend(steps.map(|step| (*step, at)));
-        }
+        let last_reader = last_readers(chart, &order);
         let mut asked: BTreeSet<(String, Part)> = BTreeSet::new();
         let (mut crossings, mut later) = (Vec::new(), Vec::new());
         for (at, id) in order.iter().enumerate() {
@@ -142,7 +109,7 @@ impl Evolution<'_> {
     fn activation(&self, id: StepId) -> Vec<Statement> {
         let step = self.step(id);
         let mut statements = vec![set(&step, true)];
-        if let Some(length) = self.times.get(&step) {
+        if let Some(length @ (Length::Short | Length::Long)) = self.times.get(&step) {
             statements.push(assign(variable(&format!("{step}.T")), length.zero()));
         }
         statements

@@ -10,8 +10,8 @@ use diagnostics::Span;
 use st::tree::{Expression, ExpressionKind, Name, Selector, Statement, StatementKind};
 use st::visit;
 
-use super::build;
 use super::parsed::Parsed;
+use super::{build, coarse};
 use crate::diagnostic::{Code as ErrorCode, Diagnostic};
 use crate::hierarchy::Hierarchy;
 use crate::model::Qualifier;
@@ -47,11 +47,17 @@ pub(super) enum Length {
     Short,
     /// A double word is needed.
     Long,
+    /// A timer has it, of so many milliseconds.
+    Timer(i64),
 }
 
 impl Length {
     pub(super) fn type_name(self) -> &'static str {
-        if self == Length::Short { "INT" } else { "TIME" }
+        match self {
+            Length::Short => "INT",
+            Length::Long => "TIME",
+            Length::Timer(_) => "TON",
+        }
     }
 
     /// Where it begins.
@@ -105,7 +111,7 @@ impl<'o> Scope<'o> {
         Some((self.find(&name.text)?.to_owned(), part))
     }
 
-    fn timed(&self, expression: &Expression) -> Option<String> {
+    pub(super) fn timed(&self, expression: &Expression) -> Option<String> {
         self.mention(expression).filter(|(_, part)| *part == Part::T).map(|(variable, _)| variable)
     }
 
@@ -179,6 +185,12 @@ pub(super) fn rewrite(
     suffix: &mut dyn FnMut(&str, Part) -> &'static str,
 ) {
     visit::expressions(expression, &mut |one| {
+        if let Some((step, _, is_over)) = coarse::question(one, scope)
+            && matches!(times.get(&step), Some(Length::Timer(_)))
+        {
+            one.kind = coarse::answer(&step, is_over);
+            return false;
+        }
         let short = scope.short_comparison(one);
         let is_word = |step: &str| times.get(step) == Some(&Length::Short);
         if let (Some((_, ms)), ExpressionKind::Binary(_, left, right)) =

@@ -4,7 +4,9 @@
 
 mod actions;
 mod alternatives;
+mod asking;
 mod build;
+mod coarse;
 mod declare;
 mod evolution;
 mod grafcet;
@@ -17,19 +19,19 @@ mod sound;
 use std::collections::{BTreeSet, HashSet};
 
 use diagnostics::Source;
-use st::tree::{File, Name, SectionKind, Statement, Unit, UnitKind};
+use st::tree::{File, Name, Statement, Unit, UnitKind};
 use st::visit;
 
 use crate::check;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{Body, Chart, Standard};
+use crate::model::{Body, Chart, Origin, Standard};
 use crate::text::{self, Reading, Region};
 pub use declare::globals as declared;
 pub(crate) use sound::wrong_qualifier;
 
 use actions::Actions;
 use evolution::Evolution;
-use mentions::{Scope, Times};
+use mentions::{Length, Scope, Times};
 use names::{Variables, step_name, stored_name};
 use parsed::Parsed;
 
@@ -76,9 +78,9 @@ pub fn translate(source: &Source, known: &mut HashSet<String>) -> Translation {
             alternatives::check(&source.text, &parsed, &mut warnings);
         }
         let mut variables = Variables::default();
-        unit.body = unit_body(parsed, &mut variables, &mut diagnostics);
+        unit.body = unit_body(parsed, &mut variables, &mut diagnostics, &mut of_st);
         variables.check(&mut diagnostics);
-        unit.sections.push(build::section(SectionKind::Var, variables.list()));
+        unit.sections.push(variables.section());
     }
     diagnostics.extend(warnings);
     diagnostics.sort_by_key(|one| one.span);
@@ -148,13 +150,16 @@ fn unit_body(
     mut parsed: Parsed,
     variables: &mut Variables,
     diagnostics: &mut Vec<Diagnostic>,
+    of_st: &mut Vec<st::Diagnostic>,
 ) -> Vec<Statement> {
     if parsed.chart.standard == Standard::Grafcet {
+        coarse::refuse_all(&parsed, coarse::OF_GRAFCET, of_st);
         return grafcet::body(parsed, variables, diagnostics);
     }
     let scope = Scope::new(&parsed, None, String::new());
     let mut times = Times::new();
     note_all(&mut parsed, &scope, &mut times);
+    coarse::choose(&mut parsed, &scope, &mut times, of_st);
     chart_body(&parsed, &scope, &times, variables, diagnostics)
 }
 
@@ -234,20 +239,25 @@ fn time_goes_on(
 ) -> Vec<Statement> {
     let chart = parsed.chart;
     let mut statements = Vec::new();
-    let mut owners: Vec<(String, String, String)> = Vec::new();
+    let mut owners: Vec<(String, String, String, Option<Origin>)> = Vec::new();
     for (id, step) in &chart.steps {
         let name = step_name(chart, scope, *id);
-        owners.push((name.clone(), name.clone(), format!("Time of step {name}")));
+        owners.push((name.clone(), name.clone(), format!("Time of step {name}"), step.coarse));
         for instance in step.block.iter().filter(|one| one.qualifier.has_time()) {
             let flag = stored_name(chart, scope, &step.name, instance);
-            owners.push((flag.clone(), name.clone(), format!("Time since {flag}")));
+            owners.push((flag.clone(), name.clone(), format!("Time since {flag}"), None));
         }
     }
-    for (owner, place, title) in owners {
+    for (owner, place, title, pragma) in owners {
         let Some(length) = times.get(&owner) else { continue };
+        statements.push(build::element(&place, title));
+        if let (Length::Timer(ms), Some(Origin(span))) = (*length, pragma) {
+            variables.add_coarse(&coarse::timer(&owner), length.type_name(), span);
+            statements.push(coarse::call(&owner, ms));
+            continue;
+        }
         let time = format!("{owner}.T");
         variables.add(&time, length.type_name());
-        statements.push(build::element(&place, title));
         let goes_on = vec![build::add_elapsed(&time)];
         statements.push(build::when(build::variable(&owner), goes_on));
     }

@@ -1,10 +1,11 @@
 //! Names of the variables that a chart becomes.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use diagnostics::Span;
-use st::tree::Name;
+use st::tree::{Name, Section, SectionKind};
 
+use super::build;
 use super::mentions::Scope;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Chart, Instance, StepId};
@@ -15,6 +16,8 @@ pub(super) struct Variables {
     list: Vec<(Name, &'static str)>,
     /// Their names in upper case.
     names: HashSet<String>,
+    /// The pragmas `{coarse}` of those that have one, by their names.
+    coarse: HashMap<String, Span>,
 }
 
 impl Variables {
@@ -54,14 +57,25 @@ impl Variables {
         }
     }
 
+    /// A timer that need not be exact.
+    pub(super) fn add_coarse(&mut self, name: &str, of_type: &'static str, pragma: Span) {
+        self.add(name, of_type);
+        self.coarse.insert(name.to_owned(), pragma);
+    }
+
     fn add_at(&mut self, name: &str, of_type: &'static str, span: Span) {
         self.names.insert(name.to_uppercase());
         self.list.push((Name { text: name.to_owned(), span }, of_type));
     }
 
-    /// All of them, with their types.
-    pub(super) fn list(self) -> Vec<(Name, &'static str)> {
-        self.list
+    /// The section that declares all of them.
+    pub(super) fn section(self) -> Section {
+        let mut section = build::section(SectionKind::Var, self.list);
+        for declared in &mut section.declarations {
+            let name = declared.names.first().map_or("", |name| name.text.as_str());
+            declared.coarse = self.coarse.get(name).copied();
+        }
+        section
     }
 }
 

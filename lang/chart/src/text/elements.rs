@@ -316,7 +316,10 @@ impl Reader<'_> {
             self.report(found.suggest(":="));
             self.step();
         } else if !self.take_sign(":=") {
-            self.expected("`:=` and a condition");
+            match self.is_word("PRIORITY") {
+                true => self.misplaced_priority(),
+                false => self.expected("`:=` and a condition"),
+            }
             self.skip_element();
             return;
         }
@@ -324,6 +327,12 @@ impl Reader<'_> {
             Some(code) => transition.condition = code,
             None => self.expected("a condition"),
         }
+    }
+
+    fn misplaced_priority(&mut self) {
+        let message = "PRIORITY is before the steps";
+        let found = Diagnostic::new(ErrorCode::Syntax, self.token().span, message);
+        self.report(found.help("such as `TRANSITION (PRIORITY := 1) FROM A TO B := Go;`"));
     }
 
     /// `PRIORITY := 2)`

@@ -10,8 +10,8 @@ use crate::model::{
 };
 
 /// The words that begin pragmas.
-const WORDS: [&str; 9] =
-    ["grafcet", "at", "macro", "enclosing", "linked", "force", "if", "on", "crossing"];
+const WORDS: [&str; 10] =
+    ["grafcet", "at", "coarse", "macro", "enclosing", "linked", "force", "if", "on", "crossing"];
 
 /// Whether a pragma says that a chart is by the rules of GRAFCET.
 pub(super) fn is_grafcet(text: &str) -> bool {
@@ -71,6 +71,10 @@ impl Reader<'_> {
             let (word, rest) = parts(span.text(self.text));
             let is_known = match word.as_str() {
                 "at" => position(rest).map(|at| step.at = Some(at)).is_some(),
+                "coarse" if rest.is_empty() => {
+                    step.coarse = Some(Origin(span));
+                    true
+                }
                 "linked" if rest.is_empty() => {
                     step.is_linked = true;
                     true
@@ -142,7 +146,7 @@ impl Reader<'_> {
                     "an order names a chart and a situation: {force G2 (S3)}, {force G2 INIT}"
                 }
                 "if" | "on" => "{if a} and {on a} stand after an action of a step, once",
-                "linked" => "{linked} belongs to a step",
+                "linked" | "coarse" => "{linked} and {coarse} belong to a step",
                 _ => "{crossing Count := Count + 1;} belongs to a transition, once",
             });
         } else {

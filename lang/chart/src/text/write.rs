@@ -137,6 +137,9 @@ impl Writer {
         if step.is_linked {
             head += " {linked}";
         }
+        if step.coarse.is_some() {
+            head += " {coarse}";
+        }
         self.line(&head);
         self.indent += 1;
         for forcing in &step.forcings {

@@ -1,5 +1,6 @@
 //! Tests of charts: texts, pages of errors, drawings, and random charts in two implementations.
 
+mod coarse;
 mod compiled;
 mod drawing;
 mod edit_refusals;

@@ -45,6 +45,14 @@ fn all_errors_come_at_once() {
 }
 
 #[test]
+fn a_priority_after_the_steps_is_told_its_place() {
+    let text = "INITIAL_STEP A: END_STEP\nSTEP B: END_STEP\n\
+        TRANSITION FROM A TO B PRIORITY 1 := Go; END_TRANSITION\n\
+        TRANSITION FROM B TO A := TRUE; END_TRANSITION\n";
+    assert_eq!(told(text), ["E0300 3 PRIORITY"]);
+}
+
+#[test]
 fn names_that_the_chart_needs_itself_are_refused() {
     let text = "INITIAL_STEP Wait:\n    Stir;\nEND_STEP\n\
         ACTION Stir:\n    INITIAL_STEP before: END_STEP\nEND_ACTION\n";

@@ -169,6 +169,9 @@ impl Project<'_> {
 
     /// A step, and what converges before it.
     fn step(&mut self, drawn: &mut Drawn, id: StepId, step: &Step) {
+        if let Some(pragma) = step.coarse {
+            self.refuse_coarse(pragma.0);
+        }
         let entering = drawn.chart.transitions.iter().filter(|(_, one)| one.to.contains(&id));
         let mut sources: Vec<u32> = entering
             .filter_map(|(id, _)| {

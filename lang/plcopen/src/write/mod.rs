@@ -71,6 +71,12 @@ impl Project<'_> {
         self.found.push(Diagnostic::new(Code::NoPlace, span, message).help(help));
     }
 
+    /// `{coarse}`, which is lost.
+    fn refuse_coarse(&mut self, pragma: Span) {
+        let help = "without it the time is exact";
+        self.refuse(pragma, "{coarse}: a project of PLCopen has no pragmas", help);
+    }
+
     fn open(&mut self, name: &str, attributes: &[(&str, &str)]) {
         self.out.begin(name, attributes);
     }

@@ -92,8 +92,7 @@ impl Project<'_> {
     /// The variables of a declaration.
     pub(super) fn variables(&mut self, declaration: &Declaration, comments: &Comments) {
         if let Some(pragma) = declaration.coarse {
-            let help = "without it the time is exact";
-            self.refuse(pragma, "{coarse}: a project of PLCopen has no pragmas", help);
+            self.refuse_coarse(pragma);
         }
         let address = declaration.at.as_ref().map(|at| self.text(at.span).to_owned());
         for name in &declaration.names {
