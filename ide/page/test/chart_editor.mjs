@@ -306,6 +306,8 @@ await page.getByRole("combobox", { name: "Target" }).selectOption({ label: "Simu
 await button("Run").click();
 await mode("RUN");
 await button("Pause").click();
+// What was told before the pause may be what the single scan leads to: the chart is a circle.
+await mode("PAUSE");
 let now = await others("");
 const seen = new Set();
 for (let scan = 0; scan < 18; scan += 1) {

@@ -31,6 +31,8 @@ export class Pointer {
     element.addEventListener("mousedown", (event) => {
       if (!isField(event)) event.preventDefault();
     });
+    // In the drawing or in a field of it: clicks before and after a key are two, however soon.
+    element.addEventListener("keydown", () => (this.last.key = ""), { capture: true });
     element.addEventListener("keydown", (event) => {
       if (event.key === "Escape" && this.pressed) this.cancel(this.pressed.event);
     });
