@@ -92,7 +92,7 @@ pub(crate) enum Meaning {
 }
 
 /// Longest word in a table.
-const WORD_LEN_MAX: usize = 24;
+const WORD_LEN_MAX: usize = 32;
 
 /// A word as tables of words are searched for it.
 pub(crate) type Key = [u8; WORD_LEN_MAX];

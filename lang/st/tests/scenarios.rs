@@ -6,9 +6,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use awl_sim::open::{File, open_files};
-use awl_sim::plant::PlantSpec;
 use awl_sim::run::{Job, Length, run};
 use awl_sim::scenario::{Context, Scenario, program_of};
+use awl_sim::suite::plant_for;
 
 /// The scenario that a case carries, each statement on its line.
 fn scenario_in(case: &str) -> String {
@@ -36,9 +36,14 @@ fn failures(program: &Path, scenario: &Path) -> Vec<String> {
     };
     let machine = &mut *opened.machine;
     let mut has_operand = |operand| awl_sim::machine::Machine::read(machine, operand).map(|_| ());
-    let plant: Option<&PlantSpec> = None;
+    let origin = scenario.display().to_string();
+    let plant = match plant_for(scenario, &origin, &text) {
+        Ok(plant) => plant,
+        Err(problems) => return vec![format!("{name}: {problems}")],
+    };
+    let plant = plant.as_ref();
     let context = Context { symbols: &opened.symbols, plant, has_operand: &mut has_operand };
-    let parsed = match Scenario::parse(&scenario.display().to_string(), &text, context) {
+    let parsed = match Scenario::parse(&origin, &text, context) {
         Ok(parsed) => parsed,
         Err(problems) => return vec![format!("{name}: {}", problems.render(false))],
     };
@@ -73,6 +78,7 @@ fn programs_do_what_their_scenarios_expect() {
         ("../../examples/st", "../../examples"),
         ("../../examples/st/tutorial", "../../examples/tutorial"),
         ("../../examples/sfc", "../../examples"),
+        ("../../examples/sfc/tutorial", "../../examples/tutorial"),
         ("../../examples/grafcet", "../../examples"),
         ("tests/cases", "tests/cases"),
     ] {
