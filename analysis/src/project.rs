@@ -6,7 +6,6 @@ use std::rc::Rc;
 
 use awl_asm::symbols::load;
 use awl_sim::scenario::plant_file_of;
-use chart::Chart;
 use chart::text::Document;
 use diagnostics::source::SourceError;
 use diagnostics::{Source, Span};
@@ -283,13 +282,10 @@ impl Project {
         drawing_at(&entry.source, &model.assembly, offset)
     }
 
-    /// The charts of a text and those in their actions, each before those in it, by their names
-    /// with those of the charts around.
-    pub fn charts(&self, name: &str) -> Vec<(String, Chart)> {
-        let entry = self.texts.get(name).filter(|entry| entry.language == Language::Chart);
-        let document = entry.map(|entry| chart::text::read(&entry.source).document);
-        let charts = document.iter().flat_map(Document::charts).flat_map(Chart::named_with_inner);
-        charts.map(|(name, chart)| (name, chart.clone())).collect()
+    /// A text with charts as it is read; `None` where there is no such text.
+    pub fn charts(&self, name: &str) -> Option<Document> {
+        let entry = self.texts.get(name).filter(|entry| entry.language == Language::Chart)?;
+        Some(chart::text::read(&entry.source).document)
     }
 
     /// The change that gives a text its canonical layout; `None` if it has that.

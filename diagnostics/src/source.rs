@@ -22,6 +22,11 @@ impl Span {
         Span { start: start as u32, end: end as u32 }
     }
 
+    /// Whether all of it is within another one, which it may equal.
+    pub fn is_in(self, outer: Span) -> bool {
+        outer.start <= self.start && self.end <= outer.end
+    }
+
     /// The covered text.
     pub fn text(self, source: &str) -> &str {
         source.get(self.start as usize..self.end as usize).unwrap_or("")

@@ -6,18 +6,20 @@ use std::process::{Command, Output, Stdio};
 
 use crate::case::folder;
 
-/// The program of a package of the workspace, built beside the test that runs.
+/// A program of the workspace, built beside the test that runs. It is built in the root and chosen
+/// by its own name: with `--package` cargo would compile everything anew with other features.
 ///
 /// # Panics
 /// If it cannot be built.
-pub fn built(package: &str) -> PathBuf {
+pub fn built(program: &str) -> PathBuf {
     let test = std::env::current_exe().expect("a test has a file");
     // target/debug/deps/test
     let target = test.ancestors().nth(3).expect("it is in a target folder");
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["build", "--quiet", "--package", package, "--target-dir"]).arg(target);
+    cargo.current_dir(folder(".."));
+    cargo.args(["build", "--quiet", "--bin", program, "--target-dir"]).arg(target);
     assert!(cargo.status().expect("cargo starts").success());
-    target.join("debug").join(package)
+    target.join("debug").join(program)
 }
 
 /// The firmware that is part of the tools: what a user's board gets, whichever compiler is here.

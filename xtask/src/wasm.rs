@@ -36,7 +36,7 @@ const DEBIAN_LINKER: &str = "wasm-ld-19";
 
 /// Builds the libraries, and compares the report of node with that of this computer.
 pub fn check() -> Result<()> {
-    let module = build(MODULE, &LIBRARIES)?;
+    let module = build(&LIBRARIES)?.join(MODULE).with_extension("wasm");
     let folder = root().join("target/wasm/node");
     run(tool("bind").arg(&module).arg(&folder))?;
     let there = report_of_node(&folder.join(MODULE).with_extension("js"))?;
@@ -54,10 +54,10 @@ pub fn check() -> Result<()> {
 const WITHOUT_MESSAGES: [&str; 3] =
     ["-Zunstable-options", "-Cpanic=immediate-abort", "-Zlocation-detail=none"];
 
-/// Builds the packages `of`, without what their commands need, and tells where the module of one of
-/// them is: optimised and small, as a page loads it. All modules are built alike, so std and the
-/// libraries are built once.
-pub fn build(module: &str, of: &[&str]) -> Result<PathBuf> {
+/// Builds the packages `of`, without what their commands need, and tells in which folder their
+/// modules are: optimised and small, as a page loads them. All modules are built alike, so std and
+/// the libraries are built once.
+pub fn build(of: &[&str]) -> Result<PathBuf> {
     packages::ensure_installed(packages::NODE)?;
     let folder = root().join("target/wasm");
     let (mut build, more_flags) = compiler()?;
@@ -80,8 +80,7 @@ pub fn build(module: &str, of: &[&str]) -> Result<PathBuf> {
         build.args(["--package", package]);
     }
     run(&mut build)?;
-    let name = module.replace('-', "_");
-    Ok(folder.join(TARGET).join("release").join(name).with_extension("wasm"))
+    Ok(folder.join(TARGET).join("release"))
 }
 
 /// Whether rustup's compiler has the target.

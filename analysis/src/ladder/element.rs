@@ -156,9 +156,7 @@ fn parameters(sheet: Sheet<'_>, one: &Instruction) -> Vec<Pin> {
 fn operand_of(sheet: Sheet<'_>, operand: &ast::Operand) -> Operand {
     let text = operand.span.text(&sheet.source.text);
     let program = &sheet.assembly.program;
-    let inside = |name: &ast::Name| {
-        operand.span.start <= name.span.start && name.span.end <= operand.span.end
-    };
+    let inside = |name: &ast::Name| name.span.is_in(operand.span);
     let at = program.names.partition_point(|name| name.span.start < operand.span.start);
     let is_named = program.names.get(at).is_some_and(inside);
     let symbol = program.symbols.iter().find(|symbol| match operand.value {

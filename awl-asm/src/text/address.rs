@@ -2,6 +2,7 @@
 //! No placement.
 
 use std::fmt;
+use std::ops::Range;
 
 use plc_isa::{ANALOG_INPUTS, AnalogInput, Area};
 
@@ -80,6 +81,32 @@ impl Address {
             | Address::Analog(_)
             | Address::AnalogOutput(_) => None,
         }
+    }
+
+    /// The bytes of a byte, word or double word.
+    pub fn bytes(self) -> Option<(Area, Range<u16>)> {
+        match self {
+            Address::Byte { area, byte } => Some((area, byte..byte + 1)),
+            Address::Word { area, byte } => Some((area, byte..byte + 2)),
+            Address::Double { area, byte } => Some((area, byte..byte + 4)),
+            _ => None,
+        }
+    }
+
+    /// Whether what is written to the one can change the other: `VW0` and `VB1`, `M0.0` and `MB0`.
+    pub fn overlaps(self, other: Address) -> bool {
+        let is_bit = |one| matches!(one, Address::Bit { .. });
+        if self == other || (is_bit(self) && is_bit(other)) {
+            return self == other;
+        }
+        let place = |one| match one {
+            Address::Bit { area, byte, .. } => Some((area, byte..byte + 1)),
+            _ => one.bytes(),
+        };
+        let (Some((area, own)), Some((other, bytes))) = (place(self), place(other)) else {
+            return false;
+        };
+        area == other && own.start < bytes.end && bytes.start < own.end
     }
 
     /// Whether `text`, as which it is written, has a German area letter, such as E0.0 or Z1.

@@ -11,6 +11,9 @@ use chart::model::Chart;
 /// edits as they are.
 pub fn as_seen(edit: Edit, chart: &Chart) -> Edit {
     let Edit::Place { steps, transitions } = edit else { return edit };
+    if chart.steps.values().all(|step| step.at.is_none()) {
+        return Edit::Place { steps, transitions };
+    }
     let seen = drawing::places(chart);
     if !seen.is_given {
         return Edit::Place { steps, transitions };

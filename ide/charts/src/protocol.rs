@@ -3,7 +3,6 @@
 //! too.
 
 use std::fmt;
-use std::str::FromStr;
 
 use chart::edit::Element;
 use chart::model::{StepId, TransitionId};
@@ -98,23 +97,15 @@ impl From<ElementId> for String {
     }
 }
 
-impl FromStr for ElementId {
-    type Err = String;
+impl TryFrom<String> for ElementId {
+    type Error = String;
 
-    fn from_str(text: &str) -> Result<ElementId, String> {
+    fn try_from(text: String) -> Result<ElementId, String> {
         let numbered = |kind| text.strip_prefix(kind)?.parse().ok();
         let step = numbered('s').map(|number| Element::Step(StepId(number)));
         let transition = || numbered('t').map(|number| Element::Transition(TransitionId(number)));
         let element = step.or_else(transition);
         element.map(ElementId).ok_or_else(|| format!("{text:?} is no step and no transition"))
-    }
-}
-
-impl TryFrom<String> for ElementId {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<ElementId, String> {
-        text.parse()
     }
 }
 

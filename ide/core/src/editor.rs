@@ -236,8 +236,8 @@ impl Editor {
         self.project.ladder(name, self.byte(name, at))
     }
 
-    /// The charts of a file by their names, those in actions after the one around.
-    pub fn charts(&self, name: &str) -> Vec<(String, analysis::chart::Chart)> {
+    /// A file with charts; `None` where it is of another kind.
+    pub fn charts(&self, name: &str) -> Option<analysis::chart::text::Document> {
         self.project.charts(name)
     }
 

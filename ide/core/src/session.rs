@@ -291,8 +291,10 @@ impl Session {
             }
             TextWish::Chart { file } => {
                 self.drawings += 1;
-                let charts = editor.charts(&file);
-                self.show_charts(Charts::of(self.drawings, file, charts));
+                let document = editor.charts(&file);
+                let charts =
+                    document.and_then(|document| Charts::of(self.drawings, file, &document));
+                self.show_charts(charts);
                 answer(
                     self.charts
                         .as_ref()

@@ -4,8 +4,8 @@
 // `node test/chart_editor.mjs ADDRESS`.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
-import { deflateSync } from "fflate";
 import { controls, open, watched } from "./browser.mjs";
+import { chain, file, listen, load as loadAt, middle } from "./chart_page.mjs";
 
 /** Steps of a large chart, and how often it is changed. */
 const LARGE = 2000;
@@ -14,51 +14,7 @@ const EDITS = 8;
 const [, , given] = process.argv;
 const { browser, page, errors } = await open({ patience: 30_000 });
 
-/** Has a page keep what the core told last of active steps, and was told last of texts. */
-async function listen(page) {
-  await page.addInitScript(() => {
-    const Real = Worker;
-    globalThis.told = [];
-    globalThis.texts = {};
-    globalThis.Worker = class extends Real {
-      constructor(...given) {
-        super(...given);
-        this.addEventListener("message", ({ data }) => {
-          for (const event of Array.isArray(data) ? data : [])
-            if (event.is === "situation") globalThis.told = event.steps;
-        });
-      }
-      postMessage(wish) {
-        super.postMessage(wish);
-        const told = typeof wish === "string" ? JSON.parse(wish) : {};
-        if (told.do === "open")
-          for (const { name, text } of told.files) globalThis.texts[name] = text;
-        if (told.do === "edit" && told.file) globalThis.texts[told.file] = told.text;
-      }
-    };
-  });
-}
-
-/** A project in the address, with the panel of charts. */
-async function load(page, ...files) {
-  const content = { files, main: files[0].name, plant: null, view: "chart" };
-  const part = Buffer.from(deflateSync(Buffer.from(JSON.stringify(content)))).toString("base64url");
-  await page.goto("about:blank");
-  await page.goto(`${given.replace(/\?.*/, "")}#project=${part}`);
-  await page.getByRole("textbox", { name: files[0].name }).waitFor();
-}
-
-/** A chart of so many steps in a row, in the layout of the tools. */
-function chain(count) {
-  const names = Array.from({ length: count }, (_, at) => `S${at + 1}`);
-  const steps = names.map((name, at) => `${at === 0 ? "INITIAL_" : ""}STEP ${name}:\nEND_STEP\n`);
-  const ways = names
-    .slice(1)
-    .map((name, at) => `TRANSITION FROM ${names[at]} TO ${name} := TRUE;\nEND_TRANSITION\n`);
-  return [...steps, ...ways].join("\n");
-}
-
-const file = (name, text = "") => ({ name, text });
+const load = (page, ...files) => loadAt(page, given, ...files);
 const { button, tab, panel, mode } = controls(page);
 const chart = panel("Chart");
 const key = (name) => page.keyboard.press(name);
@@ -144,12 +100,6 @@ const drag = async (from, to, options = {}) => {
   await page.mouse.move((from[0] + to[0]) / 2, (from[1] + to[1]) / 2);
   await page.mouse.move(...to, { steps: 3 });
   await page.mouse.up(options);
-};
-
-/** The middle of what is drawn. */
-const middle = async (node) => {
-  const { x, y, width, height } = await node.boundingBox();
-  return [x + width / 2, y + height / 2];
 };
 
 // With keys alone: the panel, its button, then a key for each thing.

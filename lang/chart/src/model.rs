@@ -371,11 +371,7 @@ impl Chart {
 
     /// The chart and those in its actions, each before those in it: as they are drawn.
     pub fn with_inner(&self) -> Vec<&Chart> {
-        let inner = self.actions.values().filter_map(|action| match &action.body {
-            Body::Chart(inner) => Some(inner.with_inner()),
-            Body::Variable | Body::Code(_) => None,
-        });
-        std::iter::once(self).chain(inner.flatten()).collect()
+        self.named_with_inner().into_iter().map(|(_, chart)| chart).collect()
     }
 
     /// As [`with_inner`](Chart::with_inner), each with its name after those of the charts around:

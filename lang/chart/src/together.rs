@@ -2,41 +2,49 @@
 //! how two values compare; of one that is compared with numbers, the numbers decide. Nothing is
 //! said where that would be a guess: too much is in them, or what is in them depends on each other.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
+use std::ops::Bound::{Excluded, Unbounded};
 
+use awl_asm::Address;
+use st::names::is_same;
 use st::tree::{BinaryOperator, Expression, ExpressionKind, Selector, UnaryOperator};
 use st::visit;
 
 /// So many combinations of values are tried.
 const COMBINATIONS_MAX: usize = 4096;
+/// More atoms have more combinations: each has two values at least.
+const ATOMS_MAX: usize = COMBINATIONS_MAX.ilog2() as usize;
 
 /// Values that make both conditions TRUE, such as `Start = TRUE`; `None` where there are none, or
 /// where that is not plain. `text` is that in which the conditions stand.
 pub(crate) fn together(text: &str, conditions: [&Expression; 2]) -> Option<Vec<String>> {
-    let mut atoms = Atoms { text, list: Vec::new(), users: BTreeMap::new(), is_vague: false };
+    let mut atoms = Atoms { text, list: Vec::new(), users: Vec::new(), is_vague: false };
     let formulas = conditions.map(|one| atoms.formula(one));
-    let domains: Vec<Vec<i64>> =
-        atoms.list.iter().map(|atom| atom.domain.iter().copied().collect()).collect();
     let combinations =
-        domains.iter().try_fold(1usize, |all, domain| all.checked_mul(domain.len()))?;
+        atoms.list.iter().try_fold(1usize, |all, atom| all.checked_mul(atom.domain.len()))?;
     if atoms.is_vague || combinations > COMBINATIONS_MAX {
         return None;
     }
-    let found = (0..combinations).map(|number| combination(&domains, number));
-    let values = found.into_iter().find(|values| formulas.iter().all(|one| one.holds(values)))?;
+    let mut values: Vec<i64> = atoms.list.iter().map(Atom::least).collect();
+    while !formulas.iter().all(|one| one.holds(&values)) {
+        if !next(&atoms.list, &mut values) {
+            return None;
+        }
+    }
     Some(atoms.list.iter().zip(values).map(|(atom, value)| atom.says(value)).collect())
 }
 
-/// The values of a combination; the last one changes first.
-fn combination(domains: &[Vec<i64>], mut number: usize) -> Vec<i64> {
-    let backward = domains.iter().rev().map(|domain| {
-        let at = number % domain.len().max(1);
-        number /= domain.len().max(1);
-        domain.get(at).copied().unwrap_or_default()
-    });
-    let mut values: Vec<i64> = backward.collect();
-    values.reverse();
-    values
+/// Changes the values into the next combination; the last one changes first. `false` after the last
+/// combination.
+fn next(atoms: &[Atom], values: &mut [i64]) -> bool {
+    for (atom, value) in atoms.iter().zip(values).rev() {
+        if let Some(larger) = atom.domain.range((Excluded(*value), Unbounded)).next() {
+            *value = *larger;
+            return true;
+        }
+        *value = atom.least();
+    }
+    false
 }
 
 /// A condition.
@@ -65,11 +73,19 @@ struct Atom {
     domain: BTreeSet<i64>,
 }
 
+/// Something that has a value of its own.
+#[derive(PartialEq, Eq)]
+enum Named {
+    /// A variable, in upper case; of an array all of it.
+    Variable(String),
+    Address(Address),
+}
+
 struct Atoms<'t> {
     text: &'t str,
     list: Vec<Atom>,
-    /// The atoms in which names are.
-    users: BTreeMap<String, usize>,
+    /// What is named, with the atom in which it is.
+    users: Vec<(Named, usize)>,
     is_vague: bool,
 }
 
@@ -131,6 +147,10 @@ fn number(expression: &Expression) -> Option<(i64, bool)> {
 }
 
 impl Atom {
+    fn least(&self) -> i64 {
+        self.domain.first().copied().unwrap_or_default()
+    }
+
     fn says(&self, value: i64) -> String {
         match &self.about {
             About::Truth(text) => format!("{text} = {}", if value == 0 { "FALSE" } else { "TRUE" }),
@@ -197,7 +217,9 @@ impl Atoms<'_> {
         let (number, is_time) = number;
         let about = About::Number { text: self.written(of), is_time };
         let near = [number.saturating_sub(1), number, number.saturating_add(1)];
-        Formula::Leaf(self.atom(about, near, &[of]), relation, number)
+        // What is compared with nothing below zero may have no such values.
+        let values = near.into_iter().filter(|value| *value >= 0 || number < 0);
+        Formula::Leaf(self.atom(about, values, &[of]), relation, number)
     }
 
     fn order(
@@ -222,21 +244,31 @@ impl Atoms<'_> {
     }
 
     /// The number of an atom; what makes a difference to it is noted.
-    fn atom<const N: usize>(
+    fn atom(
         &mut self,
         about: About,
-        values: [i64; N],
+        values: impl IntoIterator<Item = i64>,
         in_it: &[&Expression],
     ) -> usize {
+        if self.is_vague {
+            return 0;
+        }
         let at = self.list.iter().position(|known| known.about.is_same(&about));
         let at = at.unwrap_or_else(|| {
             self.list.push(Atom { about, domain: BTreeSet::new() });
             self.list.len() - 1
         });
-        self.list.get_mut(at).into_iter().for_each(|atom| atom.domain.extend(values));
+        self.is_vague |= self.list.len() > ATOMS_MAX;
+        if let Some(atom) = self.list.get_mut(at) {
+            atom.domain.extend(values);
+        }
         for expression in in_it {
-            for name in names(expression) {
-                self.is_vague |= *self.users.entry(name).or_insert(at) != at;
+            for named in named(expression) {
+                let is_used = |(other, user): &(Named, usize)| *user != at && named.meets(other);
+                self.is_vague |= self.users.iter().any(is_used);
+                if !self.users.iter().any(|(other, user)| *user == at && *other == named) {
+                    self.users.push((named, at));
+                }
             }
         }
         at
@@ -245,7 +277,6 @@ impl Atoms<'_> {
 
 impl About {
     fn is_same(&self, other: &About) -> bool {
-        let is_same = |a: &str, b: &str| a.to_uppercase() == b.to_uppercase();
         match (self, other) {
             (About::Truth(a), About::Truth(b)) => is_same(a, b),
             (About::Number { text: a, .. }, About::Number { text: b, .. }) => is_same(a, b),
@@ -255,9 +286,19 @@ impl About {
     }
 }
 
-/// The variables in an expression, in upper case; of an array all of it.
-fn names(expression: &Expression) -> BTreeSet<String> {
-    let mut names = BTreeSet::new();
+impl Named {
+    /// Whether what changes the one can change the other.
+    fn meets(&self, other: &Named) -> bool {
+        match (self, other) {
+            (Named::Address(one), Named::Address(other)) => one.overlaps(*other),
+            _ => self == other,
+        }
+    }
+}
+
+/// What is named in an expression. An address that there is not is reported elsewhere.
+fn named(expression: &Expression) -> Vec<Named> {
+    let mut all = Vec::new();
     visit::expressions(&mut expression.clone(), &mut |one| {
         match &one.kind {
             ExpressionKind::Variable(name, selectors) => {
@@ -266,14 +307,16 @@ fn names(expression: &Expression) -> BTreeSet<String> {
                     let Selector::Field(field) = selector else { break };
                     text = format!("{text}.{}", field.text.to_uppercase());
                 }
-                names.insert(text);
+                all.push(Named::Variable(text));
             }
             ExpressionKind::Address(address) => {
-                names.insert(format!("%{}", address.to_uppercase()));
+                // `MX0.0` is M0.0; no area has an X.
+                let address = address.to_uppercase().replacen('X', "", 1);
+                all.extend(Address::parse(&address).ok().map(Named::Address));
             }
             _ => {}
         }
         true
     });
-    names
+    all
 }

@@ -137,6 +137,36 @@ fn comments_settings_and_places_are_kept() {
 }
 
 #[test]
+fn comments_after_types_and_heads_of_units_stay_with_them() {
+    let text = "TYPE\n    Which : (A, B); // Which one.\n    Recipe : STRUCT\n        n : INT; \
+                // How many.\n    END_STRUCT; // What to do.\n    Count : INT (0..9);\nEND_TYPE\n\
+                VAR_GLOBAL\n    g : BOOL;\nEND_VAR\n\
+                FUNCTION Twice : INT // Doubles.\nVAR_INPUT\n    x : INT;\nEND_VAR\n\
+                Twice := 2 * x;\nEND_FUNCTION\n\
+                PROGRAM Station // All of it.\n// For two.\nVAR\n    // The first.\n    a : BOOL;\n\
+                END_VAR\nINITIAL_STEP Off: END_STEP\nSTEP On: g; END_STEP\n\
+                TRANSITION FROM Off TO On := a; END_TRANSITION\n\
+                TRANSITION FROM On TO Off := NOT a; END_TRANSITION\nEND_PROGRAM\n\
+                // The end.\n";
+    let project = written(&source("heads.sfc", text)).expect("a project");
+    assert_eq!(invalid(&project), None, "{project}");
+    let again = again("heads.sfc", &project).text;
+    for line in [
+        "Which : (A, B); // Which one.",
+        "n : INT; // How many.",
+        "END_STRUCT; // What to do.",
+        "Count : INT (0..9);\n",
+        "g : BOOL;\n",
+        "x : INT;\n",
+        "// Doubles.\nFUNCTION Twice",
+        "// All of it.\n// For two.\n// The end.\nPROGRAM Station",
+        "a : BOOL; // The first.",
+    ] {
+        assert!(again.contains(line), "{line} in\n{again}");
+    }
+}
+
+#[test]
 fn what_has_no_place_is_refused() {
     for seed in 0..20 {
         let grafcet = source("g.sfc", &random_grafcet::program(seed));

@@ -24,9 +24,10 @@ pub fn folder() -> PathBuf {
 pub fn build() -> Result<Modules> {
     let packages = MODULES.map(|module| module.replace('_', "-"));
     let packages: Vec<&str> = packages.iter().map(String::as_str).collect();
+    let built = wasm::build(&packages)?;
     let folder = folder();
-    for module in &packages {
-        let module = wasm::build(module, &packages)?;
+    for module in MODULES {
+        let module = built.join(module).with_extension("wasm");
         run(tool("bind").args([&module, &folder]).arg("web"))?;
     }
     let read = |name: String| {

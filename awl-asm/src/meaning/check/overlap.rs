@@ -30,7 +30,7 @@ pub fn overlap(
 ) {
     let mut areas: BTreeMap<Area, Vec<Named>> = BTreeMap::new();
     for (&address, accesses) in &usage.accesses {
-        let Some((area, bytes)) = value(address).filter(|(_, bytes)| bytes.len() > 1) else {
+        let Some((area, bytes)) = address.bytes().filter(|(_, bytes)| bytes.len() > 1) else {
             continue;
         };
         let write = accesses.iter().find(|access| access.writes);
@@ -74,16 +74,6 @@ pub fn overlap(
     }
 }
 
-/// The bytes of a byte, word or double word.
-fn value(address: Address) -> Option<(Area, Range<u16>)> {
-    match address {
-        Address::Byte { area, byte } => Some((area, byte..byte + 1)),
-        Address::Word { area, byte } => Some((area, byte..byte + 2)),
-        Address::Double { area, byte } => Some((area, byte..byte + 4)),
-        _ => None,
-    }
-}
-
 /// Warns of a bit that is written inside of a value that is counted with.
 fn counted_bits(
     program: &Program,
@@ -93,7 +83,7 @@ fn counted_bits(
 ) {
     let mut counted: HashMap<(Area, u16), (Address, Access)> = HashMap::new();
     for (&address, accesses) in &usage.accesses {
-        let Some((area, bytes)) = value(address) else { continue };
+        let Some((area, bytes)) = address.bytes() else { continue };
         let counts = |access: &&Access| {
             access.writes && access.reads && is_counting(code[access.instruction].op)
         };

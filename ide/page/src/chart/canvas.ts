@@ -120,20 +120,34 @@ export class Canvas {
   /** Gives nodes to what can be seen, and takes them from the rest. */
   refresh(): void {
     const view = this.view(AHEAD);
-    const items = this.drawn?.items ?? [];
-    const seen = new Set<string>();
-    for (const item of items) {
+    const shown = (this.drawn?.items ?? []).filter((item) => {
       const isSeen = (this.only === null || this.only === item.sheet) && meet(item.box, view);
-      if (!isSeen && !this.looks.isPinned(item)) continue;
-      seen.add(item.key);
-      this.mount(item);
+      const isKept = this.looks.isPinned(item) || this.shapes.get(item.key)?.isMoved;
+      return isSeen || isKept;
+    });
+    this.keep(new Set(shown.map(({ key }) => key)));
+    // From the last one on, so that each is put before the one that comes after it in the chart.
+    const next = new Map<SVGGElement | undefined, SVGGElement>();
+    for (const item of shown.toReversed()) {
+      const layer = this.layerOf(item);
+      const { group } = this.mount(item);
+      put(layer, group, next.get(layer) ?? null);
+      next.set(layer, group);
     }
+    for (const listener of this.listeners) listener();
+  }
+
+  private keep(keys: Set<string>): void {
     for (const [key, shape] of this.shapes)
-      if (!seen.has(key)) {
+      if (!keys.has(key)) {
         shape.group.remove();
         this.shapes.delete(key);
       }
-    for (const listener of this.listeners) listener();
+  }
+
+  private layerOf({ sheet, kind }: Item): SVGGElement | undefined {
+    const layer = this.layers[sheet];
+    return kind === "step" ? layer?.steps : layer?.transitions;
   }
 
   private mount(item: Item): Shape {
@@ -142,8 +156,6 @@ export class Canvas {
     else {
       shape = new Shape(item);
       this.shapes.set(item.key, shape);
-      const layer = this.layers[item.sheet];
-      (item.kind === "step" ? layer?.steps : layer?.transitions)?.append(shape.group);
     }
     shape.show(this.looks.state(item));
     shape.select(this.looks.isSelected(item));
@@ -153,7 +165,21 @@ export class Canvas {
 
   /** The nodes of an element. */
   shape(item: Item): Shape {
-    return this.shapes.get(item.key) ?? this.mount(item);
+    const there = this.shapes.get(item.key);
+    if (there) return there;
+    const layer = this.layerOf(item);
+    const shape = this.mount(item);
+    put(layer, shape.group, this.after(item)?.group ?? null);
+    return shape;
+  }
+
+  /** The next element in the chart's order that has nodes in the same layer. */
+  private after(item: Item): Shape | undefined {
+    const items = this.drawn?.items ?? [];
+    const later = items.slice(items.findIndex(({ key }) => key === item.key) + 1);
+    const layer = this.layerOf(item);
+    const next = later.find((one) => this.layerOf(one) === layer && this.shapes.has(one.key));
+    return next && this.shapes.get(next.key);
   }
 
   /** The element that a node belongs to, and the number of the action. */
@@ -234,4 +260,10 @@ export class Canvas {
     this.element.scrollLeft += by(x, width, left, wide) * this.zoom;
     this.element.scrollTop += by(y, height, top, high) * this.zoom;
   }
+}
+
+/** Puts nodes before others of a layer; those that are there already keep the focus. */
+function put(layer: SVGGElement | undefined, group: SVGGElement, next: SVGGElement | null): void {
+  if (group.parentNode !== layer || group.nextElementSibling !== next)
+    layer?.insertBefore(group, next);
 }

@@ -1,6 +1,7 @@
 // The module of charts as the rest of the page sees it: questions. Where it runs is known here
 // alone.
 import { Refusal } from "../core/core";
+import { OpenQuestions } from "../core/questions";
 import { addressOf } from "../offline/address";
 import type { Questions } from "./protocol";
 
@@ -8,32 +9,21 @@ type Kind = keyof Questions;
 type Question<K extends Kind> = { do: K } & Questions[K]["wish"];
 type Answer = { id: number } & ({ answer: unknown } | { refused: string });
 
-interface Open {
-  answered(answer: unknown): void;
-  failed(error: Error): void;
-}
-
 /** A question whose answer nobody waits for any more. */
 export class Overtaken extends Error {}
 
 export class ChartsModule {
   private worker: Worker | undefined;
-  private lastId = 0;
-  private open = new Map<number, Open>();
+  private questions = new OpenQuestions();
 
   constructor(private broken: (message: string) => void) {}
 
   /** Asks; the promise fails with a [`Refusal`], or as [`Overtaken`]. */
   ask<K extends Kind>(question: Question<K>): Promise<Questions[K]["answer"]> {
-    return new Promise((resolve, reject) => {
-      this.worker ??= this.begin();
-      const id = ++this.lastId;
-      this.open.set(id, {
-        answered: (answer) => resolve(answer as Questions[K]["answer"]),
-        failed: reject,
-      });
-      this.worker.postMessage(JSON.stringify({ id, ...question }));
-    });
+    this.worker ??= this.begin();
+    const id = this.questions.newId();
+    this.worker.postMessage(JSON.stringify({ id, ...question }));
+    return this.questions.answerTo(id);
   }
 
   private begin(): Worker {
@@ -47,21 +37,18 @@ export class ChartsModule {
   }
 
   private take(answer: Answer): void {
-    const open = this.open.get(answer.id);
-    this.open.delete(answer.id);
-    if (!open) return;
-    if ("refused" in answer) return open.failed(new Refusal(answer.refused));
+    const question = this.questions.close(answer.id);
+    if (!question) return;
+    if ("refused" in answer) return question.reject(new Refusal(answer.refused));
     // What is done with a large answer is a task of its own after reading it.
-    setTimeout(() => open.answered(answer.answer));
+    setTimeout(() => question.resolve(answer.answer));
   }
 
   /** The next question begins it anew. */
   private end(message: string): void {
     this.worker?.terminate();
     this.worker = undefined;
-    const open = [...this.open.values()];
-    this.open.clear();
-    for (const one of open) one.failed(new Overtaken());
+    this.questions.rejectAll(new Overtaken());
     this.broken(message);
   }
 }

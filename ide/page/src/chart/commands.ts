@@ -32,6 +32,8 @@ export const SAID: Record<CommandName, Said> = {
   actionDown: { text: "chartActionDown", keys: ["Alt+ArrowDown"] },
   initial: { text: "chartMakeInitial", keys: ["I"] },
   write: { text: "chartWrite", keys: ["Enter", "F2"] },
+  title: { text: "chartTitle", keys: ["T"] },
+  priority: { text: "chartPriority", keys: ["R"] },
   comment: { text: "chartComment", keys: ["K"] },
   erase: { text: "chartErase", keys: ["Delete", "Backspace"] },
   copy: { text: "chartCopy", keys: ["Ctrl+C"] },
@@ -56,7 +58,9 @@ export const SAID: Record<CommandName, Said> = {
 };
 
 /** Those that open a field. */
-const WRITES: readonly CommandName[] = ["write", "action", "comment", "connectTo", "find"];
+const WRITES: readonly CommandName[] = [
+  ...(["write", "title", "priority", "action", "comment", "connectTo", "find"] as const),
+];
 /** Those that change nothing. */
 const READS: readonly CommandName[] = [
   ...(["copy", "all", "goToText", "larger", "smaller", "fit"] as const),
@@ -85,6 +89,8 @@ export class Commands {
   private readonly others = {
     write: () => this.writing.part(),
     action: () => this.writing.newAction(),
+    title: () => this.writing.title(),
+    priority: () => this.writing.priority(),
     comment: () => this.writing.comment(),
     connectTo: () => this.writing.connectTo(),
     copy: () => this.clipboard.copy(),
@@ -160,6 +166,8 @@ export class Commands {
     if (name === "action" && (items?.length !== 1 || !isStep)) return t("chartSelectStep");
     if ((name === "connectTo" || name === "duplicate" || name === "cut") && !isStep)
       return t("chartSelectStep");
+    if ((name === "title" || name === "priority") && focus?.kind !== "transition")
+      return t("chartSelectTransition");
     if ((name === "write" || name === "comment") && !focus) return t("chartSelectOne");
     return null;
   }

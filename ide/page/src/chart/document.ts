@@ -56,6 +56,11 @@ export class ChartDocument {
     this.soon(0);
   }
 
+  /** Whether what is drawn is the text as it is in the editor. */
+  get isUpToDate(): boolean {
+    return this.file !== null && this.project.text(this.file) === this.text;
+  }
+
   /** Whether a first step can be put into the file. */
   get canBegin(): boolean {
     const { drawn, file } = this;

@@ -2,11 +2,14 @@
 // line to the step that is to be connected.
 import { setAttributes, s } from "../page/dom";
 import { meet, type Item, type Point } from "./drawn";
-import { place } from "./edits";
+import { place, shift } from "./edits";
 import type { ChartEditor } from "./editor";
-import type { ElementId, Frame } from "./protocol";
+import type { Frame } from "./protocol";
+import type { Shape } from "./shape";
 
 export interface Drag {
+  /** Whether the ground moves on while it is held at the edge. */
+  isScrolling: boolean;
   move(event: PointerEvent): void;
   /** It is over: here, or, for null, without an effect. */
   end(event: PointerEvent | null): void;
@@ -19,6 +22,7 @@ const GRID = 10;
 export function pan({ canvas: { element } }: ChartEditor, from: PointerEvent): Drag {
   const { scrollLeft, scrollTop } = element;
   return {
+    isScrolling: false,
     move: ({ clientX, clientY }) => {
       element.scrollLeft = scrollLeft - (clientX - from.clientX);
       element.scrollTop = scrollTop - (clientY - from.clientY);
@@ -37,6 +41,7 @@ export function band(editor: ChartEditor, from: PointerEvent): Drag {
   const begin = canvas.point(from);
   const rect = s("rect", { class: "band" });
   return {
+    isScrolling: true,
     move: (event) => {
       const [x, y, width, height] = between(begin, canvas.point(event));
       setAttributes(rect, { x, y, width, height });
@@ -63,43 +68,35 @@ function core(item: Item): Frame {
   return between([x, y], [endX, endY]);
 }
 
-/** Moves what is selected; lines follow when it is dropped. */
+/** Moves what is selected, in the chart that it is in; lines follow when it is dropped. */
 export function move(editor: ChartEditor, from: PointerEvent): Drag {
-  const { canvas, selection } = editor;
+  const { canvas, scene } = editor;
+  const { reading } = editor.document;
   const begin = canvas.point(from);
-  const items = editor.scene?.items ?? [];
+  const items = scene?.items ?? [];
+  const [atX, atY] = scene?.drawn.sheet(scene.sheet)?.origin ?? [0, 0];
   const main = editor.canvas.at(from.target)?.item ?? items[0];
   const by = (event: PointerEvent): Point => {
     const [x, y] = canvas.point(event);
     const [dx, dy] = [x - begin[0], y - begin[1]];
     if (event.altKey || !main) return [dx, dy];
-    const [atX, atY] = editor.origin(selection.sheet);
     const snapped = (middle: number, d: number, origin: number) =>
       Math.round((middle + d - origin) / GRID) * GRID + origin - middle;
     return [snapped(main.middle[0], dx, atX), snapped(main.middle[1], dy, atY)];
   };
-  const shift = (value: string | null) => {
-    for (const item of items) {
-      const { group } = canvas.shape(item);
-      if (value === null) group.removeAttribute("transform");
-      else group.setAttribute("transform", value);
-      group.classList.toggle("moving", value !== null);
-    }
-  };
+  let shapes: Shape[] = [];
   return {
-    move: (event) => shift(`translate(${by(event).join(" ")})`),
+    isScrolling: true,
+    move: (event) => {
+      if (shapes.length === 0) shapes = items.map((item) => canvas.shape(item));
+      for (const shape of shapes) shape.move(by(event));
+    },
     end: (event) => {
-      shift(null);
-      if (!event) return;
-      const [dx, dy] = by(event);
-      const moved = items.map(({ id, middle: [x, y] }): [ElementId, Point] => [
-        id,
-        [x + dx, y + dy],
-      ]);
+      for (const shape of shapes) shape.move(null);
+      if (!event || !scene) return;
+      const moved = shift(items, by(event));
       void editor.perform(async () => {
-        const { scene } = editor;
-        if (!scene) return;
-        await editor.change(scene.sheet, [place(scene.drawn, scene.sheet, moved)]);
+        await editor.change(scene.sheet, [place(scene.drawn, scene.sheet, moved)], reading);
         editor.focus(false);
       });
     },
@@ -110,8 +107,10 @@ export function move(editor: ChartEditor, from: PointerEvent): Drag {
 export function connection(editor: ChartEditor): Drag {
   const { canvas } = editor;
   const step = editor.scene?.focus;
+  const { reading } = editor.document;
   const path = s("path", { class: "connection" });
   return {
+    isScrolling: true,
     move: (event) => {
       if (step?.kind !== "step") return;
       const [x, y, width, height] = step.element.frame;
@@ -125,7 +124,7 @@ export function connection(editor: ChartEditor): Drag {
       if (goal?.kind !== "step" || goal.sheet !== step.sheet) return;
       const edit = { connect: { from: [step.id], to: [goal.id] } };
       void editor.perform(async () => {
-        await editor.change(step.sheet, [edit]);
+        await editor.change(step.sheet, [edit], reading);
         editor.focus(false);
       });
     },

@@ -11,7 +11,7 @@ import { Canvas } from "./canvas";
 import { ChartsModule, Overtaken } from "./charts";
 import { Commands } from "./commands";
 import { ChartDocument, type Same } from "./document";
-import { barFrame, type Drawn, type Item, type Point } from "./drawn";
+import { barFrame, type Drawn, type Item } from "./drawn";
 import { Field } from "./field";
 import { Find } from "./find";
 import { Handle } from "./handle";
@@ -47,6 +47,8 @@ export class ChartEditor {
   private first = button("chartFirst", () => void this.perform(() => this.begin()));
   private isShown = false;
   private current: Item | undefined;
+  /** Where Tab leads. */
+  private tabStop: Item | undefined;
   private queue: Promise<void> = Promise.resolve();
 
   constructor(
@@ -62,9 +64,9 @@ export class ChartEditor {
       state: (item) => this.live.state(item),
       isSelected: (item) => this.isSelected(item),
       isCurrent: (item) => item === this.current,
-      isPinned: ({ sheet, id }) => sheet === this.selection.sheet && id === this.selection.focus,
+      isPinned: ({ key }) => key === this.tabStop?.key,
     });
-    this.live = new Live(core, this.document, editors, header, () => this.canvas.later());
+    this.live = new Live(core, this.document, header, () => this.canvas.later());
     this.field = new Field(this.canvas);
     this.pictures = new Pictures(this.canvas, () => ({
       drawn: this.document.drawn,
@@ -133,6 +135,7 @@ export class ChartEditor {
     for (const node of this.stage.querySelectorAll("[role=button][tabindex='0']"))
       node.setAttribute("tabindex", "-1");
     const item = (focus && drawn?.at(sheet, focus)) || drawn?.ofSheet(this.only ?? 0)[0];
+    this.tabStop = item;
     if (item)
       this.canvas
         .shape(item)
@@ -186,11 +189,6 @@ export class ChartEditor {
   selectAll(): void {
     const sheet = this.only ?? this.selection.sheet;
     this.selection.add(this.document.drawn?.ofSheet(sheet) ?? []);
-  }
-
-  /** Where the place (0, 0) of a chart's text is in the drawing. */
-  origin(sheet: number): Point {
-    return this.document.drawn?.sheet(sheet)?.origin ?? [0, 0];
   }
 
   /** Whether a drag moves the ground, whatever is there. */

@@ -80,6 +80,11 @@ export function place(drawn: Drawn, sheet: number, middles: [ElementId, Point][]
   return { place: { elements: moved } };
 }
 
+/** Where the middles of elements are when they are moved. */
+export function shift(items: Item[], [dx, dy]: Point): [ElementId, Point][] {
+  return items.map(({ id, middle: [x, y] }) => [id, [x + dx, y + dy]]);
+}
+
 function align(scene: Scene, moved: (step: StepItem, all: StepItem[]) => Point): Meaning {
   const all = steps(scene);
   if (all.length < 2) return { why: "chartSelectSteps" };

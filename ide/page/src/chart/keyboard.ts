@@ -1,9 +1,8 @@
 // Keys in the drawing: along its lines, and those of commands.
 import type { ChartEditor } from "./editor";
-import { place } from "./edits";
+import { place, shift } from "./edits";
 import { next } from "./ways";
 import type { Point } from "./drawn";
-import type { ElementId } from "./protocol";
 
 /** So far a key moves steps. */
 const MOVED = 10;
@@ -93,14 +92,11 @@ export class Keyboard {
     editor.focus();
   }
 
-  private async move([dx, dy]: Point): Promise<void> {
+  private async move(by: Point): Promise<void> {
     const { editor } = this;
     const { scene } = editor;
     if (!scene || scene.items.length === 0) return;
-    const moved = scene.items.map(({ id, middle: [x, y] }): [ElementId, Point] => [
-      id,
-      [x + dx, y + dy],
-    ]);
+    const moved = shift(scene.items, by);
     await editor.change(scene.sheet, [place(scene.drawn, scene.sheet, moved)]);
     editor.focus();
   }

@@ -1,5 +1,6 @@
 // A pointer in the drawing: a click selects, a drag moves steps, the ground or a band, a wheel and
 // two fingers change the size.
+import { Autoscroll } from "./autoscroll";
 import { connection, band, move, pan, type Drag } from "./drags";
 import type { ChartEditor } from "./editor";
 
@@ -19,9 +20,11 @@ export class Pointer {
   private pressed: Pressed | undefined;
   private fingers = new Map<number, PointerEvent>();
   private last = { key: "", at: 0 };
+  private autoscroll: Autoscroll;
 
   constructor(private editor: ChartEditor) {
     const { element } = editor.canvas;
+    this.autoscroll = new Autoscroll(element, (event) => this.pressed?.drag.move(event));
     element.addEventListener("pointerdown", (event) => this.down(event));
     element.addEventListener("pointermove", (event) => this.moved(event));
     element.addEventListener("pointerup", (event) => this.up(event));
@@ -43,8 +46,7 @@ export class Pointer {
     const { element } = this.editor.canvas;
     if (event.pointerType === "touch") {
       this.fingers.set(event.pointerId, event);
-      if (this.fingers.size > 1)
-        return (this.pressed?.drag.end(null), void (this.pressed = undefined));
+      if (this.fingers.size > 1) return this.finish(null);
     }
     element.setPointerCapture(event.pointerId);
     this.pressed = { event, drag: this.dragOf(event), isDrag: false };
@@ -77,7 +79,9 @@ export class Pointer {
       event.clientY - pressed.event.clientY,
     );
     pressed.isDrag ||= far > (event.pointerType === "touch" ? FAR.touch : FAR.mouse);
-    if (pressed.isDrag) pressed.drag.move(event);
+    if (!pressed.isDrag) return;
+    pressed.drag.move(event);
+    if (pressed.drag.isScrolling) this.autoscroll.follow(event);
   }
 
   /** Two fingers: the ground follows their middle, its size their distance. */
@@ -100,10 +104,8 @@ export class Pointer {
     this.fingers.delete(event.pointerId);
     const { pressed } = this;
     if (!pressed || pressed.event.pointerId !== event.pointerId) return;
-    this.pressed = undefined;
-    if (pressed.isDrag) return pressed.drag.end(event);
-    pressed.drag.end(null);
-    this.clicked(pressed.event);
+    this.finish(pressed.isDrag ? event : null);
+    if (!pressed.isDrag) this.clicked(pressed.event);
   }
 
   private clicked(event: PointerEvent): void {
@@ -126,8 +128,15 @@ export class Pointer {
 
   private cancel(event: PointerEvent): void {
     this.fingers.delete(event.pointerId);
-    this.pressed?.drag.end(null);
+    this.finish(null);
+  }
+
+  /** Ends the drag: here, or, for null, without an effect. */
+  private finish(event: PointerEvent | null): void {
+    const { pressed } = this;
     this.pressed = undefined;
+    this.autoscroll.stop();
+    pressed?.drag.end(event);
   }
 
   /** With Ctrl it changes the size; so does a pinch on a touchpad. */

@@ -33,8 +33,8 @@ export class Selection {
     const [first] = items;
     if (!first) return;
     const before = first.sheet === this.sheet ? this.ids : [];
-    const new_ = items.filter((item) => item.sheet === first.sheet).map(({ id }) => id);
-    const ids = [...new Set([...before, ...new_])];
+    const added = items.filter((item) => item.sheet === first.sheet).map(({ id }) => id);
+    const ids = [...new Set([...before, ...added])];
     this.set(first.sheet, ids, ids.at(-1) ?? null);
   }
 

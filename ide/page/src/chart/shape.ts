@@ -20,6 +20,8 @@ export class Shape {
   private drawn = "";
   private language = "";
   private state: boolean | null = null;
+  /** Whether it is seen elsewhere than in its place. */
+  isMoved = false;
 
   constructor(private item: Item) {
     this.button = button();
@@ -78,6 +80,14 @@ export class Shape {
   select(isSelected: boolean): void {
     this.group.classList.toggle("selected", isSelected);
     this.button.setAttribute("aria-pressed", String(isSelected));
+  }
+
+  /** Shows it elsewhere while it is dragged, or, for null, in its place. */
+  move(by: Point | null): void {
+    this.isMoved = by !== null;
+    this.group.classList.toggle("moving", this.isMoved);
+    if (by) this.group.setAttribute("transform", `translate(${by.join(" ")})`);
+    else this.group.removeAttribute("transform");
   }
 
   /** Its button, or that of an action. */

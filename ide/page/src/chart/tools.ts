@@ -12,7 +12,7 @@ const INSERT: CommandName[][] = [
   ["action"],
 ];
 const CHANGE: CommandName[][] = [
-  ["write", "comment", "initial", "actionUp", "actionDown", "erase"],
+  ["write", "title", "priority", "comment", "initial", "actionUp", "actionDown", "erase"],
   ["copy", "cut", "paste", "duplicate", "all"],
   ["alignLeft", "alignTop", "layout"],
   ["goToText"],

@@ -5,8 +5,11 @@ import { t, type Args, type Key } from "../text/language";
 import { barFrame, type Item, type StepItem } from "./drawn";
 import type { ChartEditor } from "./editor";
 import { variables, stepNames, stepOf } from "./names";
-import type { Edit, Frame } from "./protocol";
+import type { ChartTransition, Edit, Frame } from "./protocol";
 import { line, wanted } from "./written";
+
+/** The last number that a priority can be. */
+const PRIORITY_MAX = 4_294_967_295;
 
 export class Writing {
   constructor(
@@ -38,6 +41,39 @@ export class Writing {
     this.open(item, ["chartConditionOf", title], condition, at, this.variables(item), (text) => ({
       setCondition: { transition: item.id, text },
     }));
+  }
+
+  /** The name of a transition; without one it has none. */
+  title(): void {
+    this.ofTransition(
+      "chartTitleOf",
+      ({ name }) => name,
+      (name) => ({ name }),
+    );
+  }
+
+  /** Its priority. */
+  priority(): void {
+    this.ofTransition(
+      "chartPriorityOf",
+      ({ priority }) => priority,
+      (text) => ({ priority: text === null ? null : priorityOf(text) }),
+    );
+  }
+
+  private ofTransition(
+    label: Key,
+    read: (element: ChartTransition) => string | number | null,
+    change: (text: string | null) => Partial<ChartTransition>,
+  ): void {
+    const item = this.editor.scene?.focus;
+    if (item?.kind !== "transition") return;
+    const { element } = item;
+    const value = String(read(element) ?? "");
+    this.open(item, [label, element.title], value, barFrame(element), [], (text) => {
+      const { name, priority, from, to } = { ...element, ...change(text === "" ? null : text) };
+      return { setTransition: { transition: item.id, name, priority, from, to } };
+    });
   }
 
   private action(step: StepItem, index: number): void {
@@ -142,4 +178,10 @@ export class Writing {
       editor.takeWritten(),
     );
   }
+}
+
+function priorityOf(text: string): number {
+  const priority = /^\d+$/.test(text) ? Number(text) : NaN;
+  if (priority <= PRIORITY_MAX) return priority;
+  throw new Refusal(t("chartNoPriority", text, PRIORITY_MAX));
 }

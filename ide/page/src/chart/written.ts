@@ -1,8 +1,10 @@
 // How an action of a block is written in one line: `Motor`, `L T#2s Motor`, and back.
 import type { Wanted } from "./protocol";
 
-const QUALIFIER = /^(N|P0|P1|P|S|R|L|DS|SD|SL|D)\s+(\S[^]*)$/i;
-const TIMED = /^(L|D|SD|DS|SL)$/i;
+/** Those that have a time, and those that have none. */
+const TIMED = ["L", "D", "SD", "DS", "SL"];
+const UNTIMED = ["N", "P", "P0", "P1", "S", "R"];
+const QUALIFIER = new RegExp(`^(${[...TIMED, ...UNTIMED].join("|")})\\s+(\\S[^]*)$`, "i");
 /** A time, then the action with what belongs to it. */
 const WITH_TIME = /^(\S.*?)\s+([A-Za-z_%][\w.%]*(?:\s*\{[^]*\})*)$/;
 
@@ -10,10 +12,11 @@ const WITH_TIME = /^(\S.*?)\s+([A-Za-z_%][\w.%]*(?:\s*\{[^]*\})*)$/;
 export function wanted(line: string): Wanted {
   const [, qualifier, rest] = QUALIFIER.exec(line.trim()) ?? [];
   if (!qualifier || !rest) return { qualifier: "N", time: null, action: line.trim() };
-  const [, time, action] = (TIMED.test(qualifier) && WITH_TIME.exec(rest)) || [];
+  const name = qualifier.toUpperCase();
+  const [, time, action] = (TIMED.includes(name) && WITH_TIME.exec(rest)) || [];
   const isTimed = time !== undefined && action !== undefined;
   return {
-    qualifier: qualifier.toUpperCase(),
+    qualifier: name,
     time: isTimed ? time : null,
     action: isTimed ? action : rest,
   };
@@ -21,6 +24,6 @@ export function wanted(line: string): Wanted {
 
 /** The line of an action. */
 export function line({ qualifier, time, action }: Wanted): string {
-  const isPlain = qualifier === "N" && !/^(N|P0|P1|P|S|R|L|DS|SD|SL|D)\s/i.test(action);
+  const isPlain = qualifier === "N" && !QUALIFIER.test(action);
   return [isPlain ? null : qualifier, time, action].filter(Boolean).join(" ");
 }

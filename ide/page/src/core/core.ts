@@ -2,6 +2,7 @@
 // alone.
 import { keepEeprom, keptEeprom } from "../board/eeprom";
 import { addressOf } from "../offline/address";
+import { OpenQuestions } from "./questions";
 import type { Event, EventKind, EventOf, Orders, Questions } from "./protocol";
 
 type Listener = (event: never) => void;
@@ -13,11 +14,6 @@ type Question<K extends keyof Questions> = { do: K } & Questions[K]["wish"];
 /** The answer to a question that was refused. */
 export class Refusal extends Error {}
 
-interface Open {
-  answered(answer: unknown): void;
-  refused(message: string): void;
-}
-
 /** How many orders can be refused late. */
 const ORDERS_MAX = 256;
 
@@ -25,8 +21,7 @@ export class Core {
   /** Called before a question: what was written and not yet sent has to come first. */
   beforeQuestion: () => void = () => {};
   private worker = new Worker(addressOf("worker.js"), { type: "module" });
-  private lastId = 0;
-  private open = new Map<number, Open>();
+  private questions = new OpenQuestions();
   private orders = new Map<number, Order["do"]>();
   private listeners = new Map<EventKind, Listener[]>();
   private refusedListeners: ((what: Order["do"], message: string) => void)[] = [];
@@ -53,12 +48,7 @@ export class Core {
   /** Asks; the promise fails with a [`Refusal`]. */
   ask<K extends keyof Questions>(question: Question<K>): Promise<Questions[K]["answer"]> {
     this.beforeQuestion();
-    return new Promise((resolve, reject) => {
-      this.open.set(this.send(question), {
-        answered: (answer) => resolve(answer as Questions[K]["answer"]),
-        refused: (message) => reject(new Refusal(message)),
-      });
-    });
+    return this.questions.answerTo(this.send(question));
   }
 
   /** Listens to events of a kind, in the order in which listeners came. */
@@ -77,27 +67,21 @@ export class Core {
   }
 
   private send(wish: object): number {
-    const id = ++this.lastId;
+    const id = this.questions.newId();
     this.worker.postMessage(JSON.stringify({ id, ...wish }));
     return id;
   }
 
   private take(event: Event): void {
-    if (event.is === "answer") this.close(event.id)?.answered(event.answer);
+    if (event.is === "answer") this.questions.close(event.id)?.resolve(event.answer);
     if (event.is === "refused") this.refuse(event.id, event.message);
     for (const listener of this.listeners.get(event.is) ?? []) listener(event as never);
   }
 
   private refuse(id: number, message: string): void {
-    const question = this.close(id);
+    const question = this.questions.close(id);
     const order = this.orders.get(id);
-    if (question) question.refused(message);
+    if (question) question.reject(new Refusal(message));
     else if (order) for (const listener of this.refusedListeners) listener(order, message);
-  }
-
-  private close(id: number): Open | undefined {
-    const open = this.open.get(id);
-    this.open.delete(id);
-    return open;
   }
 }

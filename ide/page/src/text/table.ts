@@ -661,6 +661,8 @@ export const TABLE = {
   chartActionDown: ["Action down", "Aktion nach unten", "Bajar la acción"],
   chartMakeInitial: ["Initial step, or not", "Anfangsschritt oder nicht", "Etapa inicial o no"],
   chartWrite: ["Edit name or condition", "Name oder Bedingung ändern", "Editar nombre o condición"],
+  chartTitle: ["Name of transition …", "Name der Transition …", "Nombre de transición …"],
+  chartPriority: ["Priority …", "Priorität …", "Prioridad …"],
   chartComment: ["Comment …", "Kommentar …", "Comentario …"],
   chartErase: ["Erase", "Entfernen", "Quitar"],
   chartCopy: ["Copy steps", "Schritte kopieren", "Copiar etapas"],
@@ -710,6 +712,21 @@ export const TABLE = {
     "Aktion des Schritts {0}: Motor oder L T#2s Motor",
     "Acción de la etapa {0}: Motor o L T#2s Motor",
   ],
+  chartTitleOf: [
+    "Name of transition {0}",
+    "Name der Transition {0}",
+    "Nombre de la transición {0}",
+  ],
+  chartPriorityOf: [
+    "Priority of transition {0}",
+    "Priorität der Transition {0}",
+    "Prioridad de la transición {0}",
+  ],
+  chartNoPriority: [
+    "{0}: a priority is a whole number from 0 to {1}",
+    "{0}: Eine Priorität ist eine ganze Zahl von 0 bis {1}",
+    "{0}: una prioridad es un número entero de 0 a {1}",
+  ],
   chartCommentOf: ["Comment on {0}", "Kommentar zu {0}", "Comentario de {0}"],
   chartConnectOf: ["Connect {0} to", "{0} verbinden mit", "Conectar {0} con"],
   chartMistake: [
@@ -743,6 +760,11 @@ export const TABLE = {
     "select a step first",
     "wählen Sie zuerst einen Schritt",
     "elija primero una etapa",
+  ],
+  chartSelectTransition: [
+    "select a transition first",
+    "wählen Sie zuerst eine Transition",
+    "elija primero una transición",
   ],
   chartSelectSteps: [
     "select two steps or more first",

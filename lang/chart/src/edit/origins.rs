@@ -28,9 +28,9 @@ fn locate(chart: &mut Chart, read: &Chart) {
         }
     }
     // An action that is a variable is written where it is used alone.
-    let written = |action: &&Action| action.body != Body::Variable;
-    let read = read.actions.values().filter(written);
-    let own = chart.actions.values_mut().filter(|action| action.body != Body::Variable);
+    let is_written = |action: &Action| action.body != Body::Variable;
+    let read = read.actions.values().filter(|action| is_written(action));
+    let own = chart.actions.values_mut().filter(|action| is_written(action));
     for (action, read) in own.zip(read) {
         action.origin = read.origin;
         match (&mut action.body, &read.body) {

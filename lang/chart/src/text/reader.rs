@@ -65,7 +65,7 @@ pub(super) fn read(source: &Source) -> Reading {
         reader.step();
     }
     let regions: Vec<Region> = found.iter().map(|(_, region)| *region).collect();
-    let inside = |span: Span| regions.iter().any(|region| is_in(span, region.span));
+    let inside = |span: Span| regions.iter().any(|region| span.is_in(region.span));
     for one in cut.diagnostics {
         if inside(one.span) {
             reader.report(Diagnostic::new(ErrorCode::Syntax, one.span, one.message));
@@ -76,10 +76,6 @@ pub(super) fn read(source: &Source) -> Reading {
     let settings: Vec<Span> = cut.settings.into_iter().filter(|span| inside(*span)).collect();
     let document = document(&source.text, found, &settings);
     Reading { document, regions, diagnostics: reader.diagnostics }
-}
-
-fn is_in(span: Span, region: Span) -> bool {
-    span.start >= region.start && span.end <= region.end
 }
 
 /// What is between charts, without the line break and the indentation that charts bring along.
@@ -102,7 +98,7 @@ fn document(text: &str, found: Vec<(Chart, Region)>, settings: &[Span]) -> Docum
     let piece = |start: u32, end: u32| Span { start, end }.text(text).to_owned();
     for (chart, Region { span: region, .. }) in found {
         let mut before = between(piece(end, region.start), end > 0);
-        for setting in settings.iter().filter(|span| is_in(**span, region)) {
+        for setting in settings.iter().filter(|span| span.is_in(region)) {
             before = format!("{before}{}\n", setting.text(text));
         }
         if !before.is_empty() {

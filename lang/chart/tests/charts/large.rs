@@ -1,8 +1,8 @@
-//! Charts with as many steps as can be drawn: what they take grows as they do.
+//! Charts with as many steps as can be drawn are drawn whole. Nothing here says how long it takes.
 
 use std::fmt::Write;
-use std::time::{Duration, Instant};
 
+use chart::Chart;
 use chart::drawing::{ELEMENTS_MAX, draw};
 use diagnostics::Source;
 
@@ -64,9 +64,8 @@ fn text(form: Form, count: usize) -> String {
     text
 }
 
-/// How long a chart takes to be drawn, the shortest of a few times. With places: those that it has
-/// without.
-fn time(form: Form, count: usize, is_placed: bool) -> Duration {
+/// A chart of a form, with the text that it is from. With places: those that it has without.
+fn chart(form: Form, count: usize, is_placed: bool) -> (Source, Chart) {
     let source = Source::new("large.sfc", text(form, count)).expect("a text");
     let reading = chart::text::read(&source);
     assert!(reading.diagnostics.is_empty());
@@ -75,39 +74,29 @@ fn time(form: Form, count: usize, is_placed: bool) -> Duration {
         let places = chart::drawing::places(&chart).steps;
         chart.steps.iter_mut().for_each(|(id, step)| step.at = places.get(id).copied());
     }
-    let all = (0..4).map(|_| {
-        let start = Instant::now();
-        let drawing = draw([&chart], &source).expect("a chart");
-        let took = start.elapsed();
-        assert_eq!(drawing.sheets[0].steps.len(), count);
-        assert_eq!(drawing.sheets[0].transitions.len(), ends(form, count).len());
-        took
-    });
-    all.min().expect("a time")
+    (source, chart)
 }
 
-/// Eight times the steps take some eight times as long, even where others use the machine; what
-/// grew with the square would take 64 times as long.
+fn is_drawn(form: Form, count: usize, is_placed: bool) {
+    let (source, chart) = chart(form, count, is_placed);
+    let drawing = draw([&chart], &source).expect("a chart");
+    assert_eq!(drawing.sheets[0].is_placed, is_placed);
+    assert_eq!(drawing.sheets[0].steps.len(), count);
+    assert_eq!(drawing.sheets[0].transitions.len(), ends(form, count).len());
+}
+
 #[test]
-fn what_a_chart_takes_grows_as_it_does() {
-    let mut slow = Vec::new();
+fn large_charts_of_every_form_are_drawn_whole() {
     // Alternatives have three transitions for two steps.
     for (form, count) in
         [(Form::Sequence, 2_000), (Form::Alternatives, 1_600), (Form::Parallel, 2_000)]
     {
-        for is_placed in [false, true] {
-            let small = time(form, count / 8, is_placed);
-            let large = time(form, count, is_placed);
-            let how = if is_placed { "with places" } else { "without places" };
-            let found = format!("{form:?} {how}: {count} steps {large:?}, an eighth {small:?}");
-            println!("{found}");
-            slow.extend((large > small * 24).then_some(found));
-        }
+        is_drawn(form, count, false);
+        is_drawn(form, count, true);
     }
-    assert!(slow.is_empty(), "{slow:?}");
 }
 
 #[test]
 fn the_largest_chart_is_drawn() {
-    time(Form::Sequence, ELEMENTS_MAX, false);
+    is_drawn(Form::Sequence, ELEMENTS_MAX, false);
 }

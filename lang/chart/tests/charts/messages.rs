@@ -144,7 +144,7 @@ fn warnings_know_the_hierarchy() {
 /// What is said about two alternatives with these conditions.
 fn alternatives(first: &str, second: &str) -> Option<String> {
     let text = format!(
-        "VAR_GLOBAL n, m : INT; x : REAL; t : TON; a, b, c : BOOL; END_VAR\nPROGRAM P\n\
+        "VAR_GLOBAL n, m : INT; u : UINT; x : REAL; t : TON; a, b, c : BOOL; END_VAR\nPROGRAM P\n\
          INITIAL_STEP A: END_STEP\nSTEP B: END_STEP\nSTEP C: END_STEP\n\
          TRANSITION FROM A TO B := {first}; END_TRANSITION\n\
          TRANSITION FROM A TO C := {second}; END_TRANSITION\n\
@@ -170,6 +170,19 @@ fn alternatives_that_can_be_true_together_are_told_with_values() {
     assert_eq!(told("n >= m", "m >= n"), "m = n");
     assert_eq!(told("t.Q", "a XOR b"), "t.Q = TRUE, a = FALSE, b = TRUE");
     assert_eq!(told("a = FALSE", "b <> TRUE"), "a = FALSE, b = FALSE");
+    assert_eq!(told("n < 9", "n <> -1"), "n = -2");
+    assert_eq!(told("%MX0.0", "%MX0.1"), "%MX0.0 = TRUE, %MX0.1 = TRUE");
+    assert_eq!(told("%VW0 > 3", "%VB2 > 3"), "%VW0 = 4, %VB2 = 4");
+}
+
+#[test]
+fn examples_of_values_are_not_below_zero_where_nothing_is_asked_about_that() {
+    let told = |first, second| alternatives(first, second).expect("something to tell");
+    assert_eq!(told("u < 5", "u >= 0"), "u = 0");
+    assert_eq!(told("A.T < T#1s", "A.T >= T#0s"), "A.T = T#0ms");
+    // Only a value below zero makes both TRUE.
+    assert_eq!(alternatives("u < 5 AND u <> 0", "u < 1"), None);
+    assert_eq!(alternatives("A.T < T#1s AND A.T <> T#0s", "A.T < T#1ms"), None);
 }
 
 #[test]
@@ -188,6 +201,10 @@ fn alternatives_that_exclude_each_other_are_left_alone() {
         ("n > 5", "n > m"),
         ("x > 1.5", "x < 1.0"),
         ("n + m > 5", "n < 2"),
+        ("%VW0 > 3", "%VB1 > 3"),
+        ("%VD0 > 3", "%VW2 > 3"),
+        ("%MX0.0", "%MB0 = 0"),
+        ("%MX0.0", "NOT %M0.0"),
     ] {
         assert_eq!(alternatives(first, second), None, "{first}, {second}");
     }

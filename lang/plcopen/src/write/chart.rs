@@ -150,15 +150,17 @@ impl Project<'_> {
         for (id, transition) in &chart.transitions {
             self.transition(&mut drawn, *id, transition);
         }
-        let at: Vec<(u32, u32, Position)> = joints(&drawn);
-        for (number, from, at) in at {
-            self.joint("selectionDivergence", number, &[from], at, STEP);
+        for (id, number) in &drawn.numbers.alternatives {
+            let from = drawn.numbers.steps.get(id).copied().unwrap_or_default();
+            let at = drawn.step(*id);
+            let at = Position { y: at.y + JOINT, ..at };
+            self.joint("selectionDivergence", *number, &[from], at);
         }
         for (id, number) in &drawn.numbers.branches {
             let from = drawn.numbers.transitions.get(id).copied().unwrap_or_default();
             let at = drawn.transitions.get(id).copied().unwrap_or_default();
             let at = Position { y: at.y + JOINT / 2, ..at };
-            self.joint("simultaneousDivergence", *number, &[from], at, STEP);
+            self.joint("simultaneousDivergence", *number, &[from], at);
         }
         for (id, step) in &chart.steps {
             self.block(&mut drawn, *id, step);
@@ -183,7 +185,7 @@ impl Project<'_> {
         if sources.len() > 1 {
             let number = drawn.numbers.next();
             let above = Position { y: at.y - JOINT, ..at };
-            self.joint("selectionConvergence", number, &sources, above, STEP);
+            self.joint("selectionConvergence", number, &sources, above);
             sources = vec![number];
         }
         let number = drawn.numbers.steps.get(&id).copied().unwrap_or_default().to_string();
@@ -212,7 +214,7 @@ impl Project<'_> {
         if sources.len() > 1 {
             let number = drawn.numbers.next();
             let above = Position { y: at.y - JOINT / 2, ..at };
-            self.joint("simultaneousConvergence", number, &sources, above, STEP);
+            self.joint("simultaneousConvergence", number, &sources, above);
             sources = vec![number];
         }
         let number = drawn.numbers.transitions.get(&id).copied().unwrap_or_default().to_string();
@@ -265,9 +267,9 @@ impl Project<'_> {
     }
 
     /// What only joins lines.
-    fn joint(&mut self, kind: &str, number: u32, from: &[u32], at: Position, size: (i32, i32)) {
+    fn joint(&mut self, kind: &str, number: u32, from: &[u32], at: Position) {
         self.open(kind, &[("localId", &number.to_string())]);
-        self.position(at, size);
+        self.position(at, STEP);
         match kind {
             // Each of its lines has a point of its own.
             "selectionConvergence" => from.iter().for_each(|one| self.lines(&[*one])),
@@ -293,14 +295,4 @@ impl Project<'_> {
         }
         self.close();
     }
-}
-
-/// What diverges after steps: its number, that of the step, and where it is.
-fn joints(drawn: &Drawn) -> Vec<(u32, u32, Position)> {
-    let all = drawn.numbers.alternatives.iter().map(|(id, number)| {
-        let at = drawn.step(*id);
-        let step = drawn.numbers.steps.get(id).copied().unwrap_or_default();
-        (*number, step, Position { y: at.y + JOINT, ..at })
-    });
-    all.collect()
 }

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 
 use ::chart::text::Reading;
 use diagnostics::{Source, Span};
-use st::tree::{Declaration, File, TypeTextKind, Unit};
+use st::tree::{Declaration, File, TypeTextKind};
 
-use super::units::body_of;
+use super::units::{body_of, head_of};
 
 /// Comments by the place of the name to which they belong.
 pub(super) struct Comments {
@@ -28,22 +28,23 @@ impl Comments {
     pub(super) fn of(source: &Source, file: &File, reading: &Reading) -> Comments {
         let text = &source.text;
         let charts: Vec<Span> = reading.regions.iter().map(|region| region.span).collect();
-        let is_chart = |span: Span| charts.iter().any(|chart| is_in(span, *chart));
+        let is_chart = |span: Span| charts.iter().any(|chart| span.is_in(*chart));
         let anchors = anchors(file, &charts);
         let bodies: Vec<Span> = file
             .units
             .iter()
-            .filter(|unit| !charts.iter().any(|chart| is_in(*chart, unit.span)))
+            .filter(|unit| !charts.iter().any(|chart| chart.is_in(unit.span)))
             .map(|unit| body_of(text, unit))
             .collect();
         let cut = st::lexer::cut(text);
-        let first = cut.tokens.first().map_or(u32::MAX, |token| token.span.start);
+        let tokens: Vec<Span> = cut.tokens.iter().map(|token| token.span).collect();
+        let first = tokens.first().map_or(u32::MAX, |token| token.start);
         let mut comments = Comments { of: BTreeMap::new(), of_file: String::new() };
         for span in cut.comments {
-            if is_chart(span) || bodies.iter().any(|body| is_in(span, *body)) {
+            if is_chart(span) || bodies.iter().any(|body| span.is_in(*body)) {
                 continue;
             }
-            let owner = owner(text, &anchors, &file.units, span);
+            let owner = owner(text, &anchors, file, &tokens, span);
             let list = match owner.filter(|_| span.start > first) {
                 Some(owner) => comments.of.entry(owner).or_default(),
                 None => &mut comments.of_file,
@@ -64,10 +65,6 @@ impl Comments {
     }
 }
 
-fn is_in(span: Span, outer: Span) -> bool {
-    outer.start <= span.start && span.end <= outer.end
-}
-
 /// A comment without its signs.
 fn bare(comment: &str) -> String {
     let inside = comment.strip_prefix("//").or_else(|| {
@@ -83,7 +80,7 @@ fn anchors(file: &File, charts: &[Span]) -> Vec<Anchor> {
     let mut add = |list: &[Declaration], unit: Option<Span>| {
         let names = list.iter().flat_map(|one| &one.names).map(|name| name.span);
         // What charts declare by use has its place in them.
-        let declared = names.filter(|name| !charts.iter().any(|chart| is_in(*name, *chart)));
+        let declared = names.filter(|name| !charts.iter().any(|chart| name.is_in(*chart)));
         all.extend(declared.map(|at| Anchor { at, unit, is_variable: true }));
     };
     for section in &file.globals {
@@ -105,18 +102,37 @@ fn anchors(file: &File, charts: &[Span]) -> Vec<Anchor> {
 }
 
 /// The place of the name to which a comment belongs.
-fn owner(text: &str, anchors: &[Anchor], units: &[Unit], comment: Span) -> Option<u32> {
+fn owner(
+    text: &str,
+    anchors: &[Anchor],
+    file: &File,
+    tokens: &[Span],
+    comment: Span,
+) -> Option<u32> {
     let after = anchors.partition_point(|anchor| anchor.at.start < comment.start);
     let before = after.checked_sub(1).and_then(|at| anchors.get(at));
-    let is_beside = |anchor: &&Anchor| {
-        let between = text.get(anchor.at.end as usize..comment.start as usize).unwrap_or("\n");
-        anchor.is_variable && !between.contains('\n')
+    let is_beside = |end: u32| {
+        let between = text.get(end as usize..comment.start as usize).unwrap_or("\n");
+        !between.contains('\n')
     };
-    let beside = before.filter(is_beside);
-    let around = units.iter().find(|unit| is_in(comment, unit.span));
+    let ended = file.types.iter().rfind(|one| one.span.end <= comment.start);
+    // Nothing that can have a comment is between the type and this one.
+    let is_last = |end: u32| before.is_none_or(|anchor| anchor.at.start < end);
+    let ended = ended.filter(|one| is_beside(one.span.end) && is_last(one.span.end));
+    let around = file.units.iter().find(|unit| comment.is_in(unit.span));
+    let headed = around.filter(|unit| {
+        let head = head_of(unit);
+        let first = tokens.partition_point(|token| token.start < head);
+        tokens.get(first).is_none_or(|token| token.start > comment.start)
+    });
+    let beside = before.filter(|anchor| anchor.is_variable && is_beside(anchor.at.end));
     let next =
         anchors.get(after).filter(|next| around.is_none_or(|unit| next.unit == Some(unit.span)));
     let place = |anchor: &Anchor| anchor.at.start;
-    let found = beside.or(next).map(place);
-    found.or(around.map(|unit| unit.name.span.start)).or(before.map(place))
+    let own = ended.map(|one| &one.name).or(headed.map(|unit| &unit.name));
+    let found = own.map(|name| name.span.start).or(beside.or(next).map(place));
+    // After a unit it is the unit's, not that of its last variable.
+    let ended = file.units.iter().rfind(|unit| unit.span.end <= comment.start);
+    let ended = ended.filter(|unit| is_last(unit.span.end));
+    found.or(around.or(ended).map(|unit| unit.name.span.start)).or(before.map(place))
 }

@@ -4,7 +4,6 @@
 
 mod chart;
 mod comments;
-mod tree;
 mod types;
 mod units;
 
@@ -18,7 +17,11 @@ use st::tree::{File, Section};
 
 use crate::diagnostic::{Code, Diagnostic};
 use comments::Comments;
-use tree::Tree;
+
+const NAMESPACES: [(&str, &str); 2] = [
+    ("xmlns", "http://www.plcopen.org/xml/tc6_0201"),
+    ("xmlns:xhtml", "http://www.w3.org/1999/xhtml"),
+];
 
 /// A text as a project.
 #[derive(Debug)]
@@ -33,25 +36,13 @@ pub struct Exported {
 pub fn write(source: &Source) -> Exported {
     let reading = text::read(source);
     let file = ::chart::frame(source, &reading, &mut HashSet::new());
-    let mut project = Project { source, found: Vec::new(), out: Tree::default() };
-    let comments = Comments::of(source, &file, &reading);
-    project.all(&file, &reading, &comments);
-    let Project { out: tree, found: mut diagnostics, .. } = project;
+    let mut project = Project { source, found: Vec::new(), out: Writer::default() };
+    project.all(&file, &reading);
+    let Project { out, found: mut diagnostics, .. } = project;
     diagnostics.sort_by_key(|one| one.span);
     if diagnostics.iter().any(|one| one.severity() == Severity::Error) {
         return Exported { text: String::new(), diagnostics };
     }
-    let namespaces = [
-        ("xmlns", "http://www.plcopen.org/xml/tc6_0201"),
-        ("xmlns:xhtml", "http://www.w3.org/1999/xhtml"),
-    ];
-    let settings = file.settings.iter().map(|span| span.text(&source.text));
-    let settings = settings.collect::<Vec<_>>().join("\n");
-    let mut out = Writer::default();
-    out.element("project", &namespaces, |out| {
-        plcopen_head(out, &text::program_name(&source.name), &settings);
-        tree.write(out);
-    });
     Exported { text: out.finish(), diagnostics }
 }
 
@@ -59,7 +50,7 @@ pub fn write(source: &Source) -> Exported {
 struct Project<'s> {
     source: &'s Source,
     found: Vec<Diagnostic>,
-    out: Tree,
+    out: Writer,
 }
 
 impl Project<'_> {
@@ -89,13 +80,18 @@ impl Project<'_> {
     fn documentation(&mut self, text: &str) {
         if !text.is_empty() {
             self.open("documentation", &[]);
-            self.out.text("xhtml:p", text);
+            self.out.text("xhtml:p", &[], text);
             self.close();
         }
     }
 
-    fn all(&mut self, file: &File, reading: &Reading, comments: &Comments) {
+    fn all(&mut self, file: &File, reading: &Reading) {
+        let comments = &Comments::of(self.source, file, reading);
         let units = units::units(file, reading);
+        let settings = file.settings.iter().map(|span| self.text(*span));
+        let settings = settings.collect::<Vec<_>>().join("\n");
+        self.open("project", &NAMESPACES);
+        plcopen_head(&mut self.out, &text::program_name(&self.source.name), &settings);
         self.open("types", &[]);
         self.open("dataTypes", &[]);
         file.types.iter().for_each(|one| self.declared(one, comments));
@@ -106,6 +102,7 @@ impl Project<'_> {
         self.close();
         self.configuration(file, &units, comments);
         self.documentation(comments.of_file());
+        self.close();
     }
 
     /// The global variables, and the programs, which are executed once a scan.

@@ -1,15 +1,11 @@
 //! Types, values and variables.
 
+use st::model::ELEMENTARY;
+use st::names::is_same;
 use st::tree::{Declaration, Expression, ExpressionKind, TypeDeclaration, TypeText, TypeTextKind};
 
 use super::Project;
 use super::comments::Comments;
-
-/// Types that have an element of their name.
-const ELEMENTARY: [&str; 19] = [
-    "BOOL", "BYTE", "WORD", "DWORD", "LWORD", "SINT", "INT", "DINT", "LINT", "USINT", "UINT",
-    "UDINT", "ULINT", "REAL", "LREAL", "TIME", "DATE", "DT", "TOD",
-];
 
 impl Project<'_> {
     /// A named type.
@@ -76,11 +72,10 @@ impl Project<'_> {
     }
 
     fn named(&mut self, name: &str) {
-        let upper = name.to_uppercase();
-        match upper.as_str() {
-            "STRING" => self.out.empty("string", &[]),
-            one if ELEMENTARY.contains(&one) => self.out.empty(one, &[]),
-            _ => self.out.empty("derived", &[("name", name)]),
+        match ELEMENTARY.iter().find(|(one, _)| is_same(one, name)) {
+            Some((one, _)) => self.out.empty(one, &[]),
+            None if is_same(name, "STRING") => self.out.empty("string", &[]),
+            None => self.out.empty("derived", &[("name", name)]),
         }
     }
 

@@ -33,6 +33,14 @@ pub(super) fn units<'f>(file: &'f File, reading: &'f Reading) -> Vec<Written<'f>
     all.into_iter().map(|(_, unit)| unit).collect()
 }
 
+/// Where the head of a unit ends.
+pub(super) fn head_of(unit: &Unit) -> u32 {
+    match &unit.kind {
+        UnitKind::Function(result) => result.span.end,
+        UnitKind::Program | UnitKind::Block => unit.name.span.end,
+    }
+}
+
 /// The statements of a unit, with the comments between them.
 pub(super) fn body_of(text: &str, unit: &Unit) -> Span {
     let all = cut(unit.span.text(text));
@@ -40,11 +48,7 @@ pub(super) fn body_of(text: &str, unit: &Unit) -> Span {
         kind == Kind::Word && span.text(unit.span.text(text)).eq_ignore_ascii_case(word)
     };
     let mut declared = all.tokens.iter().filter(|one| is_word(one.kind, one.span, "END_VAR"));
-    let head = match &unit.kind {
-        UnitKind::Function(result) => result.span.end,
-        UnitKind::Program | UnitKind::Block => unit.name.span.end,
-    };
-    let start = declared.next_back().map_or(head, |one| unit.span.start + one.span.end);
+    let start = declared.next_back().map_or(head_of(unit), |one| unit.span.start + one.span.end);
     let mut words = all.tokens.iter().filter(|one| one.kind == Kind::Word);
     let end = words.next_back().map_or(unit.span.end, |one| unit.span.start + one.span.start);
     Span { start, end: end.max(start) }
@@ -109,7 +113,7 @@ impl Project<'_> {
 
     pub(super) fn structured_text(&mut self, text: &str) {
         self.open("ST", &[]);
-        self.out.text("xhtml:p", text);
+        self.out.text("xhtml:p", &[], text);
         self.close();
     }
 }

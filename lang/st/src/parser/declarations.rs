@@ -334,7 +334,7 @@ impl Parser<'_> {
 
     /// The pragma `{coarse}` between two places in the text, which is taken.
     fn coarse_within(&mut self, start: u32, end: u32) -> Option<Span> {
-        let found = self.coarse.iter().position(|one| start <= one.start && one.end <= end)?;
+        let found = self.coarse.iter().position(|one| one.is_in(Span { start, end }))?;
         Some(self.coarse.remove(found))
     }
 

@@ -1,0 +1,54 @@
+// What tests of charts have in common: texts with charts, and a page that shows them.
+import { deflateSync } from "fflate";
+
+export const file = (name, text = "") => ({ name, text });
+
+/** A project in the address, with the panel of charts. */
+export async function load(page, address, ...files) {
+  const content = { files, main: files[0].name, plant: null, view: "chart" };
+  const part = Buffer.from(deflateSync(Buffer.from(JSON.stringify(content)))).toString("base64url");
+  await page.goto("about:blank");
+  await page.goto(`${address.replace(/\?.*/, "")}#project=${part}`);
+  await page.getByRole("textbox", { name: files[0].name }).waitFor();
+}
+
+/** A chart of so many steps in a row, in the layout of the tools. */
+export function chain(count) {
+  const names = Array.from({ length: count }, (_, at) => `S${at + 1}`);
+  const steps = names.map((name, at) => `${at === 0 ? "INITIAL_" : ""}STEP ${name}:\nEND_STEP\n`);
+  const ways = names
+    .slice(1)
+    .map((name, at) => `TRANSITION FROM ${names[at]} TO ${name} := TRUE;\nEND_TRANSITION\n`);
+  return [...steps, ...ways].join("\n");
+}
+
+/** Has a page keep what the core told last of active steps, and was told last of texts. */
+export async function listen(page) {
+  await page.addInitScript(() => {
+    const Real = Worker;
+    globalThis.told = [];
+    globalThis.texts = {};
+    globalThis.Worker = class extends Real {
+      constructor(...given) {
+        super(...given);
+        this.addEventListener("message", ({ data }) => {
+          for (const event of Array.isArray(data) ? data : [])
+            if (event.is === "situation") globalThis.told = event.steps;
+        });
+      }
+      postMessage(wish) {
+        super.postMessage(wish);
+        const told = typeof wish === "string" ? JSON.parse(wish) : {};
+        if (told.do === "open")
+          for (const { name, text } of told.files) globalThis.texts[name] = text;
+        if (told.do === "edit" && told.file) globalThis.texts[told.file] = told.text;
+      }
+    };
+  });
+}
+
+/** The middle of what is drawn. */
+export async function middle(node) {
+  const { x, y, width, height } = await node.boundingBox();
+  return [x + width / 2, y + height / 2];
+}
