@@ -29,7 +29,7 @@ pub fn run() -> Result<()> {
         println!("no package: dpkg-deb is not here");
         return Ok(());
     }
-    let package = deb::build(&folder(), &tools::build(tools::SHIPPED)?)?;
+    let package = deb::build(&folder(), &tools::build()?)?;
     println!("{}", package.strip_prefix(root()).unwrap_or(&package).display());
     Ok(())
 }
@@ -45,7 +45,7 @@ pub fn check() -> Result<()> {
         println!("   left out: the package for Debian, because dpkg-deb is not here");
         return Ok(());
     }
-    let package = deb::build(&folder, &tools::build("dev")?)?;
+    let package = deb::build(&folder, &tools::build_for_tests()?)?;
     deb::check(&package, &folder.join("root"))
 }
 

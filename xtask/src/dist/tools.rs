@@ -12,13 +12,23 @@ pub(super) const TOOLS: [&str; 3] = ["awl-asm", "awl-sim", "uno200"];
 /// The profile in Cargo.toml for what is shipped.
 pub(super) const SHIPPED: &str = "shipped";
 
-/// Builds the tools, and returns the folder with them.
-pub(super) fn build(profile: &str) -> Result<PathBuf> {
+/// Builds the tools as they are shipped, and returns the folder with them.
+pub(super) fn build() -> Result<PathBuf> {
+    built(["--profile", SHIPPED], "--package", SHIPPED)
+}
+
+/// Builds the tools as the tests have them, and returns the folder with them. Chosen by their names
+/// they have the features of all packages, and are there already.
+pub(super) fn build_for_tests() -> Result<PathBuf> {
+    built(["--profile", "dev"], "--bin", "debug")
+}
+
+fn built(profile: [&str; 2], chosen_by: &str, folder: &str) -> Result<PathBuf> {
     let mut build = cargo();
-    build.args(["build", "--quiet", "--locked", "--profile", profile]);
-    build.args(TOOLS.iter().flat_map(|tool| ["--package", tool]));
+    build.args(["build", "--quiet", "--locked"]).args(profile);
+    build.args(TOOLS.iter().flat_map(|tool| [chosen_by, tool]));
     run(&mut build)?;
-    let folder = root().join("target").join(if profile == "dev" { "debug" } else { profile });
+    let folder = root().join("target").join(folder);
     ensure!(TOOLS.iter().all(|tool| folder.join(tool).is_file()), "{}: no tools", folder.display());
     Ok(folder)
 }

@@ -4,6 +4,7 @@ mod anywhere;
 mod assembly;
 mod board;
 mod dependencies;
+mod features;
 mod imports;
 mod means;
 mod paths;
@@ -51,6 +52,7 @@ pub fn check() -> Result<()> {
     }
     breaches.extend(imports::breaches(&texts));
     breaches.extend(dependencies::breaches()?);
+    breaches.extend(features::breaches()?);
     for breach in &breaches {
         eprintln!("  {breach}");
     }
