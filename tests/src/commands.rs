@@ -7,7 +7,7 @@ use std::process::{Command, Output, Stdio};
 use crate::case::folder;
 
 /// A program of the workspace, built beside the test that runs. It is built in the root and chosen
-/// by its own name: with `--package` cargo would compile everything anew with other features.
+/// by its own name, with this crate's features: otherwise cargo would compile much anew.
 ///
 /// # Panics
 /// If it cannot be built.
@@ -18,6 +18,9 @@ pub fn built(program: &str) -> PathBuf {
     let mut cargo = Command::new(env!("CARGO"));
     cargo.current_dir(folder(".."));
     cargo.args(["build", "--quiet", "--bin", program, "--target-dir"]).arg(target);
+    if cfg!(feature = "uno") {
+        cargo.args(["--features", "tests/uno"]);
+    }
     assert!(cargo.status().expect("cargo starts").success());
     target.join("debug").join(program)
 }

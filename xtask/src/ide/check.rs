@@ -2,10 +2,12 @@
 //! browser.
 
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::time::Instant;
 
 use anyhow::{Context, Result, ensure};
 
@@ -31,8 +33,7 @@ const FIGURES: &str = "target/ide-figures.csv";
 pub fn check() -> Result<()> {
     packages::ensure_installed(packages::BROWSER)?;
     packages::ensure_npm()?;
-    let sources = root().join("ide/page");
-    let npm = |arguments: &[&str]| run(Command::new("npm").args(arguments).current_dir(&sources));
+    let npm = |arguments: &[&str]| run(Command::new("npm").args(arguments).current_dir(sources()));
     npm(&["ci", "--silent", "--no-audit", "--no-fund"])?;
     let committed = files(&root().join(PAGE))?;
     npm(&["run", "--silent", "check"])?;
@@ -44,35 +45,55 @@ pub fn check() -> Result<()> {
     let core = core::build()?;
     core::check(&core)?;
     let folder = build(&core)?;
-    let node = |script: &str| {
-        let mut node = Command::new("node");
-        node.current_dir(&sources).arg(script);
-        node
-    };
-    run(node("test/virtual_uno.mjs").arg(&folder))?;
+    use_page(&folder)?;
+    check_folder(&folder)?;
+    check_board(&folder)
+}
+
+/// Has all that needs nothing but the page done in it.
+fn use_page(folder: &Path) -> Result<()> {
+    test("virtual_uno.mjs", [folder])?;
     figures()?;
-    let mut server = Serving::page(&folder, &[])?;
+    let mut server = Serving::page(folder, &[])?;
     let address = server.line()?;
-    run(node("test/lock_step.mjs").arg(&address).arg(&folder))?;
-    run(node("test/first_steps.mjs").arg(&address))?;
-    run(node("test/page.mjs").arg(&address).arg(root().join(FIGURES)))?;
-    run(node("test/plants.mjs").arg(&address))?;
-    run(node("test/languages.mjs").arg(&address))?;
-    run(node("test/charts.mjs").arg(&address))?;
-    run(node("test/chart_editor.mjs").arg(&address))?;
-    run(node("test/chart_moments.mjs").arg(&address))?;
-    run(node("test/touch.mjs").arg(&address))?;
-    run(node("test/budgets.mjs").arg(&address).arg(&folder))?;
-    run(node("test/reload.mjs").arg(&address))?;
-    run(node("test/errors.mjs").arg(root().join(UNO200)).arg(&folder))?;
-    run(node("test/pictures.mjs").arg(&address).arg(root().join(PICTURES)))?;
-    run(node("test/offline.mjs").arg(&folder))?;
-    check_folder(&folder, &sources)?;
-    check_board(&folder, &sources)
+    let page = Path::new(&address);
+    test("lock_step.mjs", [page, folder])?;
+    test("first_steps.mjs", [page])?;
+    test("page.mjs", [page, &root().join(FIGURES)])?;
+    test("plants.mjs", [page])?;
+    test("languages.mjs", [page])?;
+    test("charts.mjs", [page])?;
+    test("chart_editor.mjs", [page])?;
+    test("chart_moments.mjs", [page])?;
+    test("touch.mjs", [page])?;
+    test("budgets.mjs", [page, folder])?;
+    test("reload.mjs", [page])?;
+    test("errors.mjs", [&root().join(UNO200), folder])?;
+    test("pictures.mjs", [page, &root().join(PICTURES)])?;
+    test("offline.mjs", [folder])
+}
+
+/// Where the page's sources are.
+fn sources() -> PathBuf {
+    root().join("ide/page")
+}
+
+/// A script that tests the page, with the paths and addresses that it takes. Tells how long it
+/// took.
+fn test<Argument: AsRef<OsStr>>(
+    script: &str,
+    arguments: impl IntoIterator<Item = Argument>,
+) -> Result<()> {
+    let mut node = Command::new("node");
+    node.current_dir(sources()).arg(format!("test/{script}")).args(arguments);
+    let start = Instant::now();
+    run(&mut node)?;
+    println!("   {script}: {:.0} s", start.elapsed().as_secs_f64());
+    Ok(())
 }
 
 /// Has the page work in a folder of this computer.
-fn check_folder(folder: &Path, sources: &Path) -> Result<()> {
+fn check_folder(folder: &Path) -> Result<()> {
     let project = root().join(PROJECT);
     if project.exists() {
         fs::remove_dir_all(&project)?;
@@ -84,22 +105,18 @@ fn check_folder(folder: &Path, sources: &Path) -> Result<()> {
     std::os::unix::fs::symlink(root().join("README.md"), project.join("link.txt"))?;
     let mut server = Serving::page(folder, &[PROJECT])?;
     let address = server.line()?;
-    let mut test = Command::new("node");
-    test.current_dir(sources).args(["test/folder.mjs", &address]).arg(&project);
-    run(test.arg(server.0.id().to_string()))
+    let id = server.0.id().to_string();
+    test("folder.mjs", [OsStr::new(&address), project.as_os_str(), OsStr::new(&id)])
 }
 
 /// Has the core in WebAssembly answer what it was told in tests on this computer: the same. To be
 /// called after both were built.
 pub fn log() -> Result<()> {
-    let sources = root().join("ide/page");
-    let mut test = Command::new("node");
-    test.current_dir(sources).arg("test/log.mjs").arg(core::folder()).arg(root().join(LOG));
-    run(&mut test)
+    test("log.mjs", [core::folder(), root().join(LOG)])
 }
 
 /// Has the page write a board from the factory, with its real bootloader, and talk to it.
-fn check_board(folder: &Path, sources: &Path) -> Result<()> {
+fn check_board(folder: &Path) -> Result<()> {
     packages::ensure_installed(packages::VIRTUAL_BOARD)?;
     packages::ensure_installed(packages::AVR_LINKER)?;
     run(cargo().args(["build", "--quiet", "--bin", "virtual-uno"]).args(WITH_BOARD))?;
@@ -107,7 +124,7 @@ fn check_board(folder: &Path, sources: &Path) -> Result<()> {
     let port = board.line()?;
     let mut server = Serving::page(folder, &["--port", &port])?;
     let address = server.line()?;
-    run(Command::new("node").current_dir(sources).args(["test/board.mjs", &address, &port]))
+    test("board.mjs", [address, port])
 }
 
 /// The files of a folder, and of those in it, with their bytes.
