@@ -56,12 +56,12 @@ const BUDGETS: [(About, f64, &str); 15] = [
     ((INTERPRETER, "overhead", "station1"), budgets::SCAN_OVERHEAD_CYCLES_MAX, "cycles"),
     (
         (INTERPRETER, "bytes an instruction", "station1"),
-        budgets::CODE_BYTES_PER_INSTRUCTION_MAX,
+        speed::CODE_BYTES_PER_INSTRUCTION_MAX,
         "bytes",
     ),
     (
         (INTERPRETER, "bytes an instruction", "1024-step 80/20"),
-        budgets::CODE_BYTES_PER_INSTRUCTION_MAX,
+        speed::CODE_BYTES_PER_INSTRUCTION_MAX,
         "bytes",
     ),
     (

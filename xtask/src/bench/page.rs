@@ -7,7 +7,6 @@ use super::comparison::{self, Line};
 use super::exceptions::{CYCLES_A_US, EXCEPTIONS, is_slower};
 use super::record::{INTERPRETER, Record, TIERS, TYPICAL, find};
 use super::text;
-use crate::budgets;
 
 /// Sections that are no chapters of instructions.
 const OTHER_SECTIONS: [&str; 3] = ["program", "scan", "firmware"];
@@ -206,14 +205,14 @@ taken off.
             "host interpreter",
             format!(
                 ">= {} million bit instructions a second",
-                budgets::HOST_BITS_PER_SECOND_MIN / 1e6
+                speed::HOST_BITS_PER_SECOND_MIN / 1e6
             ),
         ),
         (
             "assembler",
-            format!(">= {} million lines a second", budgets::ASSEMBLER_LINES_PER_SECOND_MIN / 1e6),
+            format!(">= {} million lines a second", speed::ASSEMBLER_LINES_PER_SECOND_MIN / 1e6),
         ),
-        ("assembler, 100,000 lines", format!("<= {} s", budgets::LARGE_FILE_SECONDS_MAX)),
+        ("assembler, 100,000 lines", format!("<= {} s", speed::LARGE_FILE_SECONDS_MAX)),
     ] {
         line(page, &[what.to_string(), budget]);
     }

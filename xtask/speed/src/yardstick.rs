@@ -11,25 +11,25 @@ use anyhow::Result;
 const USUAL_SECONDS: f64 = 0.004;
 
 /// Rounds of measuring. Other work on the machine only makes rounds slower.
-pub const ROUNDS: usize = 7;
+pub(crate) const ROUNDS: usize = 7;
 
 /// Best time of several rounds, on a machine of usual speed.
-pub struct Measured {
+pub(crate) struct Measured {
     /// Seconds, as measured.
-    pub seconds: f64,
+    pub(crate) seconds: f64,
     /// How many times slower than usual the machine was in the same rounds, 1 at least: a fast
     /// machine makes no budget stricter.
-    pub slowness: f64,
+    pub(crate) slowness: f64,
 }
 
 impl Measured {
     /// Seconds on a machine of usual speed.
-    pub fn usual_seconds(&self) -> f64 {
+    pub(crate) fn usual_seconds(&self) -> f64 {
         self.seconds / self.slowness
     }
 
     /// Both times, as a sentence's end.
-    pub fn evidence(&self) -> String {
+    pub(crate) fn evidence(&self) -> String {
         format!(
             "in {:.4} s, best of {ROUNDS} rounds, machine slower than usual by {:.2}",
             self.seconds, self.slowness
@@ -38,7 +38,7 @@ impl Measured {
 }
 
 /// Measures rounds; each begins with the work of comparison and returns its own time in seconds.
-pub fn measure(mut round: impl FnMut() -> Result<f64>) -> Result<Measured> {
+pub(crate) fn measure(mut round: impl FnMut() -> Result<f64>) -> Result<Measured> {
     let (mut seconds, mut comparison) = (f64::INFINITY, f64::INFINITY);
     for _ in 0..ROUNDS {
         let start = Instant::now();
