@@ -1,5 +1,7 @@
 //! Conditions of transitions: a text, the name of one, or what is drawn beside the transition.
 
+use std::collections::HashMap;
+
 use chart::model::{Code, Origin};
 use diagnostics::Span;
 use diagnostics::xml::{Node, elements, tag};
@@ -29,11 +31,11 @@ const OPERATORS: [(&str, &str); 9] = [
 ];
 
 /// The condition of a transition, with the name that it has, if it has one.
-pub(super) fn condition(
+pub(super) fn condition<'a, 'i>(
     reader: &mut Reader,
     around: &Surroundings,
-    network: &Network,
-    transition: Node,
+    network: &Network<'a, 'i>,
+    transition: Node<'a, 'i>,
 ) -> (Code, Option<Text>) {
     let Some(node) = child(transition, "condition") else {
         let message = format!("{} has no condition", title(transition));
@@ -61,7 +63,9 @@ pub(super) fn condition(
                 name = around.condition(&of.text).map(|_| of);
             }
             "connectionPointIn" => {
-                let text = drawn(reader, network, transition, &lines_of(part), 0);
+                let (known, open) = (HashMap::new(), Vec::new());
+                let mut drawing = Drawing { reader, network, known, open };
+                let text = drawing.lines(transition, &lines_of(part)).unwrap_or_default();
                 code = Code { text: outside(&text), origin: Origin(tag(part)) };
             }
             _ => reader.ignore(part, "a condition"),
@@ -127,84 +131,124 @@ fn outside(text: &str) -> String {
     inner.filter(|inner| is_balanced(inner)).unwrap_or(text).to_owned()
 }
 
-/// What lines into an element carry: one of them is enough.
-fn drawn(reader: &mut Reader, network: &Network, to: Node, lines: &[Text], depth: usize) -> String {
-    let mut all = Vec::new();
-    for line in lines {
-        let Some(node) = network.from(reader, line, to) else { continue };
-        let text = if depth < DEPTH_MAX { value(reader, network, node, depth + 1) } else { None };
-        match text.filter(|text| text.len() < LENGTH_MAX) {
-            Some(text) => all.push(text),
-            None if reader.diagnostics.iter().any(|one| one.span == tag(node)) => {}
-            None => {
-                let message = format!("{}: this condition is too large to be read", title(to));
-                let help = "write it as Structured Text (ST) in the tool it comes from";
-                reader.error(ErrorCode::OtherLanguage, tag(node), message, help);
-            }
-        }
-    }
-    match &all[..] {
-        [] => String::new(),
-        [one] => one.clone(),
-        _ => format!("({})", all.join(" OR ")),
-    }
+/// A drawing as conditions. Each element is looked at once: lines may meet again and again.
+struct Drawing<'r, 'f, 'a, 'i> {
+    reader: &'r mut Reader<'f>,
+    network: &'r Network<'a, 'i>,
+    /// What elements give to those after them; `None`: that has been reported, or is asked for
+    /// right now.
+    known: HashMap<Node<'a, 'i>, Option<String>>,
+    /// Those that are asked for right now.
+    open: Vec<Node<'a, 'i>>,
 }
 
-/// What an element of a drawing gives to those after it.
-fn value(reader: &mut Reader, network: &Network, node: Node, depth: usize) -> Option<String> {
-    let plain = |name: &str| child(node, name).map(|one| formatted(one).text);
-    let has_edge = optional(node, "edge").is_some_and(|edge| edge.text != "none");
-    let text = match node.tag_name().name() {
-        "leftPowerRail" => "TRUE".to_owned(),
-        "inVariable" | "inOutVariable" if !has_edge => plain("expression")?,
-        "contact" if !has_edge => plain("variable")?,
-        "block" => return block(reader, network, node, depth),
-        _ => {
-            unread(reader, node);
+impl<'a, 'i> Drawing<'_, '_, 'a, 'i> {
+    /// What lines into an element carry: one of them is enough. `None`: what is wrong has been
+    /// reported.
+    fn lines(&mut self, to: Node<'a, 'i>, lines: &[Text]) -> Option<String> {
+        let mut all = Vec::new();
+        for line in lines {
+            let from = self.network.from(self.reader, line, to);
+            all.push(from.and_then(|node| self.value(node, to)));
+        }
+        let all = all.into_iter().collect::<Option<Vec<String>>>()?;
+        Some(match &all[..] {
+            [one] => one.clone(),
+            _ if all.is_empty() => String::new(),
+            _ => format!("({})", all.join(" OR ")),
+        })
+    }
+
+    /// What an element gives to those after it.
+    fn value(&mut self, node: Node<'a, 'i>, to: Node<'a, 'i>) -> Option<String> {
+        if self.open.contains(&node) {
+            let message = format!("{}: what it asks for depends on itself", title(node));
+            let help = "a line leads back to it: a variable that the program writes keeps a value";
+            self.refuse(node, message, help);
             return None;
         }
-    };
-    let text = match is_true(node, "negated") {
-        true => format!("NOT ({text})"),
-        false => text,
-    };
-    if node.tag_name().name() != "contact" {
-        return Some(text);
-    }
-    match drawn(reader, network, node, &lines_into(node), depth).as_str() {
-        "TRUE" | "" => Some(text),
-        before => Some(format!("({before} AND {text})")),
-    }
-}
-
-/// Reports an element that no condition can be made of.
-fn unread(reader: &mut Reader, node: Node) {
-    let message = format!("{}: this part of a drawn condition is not read", title(node));
-    let help = "write the condition as Structured Text (ST) in the tool it comes from";
-    reader.error(ErrorCode::OtherLanguage, tag(node), message, help);
-}
-
-/// A block that is an operator.
-fn block(reader: &mut Reader, network: &Network, node: Node, depth: usize) -> Option<String> {
-    let name = optional(node, "typeName").map_or_else(String::new, |name| name.text.to_uppercase());
-    let inputs = child(node, "inputVariables").into_iter().flat_map(elements);
-    let mut operands = Vec::new();
-    for input in inputs {
-        let lines =
-            child(input, "connectionPointIn").map(|point| lines_of(point)).unwrap_or_default();
-        let text = drawn(reader, network, node, &lines, depth);
-        operands.push(if is_true(input, "negated") { format!("NOT ({text})") } else { text });
-    }
-    let is_whole = operands.iter().all(|one| !one.is_empty());
-    let operator = OPERATORS.iter().find(|(block, _)| *block == name);
-    match (operator, &operands[..]) {
-        (None, [one]) if name == "NOT" && is_whole => Some(format!("NOT ({one})")),
-        (Some((_, sign)), [_, _, ..]) if is_whole => {
-            Some(format!("({})", operands.join(&format!(" {sign} "))))
+        if let Some(known) = self.known.get(&node) {
+            return known.clone();
         }
-        _ => {
-            unread(reader, node);
-            None
+        let is_deep = self.open.len() >= DEPTH_MAX;
+        let mut found = None;
+        if !is_deep {
+            self.open.push(node);
+            found = self.read(node);
+            self.open.pop();
+        }
+        if is_deep || found.as_ref().is_some_and(|text| text.len() >= LENGTH_MAX) {
+            let message = format!("{}: this condition is too large to be read", title(to));
+            let help = "write it as Structured Text (ST) in the tool it comes from";
+            self.refuse(node, message, help);
+            found = None;
+        }
+        self.known.insert(node, found.clone());
+        found
+    }
+
+    /// Reports an element, once.
+    fn refuse(&mut self, node: Node, message: String, help: &str) {
+        if self.reader.diagnostics.iter().all(|one| one.span != tag(node)) {
+            self.reader.error(ErrorCode::OtherLanguage, tag(node), message, help);
+        }
+    }
+
+    /// Reports an element that no condition can be made of.
+    fn unread(&mut self, node: Node) -> Option<String> {
+        let message = format!("{}: this part of a drawn condition is not read", title(node));
+        let help = "write the condition as Structured Text (ST) in the tool it comes from";
+        self.refuse(node, message, help);
+        None
+    }
+
+    fn read(&mut self, node: Node<'a, 'i>) -> Option<String> {
+        let plain = |name: &str| child(node, name).map(|one| formatted(one).text);
+        let has_edge = optional(node, "edge").is_some_and(|edge| edge.text != "none");
+        let text = match node.tag_name().name() {
+            "leftPowerRail" => Some("TRUE".to_owned()),
+            "inVariable" | "inOutVariable" if !has_edge => plain("expression"),
+            "contact" if !has_edge => plain("variable"),
+            "block" => return self.block(node),
+            _ => None,
+        };
+        let Some(text) = text else { return self.unread(node) };
+        let text = match is_true(node, "negated") {
+            true => format!("NOT ({text})"),
+            false => text,
+        };
+        if node.tag_name().name() != "contact" {
+            return Some(text);
+        }
+        Some(match self.lines(node, &lines_into(node))?.as_str() {
+            "TRUE" | "" => text,
+            before => format!("({before} AND {text})"),
+        })
+    }
+
+    /// A block that is an operator.
+    fn block(&mut self, node: Node<'a, 'i>) -> Option<String> {
+        let name =
+            optional(node, "typeName").map_or_else(String::new, |name| name.text.to_uppercase());
+        let mut operands = Vec::new();
+        for input in child(node, "inputVariables").into_iter().flat_map(elements) {
+            let lines =
+                child(input, "connectionPointIn").map(|point| lines_of(point)).unwrap_or_default();
+            let text = self.lines(node, &lines);
+            operands.push(text.map(|text| match is_true(input, "negated") {
+                true => format!("NOT ({text})"),
+                false => text,
+            }));
+        }
+        let operands = operands.into_iter().collect::<Option<Vec<String>>>()?;
+        let is_whole = operands.iter().all(|one| !one.is_empty() && one != "NOT ()");
+        let operator = OPERATORS.iter().find(|(block, _)| *block == name);
+        match (operator, &operands[..]) {
+            (None, [one]) if name == "NOT" && is_whole => Some(format!("NOT ({one})")),
+            (Some((_, sign)), [_, _, ..]) if is_whole => {
+                Some(format!("({})", operands.join(&format!(" {sign} "))))
+            }
+            _ => self.unread(node),
         }
     }
 }

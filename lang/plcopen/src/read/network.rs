@@ -78,7 +78,8 @@ impl<'a, 'i> Network<'a, 'i> {
     /// The element that a line comes from.
     pub(super) fn from(&self, reader: &mut Reader, line: &Text, to: Node) -> Option<Node<'a, 'i>> {
         let found = self.known.get(&line.text).copied();
-        if found.is_none() {
+        let is_told = reader.diagnostics.iter().any(|one| one.span == line.span);
+        if found.is_none() && !is_told {
             let message = format!("{}: there is no element {}", title(to), line.text);
             let help = "refLocalId is the localId of another element of this body";
             reader.error(Code::Unknown, line.span, message, help);
