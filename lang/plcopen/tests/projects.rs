@@ -199,6 +199,54 @@ fn wrong_projects_are_told_with_their_places() {
     assert_eq!(said(&text), ["W0700 3 `data` vendor: what a vendor has added is left out"]);
 }
 
+/// A block of a drawn condition, with its inputs from these elements.
+fn drawn_block(id: usize, kind: &str, from: &[usize]) -> String {
+    let inputs = from.iter().map(|from| {
+        format!(
+            "<variable formalParameter=\"IN\"><connectionPointIn><connection refLocalId=\"{from}\"/>\
+             </connectionPointIn></variable>"
+        )
+    });
+    let inputs: String = inputs.collect();
+    format!(
+        "<block localId=\"{id}\" typeName=\"{kind}\"><inputVariables>{inputs}</inputVariables></block>\n"
+    )
+}
+
+const FROM_10: &str = "<connectionPointIn><connection refLocalId=\"10\"/></connectionPointIn>";
+
+#[test]
+fn a_condition_with_feedback_is_told_once_at_its_place() {
+    let variable = "<inVariable localId=\"20\"><expression>x</expression></inVariable>\n";
+    // 10 asks for 11 three times, which asks for 12, which asks for 10 again.
+    let circle = drawn_block(10, "AND", &[20, 11, 11, 11])
+        + &drawn_block(11, "OR", &[12, 12, 20])
+        + &drawn_block(12, "NOT", &[10]);
+    let told = said(&chart(FROM_10, &(circle + variable)));
+    assert_eq!(told, ["E0702 8 `block` block 10: what it asks for depends on itself"]);
+    // What is broken is told where it is, and nothing else.
+    let broken = drawn_block(10, "AND", &[20, 11, 11]) + &drawn_block(11, "NOT", &[77]) + variable;
+    let told = said(&chart(FROM_10, &broken));
+    assert_eq!(told, ["E0704 9 `77` block 11: there is no element 77"]);
+    let unread = drawn_block(10, "AND", &[20, 11, 11]) + &drawn_block(11, "TON", &[20]) + variable;
+    let told = said(&chart(FROM_10, &unread));
+    assert_eq!(told, ["E0702 9 `block` block 11: this part of a drawn condition is not read"]);
+}
+
+#[test]
+fn lines_that_meet_again_and_again_end() {
+    let variable = "<inVariable localId=\"50\"><expression>x</expression></inVariable>\n";
+    let ladder = |count: usize| -> String {
+        (10..10 + count).map(|id| drawn_block(id, "XOR", &[id + 1, id + 1])).collect()
+    };
+    let last = drawn_block(13, "OR", &[50, 50]);
+    let text = chart(FROM_10, &format!("{}{last}{variable}", ladder(3)));
+    assert_eq!(said(&text), [""; 0]);
+    let told = said(&chart(FROM_10, &format!("{}{variable}", ladder(40))));
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].contains("too large to be read"), "{told:?}");
+}
+
 #[test]
 fn large_and_deep_files_are_refused() {
     let codes = |text: &str| -> Vec<&str> {
