@@ -119,6 +119,34 @@ fn a_chart_becomes_a_picture() {
 }
 
 #[test]
+fn a_chart_of_sfcedit_becomes_a_program() {
+    let folder = folder();
+    let path = folder.path();
+    fs::write(path.join("v.csv"), "name,kind,type\nA1,memory,BOOL\n").unwrap();
+    let arguments = ["chart.xml", "-o", "out.sfc", "--variables", "v.csv"];
+    let (code, _, errors) = convert(path, &arguments);
+    assert_eq!(code, Some(0), "{errors}");
+    let text = fs::read_to_string(path.join("out.sfc")).unwrap();
+    assert!(text.contains("{grafcet}") && text.contains("    A1 : BOOL;"), "{text}");
+    let (code, text, errors) = convert(path, &["out.sfc", "--summary"]);
+    assert!(code == Some(0) && text.starts_with("steps: 9\n"), "{errors}");
+
+    // What the chart cannot be is told at its place in it.
+    let order = "<action type=\"forcing\"><text>F/Ejemplo{X0}</text></action>";
+    let itself = CHART.replace(
+        "<step type=\"normal\" name=\"X2\"/>",
+        &format!("<step name=\"X2\">{order}</step>"),
+    );
+    fs::write(path.join("itself.xml"), itself).unwrap();
+    let (code, _, errors) = convert(path, &["itself.xml", "-o", "itself.sfc"]);
+    assert!(code == Some(1) && errors.contains("E0310"), "{errors}");
+    assert!(errors.contains("itself.xml:4:"), "{errors}");
+    let (code, _, errors) = convert(path, &["chart.xml", "-o", "b.sfc", "--target", "pl7"]);
+    assert!(code == Some(2) && errors.contains("--target"), "{errors}");
+    assert!(!path.join("itself.sfc").exists() && !path.join("b.sfc").exists());
+}
+
+#[test]
 fn variables_come_from_a_table() {
     let folder = folder();
     fs::write(folder.path().join("v.csv"), "name,kind,type\nA1,memory,BOOL\n").unwrap();

@@ -28,6 +28,8 @@ diagnostics::codes! {
     NeverJoined = "W0302";
     NeverExecuted = "W0303";
     Alternatives = "W0304";
+    Idle = "W0305";
+    CanBeUnstable = "W0306";
     XmlIgnored = "W0340";
     StyleDiffers = "W0341";
     NeverWritten = "W0342";

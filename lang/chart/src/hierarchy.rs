@@ -10,8 +10,9 @@ use crate::model::{
     is_same_name,
 };
 
-/// How often a GRAFCET evolves in a scan at most: the search for a stable situation ends there.
-pub const EVOLUTIONS_MAX: u8 = 20;
+/// How often a GRAFCET evolves in a scan at most where it says nothing else: the search for a stable
+/// situation ends there.
+pub const EVOLUTIONS_MAX: u16 = 20;
 
 /// A step: the number of its chart, and which of that.
 pub(crate) type Key = (usize, StepId);
@@ -105,6 +106,12 @@ impl<'c> Hierarchy<'c> {
                 self.add(inner, prefix, action.origin.0, Some(at));
             }
         }
+    }
+
+    /// How often it evolves in a scan at most.
+    pub(crate) fn evolutions_max(&self) -> u16 {
+        let said = self.members.first().and_then(|member| member.chart.evolutions_max);
+        said.unwrap_or(EVOLUTIONS_MAX)
     }
 
     /// All steps, in the order of charts and of their texts.

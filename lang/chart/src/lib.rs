@@ -4,8 +4,8 @@
 //! [`text`] reads a file into the [`model`]; [`translate`] makes Structured Text of it, which
 //! becomes AWL like any other. [`interpret`] executes a chart without translating it. [`edit`]
 //! changes it. [`drawing`] says what it looks like, [`svg`] writes that as a picture. [`sfcedit`]
-//! reads charts of another editor, [`set_reset`] makes Structured Text of those for other
-//! controllers.
+//! reads charts of another editor, [`from_sfcedit`] makes programs of those that run here,
+//! [`set_reset`] Structured Text for other controllers.
 
 mod check;
 mod concurrent;
@@ -13,6 +13,7 @@ pub mod diagnostic;
 pub mod drawing;
 pub mod drawn;
 pub mod edit;
+pub mod from_sfcedit;
 mod generate;
 mod hierarchy;
 pub mod interpret;

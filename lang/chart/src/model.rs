@@ -39,6 +39,8 @@ pub struct Chart {
     pub name: String,
     /// By whose rules it evolves.
     pub standard: Standard,
+    /// GRAFCET: how often it evolves in a scan at most; `None`: as often as all do.
+    pub evolutions_max: Option<u16>,
     /// Its steps.
     pub steps: BTreeMap<StepId, Step>,
     /// Its transitions.

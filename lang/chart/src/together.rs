@@ -1,4 +1,4 @@
-//! Whether two conditions can be TRUE together. What is in them counts as free: variables, calls,
+//! Whether two conditions can be TRUE together, or one is TRUE whenever the other one is. What is in them counts as free: variables, calls,
 //! how two values compare; of one that is compared with numbers, the numbers decide. Nothing is
 //! said where that would be a guess: too much is in them, or what is in them depends on each other.
 
@@ -18,20 +18,35 @@ const ATOMS_MAX: usize = COMBINATIONS_MAX.ilog2() as usize;
 /// Values that make both conditions TRUE, such as `Start = TRUE`; `None` where there are none, or
 /// where that is not plain. `text` is that in which the conditions stand.
 pub(crate) fn together(text: &str, conditions: [&Expression; 2]) -> Option<Vec<String>> {
-    let mut atoms = Atoms { text, list: Vec::new(), users: Vec::new(), is_vague: false };
+    let mut atoms = Atoms::new(text);
     let formulas = conditions.map(|one| atoms.formula(one));
-    let combinations =
-        atoms.list.iter().try_fold(1usize, |all, atom| all.checked_mul(atom.domain.len()))?;
-    if atoms.is_vague || combinations > COMBINATIONS_MAX {
-        return None;
+    match atoms.search(|values| formulas.iter().all(|one| one.holds(values))) {
+        Search::Found(values) => Some(values),
+        Search::None | Search::Vague => None,
     }
-    let mut values: Vec<i64> = atoms.list.iter().map(Atom::least).collect();
-    while !formulas.iter().all(|one| one.holds(&values)) {
-        if !next(&atoms.list, &mut values) {
-            return None;
-        }
+}
+
+/// Values that make a condition TRUE, if all values that do make another one TRUE, too; `None` where
+/// that is not so, or not plain.
+pub(crate) fn implied(text: &str, one: &Expression, other: &Expression) -> Option<Vec<String>> {
+    let mut atoms = Atoms { is_signed: true, ..Atoms::new(text) };
+    let [one, other] = [one, other].map(|one| atoms.formula(one));
+    match atoms.search(|values| one.holds(values) && !other.holds(values)) {
+        Search::Found(_) | Search::Vague => return None,
+        Search::None => {}
     }
-    Some(atoms.list.iter().zip(values).map(|(atom, value)| atom.says(value)).collect())
+    match atoms.search(|values| one.holds(values)) {
+        Search::Found(values) => Some(values),
+        Search::None | Search::Vague => None,
+    }
+}
+
+/// What came of looking for values.
+enum Search {
+    Found(Vec<String>),
+    None,
+    /// What is asked depends on each other, or is too much.
+    Vague,
 }
 
 /// Changes the values into the next combination; the last one changes first. `false` after the last
@@ -87,6 +102,8 @@ struct Atoms<'t> {
     /// What is named, with the atom in which it is.
     users: Vec<(Named, usize)>,
     is_vague: bool,
+    /// Whether values below zero are tried of everything.
+    is_signed: bool,
 }
 
 impl Formula {
@@ -168,7 +185,28 @@ impl Atom {
     }
 }
 
-impl Atoms<'_> {
+impl<'t> Atoms<'t> {
+    fn new(text: &'t str) -> Atoms<'t> {
+        let (list, users) = (Vec::new(), Vec::new());
+        Atoms { text, list, users, is_vague: false, is_signed: false }
+    }
+
+    /// Tries all combinations of values until one is as wanted.
+    fn search(&self, is_wanted: impl Fn(&[i64]) -> bool) -> Search {
+        let combinations =
+            self.list.iter().try_fold(1usize, |all, atom| all.checked_mul(atom.domain.len()));
+        if self.is_vague || combinations.is_none_or(|count| count > COMBINATIONS_MAX) {
+            return Search::Vague;
+        }
+        let mut values: Vec<i64> = self.list.iter().map(Atom::least).collect();
+        while !is_wanted(&values) {
+            if !next(&self.list, &mut values) {
+                return Search::None;
+            }
+        }
+        Search::Found(self.list.iter().zip(values).map(|(atom, value)| atom.says(value)).collect())
+    }
+
     fn formula(&mut self, expression: &Expression) -> Formula {
         use BinaryOperator::{And, Or, Xor};
         match &expression.kind {
@@ -218,7 +256,8 @@ impl Atoms<'_> {
         let about = About::Number { text: self.written(of), is_time };
         let near = [number.saturating_sub(1), number, number.saturating_add(1)];
         // What is compared with nothing below zero may have no such values.
-        let values = near.into_iter().filter(|value| *value >= 0 || number < 0);
+        let is_signed = self.is_signed || number < 0;
+        let values = near.into_iter().filter(|value| *value >= 0 || is_signed);
         Formula::Leaf(self.atom(about, values, &[of]), relation, number)
     }
 

@@ -1,5 +1,7 @@
 //! Charts of SFCEdit, and what is generated from them the set/reset way.
 
+mod simulated;
+
 use chart::set_reset::variables::{self, Table};
 use chart::set_reset::{Target, plan, table, write};
 use chart::{Code, sfcedit};
@@ -349,22 +351,5 @@ run 200ms
 
 #[test]
 fn what_is_written_for_here_compiles_and_runs_as_the_chart_says() {
-    use awl_sim::open::{File, open};
-    use awl_sim::run::{Job, Length, run};
-    use awl_sim::scenario::{Context, Scenario};
-
-    let bytes = st(EJEMPLO, "", Target::Uno200).into_bytes();
-    let file = File { name: "ejemplo.st".to_owned(), bytes };
-    let mut opened = open(&file, &[]).unwrap_or_else(|error| panic!("{error}"));
-    let machine = &mut *opened.machine;
-    let mut has_operand = |operand| awl_sim::machine::Machine::read(machine, operand).map(|_| ());
-    let context = Context { symbols: &opened.symbols, plant: None, has_operand: &mut has_operand };
-    let scenario = Scenario::parse("run.scn", RUN, context)
-        .unwrap_or_else(|problems| panic!("{}", problems.render(false)));
-    let scan_ms = scenario.scan_ms.unwrap_or(1);
-    let length = Length::Scenario;
-    let job = Job { scan_ms, length, signals: Vec::new(), plant: None, progress: None };
-    let outcome = run(&mut *opened.machine, &scenario, job).expect("operands that are there");
-    assert!(outcome.failures.is_empty(), "{:?}", outcome.failures);
-    assert!(outcome.fault.is_none(), "{:?}", outcome.fault);
+    simulated::holds("ejemplo.st", st(EJEMPLO, "", Target::Uno200), RUN);
 }

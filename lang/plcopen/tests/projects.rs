@@ -199,6 +199,174 @@ fn wrong_projects_are_told_with_their_places() {
     assert_eq!(said(&text), ["W0700 3 `data` vendor: what a vendor has added is left out"]);
 }
 
+/// A block of a drawn condition, with its inputs from these elements.
+fn drawn_block(id: usize, kind: &str, from: &[usize]) -> String {
+    let inputs = from.iter().map(|from| {
+        format!(
+            "<variable formalParameter=\"IN\"><connectionPointIn><connection refLocalId=\"{from}\"/>\
+             </connectionPointIn></variable>"
+        )
+    });
+    let inputs: String = inputs.collect();
+    format!(
+        "<block localId=\"{id}\" typeName=\"{kind}\"><inputVariables>{inputs}</inputVariables></block>\n"
+    )
+}
+
+const FROM_10: &str = "<connectionPointIn><connection refLocalId=\"10\"/></connectionPointIn>";
+
+#[test]
+fn a_condition_with_feedback_is_told_once_at_its_place() {
+    let variable = "<inVariable localId=\"20\"><expression>x</expression></inVariable>\n";
+    // 10 asks for 11 three times, which asks for 12, which asks for 10 again.
+    let circle = drawn_block(10, "AND", &[20, 11, 11, 11])
+        + &drawn_block(11, "OR", &[12, 12, 20])
+        + &drawn_block(12, "NOT", &[10]);
+    let told = said(&chart(FROM_10, &(circle + variable)));
+    assert_eq!(told, ["E0702 8 `block` block 10: what it asks for depends on itself"]);
+    // What is broken is told where it is, and nothing else.
+    let broken = drawn_block(10, "AND", &[20, 11, 11]) + &drawn_block(11, "NOT", &[77]) + variable;
+    let told = said(&chart(FROM_10, &broken));
+    assert_eq!(told, ["E0704 9 `77` block 11: there is no element 77"]);
+    let unread = drawn_block(10, "AND", &[20, 11, 11]) + &drawn_block(11, "SEL", &[]) + variable;
+    let told = said(&chart(FROM_10, &unread));
+    assert_eq!(told, ["E0702 9 `block` block 11: this part of a drawn condition is not read"]);
+}
+
+#[test]
+fn functions_and_connectors_of_a_drawn_condition_are_read() {
+    let more = drawn_block(10, "AND", &[11, 13])
+        + &drawn_block(11, "SEL", &[20, 21, 12])
+        + &drawn_block(12, "MOVE", &[3])
+        + "<continuation localId=\"13\" name=\"Far\"/>\n"
+        + "<connector localId=\"14\" name=\"far\"><connectionPointIn><connection refLocalId=\"21\"/>\
+           </connectionPointIn></connector>\n"
+        + "<inVariable localId=\"20\"><expression>x</expression></inVariable>\n"
+        + "<inVariable localId=\"21\"><expression>y</expression></inVariable>\n";
+    assert_eq!(condition(FROM_10, &more), "SEL(x, y, On.X) AND y");
+}
+
+#[test]
+fn function_blocks_of_a_drawn_condition_are_called_while_the_step_is_active() {
+    let block = |id: usize, kind: &str, inputs: &[(&str, usize, &str)]| {
+        let inputs = inputs.iter().map(|(name, from, output)| {
+            format!(
+                "<variable formalParameter=\"{name}\"><connectionPointIn><connection \
+                 refLocalId=\"{from}\" formalParameter=\"{output}\"/></connectionPointIn></variable>"
+            )
+        });
+        let inputs: String = inputs.collect();
+        format!(
+            "<block localId=\"{id}\" typeName=\"{kind}\" instanceName=\"{kind}{id}\"><inputVariables>\
+             {inputs}</inputVariables><outputVariables><variable formalParameter=\"Q\"/>\
+             </outputVariables></block>\n"
+        )
+    };
+    // The timer is reset by what it sets: function blocks keep that from scan to scan.
+    let more = block(10, "TON", &[("IN", 11, "Q1"), ("PT", 20, "")])
+        + &block(11, "SR", &[("S1", 12, ""), ("R", 10, "Q")])
+        + &drawn_block(12, "NOT", &[21])
+        + "<inVariable localId=\"20\"><expression>T#2s</expression></inVariable>\n"
+        + "<inVariable localId=\"21\"><expression>x</expression></inVariable>\n";
+    let found = imported(&chart(FROM_10, &more));
+    assert!(found.diagnostics.is_empty(), "{:?}", found.diagnostics);
+    let text = found.text.text();
+    assert!(text.contains("STEP On:\n    On_blocks;\n"), "{text}");
+    assert!(text.contains(":= TON10.Q;"), "{text}");
+    let calls = "    SR11(S1 := NOT (x), R := TON10.Q);\nTON10(IN := SR11.Q1, PT := T#2s);\n";
+    assert!(text.contains(calls), "{text}");
+    let shared = more.replace(
+        "<inputVariables>",
+        "<inOutVariables><variable formalParameter=\"V\">\
+        <connectionPointIn/></variable></inOutVariables><inputVariables>",
+    );
+    assert!(said(&chart(FROM_10, &shared))[0].contains("is not read"));
+}
+
+#[test]
+fn conditions_with_a_drawing_of_their_own_are_read() {
+    let rung = |variable: &str, more: &str| {
+        format!(
+            "<transitions><transition name=\"Full\"><body><LD><leftPowerRail localId=\"1\"/>\
+             <contact localId=\"2\"><connectionPointIn><connection refLocalId=\"1\"/>\
+             </connectionPointIn><variable>x</variable></contact>\
+             <coil localId=\"3\" {more}><connectionPointIn><connection refLocalId=\"2\"/>\
+             </connectionPointIn><variable>{variable}</variable></coil></LD></body></transition>\
+             </transitions>"
+        )
+    };
+    let with = |transitions: &str| {
+        chart("<reference name=\"Full\"/>", "").replacen(
+            "<body>",
+            &format!("{transitions}<body>"),
+            1,
+        )
+    };
+    for (more, text) in [("", ":= x;"), ("negated=\"true\"", ":= NOT (x);")] {
+        let found = imported(&with(&rung("full", more)));
+        assert!(found.diagnostics.is_empty(), "{:?}", found.diagnostics);
+        assert!(found.text.text().contains(text), "{}", found.text.text());
+    }
+    let diagram = rung("Full", "").replace("LD>", "FBD>").replace("coil", "outVariable");
+    let diagram = diagram.replace("<variable>Full</variable>", "<expression>Full</expression>");
+    assert!(imported(&with(&diagram)).diagnostics.is_empty());
+    for other in [rung("y", ""), rung("Full", "storage=\"set\"")] {
+        assert_eq!(
+            said(&with(&other)),
+            ["E0702 2 `LD` condition Full is written in LD, which is not read"]
+        );
+    }
+}
+
+#[test]
+fn variables_with_a_line_from_a_step_are_actions() {
+    let variable = |more: &str, into: &str| {
+        format!(
+            "<outVariable localId=\"9\" {more}>{into}<expression>Lamp</expression></outVariable>\n"
+        )
+    };
+    let from = |id: usize| {
+        format!("<connectionPointIn><connection refLocalId=\"{id}\"/></connectionPointIn>")
+    };
+    let found = imported(&chart("<reference name=\"b\"/>", &variable("", &from(3))));
+    assert!(found.text.text().contains("STEP On:\n    Lamp;\n"), "{}", found.text.text());
+    let left = said(&chart("<reference name=\"b\"/>", &variable("", "")));
+    assert_eq!(left, ["W0700 8 `outVariable` outVariable 9: no line leads to it, it is left out"]);
+    for wrong in [variable("negated=\"true\"", &from(3)), variable("", &from(2))] {
+        let told = said(&chart("<reference name=\"b\"/>", &wrong));
+        assert_eq!(told, ["E0702 8 `outVariable` outVariable 9: no action of a step"]);
+    }
+}
+
+#[test]
+fn a_transition_that_is_joined_with_nothing_is_left_out() {
+    let loose = "<transition localId=\"9\"><connectionPointIn/><condition><reference name=\"c\"/>\
+        </condition></transition>";
+    let told = said(&chart("<reference name=\"b\"/>", loose));
+    assert_eq!(
+        told,
+        ["W0700 8 `transition` transition 9: it is joined with nothing, and left out"]
+    );
+    let jump = "<jumpStep localId=\"10\" targetName=\"Off\"><connectionPointIn>\
+        <connection refLocalId=\"9\"/></connectionPointIn></jumpStep>";
+    let told = said(&chart("<reference name=\"b\"/>", &format!("{loose}{jump}")));
+    assert_eq!(told, ["E0706 8 `transition` transition 9: no step is before it"]);
+}
+
+#[test]
+fn lines_that_meet_again_and_again_end() {
+    let variable = "<inVariable localId=\"50\"><expression>x</expression></inVariable>\n";
+    let ladder = |count: usize| -> String {
+        (10..10 + count).map(|id| drawn_block(id, "XOR", &[id + 1, id + 1])).collect()
+    };
+    let last = drawn_block(13, "OR", &[50, 50]);
+    let text = chart(FROM_10, &format!("{}{last}{variable}", ladder(3)));
+    assert_eq!(said(&text), [""; 0]);
+    let told = said(&chart(FROM_10, &format!("{}{variable}", ladder(40))));
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].contains("too large to be read"), "{told:?}");
+}
+
 #[test]
 fn large_and_deep_files_are_refused() {
     let codes = |text: &str| -> Vec<&str> {

@@ -10,8 +10,9 @@ use awl_asm::report::Report;
 use chart::Chart;
 use chart::set_reset::variables::{self, Table};
 use chart::set_reset::{Target, plan, table, write};
-use chart::sfcedit;
 use chart::summary::summary;
+use chart::{from_sfcedit, sfcedit};
+use diagnostics::traced::Traced;
 use diagnostics::{Code, Diagnostic, Severity, Source};
 
 use super::args::Convert;
@@ -147,7 +148,7 @@ fn from_project(arguments: &Convert, source: &Source) -> Result<bool> {
     write_whole(output, text.text().as_bytes()).map(|()| true)
 }
 
-/// A chart of SFCEdit to Structured Text, the set/reset way.
+/// A chart of SFCEdit to a program, to Structured Text the set/reset way, or to a picture.
 fn from_chart(arguments: &Convert, source: &Source) -> Result<bool> {
     let mut report = Report::new(arguments.messages, false);
     let rows = match &arguments.variables {
@@ -173,6 +174,15 @@ fn from_chart(arguments: &Convert, source: &Source) -> Result<bool> {
         let charts = sfcedit::model::charts(&project, &mut found);
         return Ok(told(&mut report, source, found) && draw(arguments, &charts, source)?);
     }
+    if let Some(output) = arguments.output.as_deref().filter(|one| has_ending(one, "sfc")) {
+        return to_program(
+            arguments,
+            source,
+            &from_sfcedit::program(&project, &rows),
+            found,
+            output,
+        );
+    }
     let (plan, more) = plan(&project, &rows);
     found.extend(more);
     if !told(&mut report, source, found) {
@@ -193,6 +203,39 @@ fn from_chart(arguments: &Convert, source: &Source) -> Result<bool> {
         print(&table(&plan))?;
     }
     Ok(true)
+}
+
+/// A chart of SFCEdit to a program that runs here. What is wrong with that is told at its place in
+/// the chart.
+fn to_program(
+    arguments: &Convert,
+    source: &Source,
+    program: &from_sfcedit::Program,
+    mut found: Vec<chart::Diagnostic>,
+    output: &Path,
+) -> Result<bool> {
+    if arguments.target.is_some() || arguments.table {
+        bail!("{}: --target and --table are for Structured Text (.st)", output.display());
+    }
+    let from_sfcedit::Program { text, diagnostics } = program;
+    found.extend(diagnostics.iter().cloned());
+    let mut report = Report::new(arguments.messages, false);
+    if !told(&mut report, source, found) {
+        return Ok(false);
+    }
+    let written = Source::new(source.name.as_str(), text.text())?;
+    let translation = chart::translate(&written, &mut HashSet::new());
+    let is_sound = told(&mut report, source, errors_of(translation.diagnostics, text));
+    if !told(&mut report, source, errors_of(translation.of_st, text)) || !is_sound {
+        return Ok(false);
+    }
+    write_whole(output, text.text().as_bytes()).map(|()| true)
+}
+
+/// Errors about a text, at the places from which it comes.
+fn errors_of<C: Code>(found: Vec<Diagnostic<C>>, text: &Traced) -> Vec<Diagnostic<C>> {
+    let errors = found.into_iter().filter(|one| one.severity() == Severity::Error);
+    errors.map(|one| one.moved(|span| text.place(span))).collect()
 }
 
 fn has_errors<C: Code>(found: &[Diagnostic<C>]) -> bool {

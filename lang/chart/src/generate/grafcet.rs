@@ -17,7 +17,7 @@ use super::names::Variables;
 use super::parsed::Parsed;
 use super::samples::{self, Samples};
 use crate::diagnostic::Diagnostic;
-use crate::hierarchy::{EVOLUTIONS_MAX, Hierarchy, Key, Order, Role, Use};
+use crate::hierarchy::{Hierarchy, Key, Order, Role, Use};
 use crate::model::{Body, Instance, Qualifier, Transition};
 
 const STARTED: &str = "Chart.started";
@@ -157,7 +157,7 @@ impl Grafcet<'_, '_> {
         evolution.push(element("Chart", "The next evolution".to_owned()));
         let next = binary(BinaryOperator::Add, variable(EVOLUTIONS), integer(1));
         evolution.push(assign(variable(EVOLUTIONS), next));
-        let max = integer(EVOLUTIONS_MAX.into());
+        let max = integer(self.hierarchy.evolutions_max().into());
         let is_over = binary(BinaryOperator::GreaterOrEqual, variable(EVOLUTIONS), max);
         vec![
             element("Chart", "Evolutions, until the situation is stable".to_owned()),

@@ -6,15 +6,18 @@ mod actions;
 mod alternatives;
 mod asking;
 mod build;
+mod circles;
 mod coarse;
 mod declare;
 mod evolution;
 mod grafcet;
+mod idle;
 mod mentions;
 mod names;
 mod parsed;
 mod samples;
 mod sound;
+mod touched;
 
 use std::collections::{BTreeSet, HashSet};
 
@@ -76,10 +79,14 @@ pub fn translate(source: &Source, known: &mut HashSet<String>) -> Translation {
         if diagnostics.is_empty() {
             check::check(chart, &mut warnings);
             alternatives::check(&source.text, &parsed, &mut warnings);
+            circles::check(&source.text, &parsed, &mut warnings);
         }
         let mut variables = Variables::default();
         unit.body = unit_body(parsed, &mut variables, &mut diagnostics, &mut of_st);
         variables.check(&mut diagnostics);
+        if diagnostics.is_empty() && of_st.is_empty() {
+            idle::check(unit, &mut warnings);
+        }
         unit.sections.push(variables.section());
     }
     diagnostics.extend(warnings);

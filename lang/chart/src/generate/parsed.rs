@@ -102,6 +102,12 @@ impl<'c> Parsed<'c> {
     }
 
     /// The chart and those in it, each before those in its actions.
+    pub(super) fn with_inner(&self) -> Vec<&Parsed<'c>> {
+        let inner = self.charts.values().flat_map(Parsed::with_inner);
+        std::iter::once(self).chain(inner).collect()
+    }
+
+    /// As [`with_inner`](Parsed::with_inner), each by itself.
     pub(super) fn flattened(mut self) -> Vec<Parsed<'c>> {
         let inner = std::mem::take(&mut self.charts).into_values().flat_map(Parsed::flattened);
         let inner: Vec<Parsed> = inner.collect();

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::samples::Samples;
-use super::{EVOLUTIONS_MAX, StepState, Surroundings, View};
+use super::{StepState, Surroundings, View};
 use crate::hierarchy::{Hierarchy, Key, Role, Use};
 use crate::model::{Body, Chart, Instance, Qualifier, StepId, Transition};
 
@@ -38,7 +38,7 @@ impl<'c> Grafcet<'c> {
             sample.look(elapsed_ms, surroundings, &self.view_of(sample.chart));
             self.samples.list.splice(at..=at, [sample]);
         }
-        self.is_unstable = (0..EVOLUTIONS_MAX).all(|_| self.evolve(surroundings));
+        self.is_unstable = (0..self.hierarchy.evolutions_max()).all(|_| self.evolve(surroundings));
         if !self.is_unstable {
             self.continuous(surroundings);
         }

@@ -3,23 +3,43 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use diagnostics::Span;
+use st::keywords::is_keyword;
 use st::names::is_name;
 
+use super::action_text::{Does, does, words};
 use super::plan::{Assignment, Cause, ChartPlan, Device, Plan, StepPlan};
 use super::style;
+use super::uses::{Use, Uses};
 use super::variables::{Kind, Table, Variable};
+use super::well_formed::{not_in_style, well_formed};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::sfcedit::condition::{Condition, parse};
-use crate::sfcedit::document::{Action, ActionKind, Grafcet, GrafcetKind, Project, Step, StepKind};
+use crate::sfcedit::condition::{Condition, Manner, parse};
+use crate::sfcedit::document::{Action, ActionKind, Grafcet, Project, Step};
 use crate::sfcedit::wiring::{Wiring, wire};
 use crate::sfcedit::words::Words;
+use crate::text;
 
 /// How names of timers and counters begin where no table says that they are some.
 const PREFIXES: [(&str, Kind); 2] = [("Temp", Kind::Timer), ("Cont", Kind::Counter)];
 
+/// What is made of the charts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Style {
+    /// Equations.
+    SetReset,
+    /// A GRAFCET, which has macro-steps, enclosing steps, orders, events and times, too.
+    Grafcet,
+}
+
 /// The plan for the charts of a file. All that is wrong, or is not in this style, is reported.
 pub fn plan(project: &Project, table: &Table) -> (Plan, Vec<Diagnostic>) {
+    assembled(project, table, Style::SetReset)
+}
+
+/// As [`plan`]; of a GRAFCET variables, timers and counters are in it, not what only it has.
+pub(crate) fn assembled(project: &Project, table: &Table, style: Style) -> (Plan, Vec<Diagnostic>) {
     let mut assembler = Assembler {
+        style,
         table,
         plan: Plan::default(),
         uses: Uses::default(),
@@ -37,67 +57,14 @@ pub fn plan(project: &Project, table: &Table) -> (Plan, Vec<Diagnostic>) {
     (plan, diagnostics)
 }
 
-/// Which variables there are, in the order of their first use, and what is done with them.
-#[derive(Debug, Default)]
-struct Uses {
-    order: Vec<String>,
-    known: HashMap<String, Use>,
-}
-
-#[derive(Debug, Default, Clone, Copy)]
-struct Use {
-    is_read: bool,
-    is_written: bool,
-    /// Compared, or given a number.
-    is_number: bool,
-    at: Span,
-}
-
-impl Uses {
-    fn of(&mut self, name: &str, at: Span) -> &mut Use {
-        if !self.known.contains_key(name) {
-            self.order.push(name.to_owned());
-        }
-        self.known.entry(name.to_owned()).or_insert(Use { at, ..Use::default() })
-    }
-}
-
 struct Assembler<'t> {
+    style: Style,
     table: &'t Table,
     plan: Plan,
     uses: Uses,
     /// Steps of all charts: their names as written, by those in upper case.
     step_names: HashMap<String, (String, Span)>,
     diagnostics: Vec<Diagnostic>,
-}
-
-/// What a text of an action says.
-enum Does<'a> {
-    /// A name: it is on, starts or counts.
-    Name(&'a str),
-    /// `V := value`
-    Value(&'a str, &'a str),
-    /// `S V`
-    Set(&'a str),
-    /// `R V`
-    Reset(&'a str),
-}
-
-fn does(text: &str) -> Option<Does<'_>> {
-    if let Some((variable, value)) = text.split_once(":=") {
-        let (variable, value) = (variable.trim(), value.trim().trim_end_matches(';').trim());
-        return (is_name(variable) && !value.is_empty()).then_some(Does::Value(variable, value));
-    }
-    let mut words = text.split_whitespace();
-    match (words.next(), words.next(), words.next()) {
-        (Some(name), None, _) if is_name(name) => Some(Does::Name(name)),
-        (Some(word), Some(name), None) if is_name(name) => match word {
-            "S" | "s" => Some(Does::Set(name)),
-            "R" | "r" => Some(Does::Reset(name)),
-            _ => None,
-        },
-        _ => None,
-    }
 }
 
 impl Assembler<'_> {
@@ -113,9 +80,7 @@ impl Assembler<'_> {
             if let Some(other) = charts.insert(name.text.to_uppercase(), name.span) {
                 self.twice("charts", &name.text, name.span, other);
             }
-            if !is_name(&name.text) && !name.text.is_empty() {
-                self.no_name(&name.text, name.span);
-            }
+            self.is_free(&name.text, name.span);
             for element in grafcet.sequences.iter().flat_map(|one| &one.elements) {
                 let crate::sfcedit::document::Element::Step(step) = element else { continue };
                 let (name, span) = (&step.name.text, step.name.span);
@@ -125,9 +90,7 @@ impl Assembler<'_> {
                 {
                     self.twice("steps", name, span, other);
                 }
-                if !is_name(name) && !name.is_empty() {
-                    self.no_name(name, span);
-                }
+                self.is_free(name, span);
             }
         }
     }
@@ -142,7 +105,20 @@ impl Assembler<'_> {
         self.diagnostics.push(error.related(other, "the other one"));
     }
 
-    fn no_name(&mut self, name: &str, span: Span) {
+    /// Reports what can be no name of a step or chart.
+    fn is_free(&mut self, name: &str, span: Span) {
+        let is_word = |name: &str| {
+            let name = name.to_uppercase();
+            is_keyword(&name) || text::KEYWORDS.contains(&name.as_str())
+        };
+        if self.style == Style::Grafcet && is_word(name) {
+            let message = format!("{name}: a word of the language names nothing");
+            let help = format!("another name, such as {name}1");
+            return self.error(Code::XmlStructure, span, message, &help);
+        }
+        if is_name(name) || name.is_empty() {
+            return;
+        }
         let help = "names begin with a letter and go on with letters, digits and _";
         self.error(Code::XmlStructure, span, format!("`{name}` is no name"), help);
     }
@@ -159,7 +135,11 @@ impl Assembler<'_> {
             // That it is missing has been said.
             return None;
         }
-        match parse(words, &|name| self.instance_kind(name).is_some()) {
+        let manner = Manner {
+            is_instance: &|name| self.instance_kind(name).is_some(),
+            has_times: self.style == Style::Grafcet,
+        };
+        match parse(words, manner) {
             Ok(condition) => Some(self.note(condition, words.span)),
             Err(error) => {
                 self.diagnostics.push(*error);
@@ -170,7 +150,6 @@ impl Assembler<'_> {
 
     /// Notes the variables and edges of a condition; a timer's or counter's name is its `.Q`.
     fn note(&mut self, condition: Condition, at: Span) -> Condition {
-        let is_comparison = |one: &Condition| matches!(one, Condition::Comparison(..));
         let mut edges = Vec::new();
         let mut names = Vec::new();
         condition.visit(&mut |name, edge| {
@@ -187,7 +166,7 @@ impl Assembler<'_> {
             }
             let found = self.uses.of(&name, at);
             found.is_read = true;
-            found.is_number |= is_comparison(&condition);
+            found.is_number |= condition.compares(&name);
         }
         self.answered(condition)
     }
@@ -204,6 +183,7 @@ impl Assembler<'_> {
                 Condition::Variable(format!("{name}.{output}"))
             }
             Condition::Not(one) => Condition::Not(Box::new(self.answered(*one))),
+            Condition::Time(on, of, off) => Condition::Time(on, Box::new(self.answered(*of)), off),
             Condition::And(inner) => Condition::And(all(inner)),
             Condition::Or(inner) => Condition::Or(all(inner)),
             other => other,
@@ -218,87 +198,31 @@ impl Assembler<'_> {
     }
 
     fn chart(&mut self, grafcet: &Grafcet) {
-        if grafcet.kind != GrafcetKind::Normal {
-            let message = format!("{}: the chart of another step", grafcet.name.text);
-            let help = "not in this style of chart: there are no macro-steps and enclosing steps";
-            self.error(Code::NotInStyle, grafcet.name.span, message, help);
-        }
         let mut found = Vec::new();
         let wiring = wire(grafcet, &mut found);
         let is_sound = found.is_empty();
         self.diagnostics.append(&mut found);
-        for step in &wiring.steps {
-            self.only_plain(step);
-        }
+        not_in_style(grafcet, &wiring, self.style, &mut self.diagnostics);
         if is_sound {
-            self.well_formed(grafcet, &wiring);
+            well_formed(grafcet, &wiring, self.style, &mut self.diagnostics);
         }
         let conditions: Vec<Option<Condition>> = wiring
             .transitions
             .iter()
             .map(|wired| {
-                if let Some(action) = wired.transition.actions.first() {
-                    let message = format!("action {} of a transition", action.text.text());
-                    let help = "not in this style of chart: give it to a step";
-                    self.error(Code::NotInStyle, action.span, message, help);
-                }
+                wired.transition.actions.iter().for_each(|one| self.crossing(one));
                 self.derived(&wired.transition.comment);
                 self.condition(&wired.transition.condition)
             })
             .collect();
-        self.diagnostics.extend(style::warnings(&wiring, &conditions));
+        self.diagnostics.extend(match self.style {
+            Style::SetReset => style::warnings(&wiring, &conditions),
+            Style::Grafcet => style::other_in_grafcet(&wiring, &conditions),
+        });
         self.equations(grafcet, &wiring, &conditions);
         for step in &wiring.steps {
             for action in &step.actions {
                 self.action(step, action);
-            }
-        }
-    }
-
-    fn only_plain(&mut self, step: &Step) {
-        let what = match step.kind {
-            StepKind::Normal | StepKind::Initial => return,
-            StepKind::Final => "a final step",
-            StepKind::Macro => "a macro-step",
-            StepKind::Task => "a task",
-            StepKind::Enclosing | StepKind::InitialEnclosing => "an enclosing step",
-        };
-        let message = format!("{}: {what}", step.name.text);
-        let help = "not in this style of chart: steps are normal or initial";
-        self.error(Code::NotInStyle, step.name.span, message, help);
-    }
-
-    fn well_formed(&mut self, grafcet: &Grafcet, wiring: &Wiring) {
-        if wiring.jumps == 0 {
-            let message = format!("{}: there is no jump", grafcet.name.text);
-            let help =
-                "the last transition jumps back: <jump seqid_from=\"...\" seqid_to=\"...\"/>";
-            self.error(Code::XmlStructure, grafcet.name.span, message, help);
-        }
-        if !wiring.steps.iter().any(|step| step.kind.is_initial()) {
-            let message = format!("{}: there is no initial step", grafcet.name.text);
-            let help = "the step that is active at the beginning has type=\"initial\"";
-            self.error(Code::XmlStructure, grafcet.name.span, message, help);
-        }
-        for wired in &wiring.transitions {
-            let title = format!("transition {}", wired.transition.condition.text());
-            for (steps, side) in [(&wired.from, "before"), (&wired.to, "after")] {
-                if steps.is_empty() {
-                    let message = format!("{title}: there is no step {side} it");
-                    let help = "a sequence, a link or a jump joins it with one";
-                    self.error(Code::XmlStructure, wired.transition.span, message, help);
-                }
-            }
-        }
-        for (at, step) in wiring.steps.iter().enumerate() {
-            let enters = wiring.transitions.iter().any(|wired| wired.to.contains(&at));
-            let leaves = wiring.transitions.iter().any(|wired| wired.from.contains(&at));
-            for (is_there, words) in [(enters, "leads to it"), (leaves, "leaves it")] {
-                if !is_there {
-                    let message = format!("step {}: no transition {words}", step.name.text);
-                    let help = "a sequence, a link or a jump joins it with one";
-                    self.error(Code::XmlStructure, step.name.span, message, help);
-                }
             }
         }
     }
@@ -344,12 +268,40 @@ impl Assembler<'_> {
         self.plan.charts.push(ChartPlan { name: grafcet.name.text.clone(), steps });
     }
 
+    /// An action of a transition.
+    fn crossing(&mut self, action: &Action) {
+        let span = action.text.span;
+        let (text, cause) = (action.text.text(), Condition::Constant(true));
+        let cause = Cause { step: cause, condition: None };
+        match (self.style, does(&text)) {
+            (Style::Grafcet, Some(Does::Value(name, value))) => {
+                self.value(name, value, cause, span);
+            }
+            (Style::Grafcet, Some(Does::Set(name))) => self.value(name, "TRUE", cause, span),
+            (Style::Grafcet, Some(Does::Reset(name))) => self.value(name, "FALSE", cause, span),
+            (style, _) => {
+                let help = match style {
+                    Style::SetReset => "not in this style of chart: give it to a step",
+                    Style::Grafcet => "what a crossing does is `V := value`, `S V` or `R V`",
+                };
+                self.error(
+                    Code::NotInStyle,
+                    action.span,
+                    format!("action {text} of a transition"),
+                    help,
+                );
+            }
+        }
+    }
+
     fn action(&mut self, step: &Step, action: &Action) {
         let name = step.name.text.clone();
         let cause = match action.kind {
             ActionKind::Normal | ActionKind::Conditional => Condition::Variable(name),
             ActionKind::Activation => Condition::Rising(name),
             ActionKind::Deactivation => Condition::Falling(name),
+            ActionKind::Forcing if self.style == Style::Grafcet => return,
+            ActionKind::Event if self.style == Style::Grafcet => Condition::Variable(name),
             ActionKind::Forcing | ActionKind::Event => {
                 let what = if action.kind == ActionKind::Event { "an event" } else { "forcing" };
                 let message = format!("action {}: {what}", action.text.text());
@@ -375,7 +327,7 @@ impl Assembler<'_> {
             return;
         }
         let span = action.text.span;
-        let is_stored = matches!(action.kind, ActionKind::Activation | ActionKind::Deactivation);
+        let is_stored = !matches!(action.kind, ActionKind::Normal | ActionKind::Conditional);
         match does(&text) {
             Some(Does::Name(name)) => self.on(name, cause, span, is_stored),
             Some(Does::Value(name, value)) => self.value(name, value, cause, span),
@@ -430,6 +382,13 @@ impl Assembler<'_> {
             "0" if is_bool => "FALSE",
             _ => value,
         };
+        for word in words(value).filter(|word| is_name(word) && !is_keyword(word)) {
+            if !self.is_step(word) {
+                let found = self.uses.of(word, span);
+                found.is_read = true;
+                found.is_number |= !is_bool;
+            }
+        }
         let found = self.uses.of(name, span);
         found.is_written = true;
         found.is_number |= !is_bool;

@@ -4,13 +4,17 @@
 //!
 //! [`mod@plan`] is what is generated without the words of a target, `targets` writes it.
 
+pub(crate) mod action_text;
 mod assemble;
 pub mod plan;
 mod style;
 mod table;
-mod targets;
+pub(crate) mod targets;
+mod uses;
 pub mod variables;
+mod well_formed;
 
 pub use assemble::plan;
+pub(crate) use assemble::{Style, assembled};
 pub use table::table;
 pub use targets::{Target, plcopen_head, write};

@@ -11,9 +11,29 @@ pub(super) fn warnings(wiring: &Wiring, conditions: &[Option<Condition>]) -> Vec
     for at in 0..wiring.steps.len() {
         alternatives(wiring, conditions, at, &mut found);
         two_steps(wiring, at, &mut found);
-        at_once(wiring, conditions, at, &mut found);
+        at_once(wiring, conditions, at, false, &mut found);
     }
     found
+}
+
+/// Warnings about a chart that becomes a GRAFCET: where that does what the chart says, and the
+/// set/reset way does not.
+pub(super) fn other_in_grafcet(
+    wiring: &Wiring,
+    conditions: &[Option<Condition>],
+) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    for at in 0..wiring.steps.len() {
+        two_steps(wiring, at, &mut found);
+        at_once(wiring, conditions, at, true, &mut found);
+    }
+    let help = "a GRAFCET does what the chart says: it behaves otherwise there";
+    let told = |one: Diagnostic| Diagnostic {
+        message: format!("set/reset, {}", one.message),
+        help: vec![help.to_owned()],
+        ..one
+    };
+    found.into_iter().map(told).collect()
 }
 
 fn warning(wiring: &Wiring, at: usize, message: String, help: &str) -> Diagnostic {
@@ -82,10 +102,12 @@ fn at_once(
     wiring: &Wiring,
     conditions: &[Option<Condition>],
     at: usize,
+    in_branches_only: bool,
     found: &mut Vec<Diagnostic>,
 ) {
+    let is_asked = |to: &[usize]| to.contains(&at) && (to.len() > 1 || !in_branches_only);
     let entering = wiring.transitions.iter().zip(conditions);
-    for (before, into) in entering.filter(|(wired, _)| wired.to.contains(&at)) {
+    for (before, into) in entering.filter(|(wired, _)| is_asked(&wired.to)) {
         let leaving = wiring.transitions.iter().zip(conditions);
         let passes = |after: &Option<Condition>| {
             *after == Some(Condition::Constant(true)) || after.is_some() && after == into

@@ -28,6 +28,8 @@ pub enum Condition {
     Or(Vec<Condition>),
     /// Two values with their relation between them, as ST writes it.
     Comparison(String, &'static str, String),
+    /// `5s/a/2s`: the times as ST writes them, `T#5s`.
+    Time(String, Box<Condition>, Option<String>),
 }
 
 /// How edges are written in ST.
@@ -41,11 +43,9 @@ pub trait Edges {
 impl Condition {
     /// As ST. Operators have brackets around them where they are operands of another one.
     pub fn st(&self, edges: &dyn Edges) -> String {
-        let inner = |one: &Condition| match one {
-            Condition::And(_) | Condition::Or(_) | Condition::Comparison(..) => {
-                format!("({})", one.st(edges))
-            }
-            _ => one.st(edges),
+        let inner = |one: &Condition| match one.is_whole() {
+            true => one.st(edges),
+            false => format!("({})", one.st(edges)),
         };
         let joined =
             |all: &[Condition], word: &str| all.iter().map(inner).collect::<Vec<_>>().join(word);
@@ -59,7 +59,43 @@ impl Condition {
             Condition::And(all) => joined(all, " AND "),
             Condition::Or(all) => joined(all, " OR "),
             Condition::Comparison(left, relation, right) => format!("{left} {relation} {right}"),
+            Condition::Time(on, of, off) => {
+                let off = off.iter().map(|off| format!("/{off}")).collect::<String>();
+                format!("{on}/{}{off}", inner(of))
+            }
         }
+    }
+
+    /// Whether it needs no brackets as the operand of an operator.
+    fn is_whole(&self) -> bool {
+        use Condition::{And, Comparison, Or, Time};
+        !matches!(self, And(_) | Or(_) | Comparison(..) | Time(..))
+    }
+
+    /// Whether a variable is compared with something in it.
+    pub fn compares(&self, name: &str) -> bool {
+        match self {
+            Condition::Comparison(left, _, right) => left == name || right == name,
+            Condition::Not(one) | Condition::Time(_, one, _) => one.compares(name),
+            Condition::And(all) | Condition::Or(all) => all.iter().any(|one| one.compares(name)),
+            Condition::Constant(_)
+            | Condition::Variable(_)
+            | Condition::Rising(_)
+            | Condition::Falling(_) => false,
+        }
+    }
+
+    /// With other words in the place of some of its parts: those for which there are some.
+    pub fn replaced(&self, by: &dyn Fn(&Condition) -> Option<Condition>) -> Condition {
+        let one = |inside: &Condition| Box::new(inside.replaced(by));
+        let all = |inside: &[Condition]| inside.iter().map(|one| one.replaced(by)).collect();
+        by(self).unwrap_or_else(|| match self {
+            Condition::Not(inside) => Condition::Not(one(inside)),
+            Condition::And(inside) => Condition::And(all(inside)),
+            Condition::Or(inside) => Condition::Or(all(inside)),
+            Condition::Time(on, of, off) => Condition::Time(on.clone(), one(of), off.clone()),
+            other => other.clone(),
+        })
     }
 
     /// As equations of charts have it: `a./b+c`.
@@ -82,6 +118,10 @@ impl Condition {
                 all.iter().map(Condition::equation).collect::<Vec<_>>().join(" + ")
             }
             Condition::Comparison(left, relation, right) => format!("[{left}{relation}{right}]"),
+            Condition::Time(on, of, off) => {
+                let off = off.iter().map(|off| format!("/{off}")).collect::<String>();
+                format!("{on}/{}{off}", inner(of))
+            }
         }
     }
 
@@ -92,7 +132,7 @@ impl Condition {
             Condition::Variable(name) => found(name, None),
             Condition::Rising(name) => found(name, Some(true)),
             Condition::Falling(name) => found(name, Some(false)),
-            Condition::Not(one) => one.visit(found),
+            Condition::Not(one) | Condition::Time(_, one, _) => one.visit(found),
             Condition::And(all) | Condition::Or(all) => all.iter().for_each(|one| one.visit(found)),
             Condition::Comparison(left, _, right) => {
                 for side in [left, right] {
@@ -105,13 +145,18 @@ impl Condition {
     }
 }
 
-/// Reads a condition. `is_instance` says which names are those of timers and counters, whose `.Q`
-/// is a part of theirs and no AND.
-pub fn parse(
-    words: &Words,
-    is_instance: &dyn Fn(&str) -> bool,
-) -> Result<Condition, Box<Diagnostic>> {
-    condition(words, is_instance).map_err(|wrong| {
+/// How conditions are read.
+#[derive(Clone, Copy)]
+pub struct Manner<'n> {
+    /// Which names are those of timers and counters, whose `.Q` is a part of theirs and no AND.
+    pub is_instance: &'n dyn Fn(&str) -> bool,
+    /// Whether there are times in them, `5s/X2`.
+    pub has_times: bool,
+}
+
+/// Reads a condition.
+pub fn parse(words: &Words, manner: Manner) -> Result<Condition, Box<Diagnostic>> {
+    condition(words, manner).map_err(|wrong| {
         let found = Diagnostic::new(Code::BadCondition, wrong.span, wrong.message);
         Box::new(match wrong.help {
             Some(help) => found.help(help),
@@ -120,8 +165,8 @@ pub fn parse(
     })
 }
 
-fn condition(words: &Words, is_instance: &dyn Fn(&str) -> bool) -> Result<Condition, Wrong> {
-    let tokens = cut(words, is_instance)?;
+fn condition(words: &Words, manner: Manner) -> Result<Condition, Wrong> {
+    let tokens = cut(words, manner)?;
     let mut parser = Parser { tokens: &tokens, at: 0, end: words.span };
     // GRAFCET's `=1` is what is always true.
     if let [Token { kind: Kind::Relation("="), .. }, Token { kind: Kind::Number(one), .. }] =
@@ -156,6 +201,8 @@ enum Kind {
     Or,
     Open,
     Close,
+    /// Between a time and what it is of.
+    Slash,
     Relation(&'static str),
 }
 
@@ -164,6 +211,8 @@ struct Token {
     kind: Kind,
     span: Span,
 }
+
+const TIMES: &str = "such as 5s/X2, and 5s/a/2s with a time for which it stays";
 
 const RELATIONS: [(&str, &str); 9] = [
     ("<=", "<="),
@@ -206,7 +255,7 @@ fn unexpected(token: &Token) -> Wrong {
 }
 
 /// Cuts a text into tokens.
-fn cut(words: &Words, is_instance: &dyn Fn(&str) -> bool) -> Result<Vec<Token>, Wrong> {
+fn cut(words: &Words, manner: Manner) -> Result<Vec<Token>, Wrong> {
     let mut tokens: Vec<Token> = Vec::new();
     let at_part = |tokens: &[Token]| tokens.last().map_or(words.span, |last| last.span);
     for part in &words.parts {
@@ -220,18 +269,13 @@ fn cut(words: &Words, is_instance: &dyn Fn(&str) -> bool) -> Result<Vec<Token>, 
                 tokens.push(mark(Kind::Open));
             }
             Part::ComplementEnd => tokens.push(mark(Kind::Close)),
-            Part::Text(text, span) => cut_text(text, *span, &mut tokens, is_instance)?,
+            Part::Text(text, span) => cut_text(text, *span, &mut tokens, manner)?,
         }
     }
     Ok(tokens)
 }
 
-fn cut_text(
-    text: &str,
-    span: Span,
-    tokens: &mut Vec<Token>,
-    is_instance: &dyn Fn(&str) -> bool,
-) -> Result<(), Wrong> {
+fn cut_text(text: &str, span: Span, tokens: &mut Vec<Token>, manner: Manner) -> Result<(), Wrong> {
     // Offsets hold where the text is in the file as it is; entities make it shorter than there.
     let is_plain = (span.end - span.start) as usize == text.len();
     let place = |start: usize, end: usize| match is_plain {
@@ -245,8 +289,14 @@ fn cut_text(
             at += first.len_utf8();
             continue;
         }
+        let is_after_operand = tokens.last().is_some_and(|last| is_operand(&last.kind));
         let (kind, length) = match first {
-            _ if is_first_of_name(first) => name(rest, is_instance),
+            '/' if is_after_operand && manner.has_times => (Kind::Slash, 1),
+            _ if is_first_of_name(first) => name(rest, manner.is_instance),
+            _ if first.is_ascii_digit() && manner.has_times && time_length(rest).is_some() => {
+                let length = time_length(rest).unwrap_or(0);
+                (Kind::Number(format!("T#{}", rest.get(..length).unwrap_or(""))), length)
+            }
             _ if first.is_ascii_digit() => {
                 let length = number_length(rest);
                 (Kind::Number(rest.get(..length).unwrap_or("").to_owned()), length)
@@ -258,7 +308,7 @@ fn cut_text(
             })?,
         };
         let span = place(at, at + length);
-        if rest.starts_with('/') && tokens.last().is_some_and(|last| is_operand(&last.kind)) {
+        if rest.starts_with('/') && is_after_operand && !manner.has_times {
             return Err(error(
                 span,
                 "a time in a condition (`t1/X2`) is not in this style of chart",
@@ -313,6 +363,15 @@ fn number_length(rest: &str) -> usize {
         Some(fraction) if fraction.starts_with(|c: char| c.is_ascii_digit()) => digits(whole + 1),
         _ => whole,
     }
+}
+
+/// A number with a unit of time directly after it: `5s`, `2.5s`, `500ms`.
+fn time_length(rest: &str) -> Option<usize> {
+    let number = number_length(rest);
+    let unit = rest.get(number..).unwrap_or("");
+    let unit = unit.get(..unit.find(|c| !is_in_name(c)).unwrap_or(unit.len())).unwrap_or("");
+    let is_unit = ["d", "h", "m", "s", "ms"].iter().any(|one| one.eq_ignore_ascii_case(unit));
+    is_unit.then_some(number + unit.len())
 }
 
 fn sign(rest: &str) -> Option<(Kind, usize)> {
@@ -401,7 +460,10 @@ impl Parser<'_> {
             }
             Kind::Rising => Ok(Condition::Rising(self.edge(token.span)?)),
             Kind::Falling => Ok(Condition::Falling(self.edge(token.span)?)),
-            Kind::Name(text) | Kind::Number(text) => self.operand(text, token.span),
+            Kind::Name(text) | Kind::Number(text) => match self.take(&Kind::Slash) {
+                true => self.time(text, token.span, depth),
+                false => self.operand(text, token.span),
+            },
             _ => Err(unexpected(&token)),
         }
     }
@@ -413,6 +475,38 @@ impl Parser<'_> {
                 Ok(name)
             }
             _ => Err(error(span, "an edge is that of a variable").help("write <re/>Start")),
+        }
+    }
+
+    /// What is after `5s/`.
+    fn time(&mut self, on: String, span: Span, depth: usize) -> Result<Condition, Wrong> {
+        let is_time = |text: &str| text.contains('#');
+        if !is_time(&on) {
+            return Err(error(span, format!("{on}: a time is before `/`")).help(TIMES));
+        }
+        let of = self.timed(depth)?;
+        let off = match self.take(&Kind::Slash) {
+            false => None,
+            true => match self.peek().cloned() {
+                Some(Token { kind: Kind::Number(off), .. }) if is_time(&off) => {
+                    self.at += 1;
+                    Some(off)
+                }
+                _ => return Err(error(span, "the second time is missing").help(TIMES)),
+            },
+        };
+        Ok(Condition::Time(on, Box::new(of), off))
+    }
+
+    /// What a time is of: a variable or step, a bracket, a complement of these.
+    fn timed(&mut self, depth: usize) -> Result<Condition, Wrong> {
+        match self.peek().cloned() {
+            Some(Token { kind: Kind::Name(name), .. }) => {
+                self.at += 1;
+                Ok(Condition::Variable(name))
+            }
+            Some(Token { kind: Kind::Not | Kind::Open, .. }) => self.not(depth + 1),
+            _ => Err(error(self.end, "a time of nothing").help(TIMES)),
         }
     }
 

@@ -16,6 +16,10 @@ use crate::model::Chart;
 
 pub use write::{Written, WrittenPart, write, write_chart};
 
+/// The words of charts, which name nothing.
+pub(crate) const KEYWORDS: [&str; 7] =
+    ["INITIAL_STEP", "STEP", "END_STEP", "TRANSITION", "END_TRANSITION", "ACTION", "END_ACTION"];
+
 /// A text with charts.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Document {

@@ -13,9 +13,13 @@ use crate::model::{
 const WORDS: [&str; 10] =
     ["grafcet", "at", "coarse", "macro", "enclosing", "linked", "force", "if", "on", "crossing"];
 
-/// Whether a pragma says that a chart is by the rules of GRAFCET.
-pub(super) fn is_grafcet(text: &str) -> bool {
-    inside(text).eq_ignore_ascii_case("grafcet")
+/// Most evolutions in a scan that a chart can ask for.
+const EVOLUTIONS_MOST: u16 = 1_000;
+
+/// What a pragma says beside that a chart is by the rules of GRAFCET; `None`: not that.
+pub(super) fn grafcet(text: &str) -> Option<&str> {
+    let (word, rest) = parts(text);
+    (word == "grafcet").then_some(rest)
 }
 
 fn inside(text: &str) -> &str {
@@ -65,6 +69,24 @@ fn forcing(rest: &str, span: Span) -> Option<Forcing> {
 }
 
 impl Reader<'_> {
+    /// How often a chart evolves in a scan at most, as its pragma says: `{grafcet evolutions 50}`.
+    pub(super) fn evolutions_max(&mut self, pragma: Span) -> Option<u16> {
+        let rest = grafcet(pragma.text(self.text)).filter(|rest| !rest.is_empty())?;
+        let mut words = rest.split_whitespace();
+        let is_named = words.next().is_some_and(|word| word.eq_ignore_ascii_case("evolutions"));
+        let number = words.next().and_then(|number| number.parse().ok());
+        let number = number.filter(|_| is_named && words.next().is_none());
+        let found = number.filter(|number| (1..=EVOLUTIONS_MOST).contains(number));
+        if found.is_none() {
+            let message = format!("{}: no number of evolutions", pragma.text(self.text));
+            let help = format!(
+                "a GRAFCET evolves 1 to {EVOLUTIONS_MOST} times in a scan: {{grafcet evolutions 50}}"
+            );
+            self.report(Diagnostic::new(ErrorCode::Pragma, pragma, message).help(help));
+        }
+        found
+    }
+
     /// Gives a step, and the last instance of its block, what pragmas say.
     pub(super) fn step_pragmas(&mut self, step: &mut Step) {
         for span in std::mem::take(&mut self.pending_pragmas) {

@@ -221,8 +221,9 @@ impl<'t> Reader<'t> {
         self.pragmas.retain(stays);
         let at = self.at;
         let mut chart = Chart::new(name);
-        if standard.is_some() {
+        if let Some(pragma) = standard {
             chart.standard = Standard::Grafcet;
+            chart.evolutions_max = self.evolutions_max(pragma);
         }
         self.elements(&mut chart, standard);
         debug_assert!(self.at > at);
@@ -232,7 +233,7 @@ impl<'t> Reader<'t> {
     /// The pragma `{grafcet}` before a chart.
     fn standard(&self, start: usize, end: usize) -> Option<Span> {
         let list = Self::in_gap(&self.pragmas, start, end).iter();
-        let mut found = list.filter(|span| super::pragmas::is_grafcet(span.text(self.text)));
+        let mut found = list.filter(|span| super::pragmas::grafcet(span.text(self.text)).is_some());
         found.next_back().copied()
     }
 

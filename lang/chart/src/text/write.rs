@@ -99,7 +99,8 @@ impl Writer {
 
     fn chart(&mut self, chart: &Chart, around: Option<Standard>) {
         if chart.standard == Standard::Grafcet && around != Some(Standard::Grafcet) {
-            self.line("{grafcet}");
+            let max = chart.evolutions_max.map(|max| format!(" evolutions {max}"));
+            self.line(&format!("{{grafcet{}}}", max.unwrap_or_default()));
         }
         let mut is_first = true;
         for step in chart.steps.values() {

@@ -13,7 +13,8 @@ const VARIABLES: [&str; 9] = ["a", "b", "c", "d", "p", "q", "r", "n", "k"];
 /// milliseconds since the scan before (10 without). It becomes the active steps and the variables
 /// that are not 0, counters with their values; `?` ends it where the situation is not stable.
 fn scans(text: &str, scans: &[&str]) -> Vec<String> {
-    let source = Source::new("t.sfc", format!("{{grafcet}}\n{text}")).expect("a short text");
+    let pragma = if text.starts_with('{') { "" } else { "{grafcet}\n" };
+    let source = Source::new("t.sfc", format!("{pragma}{text}")).expect("a short text");
     let reading = read(&source);
     let messages: Vec<&str> = reading.diagnostics.iter().map(|one| one.message.as_str()).collect();
     assert!(messages.is_empty(), "{messages:?}");
@@ -324,6 +325,28 @@ fn a_search_that_finds_nothing_goes_on_in_the_next_scan() {
     );
     // The beginning is an evolution, too: it ends in S2, whose q waits for a stable situation.
     assert_eq!(scans(text, &["a", ""]), ["S2 n=10 ?", "S2 q n=10"]);
+}
+
+#[test]
+fn a_chart_says_how_often_it_evolves() {
+    let text = "{grafcet evolutions 4}\nINITIAL_STEP S1: p; END_STEP\n\
+        STEP S2: Count(P1); q; END_STEP\n\
+        TRANSITION FROM S1 TO S2 := a; END_TRANSITION\n\
+        TRANSITION FROM S2 TO S1 := a; END_TRANSITION\n\
+        ACTION Count: n := n + 1; END_ACTION\n";
+    assert_eq!(scans(text, &["", "a", "a", ""]), ["S1 p", "S1 p n=2 ?", "S1 p n=4 ?", "S1 p n=4"]);
+    let once = text.replace("evolutions 4", "evolutions 1");
+    assert_eq!(scans(&once, &["", "", "a", "a"]), ["S1 ?", "S1 p", "S2 p n ?", "S1 p n ?"]);
+    for wrong in ["0", "1001", "many", "", "5 6", "-1"] {
+        let text = text.replace("evolutions 4", &format!("evolutions {wrong}"));
+        let source = Source::new("t.sfc", text).expect("a short text");
+        let found = read(&source).diagnostics;
+        let is_told = found.iter().any(|one| one.code == chart::Code::Pragma);
+        assert!(is_told && found.len() == 1, "{wrong}: {found:?}");
+    }
+    let source = Source::new("t.sfc", text).expect("a short text");
+    let document = read(&source).document;
+    assert!(chart::text::write(&document).starts_with("{grafcet evolutions 4}\n"));
 }
 
 #[test]

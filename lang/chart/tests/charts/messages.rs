@@ -120,9 +120,81 @@ fn circles_that_are_never_stable_are_told() {
         ACTION Wash: INITIAL_STEP E: END_STEP STEP X: END_STEP\n\
         TRANSITION FROM E TO X := TRUE; END_TRANSITION END_ACTION\n";
     assert_eq!(told(text), ["E0312 4 TRANSITION"]);
-    // One condition is enough: it ends the circle.
-    let ends = text.replacen("FROM E TO X := TRUE", "FROM E TO X := a", 1);
+    // One condition is enough, if it ends: it ends the circle.
+    let ends = text.replacen("FROM E TO X := TRUE", "FROM E TO X := R_EDGE(a)", 1);
     assert_eq!(told(&ends), Vec::<String>::new());
+    let can = text.replacen("FROM E TO X := TRUE", "FROM E TO X := a", 1);
+    assert_eq!(told(&can), ["W0306 8 TRANSITION"]);
+}
+
+/// What is said about a circle of three steps with these conditions.
+fn circle(conditions: [&str; 3], more: &str) -> Vec<String> {
+    let [a, b, c] = conditions;
+    let text = format!(
+        "{{grafcet}}\nINITIAL_STEP S1: END_STEP\nSTEP S2: END_STEP\nSTEP S3: Count(P1); END_STEP\n\
+         TRANSITION FROM S1 TO S2 := {a}; END_TRANSITION\n\
+         TRANSITION FROM S2 TO S3 := {b}; END_TRANSITION\n\
+         TRANSITION FROM S3 TO S1 := {c}; END_TRANSITION\n\
+         ACTION Count: r := n > 3; END_ACTION\n{more}\
+         VAR_GLOBAL n : INT; i : INT; r : BOOL; END_VAR\n"
+    );
+    let compiled = compile(&text);
+    let codes = compiled.of_st.iter().map(|one| one.code.text().to_owned());
+    codes.chain(compiled.of_chart.into_iter().map(|one| one.message)).collect()
+}
+
+#[test]
+fn circles_whose_conditions_follow_from_one_are_told_with_values() {
+    let begin = "S1, S2, S3: no situation with one of these steps is stable if";
+    let told = |conditions| circle(conditions, "");
+    assert_eq!(told(["a", "a OR b", "TRUE"]), [format!("{begin} a = TRUE")]);
+    assert_eq!(told(["a AND NOT b", "NOT b", "a"]), [format!("{begin} a = TRUE, b = FALSE")]);
+    assert_eq!(told(["n > 5", "n > 3", "n <> 4"]), [format!("{begin} n = 6")]);
+    // From the second one follow the others.
+    let second = "S2, S3, S1: no situation with one of these steps is stable if a = TRUE, b = TRUE";
+    assert_eq!(told(["a", "a AND b", "b"]), [second]);
+}
+
+#[test]
+fn circles_that_something_ends_are_left_alone() {
+    let none: [&str; 0] = [];
+    for conditions in [
+        ["a", "b", "c"],
+        ["a", "NOT a", "TRUE"],
+        ["a", "a AND r", "a"],
+        ["a", "a AND S2.X", "a"],
+        ["a", "T#1s/S2", "a"],
+        ["a", "R_EDGE(a)", "a"],
+        ["n > 5", "n > 6", "n < 9"],
+        ["n >= 0", "TRUE", "i > n OR i <= n"],
+        ["n > i", "n > i + 1", "TRUE"],
+        ["n < 3", "n >= 0", "TRUE"],
+    ] {
+        assert_eq!(circle(conditions, ""), none, "{conditions:?}");
+    }
+    let forced = "ACTION G2: INITIAL_STEP T1: {force station INIT} END_STEP END_ACTION\n";
+    assert_eq!(circle(["a", "a", "a"], forced), none);
+}
+
+#[test]
+fn variables_that_are_only_read_or_only_written_are_told() {
+    let text = "PROGRAM Main\nVAR Start, Idle, Lamp, Horn : BOOL; END_VAR\n\
+        VAR Count : INT; Limit : INT := 3; Pause : TON; Motor AT %Q0.0 : BOOL; END_VAR\n\
+        VAR_EXTERNAL Far : BOOL; END_VAR\nVAR_TEMP n : INT; END_VAR VAR m : INT; END_VAR\n\
+        INITIAL_STEP S1: Motor; Lamp; Go(P1); END_STEP\nSTEP S2: Horn(S); END_STEP\n\
+        TRANSITION FROM S1 TO S2 := Start AND Far AND Count < Limit; END_TRANSITION\n\
+        TRANSITION FROM S2 TO S1 := Horn AND m = 0; END_TRANSITION\n\
+        ACTION Go: n := 2; FOR m := 1 TO n DO Count := Count + 1; END_FOR; \
+        Pause(IN := TRUE, PT := T#1s); END_ACTION\n\
+        END_PROGRAM\nVAR_GLOBAL Far : BOOL; Near : BOOL; END_VAR\n";
+    assert_eq!(told(text), ["W0305 2 Start", "W0305 2 Lamp"]);
+    let given = "FUNCTION_BLOCK Box\nVAR_INPUT a : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\n\
+        VAR p : BOOL; END_VAR\nINITIAL_STEP S1: q; Go(N); END_STEP\nSTEP S2: END_STEP\n\
+        TRANSITION FROM S1 TO S2 := a; END_TRANSITION\n\
+        TRANSITION FROM S2 TO S1 := NOT a; END_TRANSITION\n\
+        ACTION Go: p := a; END_ACTION\nEND_FUNCTION_BLOCK\n\
+        PROGRAM Main VAR One : Box; END_VAR One(a := %I0.0); END_PROGRAM";
+    assert_eq!(told(given), ["W0305 3 p"]);
 }
 
 #[test]

@@ -32,7 +32,11 @@ struct Plan {
 pub fn program(seed: u64) -> String {
     let mut random = Rng::with_seed(seed);
     let plans = plans(&mut random);
-    let text = head() + "{grafcet}\n";
+    let pragma = match random.u8(..3) {
+        0 => format!("{{grafcet evolutions {}}}\n", random.u8(1..40)),
+        _ => "{grafcet}\n".to_owned(),
+    };
+    let text = head() + &pragma;
     let mut text = Text { random: &mut random, text, is_grafcet: true };
     text.grafcet(&plans, 0);
     text.text += "END_PROGRAM\n";

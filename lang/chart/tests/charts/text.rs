@@ -60,7 +60,8 @@ fn everything_of_a_text_is_in_the_model() {
 fn everything_compiles() {
     for text in [ALL, GRAFCET] {
         let compiled = compile(text);
-        assert_eq!(compiled.codes(), Vec::<&str>::new());
+        // Outputs have no address there.
+        assert!(compiled.codes().iter().all(|code| *code == "W0305"), "{:?}", compiled.codes());
         assert!(compiled.awl.is_some());
     }
 }

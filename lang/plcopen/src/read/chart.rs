@@ -13,11 +13,11 @@ use diagnostics::xml::{Node, attribute, elements, tag};
 use st::names::is_same;
 
 use super::body::{Surroundings, refuse};
-use super::condition::condition;
+use super::condition::{Condition, condition};
 use super::formatted::{documentation, formatted, language};
 use super::macro_step::expand;
 use super::network::{Network, id, lines_into, title};
-use super::reader::{Reader, Text, child, optional};
+use super::reader::{Reader, Text, child, is_true, optional};
 use super::types::rest;
 use crate::diagnostic::{Code as ErrorCode, Diagnostic};
 
@@ -66,6 +66,7 @@ pub(super) fn in_body(
         chart: Chart::new(name),
         steps: HashMap::new(),
         macros: Vec::new(),
+        called: HashMap::new(),
         depth,
         told,
     };
@@ -75,6 +76,7 @@ pub(super) fn in_body(
         builder.named();
     }
     builder.blocks();
+    builder.variables();
     builder.comments();
     let Builder { mut chart, macros, .. } = builder;
     places(&mut chart);
@@ -187,6 +189,8 @@ struct Builder<'b, 'f, 'a, 'i> {
     steps: HashMap<Node<'a, 'i>, StepId>,
     /// What stands in the place of steps.
     macros: Vec<(StepId, Chart)>,
+    /// The actions that call function blocks.
+    called: HashMap<StepId, ActionId>,
     depth: usize,
     /// How much was told before.
     told: usize,
@@ -253,10 +257,21 @@ impl<'a, 'i> Builder<'_, '_, 'a, 'i> {
         let mut made: HashMap<Node, TransitionId> = HashMap::new();
         for node in self.of(&["transition"]) {
             let sources = self.network.before(self.reader, node, &STEPS, &TO_TRANSITIONS);
+            if sources.is_empty() && self.goes_nowhere(node) {
+                let message = format!("{}: it is joined with nothing, and left out", title(node));
+                let left = Diagnostic::new(ErrorCode::Ignored, tag(node), message);
+                self.reader.report(left);
+                continue;
+            }
             if sources.is_empty() {
                 self.loose(node, "no step is before");
             }
-            let (condition, name) = condition(self.reader, self.around, self.network, node);
+            let Condition { code, name, calls } =
+                condition(self.reader, self.around, self.network, node);
+            let first = sources.iter().find_map(|one| self.steps.get(one)).copied();
+            if let Some(step) = first.filter(|_| !calls.is_empty()) {
+                self.calls(step, calls);
+            }
             let is_free = |name: &Text| {
                 let mut all = self.chart.transitions.values().filter_map(|one| one.name.as_ref());
                 !all.any(|one| is_same(one, &name.text))
@@ -264,7 +279,7 @@ impl<'a, 'i> Builder<'_, '_, 'a, 'i> {
             let transition = Transition {
                 name: name.filter(is_free).map(|name| name.text),
                 from: sources.iter().filter_map(|one| self.steps.get(one)).copied().collect(),
-                condition,
+                condition: code,
                 priority: self.priority(node),
                 comment: documentation(node),
                 at: middle(node),
@@ -292,6 +307,55 @@ impl<'a, 'i> Builder<'_, '_, 'a, 'i> {
                 self.loose(node, "no step is after");
             }
         }
+    }
+
+    /// Whether no line leads to an element, and none from it.
+    fn goes_nowhere(&self, node: Node<'a, 'i>) -> bool {
+        let number = id(node);
+        let mut others = self.network.elements.iter().flat_map(|one| lines_into(*one));
+        lines_into(node).is_empty() && others.all(|line| line.from.text != number)
+    }
+
+    /// Function blocks that a condition asks for are called while the step before it is active.
+    fn calls(&mut self, step: StepId, calls: Vec<Code>) {
+        let name = self.chart.steps.get(&step).map_or(String::new(), |step| step.name.clone());
+        let known = self.called.get(&step).and_then(|id| self.chart.actions.get_mut(id));
+        if let Some(Action { body: Body::Code(code), .. }) = known {
+            for call in calls {
+                if !code.text.lines().any(|line| line == call.text) {
+                    code.text = format!("{}\n{}", code.text, call.text);
+                }
+            }
+            return;
+        }
+        let origin = calls.first().map_or_else(Origin::default, |call| call.origin);
+        let texts: Vec<String> = calls.into_iter().map(|call| call.text).collect();
+        let Some(name) = self.free(|number| match number {
+            1 => format!("{name}_blocks"),
+            _ => format!("{name}_blocks{number}"),
+        }) else {
+            return;
+        };
+        let body = Body::Code(Code { text: texts.join("\n"), origin });
+        let comment =
+            "Function blocks of drawn conditions: what they give is asked for afterwards.";
+        let id = self.chart.add_action(Action { name, body, comment: comment.to_owned(), origin });
+        self.called.insert(step, id);
+        if let Some(step) = self.chart.steps.get_mut(&step) {
+            step.block.push(Instance { origin, ..Instance::new(id) });
+        }
+    }
+
+    /// The first name for an action that nothing has.
+    fn free(&self, name: impl Fn(usize) -> String) -> Option<String> {
+        let taken = |name: &str| {
+            self.chart.action_named(name).is_some()
+                || self.chart.step_named(name).is_some()
+                || self.around.actions().any(|one| {
+                    optional(one, "name").is_some_and(|other| is_same(&other.text, name))
+                })
+        };
+        (1..).map(name).find(|name| !taken(name))
     }
 
     /// Reports a transition whose other end is nowhere, unless a line that is broken tells already.
@@ -357,7 +421,7 @@ impl<'a, 'i> Builder<'_, '_, 'a, 'i> {
                 let message = format!("{} belongs to no step", title(node));
                 self.reader.error(
                     ErrorCode::Wiring,
-                    line.span,
+                    line.from.span,
                     message,
                     "its line comes from a step",
                 );
@@ -368,6 +432,46 @@ impl<'a, 'i> Builder<'_, '_, 'a, 'i> {
                     "action" => self.instance(action, step),
                     "position" | "connectionPointIn" => {}
                     _ => self.reader.ignore(action, "an action block"),
+                }
+            }
+        }
+    }
+
+    /// A variable with a line from a step is TRUE while that is active. Others without a line are
+    /// left out.
+    fn variables(&mut self) {
+        for node in self.of(&["outVariable", "inOutVariable"]) {
+            let lines = lines_into(node);
+            let sources = lines.iter().map(|line| self.network.from(self.reader, line, node));
+            let sources: Vec<Option<Node>> = sources.collect();
+            let step = match &sources[..] {
+                [Some(source)] => self.steps.get(source).copied(),
+                _ => None,
+            };
+            let name =
+                child(node, "expression").map(formatted).filter(|_| !is_true(node, "negated"));
+            match (step, name) {
+                (Some(step), Some(Text { text, span })) => {
+                    let origin = Origin(span);
+                    let known = self.chart.action_named(&text);
+                    let id = known
+                        .unwrap_or_else(|| self.chart.add_action(Action::variable(text, origin)));
+                    if let Some(step) = self.chart.steps.get_mut(&step) {
+                        step.block.push(Instance { origin, ..Instance::new(id) });
+                    }
+                }
+                // A part of a condition.
+                _ if lines.is_empty() && !self.goes_nowhere(node) => {}
+                _ if lines.is_empty() => {
+                    let message = format!("{}: no line leads to it, it is left out", title(node));
+                    let left = Diagnostic::new(ErrorCode::Ignored, tag(node), message);
+                    self.reader.report(left);
+                }
+                _ => {
+                    let message = format!("{}: no action of a step", title(node));
+                    let help = "a line from a step makes it TRUE while that is active; write all \
+                                else in an action, as Structured Text (ST)";
+                    self.reader.error(ErrorCode::OtherLanguage, tag(node), message, help);
                 }
             }
         }
@@ -428,14 +532,7 @@ impl<'a, 'i> Builder<'_, '_, 'a, 'i> {
             refuse(self.reader, found, &format!("an action of step {name}"));
             return None;
         }
-        let taken = |name: &str| {
-            self.chart.action_named(name).is_some()
-                || self.around.actions().any(|one| {
-                    optional(one, "name").is_some_and(|other| is_same(&other.text, name))
-                })
-        };
-        let name =
-            (1..).map(|number| format!("{name}_action{number}")).find(|name| !taken(name))?;
+        let name = self.free(|number| format!("{name}_action{number}"))?;
         let Text { text, span } = formatted(found);
         let (origin, comment) = (Origin(tag(node)), String::new());
         let body = Body::Code(Code { text, origin: Origin(span) });
@@ -454,6 +551,8 @@ impl<'a, 'i> Builder<'_, '_, 'a, 'i> {
                 | "simultaneousConvergence" => {}
                 // Parts of conditions.
                 "inVariable" | "contact" | "leftPowerRail" | "rightPowerRail" | "block" => {}
+                "connector" | "continuation" => {}
+                "outVariable" | "inOutVariable" => {}
                 "addData" | "documentation" => self.reader.ignore(node, "a chart"),
                 name => {
                     let message = format!("{name} {}: no element of a chart", id(node));

@@ -32,20 +32,30 @@ pub(super) fn title(node: Node) -> String {
     }
 }
 
-/// The numbers that the lines into an element come from.
-pub(super) fn lines_into(node: Node) -> Vec<Text> {
+/// A line, as the element at its end says where it comes from.
+#[derive(Debug, Clone)]
+pub(super) struct Line {
+    /// The number of the element.
+    pub(super) from: Text,
+    /// Which of its outputs; empty, if that is not said.
+    pub(super) output: String,
+}
+
+/// The lines into an element.
+pub(super) fn lines_into(node: Node) -> Vec<Line> {
     let points = elements(node).filter(|one| one.tag_name().name() == "connectionPointIn");
     points.flat_map(lines_of).collect()
 }
 
-/// The numbers that the lines of a connection point come from.
-pub(super) fn lines_of(point: Node) -> Vec<Text> {
+/// The lines into a connection point.
+pub(super) fn lines_of(point: Node) -> Vec<Line> {
     let lines = elements(point).filter(|one| one.tag_name().name() == "connection");
-    lines
-        .map(|one| {
-            optional(one, "refLocalId").unwrap_or(Text { text: String::new(), span: tag(one) })
-        })
-        .collect()
+    let line = |one| {
+        let from = optional(one, "refLocalId");
+        let output = optional(one, "formalParameter").map_or_else(String::new, |name| name.text);
+        Line { from: from.unwrap_or(Text { text: String::new(), span: tag(one) }), output }
+    };
+    lines.map(line).collect()
 }
 
 impl<'a, 'i> Network<'a, 'i> {
@@ -76,9 +86,11 @@ impl<'a, 'i> Network<'a, 'i> {
     }
 
     /// The element that a line comes from.
-    pub(super) fn from(&self, reader: &mut Reader, line: &Text, to: Node) -> Option<Node<'a, 'i>> {
+    pub(super) fn from(&self, reader: &mut Reader, line: &Line, to: Node) -> Option<Node<'a, 'i>> {
+        let line = &line.from;
         let found = self.known.get(&line.text).copied();
-        if found.is_none() {
+        let is_told = reader.diagnostics.iter().any(|one| one.span == line.span);
+        if found.is_none() && !is_told {
             let message = format!("{}: there is no element {}", title(to), line.text);
             let help = "refLocalId is the localId of another element of this body";
             reader.error(Code::Unknown, line.span, message, help);
@@ -118,9 +130,9 @@ impl<'a, 'i> Network<'a, 'i> {
     }
 }
 
-fn wrong_way(reader: &mut Reader, line: &Text, to: Node, from: Node) {
+fn wrong_way(reader: &mut Reader, line: &Line, to: Node, from: Node) {
     let message = format!("{} comes after {}", title(to), title(from));
     let help = "steps and transitions are in turn: alternatives diverge after a step and converge \
                 before one, parallel branches diverge after a transition and converge before one";
-    reader.error(Code::Wiring, line.span, message, help);
+    reader.error(Code::Wiring, line.from.span, message, help);
 }

@@ -1,12 +1,15 @@
-//! A plan without names that differ in letter case alone: the later one gets `_` after it.
+//! A plan without names that differ in letter case alone, or that are words of the language: the
+//! later one gets `_` after it.
 
 use std::collections::{HashMap, HashSet};
 
 use crate::set_reset::plan::{Cause, Device, Plan};
 use crate::sfcedit::condition::Condition;
+use crate::text;
+use st::keywords::KEYWORDS;
 
 /// The plan with names that are different in ST.
-pub(super) fn distinct(plan: &Plan) -> Plan {
+pub(crate) fn distinct(plan: &Plan) -> Plan {
     let names = new_names(plan);
     let mut plan = plan.clone();
     if names.is_empty() {
@@ -42,9 +45,12 @@ pub(super) fn distinct(plan: &Plan) -> Plan {
     plan
 }
 
-fn new_names(plan: &Plan) -> HashMap<String, String> {
-    let steps = plan.charts.iter().flat_map(|chart| &chart.steps);
-    let mut taken: HashSet<String> = steps.map(|step| step.name.to_uppercase()).collect();
+/// The names that variables get in the place of theirs, which something else has.
+pub(crate) fn new_names(plan: &Plan) -> HashMap<String, String> {
+    let steps = plan.charts.iter().flat_map(|chart| &chart.steps).map(|step| &step.name);
+    let charts = plan.charts.iter().map(|chart| &chart.name);
+    let mut taken: HashSet<String> = steps.chain(charts).map(|name| name.to_uppercase()).collect();
+    taken.extend(KEYWORDS.iter().chain(&text::KEYWORDS).map(|word| (*word).to_owned()));
     let mut names = HashMap::new();
     for one in &plan.variables {
         let mut name = one.name.clone();
@@ -64,7 +70,7 @@ fn within(condition: &mut Condition, rename: &dyn Fn(&mut String)) {
         Condition::Variable(name) | Condition::Rising(name) | Condition::Falling(name) => {
             rename(name);
         }
-        Condition::Not(one) => within(one, rename),
+        Condition::Not(one) | Condition::Time(_, one, _) => within(one, rename),
         Condition::And(all) | Condition::Or(all) => {
             all.iter_mut().for_each(|one| within(one, rename));
         }

@@ -8,7 +8,10 @@ mod plcopen;
 mod st;
 
 use super::plan::Plan;
+pub(crate) use distinct::{distinct, new_names};
+pub(crate) use objects::{Group, Object, plain_groups};
 pub use plcopen::head as plcopen_head;
+pub(crate) use st::{declared, preset, preset_name};
 
 /// For whom it is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -46,7 +49,7 @@ pub fn write(plan: &Plan, target: Target, name: &str) -> String {
     match target {
         Target::TwinCat => st::write(plan, &dialect::TWINCAT),
         // What runs here is compiled as it is written.
-        Target::Uno200 => st::write(&distinct::distinct(plan), &dialect::UNO200),
+        Target::Uno200 => st::write(&distinct(plan), &dialect::UNO200),
         Target::PlcOpen => plcopen::write(plan, name),
         Target::Pl7 => pl7::write(plan),
     }

@@ -7,7 +7,7 @@ use crate::set_reset::variables::{Kind, Variable};
 
 /// A group of variables under a comment.
 #[derive(Debug)]
-pub(super) struct Group {
+pub(crate) struct Group {
     pub title: String,
     pub variables: Vec<Object>,
     pub is_constant: bool,
@@ -15,7 +15,7 @@ pub(super) struct Group {
 
 /// A variable of a target.
 #[derive(Debug)]
-pub(super) struct Object {
+pub(crate) struct Object {
     pub name: String,
     pub of_type: String,
     pub place: Option<String>,
@@ -24,7 +24,7 @@ pub(super) struct Object {
 
 impl Object {
     /// One without place and value.
-    pub(super) fn plain(name: &str, of_type: &str) -> Object {
+    pub(crate) fn plain(name: &str, of_type: &str) -> Object {
         Object::new(name, of_type)
     }
 
@@ -43,8 +43,28 @@ pub(super) fn groups(plan: &Plan, places: Places) -> Vec<Group> {
     }
     groups.push(group("signals", signals(plan)));
     groups.push(group("edges", edges(plan)));
-    groups.push(group("timers", devices(plan, Kind::Timer)));
-    groups.push(group("counters", devices(plan, Kind::Counter)));
+    groups.extend(of_variables(plan, places, system(plan)));
+    groups.retain(|group| !group.variables.is_empty());
+    groups
+}
+
+/// The variables as they are used here: without steps, edges, gates, INIT and RESET.
+pub(crate) fn plain_groups(plan: &Plan) -> Vec<Group> {
+    let plain = |kind| {
+        let all = of_kind(plan, kind).filter(|one| !is_gate(plan, &one.name));
+        all.map(|one| Object::new(&one.name, &one.of_type)).collect()
+    };
+    let mut groups = vec![group("signals", plain(Kind::Signal))];
+    groups.extend(of_variables(plan, Places::S7200, plain(Kind::System)));
+    groups.retain(|group| !group.variables.is_empty());
+    groups
+}
+
+fn of_variables(plan: &Plan, places: Places, system: Vec<Object>) -> Vec<Group> {
+    let mut groups = vec![
+        group("timers", devices(plan, Kind::Timer)),
+        group("counters", devices(plan, Kind::Counter)),
+    ];
     let mut numbers = Numbers { places, ..Numbers::default() };
     for (title, kind) in
         [("inputs", Kind::Input), ("outputs", Kind::Output), ("memory", Kind::Memory)]
@@ -55,7 +75,7 @@ pub(super) fn groups(plan: &Plan, places: Places) -> Vec<Group> {
         };
         groups.push(group(title, of_kind(plan, kind).map(place).collect()));
     }
-    groups.push(group("system", system(plan)));
+    groups.push(group("system", system));
     let constant = |one: &Variable| Object {
         value: one.value.clone(),
         ..Object::new(&one.name, &one.of_type)
@@ -65,7 +85,6 @@ pub(super) fn groups(plan: &Plan, places: Places) -> Vec<Group> {
         constants.into_iter().partition(|one| one.value.is_some());
     groups.push(group("constants whose value is to be given", without));
     groups.push(Group { is_constant: true, ..group("constants", with_value) });
-    groups.retain(|group| !group.variables.is_empty());
     groups
 }
 
@@ -101,7 +120,9 @@ fn devices(plan: &Plan, kind: Kind) -> Vec<Object> {
         Kind::Timer => (&plan.timers, "TIME"),
         _ => (&plan.counters, "INT"),
     };
-    let mut objects = Vec::new();
+    // Those that only conditions name are there, too: nothing ever starts them.
+    let idle = of_kind(plan, kind).filter(|one| all.iter().all(|other| other.name != one.name));
+    let mut objects: Vec<Object> = idle.map(|one| Object::new(&one.name, &one.of_type)).collect();
     for device in all {
         objects.push(Object::new(&device.name, &device.block));
         if device.presets.len() > 1 {

@@ -187,11 +187,12 @@ pub(super) fn edge_name(variable: &str, rising: bool) -> String {
 }
 
 /// The variable of a preset that changes.
-pub(super) fn preset_name(device: &Device) -> String {
+pub(crate) fn preset_name(device: &Device) -> String {
     format!("{}_PV", device.name)
 }
 
-fn preset(device: &Device) -> String {
+/// The preset of a timer or counter: a value, or the variable of the one that changes.
+pub(crate) fn preset(device: &Device) -> String {
     match &device.presets[..] {
         [(value, _)] => value.clone(),
         _ => preset_name(device),
@@ -220,10 +221,14 @@ fn count(counter: &Device, dialect: &Dialect) -> String {
     }
 }
 
-/// The global variables in their groups.
 fn globals(plan: &Plan, dialect: &Dialect) -> String {
+    declared(groups(plan, dialect.places))
+}
+
+/// Global variables in their groups.
+pub(crate) fn declared(groups: Vec<Group>) -> String {
     let (mut variables, mut constants) = (String::new(), String::new());
-    for Group { title, variables: members, is_constant } in groups(plan, dialect.places) {
+    for Group { title, variables: members, is_constant } in groups {
         let text = if is_constant { &mut constants } else { &mut variables };
         text.push_str(&format!("    (* {title} *)\n"));
         for one in members {
