@@ -4,6 +4,7 @@
 //! [`Charts`] answers, [`protocol`] is what it is asked. A page loads it when a chart is looked at
 //! for the first time; the same code runs natively in tests.
 
+mod conditions;
 mod drawn;
 mod opened;
 mod places;
@@ -38,11 +39,13 @@ impl Charts {
     /// Answers, or says why not.
     pub fn answer(&mut self, question: Question) -> Result<Answer, String> {
         match question {
-            Question::Draw { text, name } => Ok(Answer::Charts(self.open(text, name)?.draw())),
-            Question::Edit { text, name, chart, edits } => {
+            Question::Draw { text, name, folded } => {
+                Ok(Answer::Charts(self.open(text, name)?.draw(&folded)))
+            }
+            Question::Edit { text, name, folded, chart, edits } => {
                 let opened = self.open(text, name)?;
                 let select = opened.edit(chart, edits)?;
-                let (text, charts) = (opened.text().to_owned(), opened.draw());
+                let (text, charts) = (opened.text().to_owned(), opened.draw(&folded));
                 Ok(Answer::Edited { text, charts, select })
             }
             Question::Allowed { text, name, chart, edits } => {
@@ -50,6 +53,9 @@ impl Charts {
             }
             Question::Copy { text, name, chart, steps } => {
                 Ok(Answer::Copy(self.open(text, name)?.copy(chart, &steps)?))
+            }
+            Question::Judge { text, name, transitions } => {
+                Ok(Answer::Judged(self.open(text, name)?.judge(&transitions)))
             }
         }
     }

@@ -15,7 +15,8 @@ interface Common {
   /** Where it is: a step's middle, or that of a transition's bar. */
   middle: Point;
 }
-export type StepItem = Common & { kind: "step"; element: ChartStep };
+/** `isFolded`: of a macro-step whether its chart is; null of other steps. */
+export type StepItem = Common & { kind: "step"; element: ChartStep; isFolded: boolean | null };
 export type TransitionItem = Common & { kind: "transition"; element: ChartTransition };
 export type Item = StepItem | TransitionItem;
 
@@ -43,7 +44,7 @@ export function barFrame({ bar: [x, y, endX, endY], text, label }: ChartTransiti
   return [x - 2, above, Math.max(label[0] + wide, endX) - x + 4, below - above];
 }
 
-function stepItem(sheet: number, element: ChartStep): StepItem {
+function stepItem(sheet: number, element: ChartStep, isFolded: boolean | null): StepItem {
   const [x, y, width, height] = element.frame;
   const box = around(
     [element.frame, ...element.actions.map(({ frame }) => frame)].flatMap(corners),
@@ -57,6 +58,7 @@ function stepItem(sheet: number, element: ChartStep): StepItem {
     element,
     box,
     middle,
+    isFolded,
   };
 }
 
@@ -78,8 +80,10 @@ export class Drawn {
   private byName: Map<string, Item> | undefined;
 
   constructor(readonly charts: Charts) {
+    const isFolded = ({ expansion }: ChartStep) =>
+      expansion === null ? null : (charts.sheets[expansion]?.isFolded ?? null);
     this.items = charts.sheets.flatMap((sheet, at) => [
-      ...sheet.steps.map((step) => stepItem(at, step)),
+      ...sheet.steps.map((step) => stepItem(at, step, isFolded(step))),
       ...sheet.transitions.map((one) => transitionItem(at, one)),
     ]);
     this.byKey = new Map(this.items.map((item) => [item.key, item]));
