@@ -9,6 +9,7 @@ mod drawn;
 mod opened;
 mod places;
 pub mod protocol;
+mod set_reset;
 mod wanted;
 
 use opened::Opened;
@@ -56,6 +57,9 @@ impl Charts {
             }
             Question::Judge { text, name, transitions } => {
                 Ok(Answer::Judged(self.open(text, name)?.judge(&transitions)))
+            }
+            Question::Convert { text, name, variables, target } => {
+                Ok(Answer::Converted(set_reset::convert(&name, text, variables, &target)?))
             }
         }
     }

@@ -56,6 +56,9 @@ pub enum Question {
     Copy { text: String, name: String, chart: usize, steps: Vec<ElementId> },
     /// Whether the conditions of transitions are TRUE with values. Answer: a [`Judgement`] for each.
     Judge { text: String, name: String, transitions: Vec<Judged> },
+    /// Charts of SFCEdit for a target, `twincat`, `pl7`, `plcopen`, `uno200`, with a table of
+    /// variables as a file has it. Answer: [`Converted`].
+    Convert { text: String, name: String, variables: String, target: String },
 }
 
 /// A transition of a chart, with a value for each operand of its condition.
@@ -77,6 +80,51 @@ pub struct Judgement {
     pub is_true: Option<bool>,
     /// What is missing, if it is FALSE: `Ready AND (Full OR NOT Stop)`.
     pub waits_for: String,
+}
+
+/// What becomes of charts of SFCEdit.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+pub struct Converted {
+    /// The variables in the order of their use: as the table says, or as their use suggests.
+    pub variables: Vec<Variable>,
+    /// What is wrong, in the table first.
+    pub problems: Vec<Problem>,
+    /// The text for the target, unless something is wrong.
+    pub program: Option<String>,
+    /// The ending of its file.
+    pub ending: &'static str,
+    /// The equations of the steps, in Markdown.
+    pub equations: String,
+}
+
+/// A variable of charts of SFCEdit.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Variable {
+    /// Its name.
+    pub name: String,
+    /// `signal`, `input`, `output`, `memory`, `system`, `constant`, `timer`, `counter`.
+    pub kind: &'static str,
+    /// Its type.
+    #[serde(rename = "type")]
+    pub of_type: String,
+    /// Its value, of a constant.
+    pub value: Option<String>,
+}
+
+/// An error or a warning about them.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Problem {
+    /// Its line, from 1.
+    pub line: u32,
+    /// Whether it is in the table of variables.
+    pub is_of_table: bool,
+    /// Or a warning.
+    pub is_error: bool,
+    /// What is wrong.
+    pub message: String,
+    /// How to mend it.
+    pub help: Vec<String>,
 }
 
 /// What kind of value it is.
@@ -132,6 +180,7 @@ pub enum Answer {
     Allowed(Vec<Option<String>>),
     Copy(String),
     Judged(Vec<Judgement>),
+    Converted(Converted),
 }
 
 /// An element of a chart, as `s3` or `t4`: a step or a transition, and its number.

@@ -279,3 +279,34 @@ fn the_chart_of_a_macro_step_can_be_folded() {
         |charts: &Value| charts["width"].as_i64().unwrap() * charts["height"].as_i64().unwrap();
     assert!(area(&folded) < area(&all), "its room is free");
 }
+
+#[test]
+fn charts_of_sfcedit_become_programs_with_the_kinds_that_are_chosen() {
+    let text = include_str!("../../../lang/chart/tests/sfcedit/ejemplo.xml");
+    let mut page = Page::with(text);
+    let mut convert = |variables: &str, target: &str| {
+        page.ask(json!({ "do": "convert", "variables": variables, "target": target }))
+    };
+    let first = convert("", "uno200").unwrap();
+    let kind = |answer: &Value, name: &str| {
+        let all = answer["variables"].as_array().unwrap().clone();
+        all.into_iter().find(|one| one["name"] == name).unwrap()["kind"].clone()
+    };
+    assert_eq!((kind(&first, "T0_1"), kind(&first, "A1")), (json!("input"), json!("output")));
+    for (target, words, ending) in [
+        ("twincat", "FUNCTION_BLOCK GEjemplo", "st"),
+        ("pl7", "IF", "st"),
+        ("plcopen", "<project", "xml"),
+        ("uno200", "FUNCTION_BLOCK GEjemplo", "st"),
+    ] {
+        let answer = convert("T0_1,memory,BOOL\n", target).unwrap();
+        assert!(answer["program"].as_str().unwrap().contains(words), "{target}");
+        assert_eq!((&answer["ending"], kind(&answer, "T0_1")), (&json!(ending), json!("memory")));
+        assert!(answer["equations"].as_str().unwrap().contains("X2.X3 + Init + Reset"));
+    }
+    let wrong = convert("T0_1,memori,BOOL\n", "uno200").unwrap();
+    assert_eq!(wrong["program"], Value::Null);
+    let problem = &wrong["problems"][0];
+    assert_eq!((&problem["isOfTable"], &problem["line"]), (&json!(true), &json!(1)));
+    assert!(convert("", "logo").unwrap_err().contains("logo"));
+}

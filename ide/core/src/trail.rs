@@ -6,8 +6,9 @@ use awl_sim::operand::Operand;
 
 use crate::scope::number;
 
-/// Most situations that wait to be told.
+/// Most situations that wait to be told, and most values in all of them.
 const WAITING_MAX: usize = 1000;
+const VALUES_MAX: usize = 50_000;
 
 /// The values of the operands at the end of a scan.
 #[derive(Debug, Clone, Default)]
@@ -45,7 +46,8 @@ impl Trail {
             return;
         }
         self.last = steps;
-        if self.waiting.len() >= WAITING_MAX {
+        let most = WAITING_MAX.min(VALUES_MAX / self.operands.len().max(1));
+        if self.waiting.len() >= most {
             self.waiting.clear();
             self.is_lossy = true;
         }

@@ -62,6 +62,7 @@ pub fn check() -> Result<()> {
     run(node("test/chart_editor.mjs").arg(&address))?;
     run(node("test/chart_moments.mjs").arg(&address))?;
     run(node("test/chart_live.mjs").arg(&address))?;
+    run(node("test/set_reset.mjs").arg(&address))?;
     run(node("test/touch.mjs").arg(&address))?;
     run(node("test/budgets.mjs").arg(&address).arg(&folder))?;
     run(node("test/reload.mjs").arg(&address))?;

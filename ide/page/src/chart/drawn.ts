@@ -17,7 +17,12 @@ interface Common {
 }
 /** `isFolded`: of a macro-step whether its chart is; null of other steps. */
 export type StepItem = Common & { kind: "step"; element: ChartStep; isFolded: boolean | null };
-export type TransitionItem = Common & { kind: "transition"; element: ChartTransition };
+/** `note`: where is room for what is read beside it, below its condition. */
+export type TransitionItem = Common & {
+  kind: "transition";
+  element: ChartTransition;
+  note: Point;
+};
 export type Item = StepItem | TransitionItem;
 
 /** Around points, with room for the thickness of lines. */
@@ -62,11 +67,24 @@ function stepItem(sheet: number, element: ChartStep, isFolded: boolean | null): 
   };
 }
 
-function transitionItem(sheet: number, element: ChartTransition): TransitionItem {
+/** Below the condition, and right of a step that is there. */
+function notePoint({ label, text, to }: ChartTransition, steps: readonly ChartStep[]): Point {
+  const [x, y] = [label[0], label[1] + text.length * TEXT_LINE];
+  const room: Frame = [x, y - TEXT_LINE / 2, 1, 2 * TEXT_LINE];
+  const inTheWay = steps.filter(({ id, frame }) => to.includes(id) && meet(frame, room));
+  return [Math.max(x, ...inTheWay.map(({ frame }) => frame[0] + frame[2] + 6)), y];
+}
+
+function transitionItem(
+  sheet: number,
+  element: ChartTransition,
+  steps: readonly ChartStep[],
+): TransitionItem {
   const { bar, lines, id } = element;
+  const note = notePoint(element, steps);
   const box = around([...lines.flat(), ...corners(barFrame(element))]);
   const middle = [(bar[0] + bar[2]) / 2, (bar[1] + bar[3]) / 2] as const;
-  return { kind: "transition", key: `${sheet}:${id}`, sheet, id, element, box, middle };
+  return { kind: "transition", key: `${sheet}:${id}`, sheet, id, element, box, middle, note };
 }
 
 /** Whether two frames have something in common. */
@@ -84,7 +102,7 @@ export class Drawn {
       expansion === null ? null : (charts.sheets[expansion]?.isFolded ?? null);
     this.items = charts.sheets.flatMap((sheet, at) => [
       ...sheet.steps.map((step) => stepItem(at, step, isFolded(step))),
-      ...sheet.transitions.map((one) => transitionItem(at, one)),
+      ...sheet.transitions.map((one) => transitionItem(at, one, sheet.steps)),
     ]);
     this.byKey = new Map(this.items.map((item) => [item.key, item]));
   }

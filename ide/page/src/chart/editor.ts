@@ -27,6 +27,7 @@ import { Pointer } from "./pointer";
 import type { Edit, ElementId } from "./protocol";
 import { actionOf, type Scene } from "./edits";
 import { Selection } from "./selection";
+import { SetReset } from "./set_reset";
 import { Sheets } from "./sheets";
 import { Times } from "./times";
 import { Tools } from "./tools";
@@ -103,6 +104,7 @@ export class ChartEditor {
       this.moments.element,
       this.sheets.element,
       this.words,
+      new SetReset(module, editors, project).element,
       this.first,
       this.stage,
       this.times.element,

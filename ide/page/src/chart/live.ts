@@ -133,6 +133,8 @@ export class Live {
       .ask({ do: "chart", file, values: wanted.operands })
       .catch(() => null);
     if (number !== this.questions) return;
+    // Moments have numbers of steps, not their names.
+    if (wanted.names.join() !== this.asked.names.join()) this.trail.clear();
     this.asked = { ...wanted, id: found?.id ?? 0, reading: document.reading };
     this.take();
   }

@@ -33,7 +33,7 @@ export class Moments {
     " ",
     button("chartLoadAnew", () => this.header.act("download")),
   );
-  readonly element = h("div", {}, this.other, this.bar);
+  readonly element = h("div", { class: "chart-head" }, this.other, this.bar);
 
   constructor(
     private live: Live,

@@ -133,6 +133,29 @@ export interface Judgement {
   waitsFor: string;
 }
 
+export type ConvertTarget = "uno200" | "twincat" | "pl7" | "plcopen";
+/** A variable of charts of SFCEdit: as the table says, or as its use suggests. */
+export interface ConvertedVariable {
+  name: string;
+  kind: string;
+  type: string;
+  value: string | null;
+}
+/** What becomes of charts of SFCEdit; no program if something is wrong. */
+export interface Converted {
+  variables: ConvertedVariable[];
+  problems: {
+    line: number;
+    isOfTable: boolean;
+    isError: boolean;
+    message: string;
+    help: string[];
+  }[];
+  program: string | null;
+  ending: string;
+  equations: string;
+}
+
 /** Questions with what is asked and answered. `name` is what a chart is called that is not there yet (the file's name
  * without its end, made a name), `chart` the number of a sheet. Answers to questions that are refused are
  * `{ refused: string }`. */
@@ -153,6 +176,11 @@ export interface Questions {
   judge: {
     wish: { text: string; name: string; transitions: Judged[] };
     answer: Judgement[];
+  };
+  /** Charts of SFCEdit for a target, with a table of variables as a file has it. */
+  convert: {
+    wish: { text: string; name: string; variables: string; target: ConvertTarget };
+    answer: Converted;
   };
   copy: { wish: { text: string; name: string; chart: number; steps: ElementId[] }; answer: string };
 }

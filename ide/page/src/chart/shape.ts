@@ -66,13 +66,9 @@ export class Shape {
     this.name();
   }
 
-  /** Below the condition, and above the right edge of a step. */
   private placeNote(): void {
-    const { kind, element } = this.item;
-    const [x, y] =
-      kind === "step"
-        ? [element.frame[0] + element.frame[2] / 2 + 8, element.frame[1] - 8]
-        : [element.label[0], element.label[1] + element.text.length * TEXT_LINE];
+    const { item } = this;
+    const [x, y] = item.kind === "step" ? timePoint(item.element) : item.note;
     this.noted.setAttribute("transform", `translate(${x} ${y})`);
   }
 
@@ -201,15 +197,18 @@ function lookParts({ look, frame: [x, y, width, height] }: ChartStep): SVGElemen
   return parts.map((points) => line(points));
 }
 
+/** Above the right half of a step. */
+const timePoint = ({ frame: [x, y, width] }: ChartStep): Point => [x + width / 2 + 8, y - 8];
+
 function noteParts({ lines, all }: Note): SVGElement[] {
   const parts = lines.map((words, at) => s("tspan", { x: 0, y: at * NOTE_LINE }, words));
   return all === lines.join() ? parts : [...parts, s("title", {}, all)];
 }
 
 /** Whether the chart of a macro-step is shown. */
-function foldParts({ frame: [x, y, width, height] }: ChartStep, isFolded: boolean | null) {
+function foldParts({ frame: [x, y, width] }: ChartStep, isFolded: boolean | null) {
   if (isFolded === null) return [];
-  return [text([x + width - 9, y + height / 2], isFolded ? "▸" : "▾", "note")];
+  return [text([x + width - 8, y + 10], isFolded ? "▸" : "▾", "note")];
 }
 
 function blockParts({ frame, actions }: ChartStep, first: ChartAction): SVGElement[] {

@@ -33,7 +33,10 @@ export class Times {
     "div",
     {
       class: "plot",
+      label: "chartTimes",
+      attributes: { role: "group", tabindex: 0 },
       on: {
+        keydown: (event) => this.keys(event),
         pointerdown: (event) => this.point(event),
         pointermove: (event) => event.buttons === 1 && this.point(event),
       },
@@ -104,7 +107,7 @@ export class Times {
     const width = Math.max(WIDTH_MIN, this.plot.clientWidth);
     const height = rows.length * ROW + AXIS;
     const [from, to] = this.range();
-    this.scale = { left, right: width - 12, from, to };
+    this.scale = { left, right: width - 24, from, to };
     setAttributes(this.svg, { viewBox: `0 0 ${width} ${height}`, width, height });
     const [first, last] = [from, to].map((time) => (time / 1000).toFixed(3));
     this.svg.setAttribute("aria-label", t("chartTimesOf", first ?? "", last ?? ""));
@@ -140,7 +143,7 @@ export class Times {
       const x = this.x(time);
       marks.push(
         s("path", { d: `M${x} 0V${height - AXIS}`, class: "grid" }),
-        s("text", { x, y: height - 8, class: "mark" }, `${(time / 1000).toFixed(digits)} s`),
+        s("text", { x, y: height - 8, class: "tick" }, `${(time / 1000).toFixed(digits)} s`),
       );
     }
     return marks;
@@ -191,6 +194,14 @@ export class Times {
     if (x < left) return;
     const time = from + ((x - left) / (right - left)) * (to - from);
     this.live.go((trail) => trail.goTo(time > to ? -1 : trail.atTime(time)));
+  }
+
+  /** Arrows go to the moment before, or the next one. */
+  private keys(event: KeyboardEvent): void {
+    const by = event.key === "ArrowLeft" ? -1 : event.key === "ArrowRight" ? 1 : 0;
+    if (by === 0) return;
+    event.preventDefault();
+    this.live.go((trail) => trail.go(by));
   }
 
   private made(): { svg: SVGSVGElement; name: string } {

@@ -168,9 +168,9 @@ export const CHART_WORDS = {
     "{0} s, ciclo {1}: momento {2} de {3}",
   ],
   chartNowOf: [
-    "now, {0} s, scan {1}; {2} moments",
-    "jetzt, {0} s, Zyklus {1}; {2} Augenblicke",
-    "ahora, {0} s, ciclo {1}; {2} momentos",
+    "now, {0} s, scan {1}; moments: {2}",
+    "jetzt, {0} s, Zyklus {1}; Augenblicke: {2}",
+    "ahora, {0} s, ciclo {1}; momentos: {2}",
   ],
   chartMomentsLost: [
     "some are missing: it is faster than can be recorded",
@@ -236,4 +236,44 @@ export const CHART_WORDS = {
     "wählen Sie zuerst einen Makroschritt",
     "elija primero una macroetapa",
   ],
+
+  // Charts of SFCEdit
+  chartConvert: [
+    "Structured Text for a controller …",
+    "Strukturierter Text für eine Steuerung …",
+    "Texto estructurado para un autómata …",
+  ],
+  chartConvertTitle: [
+    "Variables and Structured Text of {0}",
+    "Variablen und Strukturierter Text von {0}",
+    "Variables y texto estructurado de {0}",
+  ],
+  chartConvertHint: [
+    "What each variable is decides how it is declared. In grey: as its use suggests.",
+    "Was eine Variable ist, entscheidet, wie sie deklariert wird. In Grau: wie ihr Gebrauch es nahelegt.",
+    "De lo que es cada variable depende cómo se declara. En gris: lo que sugiere su uso.",
+  ],
+  chartConvertTarget: ["Controller", "Steuerung", "Autómata"],
+  chartConvertSave: ["Save the text", "Text sichern", "Guardar el texto"],
+  chartConvertAdd: ["Add to the project", "Ins Projekt aufnehmen", "Añadir al proyecto"],
+  chartConvertKeep: [
+    "Keep the table (.csv)",
+    "Tabelle behalten (.csv)",
+    "Conservar la tabla (.csv)",
+  ],
+  kindsOfSignals: ["Signals", "Signale", "Señales"],
+  kindsOfTimers: ["Timers", "Zeiten", "Temporizadores"],
+  kindsOfCounters: ["Counters", "Zähler", "Contadores"],
+  kindName: ["Name", "Name", "Nombre"],
+  kindOf: ["Kind", "Art", "Clase"],
+  kindType: ["Type", "Typ", "Tipo"],
+  kindValue: ["Value", "Wert", "Valor"],
+  kindSignal: ["signal", "Signal", "señal"],
+  kindInput: ["input", "Eingang", "entrada"],
+  kindOutput: ["output", "Ausgang", "salida"],
+  kindMemory: ["memory", "Merker", "memoria"],
+  kindSystem: ["system", "System", "sistema"],
+  kindConstant: ["constant", "Konstante", "constante"],
+  kindTimer: ["timer", "Zeit", "temporizador"],
+  kindCounter: ["counter", "Zähler", "contador"],
 } as const satisfies Record<string, Words>;
