@@ -54,7 +54,7 @@ pub enum Question {
     Allowed { text: String, name: String, chart: usize, edits: Vec<Edit> },
     /// Steps with the transitions among them as a text, which can be pasted. Answer: the text.
     Copy { text: String, name: String, chart: usize, steps: Vec<ElementId> },
-    /// Whether the conditions of transitions are TRUE with values. Answer: a [`Judgement`] for each.
+    /// Whether the conditions of transitions are TRUE with values. Answer: a [`Judgement`] each.
     Judge { text: String, name: String, transitions: Vec<Judged> },
     /// Charts of SFCEdit for a target, `twincat`, `pl7`, `plcopen`, `uno200`, with a table of
     /// variables as a file has it. Answer: [`Converted`].

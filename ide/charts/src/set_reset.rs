@@ -1,5 +1,5 @@
-//! Charts of SFCEdit as Structured Text for other controllers, with the kinds of their variables as a
-//! person has chosen them: those of the table, and suggestions from their use.
+//! Charts of SFCEdit as Structured Text for other controllers, with the kinds of their variables as
+//! a person has chosen them: those of the table, and suggestions from their use.
 
 use chart::set_reset::variables::{self, Kind, Variable};
 use chart::set_reset::{Target, plan, table, write};

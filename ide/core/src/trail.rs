@@ -1,5 +1,5 @@
-//! The situations that charts are in, as the simulator executes them: each that differs from the one
-//! before is kept until it is told. Of other targets only what they are asked is known.
+//! The situations that charts are in, as the simulator executes them: each that differs from the
+//! one before is kept until it is told. Of other targets only what they are asked is known.
 
 use awl_sim::machine::Machine;
 use awl_sim::operand::Operand;

@@ -5,7 +5,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
-import { controls, open } from "./browser.mjs";
+import { controls, open, watched } from "./browser.mjs";
 import { file, load } from "./chart_page.mjs";
 
 const [, , address, pictures] = process.argv;
@@ -227,6 +227,37 @@ await sheets.first().waitFor();
 await chart.getByRole("tab", { name: "All charts" }).click();
 await shown(all);
 console.log("a macro-step folded and unfolded");
+
+// The same with fingers on a telephone.
+const viewport = { width: 390, height: 844 };
+const context = await browser.newContext({ viewport, hasTouch: true, isMobile: true });
+const phone = watched(await context.newPage(), errors);
+await load(phone, address, file("tank.sfc", TANK));
+const there = phone.getByRole("tabpanel", { name: "Chart", exact: true });
+const tap = (name) => there.getByRole("button", { name }).tap();
+await phone.getByRole("button", { name: "Run", exact: true }).tap();
+await there.getByRole("button", { name: /^initial step Wait, active/ }).waitFor();
+await there.locator(".stage").scrollIntoViewIfNeeded();
+await tap(/^step Drain/);
+await tap("Follow");
+await phone.getByRole("menuitem", { name: /^Activate step/ }).tap();
+await there.getByRole("button", { name: /^step Drain, active/ }).waitFor();
+await there.getByRole("button", { name: /^step Drain, not active/ }).waitFor();
+await tap("Moment back");
+await there.getByRole("button", { name: /^step Drain, active/ }).waitFor();
+await tap("Follow");
+await phone.getByRole("menuitemradio", { name: /^Steps over time/ }).tap();
+const rows = there.getByRole("img", { name: /^which steps were active/ });
+await rows.scrollIntoViewIfNeeded();
+await rows.tap({ position: { x: 60, y: 10 } });
+await there.getByRole("button", { name: /^initial step Wait, active/ }).waitFor();
+if (pictures) await phone.screenshot({ path: join(pictures, "chart-live-phone.png") });
+await tap("Back to now");
+const large = await there
+  .locator(".moments button")
+  .evaluateAll((buttons) => buttons.every((one) => one.getBoundingClientRect().height >= 44));
+assert(large, "buttons are as large as fingers");
+console.log("charts that run under a finger");
 
 assert.deepEqual(errors, []);
 await browser.close();

@@ -67,12 +67,28 @@ function stepItem(sheet: number, element: ChartStep, isFolded: boolean | null): 
   };
 }
 
-/** Below the condition, and right of a step that is there. */
-function notePoint({ label, text, to }: ChartTransition, steps: readonly ChartStep[]): Point {
+/** Below the condition, and right of a step that is there; where lines are, beside it. */
+function notePoint(element: ChartTransition, steps: readonly ChartStep[]): Point {
+  const { label, text, to, lines, doubles } = element;
   const [x, y] = [label[0], label[1] + text.length * TEXT_LINE];
-  const room: Frame = [x, y - TEXT_LINE / 2, 1, 2 * TEXT_LINE];
+  const room: Frame = [x, y - TEXT_LINE / 2, 6 * LETTER, 2 * TEXT_LINE];
+  const across = [...lines.flatMap(segments), ...doubles].filter(([, top, , end]) => top === end);
+  if (
+    across.some(([from, top, end]) =>
+      meet(room, [Math.min(from, end), top, Math.abs(end - from), 0]),
+    )
+  )
+    return [x + (Math.max(...text.map(({ length }) => length)) + 2) * LETTER, label[1]];
   const inTheWay = steps.filter(({ id, frame }) => to.includes(id) && meet(frame, room));
   return [Math.max(x, ...inTheWay.map(({ frame }) => frame[0] + frame[2] + 6)), y];
+}
+
+/** The straight parts of a line. */
+function segments(points: readonly Point[]): [number, number, number, number][] {
+  return points.slice(1).map(([x, y], at) => {
+    const [fromX, fromY] = points[at] ?? [x, y];
+    return [fromX, fromY, x, y];
+  });
 }
 
 function transitionItem(
