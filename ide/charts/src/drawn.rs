@@ -5,32 +5,38 @@ use std::collections::BTreeMap;
 
 use chart::drawing::shapes::{Drawing, Look, Point, Rect, Sheet, StepShape, TransitionShape};
 use chart::edit::Element;
-use chart::model::{self, Chart, Instance, StepId, TransitionId};
+use chart::model::{self, Chart, Instance, StepId, StepKind, TransitionId};
 use chart::text::Document;
 
+use crate::conditions::{self, Condition};
 use crate::protocol as page;
 use crate::protocol::{At, ElementId, Mistake};
 
 /// A drawing of charts.
 pub fn charts(drawing: &Drawing, document: &Document, mistake: Option<Mistake>) -> page::Charts {
-    let charts = document.charts().flat_map(Chart::with_inner);
-    let sheets = drawing.sheets.iter().zip(charts);
+    let charts: Vec<&Chart> = document.charts().flat_map(Chart::with_inner).collect();
+    let names = conditions::names(document.charts());
+    let sheets = drawing.sheets.iter().zip(&charts);
     page::Charts {
         width: drawing.width,
         height: drawing.height,
-        sheets: sheets.map(|(sheet, chart)| self::sheet(sheet, chart)).collect(),
+        sheets: sheets.map(|(sheet, chart)| self::sheet(sheet, chart, &charts, &names)).collect(),
         obstacle: None,
         mistake,
     }
 }
 
-fn sheet(sheet: &Sheet, chart: &Chart) -> page::Sheet {
-    let steps = sheet.steps.iter().filter_map(|one| step(one, chart));
-    let transitions = sheet.transitions.iter().filter_map(|one| transition(one, chart));
+/// A chart, one of all of these.
+fn sheet(sheet: &Sheet, chart: &Chart, charts: &[&Chart], names: &[String]) -> page::Sheet {
+    let expansion = |name: &str| charts.iter().position(|chart| chart.name == name);
+    let steps = sheet.steps.iter().filter_map(|one| step(one, chart, expansion));
+    let scopes = conditions::scopes(&sheet.name, names);
+    let transitions = sheet.transitions.iter().filter_map(|one| transition(one, chart, &scopes));
     page::Sheet {
         name: sheet.name.clone(),
         title: point(&sheet.title),
         frame: frame(sheet.frame),
+        is_folded: sheet.steps.is_empty() && !chart.steps.is_empty(),
         is_grafcet: chart.standard == model::Standard::Grafcet,
         is_placed: sheet.is_placed,
         origin: point(&sheet.origin),
@@ -55,8 +61,16 @@ fn id_of_step(id: StepId) -> ElementId {
     ElementId(Element::Step(id))
 }
 
-fn step(shape: &StepShape, chart: &Chart) -> Option<page::Step> {
+fn step(
+    shape: &StepShape,
+    chart: &Chart,
+    expansion: impl Fn(&str) -> Option<usize>,
+) -> Option<page::Step> {
     let step = chart.steps.get(&shape.id)?;
+    let expansion = match &step.kind {
+        StepKind::Macro(name) => expansion(name),
+        StepKind::Plain | StepKind::Enclosing(_) => None,
+    };
     let look = match shape.look {
         Look::Plain => "plain",
         Look::Macro => "macro",
@@ -85,6 +99,7 @@ fn step(shape: &StepShape, chart: &Chart) -> Option<page::Step> {
         is_linked: shape.is_linked,
         look,
         actions: actions.collect(),
+        expansion,
     })
 }
 
@@ -99,7 +114,11 @@ fn written(
     })
 }
 
-fn transition(shape: &TransitionShape, chart: &Chart) -> Option<page::Transition> {
+fn transition(
+    shape: &TransitionShape,
+    chart: &Chart,
+    scopes: &[String],
+) -> Option<page::Transition> {
     let one = chart.transitions.get(&shape.id)?;
     let points = |points: &Vec<Point>| points.iter().map(point).collect();
     let id = |id: TransitionId| ElementId(Element::Transition(id));
@@ -110,6 +129,7 @@ fn transition(shape: &TransitionShape, chart: &Chart) -> Option<page::Transition
         name: one.name.clone(),
         priority: one.priority,
         condition: one.condition.text.clone(),
+        operands: Condition::of(&one.condition.text, scopes).into_operands(),
         comment: one.comment.clone(),
         from: shape.from.iter().copied().map(id_of_step).collect(),
         to: shape.to.iter().copied().map(id_of_step).collect(),

@@ -4,10 +4,12 @@
 //! [`Charts`] answers, [`protocol`] is what it is asked. A page loads it when a chart is looked at
 //! for the first time; the same code runs natively in tests.
 
+mod conditions;
 mod drawn;
 mod opened;
 mod places;
 pub mod protocol;
+mod set_reset;
 mod wanted;
 
 use opened::Opened;
@@ -38,11 +40,13 @@ impl Charts {
     /// Answers, or says why not.
     pub fn answer(&mut self, question: Question) -> Result<Answer, String> {
         match question {
-            Question::Draw { text, name } => Ok(Answer::Charts(self.open(text, name)?.draw())),
-            Question::Edit { text, name, chart, edits } => {
+            Question::Draw { text, name, folded } => {
+                Ok(Answer::Charts(self.open(text, name)?.draw(&folded)))
+            }
+            Question::Edit { text, name, folded, chart, edits } => {
                 let opened = self.open(text, name)?;
                 let select = opened.edit(chart, edits)?;
-                let (text, charts) = (opened.text().to_owned(), opened.draw());
+                let (text, charts) = (opened.text().to_owned(), opened.draw(&folded));
                 Ok(Answer::Edited { text, charts, select })
             }
             Question::Allowed { text, name, chart, edits } => {
@@ -50,6 +54,12 @@ impl Charts {
             }
             Question::Copy { text, name, chart, steps } => {
                 Ok(Answer::Copy(self.open(text, name)?.copy(chart, &steps)?))
+            }
+            Question::Judge { text, name, transitions } => {
+                Ok(Answer::Judged(self.open(text, name)?.judge(&transitions)))
+            }
+            Question::Convert { text, name, variables, target } => {
+                Ok(Answer::Converted(set_reset::convert(&name, text, variables, &target)?))
             }
         }
     }

@@ -1,11 +1,13 @@
 //! A text with charts that is open: drawn, and edited if it can be read.
 
 use chart::drawing;
-use chart::edit::{ChartPath, Editing, Undo};
+use chart::edit::{ChartPath, Editing, Element, Undo};
+use chart::model::Chart;
 use chart::text::{Document, Reading, read};
 use diagnostics::Source;
 
-use crate::protocol::{Charts, Edit, ElementId, Mistake};
+use crate::conditions::Condition;
+use crate::protocol::{Charts, Edit, ElementId, Judged, Judgement, Mistake};
 use crate::{drawn, places, wanted};
 
 /// A text that is open.
@@ -57,14 +59,22 @@ impl Opened {
         &self.source.text
     }
 
-    /// Its charts, drawn.
-    pub fn draw(&self) -> Charts {
-        let (document, mistake) = match &self.content {
+    /// Its charts, and why they cannot be edited.
+    fn document(&self) -> (&Document, Option<Mistake>) {
+        match &self.content {
             Content::Charts(editing) => (editing.document(), None),
             Content::Broken(document, mistake) => (document, Some(mistake.clone())),
-        };
+        }
+    }
+
+    /// Its charts, drawn without those that are folded.
+    pub fn draw(&self, folded: &[String]) -> Charts {
+        let (document, mistake) = self.document();
         match drawing::draw(document.charts(), &self.source) {
-            Ok(drawing) => drawn::charts(&drawing, document, mistake),
+            Ok(drawing) => {
+                let drawing = drawing.without(|sheet| folded.contains(&sheet.name));
+                drawn::charts(&drawing, document, mistake)
+            }
             Err(too_large) => {
                 Charts { obstacle: Some(too_large.to_string()), mistake, ..Charts::default() }
             }
@@ -116,6 +126,18 @@ impl Opened {
     pub fn copy(&mut self, chart: usize, steps: &[ElementId]) -> Result<String, String> {
         let (editing, path) = self.editing(chart)?;
         editing.copy(&path, &wanted::steps(steps)?).map_err(|refusal| refusal.to_string())
+    }
+
+    /// What conditions are with values; of a transition that is not there nothing is known.
+    pub fn judge(&self, transitions: &[Judged]) -> Vec<Judgement> {
+        let (document, _) = self.document();
+        let charts: Vec<&Chart> = document.charts().flat_map(Chart::with_inner).collect();
+        let judgement = |judged: &Judged| {
+            let Element::Transition(id) = judged.transition.0 else { return None };
+            let condition = &charts.get(judged.chart)?.transitions.get(&id)?.condition.text;
+            Some(Condition::of(condition, &[]).judge(&judged.values))
+        };
+        transitions.iter().map(|one| judgement(one).unwrap_or_default()).collect()
     }
 
     /// The document, and where a sheet is in it.

@@ -33,15 +33,121 @@ pub struct Number {
 #[derive(Debug, Deserialize)]
 #[serde(tag = "do", rename_all = "camelCase")]
 pub enum Question {
-    /// The charts of a text. Answer: [`Charts`].
-    Draw { text: String, name: String },
+    /// The charts of a text, without those of these names: they are folded. Answer: [`Charts`].
+    Draw {
+        text: String,
+        name: String,
+        #[serde(default)]
+        folded: Vec<String>,
+    },
     /// All of the edits of a chart, which is the number of a sheet, or none. Answer: the text, its
     /// charts and what is to be selected.
-    Edit { text: String, name: String, chart: usize, edits: Vec<Edit> },
+    Edit {
+        text: String,
+        name: String,
+        #[serde(default)]
+        folded: Vec<String>,
+        chart: usize,
+        edits: Vec<Edit>,
+    },
     /// Which edits would be refused. Answer: for each why, or null.
     Allowed { text: String, name: String, chart: usize, edits: Vec<Edit> },
     /// Steps with the transitions among them as a text, which can be pasted. Answer: the text.
     Copy { text: String, name: String, chart: usize, steps: Vec<ElementId> },
+    /// Whether the conditions of transitions are TRUE with values. Answer: a [`Judgement`] each.
+    Judge { text: String, name: String, transitions: Vec<Judged> },
+    /// Charts of SFCEdit for a target, `twincat`, `pl7`, `plcopen`, `uno200`, with a table of
+    /// variables as a file has it. Answer: [`Converted`].
+    Convert { text: String, name: String, variables: String, target: String },
+}
+
+/// A transition of a chart, with a value for each operand of its condition.
+#[derive(Debug, Deserialize)]
+pub struct Judged {
+    /// The number of the sheet.
+    pub chart: usize,
+    /// Which one.
+    pub transition: ElementId,
+    /// What is known of its operands.
+    pub values: Vec<Option<f64>>,
+}
+
+/// What a condition is.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Judgement {
+    /// Whether it is TRUE; null where that is not known.
+    pub is_true: Option<bool>,
+    /// What is missing, if it is FALSE: `Ready AND (Full OR NOT Stop)`.
+    pub waits_for: String,
+}
+
+/// What becomes of charts of SFCEdit.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+pub struct Converted {
+    /// The variables in the order of their use: as the table says, or as their use suggests.
+    pub variables: Vec<Variable>,
+    /// What is wrong, in the table first.
+    pub problems: Vec<Problem>,
+    /// The text for the target, unless something is wrong.
+    pub program: Option<String>,
+    /// The ending of its file.
+    pub ending: &'static str,
+    /// The equations of the steps, in Markdown.
+    pub equations: String,
+}
+
+/// A variable of charts of SFCEdit.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Variable {
+    /// Its name.
+    pub name: String,
+    /// `signal`, `input`, `output`, `memory`, `system`, `constant`, `timer`, `counter`.
+    pub kind: &'static str,
+    /// Its type.
+    #[serde(rename = "type")]
+    pub of_type: String,
+    /// Its value, of a constant.
+    pub value: Option<String>,
+}
+
+/// An error or a warning about them.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Problem {
+    /// Its line, from 1.
+    pub line: u32,
+    /// Whether it is in the table of variables.
+    pub is_of_table: bool,
+    /// Or a warning.
+    pub is_error: bool,
+    /// What is wrong.
+    pub message: String,
+    /// How to mend it.
+    pub help: Vec<String>,
+}
+
+/// What kind of value it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub enum OperandKind {
+    /// TRUE or FALSE.
+    Truth,
+    /// A number.
+    Number,
+    /// Milliseconds.
+    Time,
+}
+
+/// A variable in a condition.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Operand {
+    /// As it is written.
+    pub written: String,
+    /// What it may be called in the program: the first one that there is.
+    pub names: Vec<String>,
+    /// What kind of value it has there.
+    pub kind: OperandKind,
 }
 
 /// What is answered to a request.
@@ -73,6 +179,8 @@ pub enum Answer {
     Edited { text: String, charts: Charts, select: Vec<ElementId> },
     Allowed(Vec<Option<String>>),
     Copy(String),
+    Judged(Vec<Judgement>),
+    Converted(Converted),
 }
 
 /// An element of a chart, as `s3` or `t4`: a step or a transition, and its number.
@@ -236,6 +344,8 @@ pub struct Sheet {
     pub title: At,
     /// What it takes.
     pub frame: [i32; 4],
+    /// Whether it is folded: it has no elements then.
+    pub is_folded: bool,
     /// Whether it is a GRAFCET.
     pub is_grafcet: bool,
     /// Whether the text says where its steps are; otherwise the layout is automatic.
@@ -274,6 +384,8 @@ pub struct Step {
     pub look: &'static str,
     /// Its actions, then its forcing orders.
     pub actions: Vec<Action>,
+    /// The number of the sheet that a macro-step stands for.
+    pub expansion: Option<usize>,
 }
 
 /// An action of a step, or a forcing order.
@@ -308,6 +420,8 @@ pub struct Transition {
     pub priority: Option<u32>,
     /// Its condition as written.
     pub condition: String,
+    /// The variables in that.
+    pub operands: Vec<Operand>,
     /// Its comment.
     pub comment: String,
     /// The steps before it.

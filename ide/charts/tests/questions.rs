@@ -190,3 +190,123 @@ fn a_copy_can_be_pasted() {
     assert_eq!(names, ["A", "A2"]);
     assert_eq!(sheet["steps"][1]["actions"][0]["name"], "Lamp");
 }
+
+const TANK: &str = "PROGRAM Tank
+VAR Level : INT; Start AT %I0.0 : BOOL; END_VAR
+INITIAL_STEP Wait: END_STEP
+STEP Fill: END_STEP
+STEP Drain: Stir; END_STEP
+TRANSITION FROM Wait TO Fill := Start AND (Open OR NOT Hand) AND Level < 3; END_TRANSITION
+TRANSITION FROM Fill TO Drain := Fill.T >= T#2s OR %IX0.1; END_TRANSITION
+TRANSITION FROM Drain TO Wait := R_EDGE(Start) AND NOT (Open AND Hand); END_TRANSITION
+ACTION Stir:
+    INITIAL_STEP Left: END_STEP
+    STEP Right: END_STEP
+    TRANSITION FROM Left TO Right := Drain.X AND Speed[2] > 0; END_TRANSITION
+    TRANSITION FROM Right TO Left := TRUE; END_TRANSITION
+END_ACTION
+END_PROGRAM
+";
+
+#[test]
+fn the_variables_of_conditions_are_named_as_the_program_may_have_them() {
+    let sheets = Page::with(TANK).draw()["sheets"].clone();
+    let operands = |sheet: usize, at: usize| sheets[sheet]["transitions"][at]["operands"].clone();
+    let level = json!({ "written": "Level", "kind": "number",
+        "names": ["Tank.Level", "Level", "Tank.Stir.Level"] });
+    assert_eq!(operands(0, 0).as_array().unwrap().len(), 4);
+    assert_eq!(operands(0, 0)[3], level);
+    let time = json!({ "written": "Fill.T", "kind": "time",
+        "names": ["Tank.Fill.T", "Fill.T", "Tank.Stir.Fill.T"] });
+    let input = json!({ "written": "%IX0.1", "kind": "truth", "names": ["I0.1"] });
+    assert_eq!(operands(0, 1), json!([time, input]));
+    let step = json!([
+        "Tank.Stir.Drain.X",
+        "Tank.Stir.Drain",
+        "Tank.Drain.X",
+        "Tank.Drain",
+        "Drain.X",
+        "Drain"
+    ]);
+    assert_eq!(operands(1, 0)[0]["names"], step);
+    assert_eq!(operands(1, 0)[1]["names"], json!([]), "an element of an array has no name");
+}
+
+#[test]
+fn conditions_are_judged_and_say_what_is_missing() {
+    let mut page = Page::with(TANK);
+    let ids: Vec<Value> = page.draw()["sheets"][0]["transitions"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|transition| transition["id"].clone())
+        .collect();
+    let mut judge = |at: usize, values: Value| {
+        let one = json!([{ "chart": 0, "transition": ids[at], "values": values }]);
+        let answer = page.ask(json!({ "do": "judge", "transitions": one })).unwrap();
+        (answer[0]["isTrue"].as_bool(), answer[0]["waitsFor"].as_str().unwrap().to_owned())
+    };
+    // Start, Open, Hand, Level.
+    let all = "Start AND (Open OR NOT Hand) AND Level < 3";
+    assert_eq!(judge(0, json!([0, 0, 1, 3])), (Some(false), all.to_owned()));
+    assert_eq!(judge(0, json!([1, 0, 0, 3])), (Some(false), "Level < 3".to_owned()));
+    assert_eq!(judge(0, json!([1, 1, 1, 2])), (Some(true), String::new()));
+    // What decides need not be all that is known.
+    assert_eq!(judge(0, json!([0, null, 0, 1])), (Some(false), "Start".to_owned()));
+    assert_eq!(judge(0, json!([1, null, 1, 1])), (None, String::new()));
+    let either = "Fill.T >= T#2s OR %IX0.1";
+    assert_eq!(judge(1, json!([1999, 0])), (Some(false), either.to_owned()));
+    assert_eq!(judge(1, json!([2000, 0])), (Some(true), String::new()));
+    // An edge is no value; it may be all that is missing.
+    let edge = "R_EDGE(Start) AND (NOT Open OR NOT Hand)";
+    assert_eq!(judge(2, json!([1, 1, 1])), (Some(false), edge.to_owned()));
+    assert_eq!(judge(2, json!([1, 0, 1])), (None, String::new()));
+}
+
+#[test]
+fn the_chart_of_a_macro_step_can_be_folded() {
+    let mut page = Page::with(STATION);
+    let all = page.draw();
+    assert_eq!(all["sheets"][0]["steps"][3]["expansion"], 1);
+    assert_eq!(all["sheets"][1]["isFolded"], false);
+    let folded = page.ask(json!({ "do": "draw", "folded": ["Station.Measuring"] })).unwrap();
+    let count = |charts: &Value| charts["sheets"].as_array().unwrap().len();
+    assert_eq!(count(&folded), count(&all), "the others keep their numbers");
+    assert_eq!(folded["sheets"][1]["isFolded"], true);
+    assert_eq!(folded["sheets"][1]["steps"], json!([]));
+    assert_eq!(folded["sheets"][0], all["sheets"][0]);
+    let area =
+        |charts: &Value| charts["width"].as_i64().unwrap() * charts["height"].as_i64().unwrap();
+    assert!(area(&folded) < area(&all), "its room is free");
+}
+
+#[test]
+fn charts_of_sfcedit_become_programs_with_the_kinds_that_are_chosen() {
+    let text = include_str!("../../../lang/chart/tests/sfcedit/ejemplo.xml");
+    let mut page = Page::with(text);
+    let mut convert = |variables: &str, target: &str| {
+        page.ask(json!({ "do": "convert", "variables": variables, "target": target }))
+    };
+    let first = convert("", "uno200").unwrap();
+    let kind = |answer: &Value, name: &str| {
+        let all = answer["variables"].as_array().unwrap().clone();
+        all.into_iter().find(|one| one["name"] == name).unwrap()["kind"].clone()
+    };
+    assert_eq!((kind(&first, "T0_1"), kind(&first, "A1")), (json!("input"), json!("output")));
+    for (target, words, ending) in [
+        ("twincat", "FUNCTION_BLOCK GEjemplo", "st"),
+        ("pl7", "IF", "st"),
+        ("plcopen", "<project", "xml"),
+        ("uno200", "FUNCTION_BLOCK GEjemplo", "st"),
+    ] {
+        let answer = convert("T0_1,memory,BOOL\n", target).unwrap();
+        assert!(answer["program"].as_str().unwrap().contains(words), "{target}");
+        assert_eq!((&answer["ending"], kind(&answer, "T0_1")), (&json!(ending), json!("memory")));
+        assert!(answer["equations"].as_str().unwrap().contains("X2.X3 + Init + Reset"));
+    }
+    let wrong = convert("T0_1,memori,BOOL\n", "uno200").unwrap();
+    assert_eq!(wrong["program"], Value::Null);
+    let problem = &wrong["problems"][0];
+    assert_eq!((&problem["isOfTable"], &problem["line"]), (&json!(true), &json!(1)));
+    assert!(convert("", "logo").unwrap_err().contains("logo"));
+}

@@ -1,9 +1,11 @@
-//! Which steps are active in the charts that the page shows: the steps whose bits the PLC is asked
-//! for. What charts look like, `ide/charts` knows.
+//! How the charts are that the page shows: what the PLC is asked for, and what follows from that.
+//! What charts look like, `ide/charts` knows.
 
 use analysis::chart::Chart;
 use analysis::chart::model::StepKind;
 use analysis::chart::text::Document;
+
+use crate::protocol::Moment;
 
 /// Charts with their file.
 #[derive(Debug)]
@@ -14,6 +16,8 @@ pub struct Charts {
     pub file: String,
     /// The charts, those in actions after the one around.
     charts: Vec<Steps>,
+    /// Operands whose values are told, too.
+    values: Vec<String>,
 }
 
 /// The steps of a chart.
@@ -27,7 +31,7 @@ struct Steps {
 
 impl Charts {
     /// The charts of a file; none without any.
-    pub fn of(id: u32, file: String, document: &Document) -> Option<Charts> {
+    pub fn of(id: u32, file: String, values: Vec<String>, document: &Document) -> Option<Charts> {
         let all: Vec<_> = document.charts().flat_map(Chart::named_with_inner).collect();
         let expansion = |kind: &StepKind| match kind {
             StepKind::Macro(name) => all.iter().position(|(_, chart)| chart.name == *name),
@@ -38,17 +42,30 @@ impl Charts {
             expansions: chart.steps.values().map(|step| expansion(&step.kind)).collect(),
         };
         let charts: Vec<Steps> = all.iter().map(steps).collect();
-        (!charts.is_empty()).then_some(Charts { id, file, charts })
+        (!charts.is_empty()).then_some(Charts { id, file, charts, values })
     }
 
-    /// The variables of the steps, chart by chart.
-    pub fn variables(&self) -> Vec<String> {
-        self.charts.iter().flat_map(|chart| &chart.variables).cloned().collect()
+    /// What a target is asked for: the variables of the steps, chart by chart, then the values.
+    pub fn operands(&self) -> Vec<String> {
+        let variables = self.charts.iter().flat_map(|chart| &chart.variables);
+        variables.chain(&self.values).cloned().collect()
+    }
+
+    /// How the charts are, from what is known of the operands.
+    pub fn moment(&self, time_ms: f64, scan: u32, known: &[Option<f64>]) -> Moment {
+        let (steps, values) = known.split_at_checked(self.count()).unwrap_or_default();
+        let steps: Vec<_> = steps.iter().map(|known| known.map(|value| value != 0.0)).collect();
+        Moment { time_ms, scan, steps: self.situation(&steps), values: values.to_vec() }
+    }
+
+    /// How many of the operands are steps.
+    pub fn count(&self) -> usize {
+        self.charts.iter().map(|chart| chart.variables.len()).sum()
     }
 
     /// Which steps are active, chart by chart, from what is known of their variables. A macro-step
     /// has none: it is active while a step of its expansion is.
-    pub fn situation(&self, known: &[Option<bool>]) -> Vec<Vec<Option<bool>>> {
+    fn situation(&self, known: &[Option<bool>]) -> Vec<Vec<Option<bool>>> {
         let mut known = known.iter().copied();
         let of = |chart: &Steps| -> Vec<Option<bool>> {
             chart.variables.iter().map(|_| known.next().flatten()).collect()

@@ -22,6 +22,7 @@ mod session;
 mod simulator;
 mod surroundings;
 mod told;
+mod trail;
 
 pub mod protocol;
 

@@ -53,8 +53,8 @@ pub struct Plc {
     /// The program on the screen, with the values that belong to it.
     pub state: State,
     watched: Vec<Watched>,
-    /// Bits that are asked for besides.
-    bits: Vec<Watched>,
+    /// What is asked for besides.
+    besides: Vec<Watched>,
     /// What the oscilloscope asks in between.
     sampler: Sampler,
     asking: Option<Asking>,
@@ -76,7 +76,7 @@ impl Plc {
             rounds: Rounds::default(),
             state: State::new(program, place.to_owned()),
             watched: Vec::new(),
-            bits: Vec::new(),
+            besides: Vec::new(),
             asking: None,
             next_round_ms: begin_ms,
             view: None,
@@ -91,9 +91,10 @@ impl Plc {
         (state.link, state.identity) = (self.state.link.clone(), self.state.identity.clone());
         self.state = state;
         let names = |all: &[Watched]| all.iter().map(|one| one.name.clone()).collect();
-        let (watched, bits): (Vec<String>, Vec<String>) = (names(&self.watched), names(&self.bits));
+        let (watched, besides): (Vec<String>, Vec<String>) =
+            (names(&self.watched), names(&self.besides));
         self.watch(&watched);
-        self.watch_bits(&bits);
+        self.watch_besides(&besides);
         self.look();
     }
 
@@ -112,9 +113,9 @@ impl Plc {
         self.hurry();
     }
 
-    /// Which bits are asked for besides; those that the program does not have stay unknown.
-    pub fn watch_bits(&mut self, names: &[String]) {
-        self.bits = self.parsed(names);
+    /// What is asked for besides; what the program does not have stays unknown.
+    pub fn watch_besides(&mut self, names: &[String]) {
+        self.besides = self.parsed(names);
         self.hurry();
     }
 
@@ -257,7 +258,7 @@ impl Plc {
             Some(_) => self.state.wishes(),
             None => Default::default(),
         };
-        let watched = self.watched.iter().chain(&self.bits);
+        let watched = self.watched.iter().chain(&self.besides);
         let watched = watched.filter_map(|watched| watched.operand.as_ref().ok());
         wishes.watch.extend(watched.map(|operand| operand.reference));
         wishes.watch.sort();
@@ -321,13 +322,13 @@ impl Plc {
         Event::Watched { values: self.watched.iter().map(of).collect() }
     }
 
-    /// What is known of the bits that are asked for besides.
-    pub fn bits(&self) -> Vec<Option<bool>> {
+    /// What is known of what is asked for besides.
+    pub fn besides(&self) -> Vec<Option<f64>> {
         let of = |one: &Watched| {
             let operand = one.operand.as_ref().ok()?;
-            self.state.values.get(&operand.reference).map(|raw| *raw != 0)
+            self.state.values.get(&operand.reference).map(|raw| number(operand, *raw))
         };
-        self.bits.iter().map(of).collect()
+        self.besides.iter().map(of).collect()
     }
 
     /// What is forced, under the names that are known for it.

@@ -80,9 +80,9 @@ pub enum TextWish {
     /// The network there as a ladder, whose power flow is told from then on. Answer:
     /// [`Ladder`](ladder::Ladder) or null.
     Ladder { file: String, at: u32 },
-    /// The situation of the charts of a file is told from then on; of a file without charts none.
-    /// Answer: [`Chart`] or null.
-    Chart { file: String },
+    /// The situation of the charts of a file is told from then on, with the values of these
+    /// operands; of a file without charts none. Answer: [`Chart`] or null.
+    Chart { file: String, values: Vec<String> },
     /// A plant as `awl-sim --plant` takes it; files are those of the project. Answer:
     /// [`PlantInfo`](plant::PlantInfo).
     AboutPlant { spec: String },
@@ -127,6 +127,9 @@ pub enum TargetWish {
     Handle { name: String, value: i64 },
     /// Their input gets a value: `I0.0` to `I0.5` logically, `Ain0` to `Ain5` in counts.
     Drive { operand: String, value: i32 },
+    /// Makes a step active, or inactive, in the simulator; `step` is its variable. Its time begins
+    /// anew.
+    Activate { step: String, on: bool },
     /// Writes a value once. `value` as people write it.
     Set { operand: String, value: String },
     /// Forces an operand until it is released.
@@ -203,9 +206,16 @@ pub enum Event {
     Live { file: String, lines: Vec<Line> },
     /// Power flow in the ladder with this number, the one that was asked for last, rung by rung.
     Power { id: u32, rungs: Vec<ladder::Power> },
-    /// Which steps are active in the charts with this number, those that were asked for last:
-    /// chart by chart, null where it is not known.
-    Situation { id: u32, steps: Vec<Vec<Option<bool>>> },
+    /// How the charts with this number are, those that were asked for last. `before`: the
+    /// situations since that was told the last time, where each scan is looked at; `lost` where
+    /// some are missing before the first of these.
+    Situation {
+        id: u32,
+        #[serde(flatten)]
+        now: Moment,
+        before: Vec<Moment>,
+        lost: bool,
+    },
     /// The watch table, in its order.
     Watched { values: Vec<Value> },
     /// What is forced, wherever it was done.
@@ -281,6 +291,20 @@ pub struct Chart {
     pub id: u32,
     /// The file that they are in.
     pub file: String,
+}
+
+/// How charts are at the end of a scan.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Moment {
+    /// When, on the clock of the target where it has one.
+    pub time_ms: f64,
+    /// Scans since RUN, as far as they are known.
+    pub scan: u32,
+    /// Which steps are active, chart by chart; null where it is not known.
+    pub steps: Vec<Vec<Option<bool>>>,
+    /// The values that were asked for with the charts.
+    pub values: Vec<Option<f64>>,
 }
 
 /// A place in a file.

@@ -1,5 +1,6 @@
 //! Everything together: takes the page's requests, lets time pass, tells what is new.
 
+mod charts;
 mod chip;
 mod measured;
 mod plants;
@@ -202,15 +203,11 @@ impl Session {
     /// What the page is told if it is new.
     fn states(&mut self) -> Vec<Event> {
         let mut events = vec![Event::Status { status: self.status() }];
+        events.extend(self.situation());
         if let Some(plc) = &self.plc {
             events.extend([plc.live(), plc.watched(), plc.forced()]);
             let shown = self.ladder.as_ref();
             let is_up = plc.state.link == Link::Up && self.has_program();
-            let charts = self.charts.as_ref().filter(|_| is_up);
-            events.extend(charts.map(|charts| Event::Situation {
-                id: charts.id,
-                steps: charts.situation(&plc.bits()),
-            }));
             events.extend(
                 shown
                     .filter(|_| is_up)
@@ -289,11 +286,10 @@ impl Session {
                 self.ladder = editor.ladder(&file, at).map(|drawing| Shown { id, file, drawing });
                 answer(self.ladder.as_ref().map(Shown::ladder))
             }
-            TextWish::Chart { file } => {
+            TextWish::Chart { file, values } => {
                 self.drawings += 1;
                 let document = editor.charts(&file);
-                let charts =
-                    document.and_then(|document| Charts::of(self.drawings, file, &document));
+                let charts = document.and_then(|one| Charts::of(self.drawings, file, values, &one));
                 self.show_charts(charts);
                 answer(
                     self.charts
@@ -302,14 +298,6 @@ impl Session {
                 )
             }
             TextWish::AboutPlant { spec } => self.about_plant(&spec),
-        }
-    }
-
-    /// The page shows other charts, or none: the PLC is asked for their steps.
-    fn show_charts(&mut self, charts: Option<Charts>) {
-        self.charts = charts;
-        if let Some(plc) = &mut self.plc {
-            plc.watch_bits(&self.charts.as_ref().map(Charts::variables).unwrap_or_default());
         }
     }
 
@@ -353,6 +341,7 @@ impl Session {
             TargetWish::Plant { spec } => self.wire(spec)?,
             TargetWish::Handle { name, value } => self.handle(name, value)?,
             TargetWish::Drive { operand, value } => self.drive(&operand, value)?,
+            TargetWish::Activate { step, on } => self.activate(&step, on)?,
             TargetWish::Set { operand, value } => {
                 let (operand, raw) = self.value(&operand, &value)?;
                 if is_input(operand.address) {
@@ -470,9 +459,9 @@ impl Session {
     fn attach(&mut self, mut plc: Plc) {
         self.leave_recording("a program was loaded");
         plc.watch(&self.watched);
-        plc.watch_bits(&self.charts.as_ref().map(Charts::variables).unwrap_or_default());
         plc.view(self.view.clone());
         self.plc = Some(plc);
+        self.follow_charts();
         self.scope.restart();
         self.choose_signals();
     }

@@ -17,6 +17,7 @@ use awl_sim::serve::{Access, Endpoint, Frames, Request};
 use crate::build::Files;
 use crate::protocol::Event;
 use crate::scope::Scope;
+use crate::trail::{Seen, Trail};
 
 /// Time from scan start to scan start where the program does not say it, in milliseconds.
 const SCAN_MS: u64 = 1;
@@ -70,6 +71,8 @@ pub struct Simulator {
     host: Host,
     endpoint: Endpoint<()>,
     frames: Frames,
+    /// How the charts are that the page shows.
+    trail: Trail,
     scan_ms: u64,
     /// How far its time is, and how far it is to be.
     now_ms: u64,
@@ -93,6 +96,7 @@ impl Simulator {
             host,
             endpoint,
             frames: Frames::default(),
+            trail: Trail::default(),
             scan_ms,
             now_ms: 0,
             due_ms: 0.0,
@@ -107,6 +111,32 @@ impl Simulator {
     /// Sets an input.
     pub fn drive(&mut self, operand: Operand, value: i32) -> Result<(), String> {
         self.host.write(operand, value).map_err(|error| error.to_string())
+    }
+
+    /// Sets an operand at once, as nothing in the program does.
+    pub fn set(&mut self, operand: Operand, value: i32) -> Result<(), String> {
+        self.host.write(operand, value).map_err(|error| error.to_string())?;
+        self.look();
+        Ok(())
+    }
+
+    /// Follows charts: their operands, of which the first ones are steps.
+    pub fn follow(&mut self, operands: Vec<Option<Operand>>, steps: usize) {
+        self.trail.follow(operands, steps);
+        self.look();
+    }
+
+    fn look(&mut self) {
+        let scan = self.host.scans() as u32;
+        self.trail.look(self.endpoint.time_ms(), scan, &mut self.host);
+    }
+
+    /// How those charts are, and the situations since the last time; whether some are missing.
+    pub fn seen(&mut self) -> (Seen, Vec<Seen>, bool) {
+        let scan = self.host.scans() as u32;
+        let now = self.trail.now(self.endpoint.time_ms(), scan, &mut self.host);
+        let (before, is_lossy) = self.trail.take();
+        (now, before, is_lossy)
     }
 
     /// Sets something in the plant; whether there is such a thing.
@@ -147,6 +177,7 @@ impl Simulator {
         let _ = self.endpoint.go_on(&mut self.host, Duration::from_millis(self.now_ms));
         let scan = self.host.scans() as u16;
         scope.sample(self.endpoint.time_ms(), scan, &mut self.host);
+        self.look();
         self.now_ms += self.scan_ms;
         self.answers()
     }

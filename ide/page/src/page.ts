@@ -98,7 +98,7 @@ const menus = {
 };
 const header = new Header(core, menus, (act) => opening.afterwards(act));
 const ladder = new Ladder(core, editors, project, header);
-const chart = new Chart(core, editors, project, header);
+const chart = new Chart(core, editors, project, header, operands);
 const tabs: Tabs = new Tabs("panels", [
   { id: "problems", text: "problems", element: problems.element },
   { id: "watch", text: "watch", element: watch.element, shown: (shown) => watch.shown(shown) },

@@ -422,11 +422,7 @@ const touch = (type, ...points) =>
     type,
     touchPoints: points.map(([x, y], id) => ({ x, y, id })),
   });
-const width = () =>
-  there
-    .locator("svg")
-    .last()
-    .evaluate((svg) => svg.clientWidth);
+const width = () => there.locator(".sheets svg").evaluate((svg) => svg.clientWidth);
 const stage = await there.locator(".stage").boundingBox();
 const [x, y] = [stage.x + stage.width / 2, stage.y + stage.height / 2];
 const small = await width();

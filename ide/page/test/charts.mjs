@@ -60,7 +60,7 @@ for (const target of ["Simulator", "Virtual Uno"]) {
   await mode("RUN");
   await part(/^initial step Wait, active/).waitFor();
   await part(/^step FillA, not active/).waitFor();
-  await part(/^transition Go: Go: Start, enabled$/).waitFor();
+  await part(/^transition Go: Go: Start, enabled, waits for: Start$/).waitFor();
   // All three branches begin.
   await set("Start", "1");
   for (const step of ["FillA", "FillB", "Heat"])

@@ -111,6 +111,10 @@ for (const colorScheme of ["light", "dark"])
     await page.getByRole("button", { name: "Fit", exact: true }).click();
     await page.waitForTimeout(4000);
     await look(page, `chart-${colorScheme}-${width}`);
+    await page.getByRole("button", { name: "Follow", exact: true }).click();
+    await page.getByRole("menuitemradio", { name: /^Steps over time/ }).click();
+    await page.waitForTimeout(500);
+    await look(page, `steps-${colorScheme}-${width}`);
     // Nothing is wider than the window.
     const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert(wide <= 0, `${wide} pixels too wide at ${width}`);

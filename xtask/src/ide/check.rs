@@ -65,6 +65,8 @@ fn use_page(folder: &Path) -> Result<()> {
     test("charts.mjs", [page])?;
     test("chart_editor.mjs", [page])?;
     test("chart_moments.mjs", [page])?;
+    test("chart_live.mjs", [page])?;
+    test("set_reset.mjs", [page])?;
     test("touch.mjs", [page])?;
     test("budgets.mjs", [page, folder])?;
     test("reload.mjs", [page])?;

@@ -39,7 +39,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "ide-site",
         ],
     ),
-    ("ide-charts", &["diagnostics", "chart"]),
+    ("ide-charts", &["diagnostics", "st", "chart"]),
     (
         "ide-core",
         &["plc-isa", "diagnostics", "awl-asm", "project", "awl-sim", "analysis", "client", "flash"],

@@ -3,6 +3,7 @@
 import { h, s } from "../page/dom";
 import { t } from "../text/language";
 import { meet, type Drawn, type Item, type Point } from "./drawn";
+import type { Note } from "./note";
 import type { Frame } from "./protocol";
 import { Shape, title } from "./shape";
 
@@ -18,6 +19,8 @@ const EDGE = 24;
 /** What is to be seen of an element beside itself. */
 export interface Looks {
   state(item: Item): boolean | null;
+  note(item: Item): Note | null;
+  isCrossed(item: Item): boolean;
   isSelected(item: Item): boolean;
   isCurrent(item: Item): boolean;
   /** Keeps its nodes although it cannot be seen. */
@@ -86,7 +89,8 @@ export class Canvas {
     for (const [at, sheet] of sheets.entries()) {
       const layer = (this.layers[at] ??= this.layer());
       layer.group.setAttribute("aria-label", t("chartOf", sheet.name));
-      layer.group.toggleAttribute("hidden", this.only !== null && this.only !== at);
+      const isElsewhere = this.only !== null && this.only !== at;
+      layer.group.toggleAttribute("hidden", isElsewhere || sheet.isFolded);
       layer.group.firstElementChild?.replaceWith(title(sheet.title, sheet.name));
     }
   }
@@ -158,6 +162,7 @@ export class Canvas {
       this.shapes.set(item.key, shape);
     }
     shape.show(this.looks.state(item));
+    shape.tell(this.looks.note(item), this.looks.isCrossed(item));
     shape.select(this.looks.isSelected(item));
     shape.group.classList.toggle("current", this.looks.isCurrent(item));
     return shape;

@@ -55,6 +55,16 @@ export const SAID: Record<CommandName, Said> = {
   svg: { text: "chartSvg", keys: [] },
   png: { text: "chartPng", keys: [] },
   print: { text: "chartPrint", keys: ["Ctrl+P"] },
+  fold: { text: "chartFold", keys: ["M"] },
+  foldAll: { text: "chartFoldAll", keys: ["Shift+M"] },
+  activate: { text: "chartActivate", keys: ["X"] },
+  momentBack: { text: "chartMomentBack", keys: [","] },
+  momentForward: { text: "chartMomentForward", keys: ["."] },
+  momentNow: { text: "chartMomentNow", keys: ["L"] },
+  oneScan: { text: "chartOneScan", keys: ["F10"] },
+  times: { text: "chartTimes", keys: ["G"] },
+  timesSvg: { text: "chartTimesSvg", keys: [] },
+  timesPng: { text: "chartTimesPng", keys: [] },
 };
 
 /** Those that open a field. */
@@ -64,7 +74,8 @@ const WRITES: readonly CommandName[] = [
 /** Those that change nothing. */
 const READS: readonly CommandName[] = [
   ...(["copy", "all", "goToText", "larger", "smaller", "fit"] as const),
-  ...(["find", "blocks", "svg", "png", "print"] as const),
+  ...(["find", "blocks", "svg", "png", "print", "foldAll"] as const),
+  ...(["oneScan", "times", "timesSvg", "timesPng"] as const),
 ];
 
 export class Commands {
@@ -109,6 +120,16 @@ export class Commands {
     svg: () => this.editor.pictures.svg(),
     png: () => this.editor.pictures.png(),
     print: () => this.editor.pictures.print(),
+    fold: () => this.editor.folding.toggle(),
+    foldAll: () => this.editor.folding.toggleAll(),
+    activate: () => this.activate(),
+    momentBack: () => this.editor.moments.go(-1),
+    momentForward: () => this.editor.moments.go(1),
+    momentNow: () => this.editor.moments.now(),
+    oneScan: () => this.editor.moments.oneScan(),
+    times: () => this.editor.times.toggle(),
+    timesSvg: () => this.editor.times.saveSvg(),
+    timesPng: () => this.editor.times.savePng(),
   };
 
   /** Is told when something else can be done. */
@@ -152,12 +173,34 @@ export class Commands {
     if (name === "undo" || name === "redo")
       return document.canGoBack(name === "undo") ? null : t("chartNoChange");
     if (READS.includes(name)) return null;
+    const running = this.whyRunning(name);
+    if (running !== undefined) return running;
     if (!scene) return t("chartNothing");
     const { mistake } = scene.drawn.charts;
     if (mistake) return t("chartMistake", mistake.line, mistake.message);
     if (!isEdit(name)) return document.file === null ? t("chartNothing") : this.whyOther(name);
     const found = meaning(name, scene);
     return "why" in found ? t(found.why) : (this.reasons.get(name) ?? null);
+  }
+
+  private activate(): void {
+    const { scene, live } = this.editor;
+    if (scene?.focus?.kind === "step") live.activate(scene.focus);
+  }
+
+  /** Of what has to do with the running program, and of macro-steps. */
+  private whyRunning(name: CommandName): string | null | undefined {
+    const { scene, live, folding } = this.editor;
+    const { trail } = live;
+    if (name === "momentBack") return trail.canGo(-1) ? null : t("chartNoMoment");
+    if (name === "momentForward" || name === "momentNow")
+      return trail.canGo(1) ? null : t("chartNoMoment");
+    if (name === "fold") return folding.chosen === null ? t("chartSelectMacro") : null;
+    if (name !== "activate") return undefined;
+    if (scene?.focus?.kind !== "step") return t("chartSelectStep");
+    if (scene.focus.element.look === "macro") return t("chartActivateMacro");
+    if (!live.canActivate) return t("chartActivateWhere");
+    return trail.at === null ? null : t("chartActivatePast");
   }
 
   private whyOther(name: OtherName): string | null {

@@ -7,7 +7,7 @@ import type { Project } from "../project/project";
 import { t } from "../text/language";
 import { Overtaken, type ChartsModule } from "./charts";
 import { Drawn, type Item } from "./drawn";
-import type { Charts, Edit, ElementId } from "./protocol";
+import type { Charts, Edit, ElementId, Judged, Judgement } from "./protocol";
 
 /** So long nothing is drawn while a text is being written. */
 const QUIET_MS = 120;
@@ -27,6 +27,8 @@ export class ChartDocument {
   text: string | null = null;
   /** Counts the texts that the module has read: elements of another one are others. */
   reading = 0;
+  /** The names of charts that are folded. */
+  private folded = new Set<string>();
   /** The text that the module has. */
   private held: string | null = null;
   private turn: Promise<unknown> = Promise.resolve();
@@ -67,6 +69,15 @@ export class ChartDocument {
     return !!drawn?.isEmpty && drawn.isEditable && file !== null;
   }
 
+  /** Folds charts, or shows them again. */
+  fold(names: string[], isFolded: boolean): void {
+    for (const name of names)
+      if (isFolded) this.folded.add(name);
+      else this.folded.delete(name);
+    this.held = null;
+    this.soon(0);
+  }
+
   private soon(after = QUIET_MS): void {
     clearTimeout(this.timer);
     if (!this.isShown) return;
@@ -89,7 +100,7 @@ export class ChartDocument {
     this.held = text;
     this.reading += 1;
     try {
-      const charts = await this.module.ask({ do: "draw", text, name: nameOf(file) });
+      const charts = await this.module.ask({ do: "draw", ...this.wish(file, text) });
       if (this.editors.current === file && this.project.text(file) === text)
         this.take(file, text, charts);
     } catch (error) {
@@ -122,7 +133,7 @@ export class ChartDocument {
   private async carryOut(chart: number, edits: Edit[], reading: number): Promise<ElementId[]> {
     const { file, text } = await this.ready();
     if (reading !== this.reading) throw new Refusal(t("chartChangedMeanwhile"));
-    const wish = { text, name: nameOf(file), chart, edits };
+    const wish = { ...this.wish(file, text), chart, edits };
     const answer = await this.module.ask({ do: "edit", ...wish });
     this.held = answer.text;
     if (this.project.text(file) !== text) throw new Refusal(t("chartChangedMeanwhile"));
@@ -133,6 +144,20 @@ export class ChartDocument {
     Object.assign(this, { file, text: answer.text, drawn });
     this.tell(before, (item) => drawn.byKeyOf(item.key));
     return answer.select;
+  }
+
+  private wish(file: string, text: string) {
+    return { text, name: nameOf(file), folded: [...this.folded] };
+  }
+
+  /** Whether conditions of what is drawn are TRUE with values; nothing of another text. */
+  judge(transitions: Judged[], reading: number): Promise<Judgement[]> {
+    return this.inTurn(async () => {
+      const { file, text } = this;
+      if (file === null || text === null || text !== this.held || reading !== this.reading)
+        throw new Overtaken();
+      return this.module.ask({ do: "judge", text, name: nameOf(file), transitions });
+    });
   }
 
   /** Which of these edits would be refused, and why. */

@@ -6,7 +6,9 @@ import { button, h } from "../page/dom";
 import type { Header } from "../page/header";
 import { notice } from "../page/notices";
 import type { Project } from "../project/project";
-import { onLanguage, t } from "../text/language";
+import type { Operands } from "../panels/operands";
+import { CHART_WORDS } from "../text/chart_words";
+import { addWords, onLanguage, t } from "../text/language";
 import { Canvas } from "./canvas";
 import { ChartsModule, Overtaken } from "./charts";
 import { Commands } from "./commands";
@@ -14,17 +16,23 @@ import { ChartDocument, type Same } from "./document";
 import { barFrame, type Drawn, type Item } from "./drawn";
 import { Field } from "./field";
 import { Find } from "./find";
+import { Folding } from "./folding";
 import { Handle } from "./handle";
 import { Keyboard } from "./keyboard";
 import { Live } from "./live";
 import { Minimap } from "./minimap";
+import { Moments } from "./moments";
 import { Pictures } from "./picture";
 import { Pointer } from "./pointer";
 import type { Edit, ElementId } from "./protocol";
 import { actionOf, type Scene } from "./edits";
 import { Selection } from "./selection";
+import { SetReset } from "./set_reset";
 import { Sheets } from "./sheets";
+import { Times } from "./times";
 import { Tools } from "./tools";
+
+addWords(CHART_WORDS);
 
 export class ChartEditor {
   readonly document: ChartDocument;
@@ -38,7 +46,10 @@ export class ChartEditor {
   only: number | null = null;
   readonly find: Find;
   readonly pictures: Pictures;
-  private live: Live;
+  readonly live: Live;
+  readonly moments: Moments;
+  readonly times: Times;
+  readonly folding = new Folding(this);
   private minimap: Minimap;
   private sheets = new Sheets((only) => this.showOnly(only));
   private keyboard: Keyboard;
@@ -57,16 +68,22 @@ export class ChartEditor {
     private editors: Editors,
     project: Project,
     header: Header,
+    operands: Operands,
   ) {
     const module = new ChartsModule((message) => notice(t("chartBroken", message), true));
     this.document = new ChartDocument(module, editors, project);
     this.canvas = new Canvas({
       state: (item) => this.live.state(item),
+      note: (item) => this.live.note(item),
+      isCrossed: (item) => this.live.isCrossed(item),
       isSelected: (item) => this.isSelected(item),
       isCurrent: (item) => item === this.current,
       isPinned: ({ key }) => key === this.tabStop?.key,
     });
-    this.live = new Live(core, this.document, header, () => this.canvas.later());
+    this.live = new Live(core, this.document, operands, header);
+    this.moments = new Moments(this.live, header);
+    this.times = new Times(this.live, () => ({ only: this.only, file: this.document.file }));
+    this.live.onChange(() => this.follow());
     this.field = new Field(this.canvas);
     this.pictures = new Pictures(this.canvas, () => ({
       drawn: this.document.drawn,
@@ -84,10 +101,13 @@ export class ChartEditor {
     element.append(
       this.tools.element,
       this.find.element,
+      this.moments.element,
       this.sheets.element,
       this.words,
+      new SetReset(module, editors, project).element,
       this.first,
       this.stage,
+      this.times.element,
     );
     this.document.onDrawn((drawn, before, find) => this.take(drawn, before, find));
     this.selection.onChange(() => this.selected());
@@ -114,6 +134,12 @@ export class ChartEditor {
     this.followCursor();
   }
 
+  /** Shows what the target does, or has done. */
+  private follow(): void {
+    this.stage.classList.toggle("past", this.live.trail.at !== null);
+    this.canvas.later();
+  }
+
   /** Draws all anew; nodes of what has not changed stay. */
   draw(): void {
     const { drawn } = this.document;
@@ -124,6 +150,7 @@ export class ChartEditor {
     this.canvas.draw(drawn, this.only);
     this.sheets.show(drawn?.charts.sheets ?? [], this.only);
     this.minimap.draw();
+    this.times.draw();
     this.tools.show();
     this.setTab();
   }
@@ -177,6 +204,7 @@ export class ChartEditor {
   /** Shows one of the charts, or all. */
   private showOnly(only: number | null): void {
     this.only = only;
+    if (only !== null) this.folding.unfold(this.document.drawn?.sheet(only));
     const first = this.document.drawn?.ofSheet(only ?? this.selection.sheet)[0];
     if (only !== null && only !== this.selection.sheet && first) this.selection.only(first);
     this.draw();

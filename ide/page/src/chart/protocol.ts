@@ -31,6 +31,15 @@ export interface ChartStep {
   isLinked: boolean;
   look: "plain" | "macro" | "enclosing";
   actions: ChartAction[];
+  /** The number of the sheet that a macro-step stands for. */
+  expansion: number | null;
+}
+/** A variable in a condition: as written, what it may be called in the program, the first one that there is, and what
+ * kind of value it has; a time is in milliseconds. */
+export interface ChartOperand {
+  written: string;
+  names: string[];
+  kind: "truth" | "number" | "time";
 }
 export interface ChartTransition {
   id: ElementId;
@@ -40,6 +49,7 @@ export interface ChartTransition {
   priority: number | null;
   /** Whole, as written. */
   condition: string;
+  operands: ChartOperand[];
   comment: string;
   from: ElementId[];
   to: ElementId[];
@@ -54,6 +64,8 @@ export interface ChartSheet {
   name: string;
   title: At;
   frame: Frame;
+  /** Whether it is folded: it has no elements then. */
+  isFolded: boolean;
   isGrafcet: boolean;
   /** Whether the text gives places; otherwise the layout is automatic. */
   isPlaced: boolean;
@@ -109,20 +121,66 @@ export type Edit =
   | { paste: { text: string; at: At | null } }
   | { comment: { of: ElementId; text: string } };
 
+/** A transition with a value for each operand of its condition. */
+export interface Judged {
+  chart: number;
+  transition: ElementId;
+  values: (number | null)[];
+}
+/** Whether a condition is TRUE, null where that is not known, and what is missing if it is FALSE. */
+export interface Judgement {
+  isTrue: boolean | null;
+  waitsFor: string;
+}
+
+export type ConvertTarget = "uno200" | "twincat" | "pl7" | "plcopen";
+/** A variable of charts of SFCEdit: as the table says, or as its use suggests. */
+export interface ConvertedVariable {
+  name: string;
+  kind: string;
+  type: string;
+  value: string | null;
+}
+/** What becomes of charts of SFCEdit; no program if something is wrong. */
+export interface Converted {
+  variables: ConvertedVariable[];
+  problems: {
+    line: number;
+    isOfTable: boolean;
+    isError: boolean;
+    message: string;
+    help: string[];
+  }[];
+  program: string | null;
+  ending: string;
+  equations: string;
+}
+
 /** Questions with what is asked and answered. `name` is what a chart is called that is not there yet (the file's name
  * without its end, made a name), `chart` the number of a sheet. Answers to questions that are refused are
  * `{ refused: string }`. */
 export interface Questions {
-  draw: { wish: { text: string; name: string }; answer: Charts };
+  /** `folded`: the names of sheets that are left out. */
+  draw: { wish: { text: string; name: string; folded: string[] }; answer: Charts };
   /** All of the edits, or none. */
   edit: {
-    wish: { text: string; name: string; chart: number; edits: Edit[] };
+    wish: { text: string; name: string; folded: string[]; chart: number; edits: Edit[] };
     answer: { text: string; charts: Charts; select: ElementId[] };
   };
   /** Which of these edits would be refused, and why; null for the others. Changes nothing. */
   allowed: {
     wish: { text: string; name: string; chart: number; edits: Edit[] };
     answer: (string | null)[];
+  };
+  /** Whether conditions are TRUE with values. */
+  judge: {
+    wish: { text: string; name: string; transitions: Judged[] };
+    answer: Judgement[];
+  };
+  /** Charts of SFCEdit for a target, with a table of variables as a file has it. */
+  convert: {
+    wish: { text: string; name: string; variables: string; target: ConvertTarget };
+    answer: Converted;
   };
   copy: { wish: { text: string; name: string; chart: number; steps: ElementId[] }; answer: string };
 }

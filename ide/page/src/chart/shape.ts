@@ -3,11 +3,14 @@
 import { s, setAttributes } from "../page/dom";
 import { language, t } from "../text/language";
 import { barFrame, TEXT_LINE, type Item, type Point } from "./drawn";
+import type { Note } from "./note";
 import type { ChartAction, ChartStep, ChartTransition } from "./protocol";
 
 /** Between the lines of a double line, and between the frames of an initial step. */
 const DOUBLE = 4;
 const INSET = 4;
+/** From line to line of what is read beside an element. */
+const NOTE_LINE = 13;
 
 export class Shape {
   /** All of it. */
@@ -17,6 +20,10 @@ export class Shape {
   /** What is drawn of it. */
   readonly picture = s("g", { "aria-hidden": "true" });
   private actions = s("g");
+  /** What is read beside it while the program runs. */
+  private noted = s("text", { class: "note-live", "aria-hidden": "true" });
+  private note: Note | null = null;
+  private isCrossed = false;
   private drawn = "";
   private language = "";
   private state: boolean | null = null;
@@ -31,22 +38,23 @@ export class Shape {
       this.picture,
       this.button,
       this.actions,
+      this.noted,
     );
     this.update(item);
   }
 
   /** Draws what has changed. */
   update(item: Item): void {
-    if (item.element === this.item.element && this.drawn !== "" && language() === this.language)
-      return;
+    if (item === this.item && this.drawn !== "" && language() === this.language) return;
     this.item = item;
     this.language = language();
-    const drawn = JSON.stringify(item.element) + this.language;
+    const isFolded = item.kind === "step" ? item.isFolded : null;
+    const drawn = JSON.stringify([item.element, isFolded, this.language]);
     if (drawn === this.drawn) return;
     this.drawn = drawn;
     const { kind, element } = item;
     if (kind === "step") {
-      this.picture.replaceChildren(...stepParts(element));
+      this.picture.replaceChildren(...stepParts(element), ...foldParts(element, isFolded));
       this.button.replaceChildren(rect(element.frame, "frame"));
       this.drawActions(element);
     } else {
@@ -54,6 +62,28 @@ export class Shape {
       const ways = element.lines.map((points) => line(points, "way"));
       this.button.replaceChildren(...ways, rect(barFrame(element), "frame"));
     }
+    this.placeNote();
+    this.name();
+  }
+
+  private placeNote(): void {
+    const { item } = this;
+    const [x, y] = item.kind === "step" ? timePoint(item.element) : item.note;
+    this.noted.setAttribute("transform", `translate(${x} ${y})`);
+  }
+
+  /** What is read beside it, and whether it was crossed last. */
+  tell(note: Note | null, isCrossed: boolean): void {
+    if (note?.all !== this.note?.all) {
+      this.noted.replaceChildren(...(note ? noteParts(note) : []));
+      this.noted.classList.toggle("good", note?.isGood === true);
+    }
+    const isSame = note?.said === this.note?.said && isCrossed === this.isCrossed;
+    this.note = note;
+    this.isCrossed = isCrossed;
+    if (isSame) return;
+    this.group.classList.toggle("crossed", isCrossed);
+    this.group.classList.toggle("true", note?.isGood === true && this.item.kind === "transition");
     this.name();
   }
 
@@ -100,7 +130,10 @@ export class Shape {
     const { item, state } = this;
     const name =
       item.kind === "step" ? stepName(item.element, state) : transitionName(item.element, state);
-    this.button.setAttribute("aria-label", name);
+    const folded = item.kind === "step" && item.isFolded ? t("chartFolded") : "";
+    const crossed = this.isCrossed ? t("chartCrossed") : "";
+    const words = [name, folded, this.note?.said, crossed].filter(Boolean);
+    this.button.setAttribute("aria-label", words.join(", "));
   }
 }
 
@@ -162,6 +195,20 @@ function lookParts({ look, frame: [x, y, width, height] }: ChartStep): SVGElemen
           [edge, end + dy],
         ]);
   return parts.map((points) => line(points));
+}
+
+/** Above the right half of a step. */
+const timePoint = ({ frame: [x, y, width] }: ChartStep): Point => [x + width / 2 + 8, y - 8];
+
+function noteParts({ lines, all }: Note): SVGElement[] {
+  const parts = lines.map((words, at) => s("tspan", { x: 0, y: at * NOTE_LINE }, words));
+  return all === lines.join() ? parts : [...parts, s("title", {}, all)];
+}
+
+/** Whether the chart of a macro-step is shown. */
+function foldParts({ frame: [x, y, width] }: ChartStep, isFolded: boolean | null) {
+  if (isFolded === null) return [];
+  return [text([x + width - 8, y + 10], isFolded ? "▸" : "▾", "note")];
 }
 
 function blockParts({ frame, actions }: ChartStep, first: ChartAction): SVGElement[] {

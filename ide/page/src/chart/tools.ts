@@ -17,8 +17,13 @@ const CHANGE: CommandName[][] = [
   ["alignLeft", "alignTop", "layout"],
   ["goToText"],
 ];
+const FOLLOW: CommandName[][] = [
+  ["activate"],
+  ["momentBack", "momentForward", "momentNow", "oneScan"],
+  ["times", "timesSvg", "timesPng"],
+];
 const VIEW: CommandName[][] = [
-  ["find", "blocks"],
+  ["find", "blocks", "fold", "foldAll"],
   ["svg", "png", "print"],
 ];
 /** Those that have buttons of their own. */
@@ -43,6 +48,7 @@ export class Tools {
       { class: "tools", attributes: { role: "toolbar" }, label: "chartTools" },
       this.menu("chartInsert", () => INSERT),
       this.menu("chartChange", () => CHANGE),
+      this.menu("chartFollow", () => FOLLOW),
       this.menu("chartView", () => VIEW),
       ...BUTTONS.map(([name, picture]) => this.button(name, picture)),
     );
@@ -73,13 +79,22 @@ export class Tools {
     const { commands } = this.editor;
     const { text, keys } = SAID[name];
     const why = commands.why(name);
+    const checked = this.checked(name);
     return {
       text: t(text),
       act: () => void commands.run(name),
       ...(keys[0] ? { hint: keys[0] } : {}),
       ...(why === null ? {} : { why }),
-      ...(name === "blocks" ? { checked: this.editor.canvas.hasBlocks } : {}),
+      ...(checked === undefined ? {} : { checked }),
     };
+  }
+
+  /** Of what is shown or not, whether it is. */
+  private checked(name: CommandName): boolean | undefined {
+    const { canvas, folding, times } = this.editor;
+    if (name === "blocks") return canvas.hasBlocks;
+    if (name === "foldAll") return folding.areAllShown;
+    return name === "times" ? times.isOpen : undefined;
   }
 
   /** The menu of what is under the pointer, or has the focus. */
@@ -91,7 +106,7 @@ export class Tools {
     if (spot && !editor.isSelected(spot.item)) editor.selection.only(spot.item, spot.action);
     const at = spot ? editor.canvas.shape(spot.item).target(spot.action) : editor.canvas.element;
     editor.focus(false);
-    openMenu(at, this.items([...INSERT, ...CHANGE]));
+    openMenu(at, this.items([["activate", "fold"], ...INSERT, ...CHANGE]));
   }
 
   /** What can be done, and what is wrong with the text. */

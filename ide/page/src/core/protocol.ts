@@ -153,6 +153,14 @@ export interface Chart {
   file: string;
 }
 
+/** How charts are at the end of a scan. */
+export interface Moment {
+  timeMs: number;
+  scan: number;
+  steps: (boolean | null)[][];
+  values: (number | null)[];
+}
+
 export interface Recording {
   names: string[];
   times: number[];
@@ -216,7 +224,7 @@ export interface Questions {
   format: { wish: { file: string }; answer: Edit[] };
   outline: { wish: { file: string }; answer: Item[] };
   ladder: { wish: At; answer: Ladder | null };
-  chart: { wish: { file: string }; answer: Chart | null };
+  chart: { wish: { file: string; values: string[] }; answer: Chart | null };
   aboutPlant: { wish: { spec: string }; answer: PlantInfo };
   simulate: {
     wish: { signals: string[]; forMs: number; scanMs: number; plant: string | null };
@@ -249,6 +257,7 @@ export interface Orders {
   plant: { spec: string | null };
   handle: { name: string; value: number };
   drive: { operand: string; value: number };
+  activate: { step: string; on: boolean };
   set: { operand: string; value: string };
   force: { operand: string; value: string };
   unforce: { operand: string | null };
@@ -267,7 +276,7 @@ interface Events {
   status: { status: Status };
   live: { file: string; lines: Line[] };
   power: { id: number; rungs: Power[] };
-  situation: { id: number; steps: (boolean | null)[][] };
+  situation: Moment & { id: number; before: Moment[]; lost: boolean };
   watched: { values: Value[] };
   forced: { values: Value[] };
   pins: { inputs: number; outputs: number; analog: number[]; pwm: number[] };

@@ -21,6 +21,7 @@ const PATHS = {
   stepAfter: "M3 2h10v5H8.8v2.3H12L8 13.5 4 9.3h3.2V7H3zM4.5 3.5v2h7v-2z",
   undo: "M6.2 2.6v2.6h3.3a4 4 0 0 1 0 8H5v-1.7h4.5a2.3 2.3 0 0 0 0-4.6H6.2v2.6L2 6z",
   redo: "M9.8 2.6v2.6H6.5a4 4 0 0 0 0 8H11v-1.7H6.5a2.3 2.3 0 0 1 0-4.6h3.3v2.6L14 6z",
+  back: "M11 3.5v9L3.5 8z",
   smaller: "M3 7.2h10v1.6H3z",
   fit: "M2 2h4v1.5H3.5V6H2zM10 2h4v4h-1.5V3.5H10zM2 10h1.5v2.5H6V14H2zM12.5 10H14v4h-4v-1.5h2.5z",
 } as const;

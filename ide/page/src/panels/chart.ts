@@ -8,6 +8,7 @@ import type { Header } from "../page/header";
 import { notice } from "../page/notices";
 import type { Project } from "../project/project";
 import { t } from "../text/language";
+import type { Operands } from "./operands";
 
 export class Chart {
   readonly element = h("div", { class: "chart" });
@@ -18,6 +19,7 @@ export class Chart {
     private editors: Editors,
     private project: Project,
     private header: Header,
+    private operands: Operands,
   ) {}
 
   /** Charts are drawn only while they can be seen. */
@@ -34,6 +36,7 @@ export class Chart {
 
   private async load(): Promise<ChartEditor> {
     const { ChartEditor } = await import("../chart/editor");
-    return new ChartEditor(this.element, this.core, this.editors, this.project, this.header);
+    const { element, core, editors, project, header, operands } = this;
+    return new ChartEditor(element, core, editors, project, header, operands);
   }
 }

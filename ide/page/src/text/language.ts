@@ -1,10 +1,11 @@
 // Which language the page speaks, and its words from the table.
+import type { CHART_WORDS } from "./chart_words";
 import { TABLE } from "./table";
 import { store, storedText } from "../project/stored";
 
 export const LANGUAGES = ["en", "de", "es"] as const;
 export type Language = (typeof LANGUAGES)[number];
-export type Key = keyof typeof TABLE;
+export type Key = keyof typeof TABLE | keyof typeof CHART_WORDS;
 export type Args = (string | number)[];
 
 const STORED = "uno200.language";
@@ -42,8 +43,17 @@ export function inLanguage(words: Words): string {
   return words[index] ?? words[0];
 }
 
+const table: Partial<Record<Key, Words>> = { ...TABLE };
+
+/** Words of a part of the page that comes later. */
+export function addWords(words: Partial<Record<Key, Words>>): void {
+  Object.assign(table, words);
+}
+
 /** The words for a key; `{0}` and so on are replaced by `args`. */
 export function t(key: Key, ...args: Args): string {
-  const words = TABLE[key][index] ?? TABLE[key][0];
-  return words.replace(/\{(\d)\}/g, (_, number: string) => String(args[Number(number)] ?? ""));
+  const row = table[key];
+  return (row ? inLanguage(row) : "").replace(/\{(\d)\}/g, (_, number: string) =>
+    String(args[Number(number)] ?? ""),
+  );
 }

@@ -234,6 +234,33 @@ fn packed(mut sheets: Vec<Sheet>) -> Drawing {
     Drawing { width: right + MARGIN, height: bottom + MARGIN, sheets }
 }
 
+impl Drawing {
+    /// The drawing without the charts that are hidden. They keep their places in the list of
+    /// sheets, but have nothing on them.
+    pub fn without(mut self, is_hidden: impl Fn(&Sheet) -> bool) -> Drawing {
+        if !self.sheets.iter().any(&is_hidden) {
+            return self;
+        }
+        for sheet in &mut self.sheets {
+            sheet.move_by(Point::new(-sheet.frame.x, -sheet.frame.y));
+        }
+        let (hidden, shown) = self
+            .sheets
+            .into_iter()
+            .enumerate()
+            .partition::<Vec<_>, _>(|(_, sheet)| is_hidden(sheet));
+        let (numbers, shown): (Vec<usize>, Vec<Sheet>) = shown.into_iter().unzip();
+        let Drawing { width, height, sheets } = packed(shown);
+        let empty = |(number, sheet): (usize, Sheet)| {
+            (number, Sheet { name: sheet.name, is_placed: sheet.is_placed, ..Sheet::default() })
+        };
+        let mut all: Vec<(usize, Sheet)> = hidden.into_iter().map(empty).collect();
+        all.extend(numbers.into_iter().zip(sheets));
+        all.sort_by_key(|(number, _)| *number);
+        Drawing { width, height, sheets: all.into_iter().map(|(_, sheet)| sheet).collect() }
+    }
+}
+
 impl Sheet {
     fn move_by(&mut self, by: Point) {
         self.title = self.title.moved(by);
