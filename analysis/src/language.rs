@@ -12,7 +12,7 @@ use crate::subject::Mention;
 pub enum Language {
     /// A program in AWL.
     Awl,
-    /// A program in Structured Text.
+    /// A program in Structured Text, as text or as a diagram of blocks.
     StructuredText,
     /// A program whose units are charts.
     Chart,
@@ -27,13 +27,13 @@ pub enum Language {
 }
 
 impl Language {
-    /// The language of a text of this name, by its ending: `.awl`, `.st`, `.sfc`, `.fbt`, `.scn`,
+    /// The language of a text of this name, by its ending: `.awl`, `.st`, `.fbd`, `.sfc`, `.fbt`, `.scn`,
     /// `.plant`; `.csv` and `.txt` are symbol tables.
     pub fn of_name(name: &str) -> Option<Language> {
         let (_, ending) = name.rsplit_once('.')?;
         match ending.to_ascii_lowercase().as_str() {
             "awl" => Some(Language::Awl),
-            "st" => Some(Language::StructuredText),
+            "st" | "fbd" => Some(Language::StructuredText),
             "sfc" => Some(Language::Chart),
             "fbt" => Some(Language::Block),
             "scn" => Some(Language::Scenario),

@@ -72,6 +72,7 @@ fn other_language(file: &PathBuf) -> Option<(&PathBuf, &'static str)> {
     let language = match ending.as_str() {
         "st" => "Structured Text",
         "sfc" => "a chart",
+        "fbd" => "a diagram of blocks",
         "fbt" | "xml" => "a function block",
         _ => return None,
     };

@@ -17,7 +17,8 @@ fn examples() -> PathBuf {
 fn program_of(stem: &str) -> PathBuf {
     let name = stem.split('.').next().unwrap_or(stem);
     let path = |ending: &str| examples().join(format!("{name}.{ending}"));
-    if path("awl").is_file() { path("awl") } else { path("fbt") }
+    let paths = ["awl", "fbd", "fbt"].map(path);
+    paths.into_iter().find(|path| path.is_file()).unwrap_or_else(|| panic!("{stem}: no program"))
 }
 
 fn open(stem: &str) -> Opened {
@@ -58,7 +59,7 @@ fn run_plant(stem: &str, plant: &str, length_ms: u64, scan_ms: u64) -> Report {
 #[test]
 fn every_example_does_what_its_scenario_expects() {
     let mut count = 0;
-    let stems = [in_folder(""), in_folder("fbt")].concat();
+    let stems = [in_folder(""), in_folder("fbd"), in_folder("fbt")].concat();
     for stem in stems {
         let outcome = run_scenario(&stem, None);
         assert!(outcome.failures.is_empty(), "{stem}: {:#?}", outcome.failures);
@@ -70,7 +71,7 @@ fn every_example_does_what_its_scenario_expects() {
             assert!(outcome.met >= 20, "{stem} expects only {} values", outcome.met);
         }
     }
-    assert_eq!(count, 17);
+    assert_eq!(count, 19);
 }
 
 /// The scenarios in a folder of the examples.

@@ -24,6 +24,7 @@ pub fn projects() -> Vec<(String, String)> {
         of_language("st/", "st", "-st"),
         of_language("sfc/", "sfc", "-sfc"),
         of_language("grafcet/", "sfc", "-grafcet"),
+        of_language("fbd/", "fbd", "-fbd"),
         of_language("fbt/", "fbt", "-fbt"),
     ]
     .concat();

@@ -17,6 +17,8 @@ pub enum Code {
     Chart(chart::Code),
     /// Of function blocks of IEC 61499.
     Block(fb::Code),
+    /// Of diagrams of blocks.
+    Diagram(diagram::Code),
     /// Of projects of PLCopen.
     Plcopen(plcopen::Code),
 }
@@ -29,6 +31,7 @@ impl Code {
             Code::St(code) => code.text(),
             Code::Chart(code) => code.text(),
             Code::Block(code) => code.text(),
+            Code::Diagram(code) => code.text(),
             Code::Plcopen(code) => code.text(),
         }
     }
@@ -45,6 +48,7 @@ impl Code {
             Code::St(code) => code.page(),
             Code::Chart(code) => code.page(),
             Code::Block(code) => code.page(),
+            Code::Diagram(code) => code.page(),
             Code::Plcopen(code) => code.page(),
         }
     }
@@ -55,8 +59,9 @@ impl Code {
         let st = st::Code::ALL.iter().copied().map(Code::St);
         let charts = chart::Code::ALL.iter().copied().map(Code::Chart);
         let blocks = fb::Code::ALL.iter().copied().map(Code::Block);
+        let diagrams = diagram::Code::ALL.iter().copied().map(Code::Diagram);
         let plcopen = plcopen::Code::ALL.iter().copied().map(Code::Plcopen);
-        awl.chain(st).chain(charts).chain(blocks).chain(plcopen)
+        awl.chain(st).chain(charts).chain(blocks).chain(diagrams).chain(plcopen)
     }
 }
 
@@ -112,6 +117,12 @@ pub(crate) fn from_chart(one: chart::Diagnostic) -> Diagnostic {
 /// One of a function block of IEC 61499.
 pub(crate) fn from_block(one: fb::Diagnostic) -> Diagnostic {
     let code = Code::Block(one.code);
+    with_code(one, code)
+}
+
+/// One of a diagram of blocks.
+pub(crate) fn from_diagram(one: diagram::Diagnostic) -> Diagnostic {
+    let code = Code::Diagram(one.code);
     with_code(one, code)
 }
 

@@ -23,6 +23,8 @@ pub enum Language {
     StructuredText,
     /// Charts, as text.
     Chart,
+    /// Diagrams of blocks: Structured Text of calls.
+    Diagram,
     /// A function block of IEC 61499, as XML.
     Block,
     /// A project of PLCopen.
@@ -31,7 +33,7 @@ pub enum Language {
 
 /// Endings of files in these languages; where a program is looked for, the first one that is there
 /// counts.
-pub const ENDINGS: [&str; 5] = ["awl", "st", "sfc", "fbt", "xml"];
+pub const ENDINGS: [&str; 6] = ["awl", "st", "sfc", "fbd", "fbt", "xml"];
 
 impl Language {
     /// That of a file.
@@ -40,6 +42,7 @@ impl Language {
         match ending.map(str::to_lowercase).as_deref() {
             Some("st") => Language::StructuredText,
             Some("sfc") => Language::Chart,
+            Some("fbd") => Language::Diagram,
             Some("fbt") => Language::Block,
             Some("xml") => Language::Xml,
             _ => Language::Awl,
@@ -139,7 +142,7 @@ pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
     match Language::of(&source.name) {
         Language::Awl => awl_asm::format::format(source)
             .map_err(|errors| errors.into_iter().map(findings::from_awl).collect()),
-        Language::StructuredText => st::format::format(source)
+        Language::StructuredText | Language::Diagram => st::format::format(source)
             .map_err(|errors| errors.into_iter().map(findings::from_st).collect()),
         Language::Chart => {
             let chart::text::Reading { document, diagnostics, .. } = chart::text::read(source);

@@ -9,7 +9,7 @@ use st::places;
 use st::tree::File;
 
 use crate::Language;
-use crate::findings::{Diagnostic, from_block, from_chart, from_plcopen};
+use crate::findings::{Diagnostic, from_block, from_chart, from_diagram, from_plcopen};
 
 /// What was read.
 pub(crate) struct Read {
@@ -40,7 +40,11 @@ pub(crate) fn read(texts: &[Source], is_all: bool) -> Read {
             }
             _ => {}
         }
-        let (file, found) = st::parser::parse(text);
+        let (mut file, found) = st::parser::parse(text);
+        if Language::of(&text.name) == Language::Diagram && found.is_empty() {
+            let found = diagram::arrange(text, &mut file);
+            read.others.extend(found.into_iter().map(|one| (at, from_diagram(one))));
+        }
         read.of_st.extend(found.into_iter().map(|one| (at, one)));
         known.extend(chart::declared(&file));
         read.files.push(file);

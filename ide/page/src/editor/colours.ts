@@ -8,6 +8,7 @@ const LANGUAGES: Record<string, Extension> = {
   awl,
   st: structuredText,
   sfc: charts,
+  fbd: structuredText,
   fbt: xml,
   scn: scenario,
   plant,

@@ -1,0 +1,55 @@
+//! Function block diagrams as text: units in Structured Text whose bodies are calls of blocks and
+//! assignments. They are checked by the rules of diagrams and put into the order of their links;
+//! what a call means is the business of Structured Text.
+//!
+//! `elements` says what a statement reads and writes, `order` which is executed before which.
+
+mod connections;
+pub mod diagnostic;
+mod elements;
+mod feedback;
+mod order;
+
+use diagnostics::Source;
+use st::lexer::cut;
+use st::tree::{File, Statement, Unit, UnitKind};
+
+pub use diagnostic::{Code, Diagnostic};
+use elements::Element;
+use feedback::Feedback;
+
+/// Puts the units of a file, as Structured Text has read it, into the order in which they are
+/// executed. Returns what breaks the rules of diagrams; functions have none.
+pub fn arrange(source: &Source, file: &mut File) -> Vec<Diagnostic> {
+    let mut feedback = Feedback::of(&source.text, &cut(&source.text).pragmas);
+    let mut found = Vec::new();
+    for unit in &mut file.units {
+        if !matches!(unit.kind, UnitKind::Function(_)) {
+            arrange_unit(&source.text, unit, &mut feedback, &mut found);
+        }
+    }
+    found.extend(feedback.left());
+    found.sort_by_key(|one| one.span);
+    found
+}
+
+fn arrange_unit(text: &str, unit: &mut Unit, feedback: &mut Feedback, found: &mut Vec<Diagnostic>) {
+    let statements = std::mem::take(&mut unit.body);
+    if statements.is_empty() {
+        let message = format!("{}: there is nothing in this diagram", unit.name.text);
+        let help = "a call of a block, or an assignment: `Lamp := Button;`";
+        found.push(Diagnostic::new(Code::Empty, unit.name.span, message).help(help));
+    }
+    let mut elements = Vec::new();
+    for statement in statements {
+        match Element::of(text, statement, feedback) {
+            Ok(element) => elements.push(element),
+            Err(wrong) => found.push(*wrong),
+        }
+    }
+    connections::check(text, unit, &elements, found);
+    let order = order::of(&elements, found);
+    let mut statements: Vec<Option<Statement>> =
+        elements.into_iter().map(|element| Some(element.statement)).collect();
+    unit.body = order.into_iter().filter_map(|at| statements.get_mut(at)?.take()).collect();
+}
