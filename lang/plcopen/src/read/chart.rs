@@ -14,6 +14,7 @@ use st::names::is_same;
 
 use super::body::{Surroundings, refuse};
 use super::condition::{Condition, condition};
+use super::diagram::statements;
 use super::formatted::{documentation, formatted, language};
 use super::macro_step::expand;
 use super::network::{Network, id, lines_into, title};
@@ -129,6 +130,13 @@ fn middle(node: Node) -> Option<Position> {
     Some(Position { x: x.round() as i32, y: y.round() as i32 })
 }
 
+/// The statements of a diagram; `None`: it is none.
+fn drawn_body(reader: &mut Reader, diagram: Node) -> Option<Body> {
+    let codes = statements(reader, diagram)?;
+    let texts: Vec<String> = codes.into_iter().map(|code| code.text).collect();
+    Some(Body::Code(Code { text: texts.join("\n"), origin: Origin(tag(diagram)) }))
+}
+
 /// The actions of a unit that have names.
 fn actions(reader: &mut Reader, around: &Surroundings, chart: &mut Chart) {
     for node in around.actions() {
@@ -153,10 +161,13 @@ fn actions(reader: &mut Reader, around: &Surroundings, chart: &mut Chart) {
                 initial(reader, &inner, found);
                 Body::Chart(Box::new(inner))
             }
-            _ => {
-                refuse(reader, found, &format!("action {}", name.text));
-                continue;
-            }
+            _ => match drawn_body(reader, found) {
+                Some(body) => body,
+                None => {
+                    refuse(reader, found, &format!("action {}", name.text));
+                    continue;
+                }
+            },
         };
         let comment = documentation(node);
         let origin = Origin(name.span);
@@ -528,14 +539,21 @@ impl<'a, 'i> Builder<'_, '_, 'a, 'i> {
             return None;
         };
         let name = self.chart.steps.get(&step).map_or(String::new(), |step| step.name.clone());
-        if found.tag_name().name() != "ST" {
-            refuse(self.reader, found, &format!("an action of step {name}"));
-            return None;
-        }
+        let body = match found.tag_name().name() {
+            "ST" => {
+                let Text { text, span } = formatted(found);
+                Body::Code(Code { text, origin: Origin(span) })
+            }
+            _ => match drawn_body(self.reader, found) {
+                Some(body) => body,
+                None => {
+                    refuse(self.reader, found, &format!("an action of step {name}"));
+                    return None;
+                }
+            },
+        };
         let name = self.free(|number| format!("{name}_action{number}"))?;
-        let Text { text, span } = formatted(found);
         let (origin, comment) = (Origin(tag(node)), String::new());
-        let body = Body::Code(Code { text, origin: Origin(span) });
         Some(self.chart.add_action(Action { name, body, comment, origin }))
     }
 
