@@ -258,8 +258,8 @@ fn function_blocks_of_a_drawn_condition_are_called_while_the_step_is_active() {
         let inputs: String = inputs.collect();
         format!(
             "<block localId=\"{id}\" typeName=\"{kind}\" instanceName=\"{kind}{id}\">\
-             <inputVariables>{inputs}</inputVariables><outputVariables><variable formalParameter=\"Q\"/>\
-             </outputVariables></block>\n"
+             <inputVariables>{inputs}</inputVariables><outputVariables>\
+             <variable formalParameter=\"Q\"/></outputVariables></block>\n"
         )
     };
     // The timer is reset by what it sets: function blocks keep that from scan to scan.
@@ -273,7 +273,7 @@ fn function_blocks_of_a_drawn_condition_are_called_while_the_step_is_active() {
     let text = found.text.text();
     assert!(text.contains("STEP On:\n    On_blocks;\n"), "{text}");
     assert!(text.contains(":= TON10.Q;"), "{text}");
-    let calls = "    SR11(S1 := NOT (x), R := TON10.Q);\nTON10(IN := SR11.Q1, PT := T#2s);\n";
+    let calls = "    SR11(S1 := NOT (x), R := TON10.Q);\n    TON10(IN := SR11.Q1, PT := T#2s);\n";
     assert!(text.contains(calls), "{text}");
     let shared = more.replace(
         "<inputVariables>",
@@ -335,7 +335,8 @@ fn rung(id: usize, contacts: &[&str], coil: &str) -> String {
     let here = last + 1;
     let (name, more) = coil.split_once(' ').unwrap_or((coil, ""));
     text += &format!(
-        "<coil localId=\"{here}\" {more}><position x=\"90\" y=\"{id}\"/>{}<variable>{name}</variable></coil>\n",
+        "<coil localId=\"{here}\" {more}><position x=\"90\" y=\"{id}\"/>{}\
+         <variable>{name}</variable></coil>\n",
         from(last)
     );
     text
@@ -366,7 +367,8 @@ fn diagrams_become_statements() {
     let out = |id: usize, name: &str| {
         format!(
             "<outVariable localId=\"{id}\"><connectionPointIn><connection refLocalId=\"80\" \
-             formalParameter=\"Q\"/></connectionPointIn><expression>{name}</expression></outVariable>\n"
+             formalParameter=\"Q\"/></connectionPointIn><expression>{name}</expression>\
+             </outVariable>\n"
         )
     };
     let diagram = format!("<FBD>{}{}{block}</FBD>", out(1, "p"), out(2, "q"));

@@ -24,6 +24,8 @@ use crate::diagnostic::{Code as ErrorCode, Diagnostic};
 
 /// Charts in each other at most, in actions and macro-steps.
 const DEPTH_MAX: usize = 20;
+/// Between statements of an action.
+const NEXT_LINE: &str = "\n    ";
 /// Which elements join the lines to a transition, and those to a step.
 const TO_TRANSITIONS: [&str; 2] = ["selectionDivergence", "simultaneousConvergence"];
 const TO_STEPS: [&str; 2] = ["selectionConvergence", "simultaneousDivergence"];
@@ -134,7 +136,7 @@ fn middle(node: Node) -> Option<Position> {
 fn drawn_body(reader: &mut Reader, diagram: Node) -> Option<Body> {
     let codes = statements(reader, diagram)?;
     let texts: Vec<String> = codes.into_iter().map(|code| code.text).collect();
-    Some(Body::Code(Code { text: texts.join("\n"), origin: Origin(tag(diagram)) }))
+    Some(Body::Code(Code { text: texts.join(NEXT_LINE), origin: Origin(tag(diagram)) }))
 }
 
 /// The actions of a unit that have names.
@@ -333,8 +335,8 @@ impl<'a, 'i> Builder<'_, '_, 'a, 'i> {
         let known = self.called.get(&step).and_then(|id| self.chart.actions.get_mut(id));
         if let Some(Action { body: Body::Code(code), .. }) = known {
             for call in calls {
-                if !code.text.lines().any(|line| line == call.text) {
-                    code.text = format!("{}\n{}", code.text, call.text);
+                if !code.text.lines().any(|line| line.trim() == call.text) {
+                    code.text = format!("{}{NEXT_LINE}{}", code.text, call.text);
                 }
             }
             return;
@@ -347,7 +349,7 @@ impl<'a, 'i> Builder<'_, '_, 'a, 'i> {
         }) else {
             return;
         };
-        let body = Body::Code(Code { text: texts.join("\n"), origin });
+        let body = Body::Code(Code { text: texts.join(NEXT_LINE), origin });
         let comment =
             "Function blocks of drawn conditions: what they give is asked for afterwards.";
         let id = self.chart.add_action(Action { name, body, comment: comment.to_owned(), origin });
