@@ -105,7 +105,7 @@ pub enum ParityName {
 pub enum Command {
     /// Makes AWL or an image of the files of a program: AWL, Structured Text, blocks of IEC 61499
     Build(Build),
-    /// Draws a chart, converts it into Structured Text for a target, or tells what is in it
+    /// Draws a chart, converts it into a program or text of another tool, or tells what is in it
     Convert(Convert),
     /// Explains the code of an error or warning
     Explain {

@@ -140,7 +140,7 @@ fn a_chart_of_sfcedit_becomes_a_program() {
     fs::write(path.join("itself.xml"), itself).unwrap();
     let (code, _, errors) = convert(path, &["itself.xml", "-o", "itself.sfc"]);
     assert!(code == Some(1) && errors.contains("E0310"), "{errors}");
-    assert!(errors.contains("itself.xml:4:"), "{errors}");
+    assert!(errors.contains("itself.xml:3:"), "{errors}");
     let (code, _, errors) = convert(path, &["chart.xml", "-o", "b.sfc", "--target", "pl7"]);
     assert!(code == Some(2) && errors.contains("--target"), "{errors}");
     assert!(!path.join("itself.sfc").exists() && !path.join("b.sfc").exists());

@@ -10,8 +10,8 @@ use crate::model::{
     is_same_name,
 };
 
-/// How often a GRAFCET evolves in a scan at most where it says nothing else: the search for a stable
-/// situation ends there.
+/// How often a GRAFCET evolves in a scan at most where it says nothing else: the search for a
+/// stable situation ends there.
 pub const EVOLUTIONS_MAX: u16 = 20;
 
 /// A step: the number of its chart, and which of that.

@@ -1,6 +1,7 @@
-//! Whether two conditions can be TRUE together, or one is TRUE whenever the other one is. What is in them counts as free: variables, calls,
-//! how two values compare; of one that is compared with numbers, the numbers decide. Nothing is
-//! said where that would be a guess: too much is in them, or what is in them depends on each other.
+//! Whether two conditions can be TRUE together, or one is TRUE whenever the other one is. What is
+//! in them counts as free: variables, calls, how two values compare; of one that is compared with
+//! numbers, the numbers decide. Nothing is said where that would be a guess: too much is in them,
+//! or what is in them depends on each other.
 
 use std::collections::BTreeSet;
 use std::ops::Bound::{Excluded, Unbounded};
@@ -26,8 +27,8 @@ pub(crate) fn together(text: &str, conditions: [&Expression; 2]) -> Option<Vec<S
     }
 }
 
-/// Values that make a condition TRUE, if all values that do make another one TRUE, too; `None` where
-/// that is not so, or not plain.
+/// Values that make a condition TRUE, if all values that do make another one TRUE, too; `None`
+/// where that is not so, or not plain.
 pub(crate) fn implied(text: &str, one: &Expression, other: &Expression) -> Option<Vec<String>> {
     let mut atoms = Atoms { is_signed: true, ..Atoms::new(text) };
     let [one, other] = [one, other].map(|one| atoms.formula(one));

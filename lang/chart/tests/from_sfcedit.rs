@@ -278,64 +278,65 @@ fn places_with_another_behaviour_are_told() {
     assert!(said(EJEMPLO).iter().all(|one| one.starts_with("W0343")), "{:?}", said(EJEMPLO));
 }
 
+const VARIABLES: [&str; 7] = ["a", "b", "c", "d", "A", "Step", "T5"];
+
+fn random_condition(random: &mut Rng) -> String {
+    if random.u8(..10) == 0 {
+        return format!("<re/>{}", VARIABLES[random.usize(..VARIABLES.len())]);
+    }
+    let mut text = String::new();
+    for at in 0..random.usize(1..4) {
+        let name = VARIABLES[random.usize(..VARIABLES.len())];
+        text += if at == 0 { "" } else { [".", " + "][random.usize(..2)] };
+        match random.u8(..8) {
+            0 => text += &format!("<re/>{name}"),
+            1 => text += &format!("<cpl>{name} + e</cpl>"),
+            2 => text += "[n &lt; 7]",
+            3 => text += &format!("({name}.f + X0)"),
+            4 => text += &format!("2s/{name}"),
+            5 => text += "Temp1.Q",
+            _ => text += name,
+        }
+    }
+    text
+}
+
+fn random_action(random: &mut Rng) -> String {
+    let mut of = |all: &[&str]| all[random.usize(..all.len())].to_owned();
+    match of(&["on", "on", "if", "device", "preset", "stored", "event"]).as_str() {
+        "on" => format!("<action><text>{}</text></action>", of(&["p", "q", "P"])),
+        "if" => format!(
+            "<action type=\"conditional\"><text>q</text><condition>{}</condition></action>",
+            of(&["a.b", "<cpl>c</cpl>", "Cont1"])
+        ),
+        "device" => format!("<action><text>{}</text></action>", of(&["Temp1", "Cont1"])),
+        "preset" => format!(
+            "<action><text>{}</text></action>",
+            of(&["Temp1 := T#2s", "Temp1 := T#3s", "Cont1 := 5"])
+        ),
+        "stored" => format!(
+            "<action type=\"{}\"><text>{}</text></action>",
+            of(&["normal", "on activation", "on deactivation"]),
+            of(&["S r", "R r", "n := 3", "n := m + 1", "r := 1"])
+        ),
+        _ => format!(
+            "<action type=\"event\"><text>{}</text><condition>{}</condition></action>",
+            of(&["S r", "n := 5"]),
+            of(&["<re/>a", "b . c", "<fe/>X0"])
+        ),
+    }
+}
+
 /// A random chart: any transitions between any steps, all kinds of actions.
-fn random(random: &mut Rng) -> String {
-    let variables = ["a", "b", "c", "d", "A", "Step", "T5", "Temp1", "Cont1"];
-    let name = |random: &mut Rng| variables[random.usize(..variables.len())];
-    let condition = |random: &mut Rng| {
-        let mut text = String::new();
-        for at in 0..random.usize(1..4) {
-            let name = variables[random.usize(..variables.len() - 2)];
-            text += if at == 0 { "" } else { [".", " + "][random.usize(..2)] };
-            match random.u8(..8) {
-                0 => text += &format!("<re/>{name}"),
-                1 => text += &format!("<cpl>{name} + e</cpl>"),
-                2 => text += "[n &lt; 7]",
-                3 => text += &format!("({name}.f + X0)"),
-                4 => text += &format!("2s/{name}"),
-                5 => text += "Temp1.Q",
-                _ => text += name,
-            }
-        }
-        text
-    };
-    let action = |random: &mut Rng| {
-        let mut of = |all: &[&str]| all[random.usize(..all.len())].to_owned();
-        match of(&["on", "on", "if", "device", "preset", "stored", "event"]).as_str() {
-            "on" => format!("<action><text>{}</text></action>", of(&["p", "q", "P"])),
-            "if" => format!(
-                "<action type=\"conditional\"><text>q</text><condition>{}</condition></action>",
-                of(&["a.b", "<cpl>c</cpl>", "Cont1"])
-            ),
-            "device" => format!("<action><text>{}</text></action>", of(&["Temp1", "Cont1"])),
-            "preset" => format!(
-                "<action><text>{}</text></action>",
-                of(&["Temp1 := T#2s", "Temp1 := T#3s", "Cont1 := 5"])
-            ),
-            "stored" => format!(
-                "<action type=\"{}\"><text>{}</text></action>",
-                of(&["normal", "on activation", "on deactivation"]),
-                of(&["S r", "R r", "n := 3", "n := m + 1", "r := 1"])
-            ),
-            _ => format!(
-                "<action type=\"event\"><text>{}</text><condition>{}</condition></action>",
-                of(&["S r", "n := 5"]),
-                of(&["<re/>a", "b . c", "<fe/>X0"])
-            ),
-        }
-    };
+fn random_chart(random: &mut Rng) -> String {
+    // Presets are needed wherever the devices are named.
+    let presets = "<action><text>Temp1 := T#1s</text></action>\
+        <action><text>Cont1 := 4</text></action>";
     let steps = random.usize(2..8);
     let mut xml = String::from("<project><grafcet name=\"Random\">");
     for step in 0..steps {
-        let actions: String = (0..random.usize(..3)).map(|_| action(random)).collect();
-        let kind = if step == 0 { "initial" } else { "normal" };
-        // Presets are needed wherever the devices are named.
-        let presets = match step {
-            0 => {
-                "<action><text>Temp1 := T#1s</text></action><action><text>Cont1 := 4</text></action>"
-            }
-            _ => "",
-        };
+        let actions: String = (0..random.usize(..3)).map(|_| random_action(random)).collect();
+        let (kind, presets) = if step == 0 { ("initial", presets) } else { ("normal", "") };
         let _ = write!(
             xml,
             "<sequence id=\"s{step}\"><step type=\"{kind}\" name=\"X{step}\">{actions}{presets}\
@@ -344,14 +345,11 @@ fn random(random: &mut Rng) -> String {
     }
     let mut joined = String::new();
     for transition in 0..random.usize(1..10) {
-        let condition = match random.u8(..10) {
-            0 => format!("<re/>{}", name(random).replace("Temp1", "a").replace("Cont1", "b")),
-            _ => condition(random),
-        };
         let _ = write!(
             xml,
-            "<sequence id=\"t{transition}\"><transition><condition>{condition}</condition>\
-             </transition></sequence>"
+            "<sequence id=\"t{transition}\"><transition><condition>{}</condition></transition>\
+             </sequence>",
+            random_condition(random)
         );
         for is_before in [true, false] {
             let mut ends: Vec<usize> = (0..steps).collect();
@@ -369,7 +367,7 @@ fn random(random: &mut Rng) -> String {
 #[test]
 fn random_charts_are_read_back_without_mistakes() {
     for seed in 0..500 {
-        let xml = random(&mut Rng::with_seed(seed));
+        let xml = random_chart(&mut Rng::with_seed(seed));
         let Program { text, diagnostics } = converted(&xml, "m,memory,INT");
         let errors = diagnostics.iter().filter(|one| one.severity() == Severity::Error);
         let errors: Vec<&str> = errors.map(|one| one.message.as_str()).collect();

@@ -282,6 +282,7 @@ fn files_that_are_cut_off_or_changed_never_stop_the_reader() {
             assert!(!reading.diagnostics.is_empty(), "{text}");
             continue;
         };
+        chart::from_sfcedit::program(&project, &Table::default());
         let (plan, _) = plan(&project, &Table::default());
         for (_, target) in Target::ALL {
             write(&plan, target, "Ejemplo");

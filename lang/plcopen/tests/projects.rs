@@ -188,12 +188,12 @@ fn wrong_projects_are_told_with_their_places() {
         <connection refLocalId=\"8\"/></connectionPointIn></step>";
     assert_eq!(on(circle), none);
     assert_eq!(
-        said(&program("", "<LD/>")),
-        ["E0702 2 `LD` Lamp is written in LD, which is not read"]
+        said(&program("", "<IL/>")),
+        ["E0702 2 `IL` Lamp is written in IL, which is not read"]
     );
-    let actions = "<actions><action name=\"Turn\"><body><FBD/></body></action></actions>";
+    let actions = "<actions><action name=\"Turn\"><body><IL/></body></action></actions>";
     let text = chart("<reference name=\"b\"/>", "").replace("<body>", &format!("{actions}<body>"));
-    assert_eq!(said(&text), ["E0702 2 `FBD` action Turn is written in FBD, which is not read"]);
+    assert_eq!(said(&text), ["E0702 2 `IL` action Turn is written in IL, which is not read"]);
     let added = "<addData><data name=\"vendor\" handleUnknown=\"discard\"><x/></data></addData>";
     let text = program(added, "<ST/>").replace("</pous>", &format!("{added}</pous>"));
     assert_eq!(said(&text), ["W0700 3 `data` vendor: what a vendor has added is left out"]);
@@ -203,8 +203,8 @@ fn wrong_projects_are_told_with_their_places() {
 fn drawn_block(id: usize, kind: &str, from: &[usize]) -> String {
     let inputs = from.iter().map(|from| {
         format!(
-            "<variable formalParameter=\"IN\"><connectionPointIn><connection refLocalId=\"{from}\"/>\
-             </connectionPointIn></variable>"
+            "<variable formalParameter=\"IN\"><connectionPointIn>\
+             <connection refLocalId=\"{from}\"/></connectionPointIn></variable>"
         )
     });
     let inputs: String = inputs.collect();
@@ -238,9 +238,8 @@ fn functions_and_connectors_of_a_drawn_condition_are_read() {
     let more = drawn_block(10, "AND", &[11, 13])
         + &drawn_block(11, "SEL", &[20, 21, 12])
         + &drawn_block(12, "MOVE", &[3])
-        + "<continuation localId=\"13\" name=\"Far\"/>\n"
-        + "<connector localId=\"14\" name=\"far\"><connectionPointIn><connection refLocalId=\"21\"/>\
-           </connectionPointIn></connector>\n"
+        + "<continuation localId=\"13\" name=\"Far\"/>\n<connector localId=\"14\" name=\"far\">\
+           <connectionPointIn><connection refLocalId=\"21\"/></connectionPointIn></connector>\n"
         + "<inVariable localId=\"20\"><expression>x</expression></inVariable>\n"
         + "<inVariable localId=\"21\"><expression>y</expression></inVariable>\n";
     assert_eq!(condition(FROM_10, &more), "SEL(x, y, On.X) AND y");
@@ -252,14 +251,15 @@ fn function_blocks_of_a_drawn_condition_are_called_while_the_step_is_active() {
         let inputs = inputs.iter().map(|(name, from, output)| {
             format!(
                 "<variable formalParameter=\"{name}\"><connectionPointIn><connection \
-                 refLocalId=\"{from}\" formalParameter=\"{output}\"/></connectionPointIn></variable>"
+                 refLocalId=\"{from}\" formalParameter=\"{output}\"/></connectionPointIn>\
+                 </variable>"
             )
         });
         let inputs: String = inputs.collect();
         format!(
-            "<block localId=\"{id}\" typeName=\"{kind}\" instanceName=\"{kind}{id}\"><inputVariables>\
-             {inputs}</inputVariables><outputVariables><variable formalParameter=\"Q\"/>\
-             </outputVariables></block>\n"
+            "<block localId=\"{id}\" typeName=\"{kind}\" instanceName=\"{kind}{id}\">\
+             <inputVariables>{inputs}</inputVariables><outputVariables>\
+             <variable formalParameter=\"Q\"/></outputVariables></block>\n"
         )
     };
     // The timer is reset by what it sets: function blocks keep that from scan to scan.
@@ -273,7 +273,7 @@ fn function_blocks_of_a_drawn_condition_are_called_while_the_step_is_active() {
     let text = found.text.text();
     assert!(text.contains("STEP On:\n    On_blocks;\n"), "{text}");
     assert!(text.contains(":= TON10.Q;"), "{text}");
-    let calls = "    SR11(S1 := NOT (x), R := TON10.Q);\nTON10(IN := SR11.Q1, PT := T#2s);\n";
+    let calls = "    SR11(S1 := NOT (x), R := TON10.Q);\n    TON10(IN := SR11.Q1, PT := T#2s);\n";
     assert!(text.contains(calls), "{text}");
     let shared = more.replace(
         "<inputVariables>",
@@ -315,6 +315,104 @@ fn conditions_with_a_drawing_of_their_own_are_read() {
             said(&with(&other)),
             ["E0702 2 `LD` condition Full is written in LD, which is not read"]
         );
+    }
+}
+
+/// A rung: contacts one after the other, then a coil.
+fn rung(id: usize, contacts: &[&str], coil: &str) -> String {
+    let mut text = format!("<leftPowerRail localId=\"{id}\"/>\n");
+    let from = |id: usize| {
+        format!("<connectionPointIn><connection refLocalId=\"{id}\"/></connectionPointIn>")
+    };
+    for (at, contact) in contacts.iter().enumerate() {
+        let into = from(id + at);
+        let here = id + at + 1;
+        text += &format!(
+            "<contact localId=\"{here}\">{into}<variable>{contact}</variable></contact>\n"
+        );
+    }
+    let last = id + contacts.len();
+    let here = last + 1;
+    let (name, more) = coil.split_once(' ').unwrap_or((coil, ""));
+    text += &format!(
+        "<coil localId=\"{here}\" {more}><position x=\"90\" y=\"{id}\"/>{}\
+         <variable>{name}</variable></coil>\n",
+        from(last)
+    );
+    text
+}
+
+#[test]
+fn diagrams_become_statements() {
+    // The lower rung comes first in the file, and is executed last.
+    let rungs = rung(50, &["b"], "q storage=\"set\"")
+        + &rung(10, &["a", "b"], "p")
+        + &rung(30, &[], "r negated=\"true\"");
+    let found = imported(&program("", &format!("<LD>{rungs}</LD>")));
+    assert!(found.diagnostics.is_empty(), "{:?}", found.diagnostics);
+    let lines = "p := (a AND b);\nr := NOT (TRUE);\nIF b THEN q := TRUE; END_IF;\n";
+    assert!(
+        found.text.text().contains(&lines.replace("(a AND b)", "a AND b")),
+        "{}",
+        found.text.text()
+    );
+
+    // A function block is called before what asks for it, once.
+    let block = "<block localId=\"80\" typeName=\"TON\" instanceName=\"Pause\"><inputVariables>\
+        <variable formalParameter=\"IN\"><connectionPointIn><connection refLocalId=\"81\"/>\
+        </connectionPointIn></variable><variable formalParameter=\"PT\"><connectionPointIn>\
+        <expression>T#2s</expression></connectionPointIn></variable></inputVariables>\
+        <outputVariables><variable formalParameter=\"Q\"/></outputVariables></block>\n\
+        <inVariable localId=\"81\"><expression>a</expression></inVariable>\n";
+    let out = |id: usize, name: &str| {
+        format!(
+            "<outVariable localId=\"{id}\"><connectionPointIn><connection refLocalId=\"80\" \
+             formalParameter=\"Q\"/></connectionPointIn><expression>{name}</expression>\
+             </outVariable>\n"
+        )
+    };
+    let diagram = format!("<FBD>{}{}{block}</FBD>", out(1, "p"), out(2, "q"));
+    let lines = "Pause(IN := a, PT := T#2s);\np := Pause.Q;\nq := Pause.Q;\n";
+    let found = imported(&program("", &diagram));
+    assert!(found.diagnostics.is_empty(), "{:?}", found.diagnostics);
+    assert!(found.text.text().contains(lines), "{}", found.text.text());
+    // The same as an action of a chart.
+    let action =
+        format!("<actions><action name=\"b\"><body>{diagram}</body></action></actions><body>");
+    let text = chart("<reference name=\"b\"/>", "").replacen("<body>", &action, 1);
+    let found = imported(&text);
+    assert!(found.diagnostics.is_empty(), "{:?}", found.diagnostics);
+    let indented = "ACTION b:\n    Pause(IN := a, PT := T#2s);\n";
+    assert!(found.text.text().contains(indented), "{}", found.text.text());
+
+    // A function that is enabled by what is before it, and gives that on.
+    let moved = "<block localId=\"70\" typeName=\"MOVE\"><inputVariables>\
+        <variable formalParameter=\"EN\"><connectionPointIn><connection refLocalId=\"71\"/>\
+        </connectionPointIn></variable><variable formalParameter=\"IN\"><connectionPointIn>\
+        <connection refLocalId=\"72\"/></connectionPointIn></variable></inputVariables></block>\n\
+        <inVariable localId=\"71\"><expression>a</expression></inVariable>\n\
+        <inVariable localId=\"72\"><expression>5</expression></inVariable>\n";
+    let asks = |output: &str| out(1, "n").replace("\"80\"", "\"70\"").replace("\"Q\"", output);
+    for (output, line) in [("\"OUT\"", "IF a THEN n := 5; END_IF;\n"), ("\"ENO\"", "n := a;\n")] {
+        let found = imported(&program("", &format!("<LD>{}{moved}</LD>", asks(output))));
+        assert!(found.diagnostics.is_empty(), "{:?}", found.diagnostics);
+        assert!(found.text.text().contains(line), "{}", found.text.text());
+    }
+    let deep = rung(20, &[], "p").replace("refLocalId=\"20\"", "refLocalId=\"73\"")
+        + &drawn_block(73, "NOT", &[70]);
+
+    for (wrong, message) in [
+        (deep + moved, "block 70: this part of a drawn condition is not read"),
+        (rung(1, &[], "p edge=\"rising\""), "coil 2: this part of a diagram is not read"),
+        ("<jump localId=\"1\" label=\"End\"/>".to_owned(), "jump 1: this part of a diagram"),
+        (out(1, "p"), "outVariable 1: there is no element 80"),
+        (
+            "<coil localId=\"1\"><variable>p</variable></coil>".to_owned(),
+            "coil 1: this part of a diagram is not read",
+        ),
+    ] {
+        let told = said(&program("", &format!("<LD>{wrong}</LD>")));
+        assert!(told.len() == 1 && told[0].contains(message), "{told:?}");
     }
 }
 

@@ -1,5 +1,8 @@
 //! What is said about wrong charts: all of it at once, each at its place, with what was meant.
 
+use std::fs;
+use std::path::{Path, PathBuf};
+
 use crate::compiled::compile;
 
 /// Code, place and suggestion of all that is wrong.
@@ -295,4 +298,25 @@ fn alternatives_with_different_priorities_are_left_alone() {
     // In a GRAFCET both are crossed, and that is meant.
     let both = format!("{{grafcet}}\n{}", text.replace(" (PRIORITY := 1)", ""));
     assert_eq!(told(&both), Vec::<String>::new());
+}
+
+/// The charts in a folder and those in it.
+fn charts_in(folder: &Path) -> Vec<PathBuf> {
+    let inside = fs::read_dir(folder).expect("a folder").map(|one| one.expect("a file").path());
+    let all = inside.flat_map(|path| match path.is_dir() {
+        true => charts_in(&path),
+        false => vec![path],
+    });
+    all.filter(|path| path.extension().is_some_and(|one| one == "sfc")).collect()
+}
+
+#[test]
+fn no_example_has_variables_or_circles_that_are_warned_of() {
+    let charts = charts_in(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples"));
+    assert!(charts.len() > 10, "{charts:?}");
+    for path in charts {
+        let codes = compile(&fs::read_to_string(&path).expect("a text")).codes();
+        let is_alarm = |code: &&str| ["W0305", "W0306"].contains(code);
+        assert!(!codes.iter().any(is_alarm), "{}: {codes:?}", path.display());
+    }
 }

@@ -9,6 +9,7 @@ use diagnostics::xml::{Node, Places, elements, tag};
 use st::names::is_same;
 
 use super::chart::chart;
+use super::diagram::statements;
 use super::formatted::{formatted, language};
 use super::reader::{Reader, child, optional};
 use crate::diagnostic::Code;
@@ -57,11 +58,7 @@ pub(super) fn body(reader: &mut Reader, around: &Surroundings, out: &mut Traced)
     let found = language(body)?;
     match found.tag_name().name() {
         "ST" => {
-            for action in around.actions() {
-                let message = format!("{}: an action of Structured Text", around.unit);
-                let help = "actions belong to charts; a FUNCTION_BLOCK does what this one does";
-                reader.error(Code::OtherLanguage, tag(action), message, help);
-            }
+            no_actions(reader, around);
             let text = formatted(found);
             traced(out, &format!("{}\n", text.text), text.span, reader.file);
             None
@@ -72,9 +69,25 @@ pub(super) fn body(reader: &mut Reader, around: &Surroundings, out: &mut Traced)
             Some(chart)
         }
         _ => {
-            refuse(reader, found, around.unit);
+            let Some(codes) = statements(reader, found) else {
+                refuse(reader, found, around.unit);
+                return None;
+            };
+            no_actions(reader, around);
+            for code in codes {
+                out.push(&format!("{}\n", code.text), code.origin.0);
+            }
             None
         }
+    }
+}
+
+/// Reports actions of a unit that is no chart.
+fn no_actions(reader: &mut Reader, around: &Surroundings) {
+    for action in around.actions() {
+        let message = format!("{}: an action of a unit that is no chart", around.unit);
+        let help = "actions belong to charts; a FUNCTION_BLOCK does what this one does";
+        reader.error(Code::OtherLanguage, tag(action), message, help);
     }
 }
 

@@ -14,6 +14,7 @@ use st::names::is_same;
 
 use super::body::{Surroundings, refuse};
 use super::condition::{Condition, condition};
+use super::diagram::statements;
 use super::formatted::{documentation, formatted, language};
 use super::macro_step::expand;
 use super::network::{Network, id, lines_into, title};
@@ -23,6 +24,8 @@ use crate::diagnostic::{Code as ErrorCode, Diagnostic};
 
 /// Charts in each other at most, in actions and macro-steps.
 const DEPTH_MAX: usize = 20;
+/// Between statements of an action.
+const NEXT_LINE: &str = "\n    ";
 /// Which elements join the lines to a transition, and those to a step.
 const TO_TRANSITIONS: [&str; 2] = ["selectionDivergence", "simultaneousConvergence"];
 const TO_STEPS: [&str; 2] = ["selectionConvergence", "simultaneousDivergence"];
@@ -129,6 +132,13 @@ fn middle(node: Node) -> Option<Position> {
     Some(Position { x: x.round() as i32, y: y.round() as i32 })
 }
 
+/// The statements of a diagram; `None`: it is none.
+fn drawn_body(reader: &mut Reader, diagram: Node) -> Option<Body> {
+    let codes = statements(reader, diagram)?;
+    let texts: Vec<String> = codes.into_iter().map(|code| code.text).collect();
+    Some(Body::Code(Code { text: texts.join(NEXT_LINE), origin: Origin(tag(diagram)) }))
+}
+
 /// The actions of a unit that have names.
 fn actions(reader: &mut Reader, around: &Surroundings, chart: &mut Chart) {
     for node in around.actions() {
@@ -153,10 +163,13 @@ fn actions(reader: &mut Reader, around: &Surroundings, chart: &mut Chart) {
                 initial(reader, &inner, found);
                 Body::Chart(Box::new(inner))
             }
-            _ => {
-                refuse(reader, found, &format!("action {}", name.text));
-                continue;
-            }
+            _ => match drawn_body(reader, found) {
+                Some(body) => body,
+                None => {
+                    refuse(reader, found, &format!("action {}", name.text));
+                    continue;
+                }
+            },
         };
         let comment = documentation(node);
         let origin = Origin(name.span);
@@ -322,8 +335,8 @@ impl<'a, 'i> Builder<'_, '_, 'a, 'i> {
         let known = self.called.get(&step).and_then(|id| self.chart.actions.get_mut(id));
         if let Some(Action { body: Body::Code(code), .. }) = known {
             for call in calls {
-                if !code.text.lines().any(|line| line == call.text) {
-                    code.text = format!("{}\n{}", code.text, call.text);
+                if !code.text.lines().any(|line| line.trim() == call.text) {
+                    code.text = format!("{}{NEXT_LINE}{}", code.text, call.text);
                 }
             }
             return;
@@ -336,7 +349,7 @@ impl<'a, 'i> Builder<'_, '_, 'a, 'i> {
         }) else {
             return;
         };
-        let body = Body::Code(Code { text: texts.join("\n"), origin });
+        let body = Body::Code(Code { text: texts.join(NEXT_LINE), origin });
         let comment =
             "Function blocks of drawn conditions: what they give is asked for afterwards.";
         let id = self.chart.add_action(Action { name, body, comment: comment.to_owned(), origin });
@@ -528,14 +541,21 @@ impl<'a, 'i> Builder<'_, '_, 'a, 'i> {
             return None;
         };
         let name = self.chart.steps.get(&step).map_or(String::new(), |step| step.name.clone());
-        if found.tag_name().name() != "ST" {
-            refuse(self.reader, found, &format!("an action of step {name}"));
-            return None;
-        }
+        let body = match found.tag_name().name() {
+            "ST" => {
+                let Text { text, span } = formatted(found);
+                Body::Code(Code { text, origin: Origin(span) })
+            }
+            _ => match drawn_body(self.reader, found) {
+                Some(body) => body,
+                None => {
+                    refuse(self.reader, found, &format!("an action of step {name}"));
+                    return None;
+                }
+            },
+        };
         let name = self.free(|number| format!("{name}_action{number}"))?;
-        let Text { text, span } = formatted(found);
         let (origin, comment) = (Origin(tag(node)), String::new());
-        let body = Body::Code(Code { text, origin: Origin(span) });
         Some(self.chart.add_action(Action { name, body, comment, origin }))
     }
 

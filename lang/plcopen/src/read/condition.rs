@@ -1,5 +1,5 @@
-//! Conditions of transitions: a text, the name of one, or what is drawn: beside the transition, or in
-//! a drawing of its own.
+//! Conditions of transitions: a text, the name of one, or what is drawn, beside the transition or
+//! in a drawing of its own.
 
 use chart::model::Code;
 use diagnostics::Span;
@@ -26,7 +26,7 @@ pub(super) struct Condition {
 /// The condition of a transition.
 pub(super) fn condition<'a, 'i>(
     reader: &mut Reader,
-    around: &Surroundings,
+    around: &Surroundings<'_, 'a, 'i>,
     network: &Network<'a, 'i>,
     transition: Node<'a, 'i>,
 ) -> Condition {
@@ -61,7 +61,7 @@ pub(super) fn condition<'a, 'i>(
             _ => reader.ignore(part, "a condition"),
         }
     }
-    let Drawn { mut code, calls } = found;
+    let Drawn { mut code, calls, .. } = found;
     if code.text.is_empty() && elements(node).next().is_none() {
         let message = format!("{}: the condition is empty", title(transition));
         reader.error(ErrorCode::Incomplete, tag(node), message, "TRUE is a condition, too");
@@ -69,11 +69,17 @@ pub(super) fn condition<'a, 'i>(
     if is_true(node, "negated") && !code.text.is_empty() {
         code.text = format!("NOT ({})", code.text);
     }
+    let calls = calls.into_iter().map(|call| call.code).collect();
     Condition { code, name, calls }
 }
 
 /// The expression of a body, which some tools write as an assignment.
-fn in_body(reader: &mut Reader, body: Node, of: &str, name: Option<&Text>) -> Drawn {
+fn in_body<'a, 'i>(
+    reader: &mut Reader,
+    body: Node<'a, 'i>,
+    of: &str,
+    name: Option<&Text>,
+) -> Drawn<'a, 'i> {
     let place = Span::new(body.range().start, body.range().end);
     let name = name.map_or("", |name| name.text.as_str());
     match language(body) {
@@ -103,7 +109,7 @@ fn in_body(reader: &mut Reader, body: Node, of: &str, name: Option<&Text>) -> Dr
 
 /// What the only coil or variable of a drawing gets, which is called like the condition; `None`: it
 /// is another drawing.
-fn result(reader: &mut Reader, drawing: Node, name: &str) -> Option<Drawn> {
+fn result<'a, 'i>(reader: &mut Reader, drawing: Node<'a, 'i>, name: &str) -> Option<Drawn<'a, 'i>> {
     if !matches!(drawing.tag_name().name(), "LD" | "FBD") {
         return None;
     }

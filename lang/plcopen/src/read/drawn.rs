@@ -1,5 +1,6 @@
 //! Conditions that are drawn: variables, contacts, and blocks as expressions. Function blocks keep
-//! something from scan to scan: of those the outputs are asked for, and their calls are given apart.
+//! something from scan to scan: of those the outputs are asked for, and their calls are given
+//! apart.
 
 use std::collections::HashMap;
 
@@ -37,38 +38,74 @@ const OPERATORS: [(&str, &str); 14] = [
 
 /// An expression, and what has to be called for it.
 #[derive(Debug, Default)]
-pub(super) struct Drawn {
+pub(super) struct Drawn<'a, 'i> {
     pub(super) code: Code,
+    /// What EN of the function gets that gives the value: it is given if that is TRUE.
+    pub(super) enable: Option<String>,
     /// Calls of function blocks, those that others ask for first.
-    pub(super) calls: Vec<Code>,
+    pub(super) calls: Vec<Call<'a, 'i>>,
 }
 
-impl Drawn {
+/// The call of a function block.
+#[derive(Debug)]
+pub(super) struct Call<'a, 'i> {
+    pub(super) block: Node<'a, 'i>,
+    pub(super) code: Code,
+}
+
+impl Drawn<'_, '_> {
     /// An expression that is written.
-    pub(super) fn plain(text: String, span: Span) -> Drawn {
-        Drawn { code: Code { text, origin: Origin(span) }, calls: Vec::new() }
+    pub(super) fn plain(text: String, span: Span) -> Self {
+        let code = Code { text, origin: Origin(span) };
+        Drawn { code, enable: None, calls: Vec::new() }
     }
 }
 
 /// What lines into an element carry. `place` is where it belongs in the file. What is wrong is
-/// reported, and nothing is there then.
+/// reported, and nothing is there then. A function with EN is no expression.
 pub(super) fn drawn<'a, 'i>(
     reader: &mut Reader,
     network: &Network<'a, 'i>,
     to: Node<'a, 'i>,
     lines: &[Line],
     place: Span,
-) -> Drawn {
-    let (known, open, blocks) = (HashMap::new(), Vec::new(), Vec::new());
-    let mut drawing = Drawing { reader, network, known, open, blocks };
+) -> Drawn<'a, 'i> {
+    expression(reader, network, to, lines, place, false)
+}
+
+/// As [`drawn`], for what is assigned: a function at its beginning may have EN.
+pub(super) fn assigned<'a, 'i>(
+    reader: &mut Reader,
+    network: &Network<'a, 'i>,
+    to: Node<'a, 'i>,
+) -> Drawn<'a, 'i> {
+    let lines = lines_into(to);
+    expression(reader, network, to, &lines, tag(to), lines.len() == 1)
+}
+
+fn expression<'a, 'i>(
+    reader: &mut Reader,
+    network: &Network<'a, 'i>,
+    to: Node<'a, 'i>,
+    lines: &[Line],
+    place: Span,
+    can_enable: bool,
+) -> Drawn<'a, 'i> {
+    let mut drawing = Drawing { can_enable, ..Drawing::of(reader, network) };
     let text = drawing.lines(to, lines).unwrap_or_default();
-    let mut calls = Vec::new();
-    while let Some(block) = drawing.blocks.get(calls.len()).copied() {
-        let Some(call) = drawing.call(block) else { return Drawn::default() };
-        calls.push(call);
-    }
-    calls.reverse();
-    Drawn { code: Code { text: outside(&text), origin: Origin(place) }, calls }
+    let Some(calls) = drawing.calls() else { return Drawn::default() };
+    let enable = drawing.enable.as_deref().map(outside);
+    Drawn { code: Code { text: outside(&text), origin: Origin(place) }, enable, calls }
+}
+
+/// The call of a function block, after those of others that it asks for. What is wrong is reported.
+pub(super) fn instance<'a, 'i>(
+    reader: &mut Reader,
+    network: &Network<'a, 'i>,
+    block: Node<'a, 'i>,
+) -> Vec<Call<'a, 'i>> {
+    let mut drawing = Drawing { blocks: vec![block], ..Drawing::of(reader, network) };
+    drawing.calls().unwrap_or_default()
 }
 
 /// A drawing as conditions. Each element is looked at once: lines may meet again and again.
@@ -82,9 +119,17 @@ struct Drawing<'r, 'f, 'a, 'i> {
     open: Vec<Node<'a, 'i>>,
     /// Function blocks that are asked for.
     blocks: Vec<Node<'a, 'i>>,
+    /// Whether the first function may have EN, and what that gets.
+    can_enable: bool,
+    enable: Option<String>,
 }
 
-impl<'a, 'i> Drawing<'_, '_, 'a, 'i> {
+impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
+    fn of(reader: &'r mut Reader<'f>, network: &'r Network<'a, 'i>) -> Self {
+        let (known, open, blocks) = (HashMap::new(), Vec::new(), Vec::new());
+        Drawing { reader, network, known, open, blocks, can_enable: false, enable: None }
+    }
+
     /// What lines into an element carry: one of them is enough. `None`: what is wrong has been
     /// reported.
     fn lines(&mut self, to: Node<'a, 'i>, lines: &[Line]) -> Option<String> {
@@ -93,6 +138,7 @@ impl<'a, 'i> Drawing<'_, '_, 'a, 'i> {
             let from = self.network.from(self.reader, line, to);
             all.push(from.and_then(|node| match optional(node, "instanceName") {
                 Some(instance) => self.output(node, &instance, &line.output),
+                None if line.output == "ENO" => self.enabled(node),
                 None => self.value(node, to),
             }));
         }
@@ -149,9 +195,26 @@ impl<'a, 'i> Drawing<'_, '_, 'a, 'i> {
         }
     }
 
+    /// The calls of the function blocks that are asked for, and of those that they ask for, before
+    /// them.
+    fn calls(&mut self) -> Option<Vec<Call<'a, 'i>>> {
+        let mut calls = Vec::new();
+        while let Some(block) = self.blocks.get(calls.len()).copied() {
+            calls.push(Call { block, code: self.call(block)? });
+        }
+        calls.reverse();
+        Some(calls)
+    }
+
     /// The call of a function block, with what is connected.
     fn call(&mut self, node: Node<'a, 'i>) -> Option<Code> {
         let instance = optional(node, "instanceName")?;
+        let outputs = child(node, "outputVariables").into_iter().flat_map(elements);
+        let mut points = outputs.filter_map(|one| child(one, "connectionPointOut"));
+        if points.any(|point| child(point, "expression").is_some()) {
+            self.unread(node);
+            return None;
+        }
         let in_outs = child(node, "inOutVariables").into_iter().flat_map(elements);
         let is_connected = |one: Node| child(one, "connectionPointIn").is_some();
         if in_outs.into_iter().any(is_connected) {
@@ -172,10 +235,16 @@ impl<'a, 'i> Drawing<'_, '_, 'a, 'i> {
     fn inputs(&mut self, node: Node<'a, 'i>) -> Option<Vec<(String, String)>> {
         let mut inputs = Vec::new();
         for input in child(node, "inputVariables").into_iter().flat_map(elements) {
-            let lines =
-                child(input, "connectionPointIn").map(|point| lines_of(point)).unwrap_or_default();
+            let point = child(input, "connectionPointIn");
+            let lines = point.map(|point| lines_of(point)).unwrap_or_default();
+            // Some tools write what comes in without a line.
+            let written = point.and_then(|point| child(point, "expression"));
             let name = optional(input, "formalParameter");
-            let text = self.lines(node, &lines).map(|text| match is_true(input, "negated") {
+            let text = match written {
+                Some(written) => Some(formatted(written).text),
+                None => self.lines(node, &lines),
+            };
+            let text = text.map(|text| match is_true(input, "negated") {
                 true if !text.is_empty() => format!("NOT ({text})"),
                 _ => text,
             });
@@ -207,6 +276,7 @@ impl<'a, 'i> Drawing<'_, '_, 'a, 'i> {
             "inVariable" | "inOutVariable" if !has_edge => plain("expression"),
             "contact" if !has_edge => plain("variable"),
             "step" | "macroStep" => optional(node, "name").map(|name| format!("{}.X", name.text)),
+            "coil" => return self.lines(node, &lines_into(node)),
             "continuation" => return self.continued(node),
             "block" => return self.block(node),
             _ => None,
@@ -223,6 +293,13 @@ impl<'a, 'i> Drawing<'_, '_, 'a, 'i> {
             "TRUE" | "" => text,
             before => format!("({before} AND {text})"),
         })
+    }
+
+    /// ENO of a function is what EN gets.
+    fn enabled(&mut self, node: Node<'a, 'i>) -> Option<String> {
+        let inputs = self.inputs(node)?;
+        let enable = inputs.into_iter().find(|(name, text)| name == "EN" && !text.is_empty());
+        Some(enable.map_or_else(|| "TRUE".to_owned(), |(_, text)| text))
     }
 
     /// What is at the connector of the same name.
@@ -243,10 +320,15 @@ impl<'a, 'i> Drawing<'_, '_, 'a, 'i> {
     fn block(&mut self, node: Node<'a, 'i>) -> Option<String> {
         let name = optional(node, "typeName").map_or_else(String::new, |name| name.text);
         let inputs = self.inputs(node)?.into_iter();
+        let (enable, inputs): (Vec<_>, Vec<_>) = inputs.partition(|(name, _)| name == "EN");
         // Without a line EN is TRUE.
-        let is_asked = |(name, text): &(String, String)| name != "EN" || !text.is_empty();
-        let inputs: Vec<(String, String)> = inputs.filter(is_asked).collect();
-        let is_whole = inputs.iter().all(|(name, text)| name != "EN" && !text.is_empty());
+        if let Some((_, enable)) = enable.into_iter().find(|(_, text)| !text.is_empty()) {
+            if !self.can_enable || self.open != [node] {
+                return self.unread(node);
+            }
+            self.enable = Some(enable);
+        }
+        let is_whole = inputs.iter().all(|(_, text)| !text.is_empty());
         let operands: Vec<&str> = inputs.iter().map(|(_, text)| text.as_str()).collect();
         let operator = OPERATORS.iter().find(|(block, _)| block.eq_ignore_ascii_case(&name));
         match (operator, &operands[..]) {

@@ -5,6 +5,7 @@
 mod body;
 mod chart;
 mod condition;
+mod diagram;
 mod drawn;
 mod formatted;
 mod macro_step;
