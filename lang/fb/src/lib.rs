@@ -7,6 +7,7 @@ pub mod data_type;
 pub mod diagnostic;
 pub mod generate;
 pub mod interpreter;
+pub mod matlab;
 pub mod model;
 pub mod parsed;
 mod rest;
