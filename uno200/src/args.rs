@@ -105,7 +105,8 @@ pub enum ParityName {
 pub enum Command {
     /// Makes AWL or an image of the files of a program: AWL, Structured Text, blocks of IEC 61499
     Build(Build),
-    /// Draws a chart, converts it into Structured Text for a target, or tells what is in it
+    /// Draws a chart, converts it into Structured Text for a target, or tells what is in it; writes
+    /// blocks as MATLAB text and back
     Convert(Convert),
     /// Explains the code of an error or warning
     Explain {
@@ -250,11 +251,12 @@ pub struct Build {
 /// Arguments of `convert`.
 #[derive(Debug, Args)]
 pub struct Convert {
-    /// A project of PLCopen or a chart of SFCEdit (.xml), or a chart as text (.sfc)
+    /// A project of PLCopen or a chart of SFCEdit (.xml), a chart as text (.sfc), a block of IEC
+    /// 61499 (.fbt) or one in MATLAB (.m)
     #[arg(value_name = "IN")]
     pub input: PathBuf,
-    /// Where the result goes: a text (.st, .sfc), a project (.xml) or a picture (.svg); without it
-    /// to standard output
+    /// Where the result goes: a text (.st, .sfc, .m), a project (.xml), a block (.fbt) or a picture
+    /// (.svg); without it to standard output
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
     /// For whom Structured Text is written [default: uno200]

@@ -119,7 +119,7 @@ impl Pair<'_> {
 
 /// How a compiled block differs from the interpreted one.
 fn differs(seed: u64, tally: &mut Tally) -> Option<String> {
-    let text = xml::write(&Generator::block(seed));
+    let text = xml::write(&Generator::block(seed, false));
     let source = Source::new("random.fbt", text.as_str()).expect("a short text");
     // A chart without rest is no block.
     let block = xml::read(&source).block?;
