@@ -85,6 +85,10 @@ fn assert_same(code: Code, file: &str, program: fn(u64) -> String, inputs: Input
             }
             pair.scan(now_ms);
             assert_eq!(pair.difference(), None, "seed {seed}, scan {scan}\n{text}");
+            // A random block need not come to rest: both say so.
+            if pair.fault().is_some() && file.ends_with(".fbt") {
+                break;
+            }
             assert_eq!(pair.fault(), None, "seed {seed}, scan {scan}\n{text}");
             now_ms += rng.u64(1..30);
         }

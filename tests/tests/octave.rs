@@ -139,7 +139,12 @@ impl Calls {
                 line.split_whitespace().filter_map(|one| one.parse().ok()).collect();
             let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= TOLERANCE * b.abs().max(1.0);
             let is_same = found.len() == wanted.len() && found.iter().zip(wanted).all(is_near);
-            assert!(is_same, "{name}: Octave has {found:?}, the interpreter {wanted:?}");
+            let file = folder.join(name.split(',').next().unwrap_or(name)).with_extension("m");
+            assert!(
+                is_same,
+                "{name}: Octave has {found:?}, the interpreter {wanted:?}\n{}",
+                fs::read_to_string(file).unwrap_or_default()
+            );
         }
         println!("{} calls", self.expected.len());
     }

@@ -162,7 +162,7 @@ fn a_value_that_is_changed_in_matlab_is_more_than_what_the_comment_says() {
 fn statements_and_operators_have_their_form_in_both() {
     let cases = [
         ("n := n / 2;", "n = fix(n / 2);"),
-        ("d := d / n;", "d = idivide(d, n, 'fix');"),
+        ("d := d / n;", "d = int32(fix(double(d) / n));"),
         ("n := n MOD 3 + 1;", "n = rem(n, 3) + 1;"),
         ("d := 70000;", "d = int32(70000);"),
         ("d := n;", "d = int32(n);"),
@@ -225,11 +225,29 @@ fn what_people_write_in_matlab_means_the_same_in_st() {
         ("a(2) = 7; a(n) = 1;", "a[1] := 7; a[(n) - 1] := 1;"),
         ("d = int32(r); n = n; % here", "d := REAL_TO_DINT(r); n := n; // here"),
         ("r = fix(r / 2);", "r := TRUNC(r / 2);"),
+        ("d = idivide(d, n, 'fix');", "d := d / n;"),
     ];
     let matlab = written(&small("n := 1;", "flag"));
     for (of_matlab, of_st) in cases {
         let text = matlab.replace("case 1 % L\nn = 1;\n", &format!("case 1 % L\n{of_matlab}\n"));
         assert_eq!(read(&text).algorithms[0].text.text.trim_end(), of_st);
+    }
+}
+
+#[test]
+fn a_quotient_that_matlab_does_not_cut_is_told() {
+    let matlab = written(&small("n := 1;", "flag"));
+    for (statement, is_told) in [
+        ("n = n / 2;", true),
+        ("d = d / n;", true),
+        ("r = double(d) / n;", true),
+        ("r = n / 2.0;", false),
+        ("n = fix(n / 2);", false),
+        ("r = DINT_TO_REAL(d) / n;", false),
+    ] {
+        let text = matlab.replace("case 1 % L\nn = 1;\n", &format!("case 1 % L\n{statement}\n"));
+        let expected = [("W0402", "/".to_owned())];
+        assert_eq!(found(&text), &expected[usize::from(!is_told)..], "{statement}");
     }
 }
 

@@ -200,23 +200,32 @@ impl Translator<'_> {
         let types = (self.type_of(left), self.type_of(right));
         let of = common(types.0, types.1);
         let token = self.token_at(left.span.end);
-        let Some((name, closing)) = function_of(operator, of) else {
+        let Some(name) = function_of(operator, of) else {
             let Some((sign, level)) = infix(operator) else { return };
+            if operator == BinaryOperator::Divide && !of.is_some_and(is_real) {
+                return self.quotient(left, right, of);
+            }
             self.replace(token, sign);
             self.brackets(expression, level, around);
             self.operand(left, of, operator, level);
             return self.operand(right, of, operator, level + 1);
         };
-        self.around(left.span.start, &format!("{name}("), right.span.end, closing);
-        // Only a division keeps its sign.
-        let keeps_sign = name == "fix";
-        if !keeps_sign {
-            self.replace(token, ",");
-            self.close.extend(token.map(|token| token.span.start));
+        self.around(left.span.start, &format!("{name}("), right.span.end, ")");
+        self.replace(token, ",");
+        self.close.extend(token.map(|token| token.span.start));
+        self.operand(left, of, operator, 0);
+        self.operand(right, of, operator, 0);
+    }
+
+    /// A quotient of whole numbers, which ST cuts and MATLAB rounds: it is divided as double.
+    fn quotient(&mut self, left: &Expression, right: &Expression, of: Option<DataType>) {
+        let class = of.map_or("double", class);
+        match class {
+            "double" => self.around(left.span.start, "fix(", right.span.end, ")"),
+            _ => self.around(left.span.start, &format!("{class}(fix("), right.span.end, "))"),
         }
-        let level = if keeps_sign { 8 } else { 0 };
-        self.operand(left, of, operator, level);
-        self.operand(right, of, operator, if keeps_sign { 9 } else { 0 });
+        self.operand(left, Some(DataType::Real), BinaryOperator::Divide, 8);
+        self.operand(right, Some(DataType::Real), BinaryOperator::Divide, 9);
     }
 
     /// An operand, in the class that the operation is done in.
@@ -246,21 +255,15 @@ impl Translator<'_> {
     }
 }
 
-/// The function that does what MATLAB has no operator for, and what ends it.
-fn function_of(
-    operator: BinaryOperator,
-    of: Option<DataType>,
-) -> Option<(&'static str, &'static str)> {
+/// The function that does what MATLAB has no operator for.
+fn function_of(operator: BinaryOperator, of: Option<DataType>) -> Option<&'static str> {
     let is_of_bits = of.is_some_and(is_bits);
-    let is_whole = !of.is_some_and(is_real);
     Some(match operator {
-        BinaryOperator::Xor if is_of_bits => ("bitxor", ")"),
-        BinaryOperator::And if is_of_bits => ("bitand", ")"),
-        BinaryOperator::Or if is_of_bits => ("bitor", ")"),
-        BinaryOperator::Xor => ("xor", ")"),
-        BinaryOperator::Modulo => ("rem", ")"),
-        BinaryOperator::Divide if of.is_none_or(|of| of == DataType::Int) => ("fix", ")"),
-        BinaryOperator::Divide if is_whole => ("idivide", ", 'fix')"),
+        BinaryOperator::Xor if is_of_bits => "bitxor",
+        BinaryOperator::And if is_of_bits => "bitand",
+        BinaryOperator::Or if is_of_bits => "bitor",
+        BinaryOperator::Xor => "xor",
+        BinaryOperator::Modulo => "rem",
         _ => return None,
     })
 }

@@ -1,6 +1,7 @@
 //! Expressions. Each comes with how strongly it binds in ST, so that brackets are where ST needs
 //! them, and with its type, which says how numbers are divided.
 
+use diagnostics::Span;
 use st::tree::BinaryOperator;
 
 use super::{Outcome, Translator, Wrong};
@@ -9,7 +10,7 @@ use crate::matlab::functions;
 use crate::matlab::lexer::Kind;
 use crate::matlab::to_matlab::common;
 use crate::matlab::vocabulary::{FUNCTIONS, LEVELS, UNARY, WHOLE, is_bits, is_real, keeps_type};
-use crate::matlab::vocabulary::{level, type_of_class};
+use crate::matlab::vocabulary::{class, level, type_of_class};
 
 /// An expression in ST.
 pub(in crate::matlab) struct Phrase {
@@ -17,15 +18,17 @@ pub(in crate::matlab) struct Phrase {
     gap: String,
     text: String,
     level: u8,
-    /// `None`: a literal.
+    /// Its type in MATLAB; `None`: a literal.
     of: Option<DataType>,
-    /// It divides whole numbers.
+    /// The type that its text has in ST, without the class that MATLAB wants.
+    own: Option<DataType>,
+    /// It divides what are whole numbers in ST.
     is_whole_division: bool,
 }
 
 impl Phrase {
     fn whole(gap: String, text: impl Into<String>, of: Option<DataType>) -> Phrase {
-        Phrase { gap, text: text.into(), level: WHOLE, of, is_whole_division: false }
+        Phrase { gap, text: text.into(), level: WHOLE, of, own: of, is_whole_division: false }
     }
 
     /// As it stands.
@@ -49,18 +52,19 @@ impl Phrase {
 /// Two operands with an operator of ST between them. `gap`: what is before the operator.
 fn joined(left: Phrase, gap: &str, operator: BinaryOperator, right: Phrase) -> Phrase {
     let level = level(operator);
-    let of = match operator {
+    let typed = |left, right| match operator {
         BinaryOperator::Power => Some(DataType::Real),
         _ if matches!(level, 4 | 5) => Some(DataType::Bool),
-        _ => common(left.of, right.of),
+        _ => common(left, right),
     };
+    let (of, own) = (typed(left.of, right.of), typed(left.own, right.own));
     let (before, left) = left.within(level);
     let (between, right) = right.within(level + 1);
     let word = operator.text();
     let gap = if gap.is_empty() { " " } else { gap };
     let between = if between.is_empty() { " ".to_owned() } else { between };
     let text = format!("{left}{gap}{word}{between}{right}");
-    Phrase { gap: before, text, level, of, is_whole_division: false }
+    Phrase { gap: before, text, level, of, own, is_whole_division: false }
 }
 
 impl Translator<'_> {
@@ -92,19 +96,19 @@ impl Translator<'_> {
         }
     }
 
-    /// A quotient as MATLAB has it, where nothing cuts it.
-    fn divided(&mut self, left: Phrase, gap: &str, right: Phrase, at: diagnostics::Span) -> Phrase {
-        let of = common(left.of, right.of);
-        let is_int = of.is_none_or(|of| of == DataType::Int);
-        if !is_int && !of.is_some_and(is_real) {
-            self.differs.push(Wrong {
-                span: at,
-                message: "MATLAB rounds this quotient, ST cuts it".to_owned(),
-                help: "idivide(a, b, 'fix') is what ST does".to_owned(),
-            });
-        }
+    /// A quotient. Of whole numbers it is the same only if something cuts it in MATLAB.
+    fn divided(&mut self, left: Phrase, gap: &str, right: Phrase, at: Span) -> Phrase {
         let divided = joined(left, gap, BinaryOperator::Divide, right);
-        Phrase { is_whole_division: is_int, ..divided }
+        if divided.own.is_some_and(is_real) {
+            return divided;
+        }
+        let is_rounded = divided.of.is_some_and(|of| class(of) != "double");
+        self.differs.push(Wrong {
+            span: at,
+            message: "ST cuts this quotient of whole numbers, MATLAB does not".to_owned(),
+            help: "fix(double(a) / double(b)) is what ST does".to_owned(),
+        });
+        Phrase { is_whole_division: !is_rounded, ..divided }
     }
 
     fn unary(&mut self) -> Outcome<Phrase> {
@@ -121,11 +125,11 @@ impl Translator<'_> {
         };
         self.step();
         let operand = self.deeper(Self::unary)?;
-        let of = operand.of;
+        let (of, own) = (operand.of, operand.own);
         let (between, text) = operand.within(UNARY);
         let between = if between.is_empty() && word == "NOT" { " ".to_owned() } else { between };
         let text = format!("{word}{between}{text}");
-        Ok(Phrase { gap, text, level: UNARY, of, is_whole_division: false })
+        Ok(Phrase { gap, text, level: UNARY, of, own, is_whole_division: false })
     }
 
     fn power(&mut self) -> Outcome<Phrase> {
@@ -257,6 +261,9 @@ impl Translator<'_> {
         if own {
             return Ok(listed(name, all, &end));
         }
+        if let ("fix", [_]) = (name, all.as_slice()) {
+            return Ok(self.cut(all));
+        }
         translated(name, all, mode).ok_or_else(|| Wrong {
             span: at.span,
             message: format!("{name}: ST has no form for this call"),
@@ -265,11 +272,27 @@ impl Translator<'_> {
     }
 }
 
+impl Translator<'_> {
+    /// `fix` of a value: a quotient of whole numbers is cut in ST anyway.
+    fn cut(&mut self, mut all: Vec<Phrase>) -> Phrase {
+        match all.pop() {
+            Some(value) if value.is_whole_division => {
+                self.differs.pop();
+                Phrase { of: value.own, is_whole_division: false, ..value }
+            }
+            value => {
+                let text = format!("TRUNC({})", value.map(Phrase::text).unwrap_or_default());
+                Phrase::whole(String::new(), text, Some(DataType::Dint))
+            }
+        }
+    }
+}
+
 /// A call of a function that ST has.
 fn listed(name: &str, all: Vec<Phrase>, end: &str) -> Phrase {
-    let types = all.iter().skip(usize::from(name == "SEL")).map(|one| one.of);
+    let values = all.iter().skip(usize::from(name == "SEL"));
     let of = match keeps_type(name) {
-        true => types.fold(None, common),
+        true => values.map(|one| one.own).fold(None, common),
         false => functions::result(name).or(Some(DataType::Real)),
     };
     let all: Vec<String> = all.into_iter().map(Phrase::text).collect();
@@ -303,36 +326,20 @@ fn translated(name: &str, all: Vec<Phrase>, mode: Option<&str>) -> Option<Phrase
     }
 }
 
-/// A function of one value.
+/// A function of one value that is no class.
 fn alone(name: &str, value: Phrase) -> Option<Phrase> {
-    if name == "fix" {
-        return Some(match value.is_whole_division {
-            true => Phrase { is_whole_division: false, ..value },
-            false => Phrase::whole(
-                String::new(),
-                format!("TRUNC({})", value.text()),
-                Some(DataType::Dint),
-            ),
-        });
-    }
     if name == "bitcmp" {
         let of = value.of.filter(|of| is_bits(*of));
         let (gap, text) = value.within(UNARY);
-        let text = format!("NOT {}{text}", gap);
-        return Some(Phrase {
-            gap: String::new(),
-            text,
-            level: UNARY,
-            of,
-            is_whole_division: false,
-        });
+        let (gap, text) = (String::new(), format!("NOT {gap}{text}"));
+        return Some(Phrase { gap, text, level: UNARY, of, own: of, is_whole_division: false });
     }
     let to = type_of_class(name)?;
     if value.is_real() && !is_real(to) {
         let text = format!("REAL_TO_{}({})", to.name(), value.text());
         return Some(Phrase::whole(String::new(), text, Some(to)));
     }
-    // A literal and what is written around it for the class alone.
+    // What is written around it is for the class alone.
     let of = match (value.of, is_real(to)) {
         (_, true) => Some(DataType::Real),
         (Some(of), false) => Some(of),
