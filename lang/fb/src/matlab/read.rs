@@ -13,6 +13,7 @@ use crate::check::check;
 use crate::data_type::DataType;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Action, Algorithm, Block, Event, Place, State, Text, Transition, Variable};
+use crate::model::{Primitive, Sequence, Service, Transaction};
 
 /// What is in a file.
 #[derive(Debug)]
@@ -208,12 +209,47 @@ impl<'t> Reader<'t> {
             }
             Some("Identification") => self.block.identification = pairs(&line.note),
             Some("VersionInfo") => self.block.versions.push(pairs(&line.note)),
+            Some(word) if self.service(word, line).is_some() => {}
             _ => {
-                let help = "here are BLOCK, Identification and VersionInfo";
+                let help = "here are BLOCK, Identification, VersionInfo and Service";
                 return wrong(line.span, "it is not known what this says", help);
             }
         }
         Ok(())
+    }
+
+    /// A line of the service; `None` where it belongs to nothing.
+    fn service(&mut self, word: &str, line: &Line<'t>) -> Option<()> {
+        let mut said = pairs(&line.note);
+        if word == "Service" {
+            self.block.service = Some(Service { attributes: said, sequences: Vec::new() });
+            return Some(());
+        }
+        let sequences = &mut self.block.service.as_mut()?.sequences;
+        let mut value = |wanted: &str| {
+            let at = said.iter().position(|(name, _)| name == wanted);
+            let text = at.map(|at| said.remove(at).1).unwrap_or_default();
+            Text { text, span: line.span }
+        };
+        if word == "ServiceSequence" {
+            let name = value("Name");
+            sequences.push(Sequence { name, attributes: said, transactions: Vec::new() });
+            return Some(());
+        }
+        let transactions = &mut sequences.last_mut()?.transactions;
+        if word == "ServiceTransaction" {
+            transactions.push(Transaction::default());
+            return Some(());
+        }
+        let transaction = transactions.last_mut()?;
+        let (interface, event) = (value("Interface"), value("Event"));
+        let primitive = Primitive { interface, event, parameters: value("Parameters") };
+        match word {
+            "InputPrimitive" => transaction.input = Some(primitive),
+            "OutputPrimitive" => transaction.outputs.push(primitive),
+            _ => return None,
+        }
+        Some(())
     }
 
     fn output_event(&mut self, line: &Line<'t>, code: &'t str) -> Outcome<()> {

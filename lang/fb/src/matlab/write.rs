@@ -13,7 +13,8 @@ use super::to_matlab::{self, Problem, Translated};
 use super::vocabulary::{BEFORE, NOW, RUNNING, WAITING, why_not};
 use crate::condition::condition;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{Block, Event, Place, State, Text, Transition, Variable};
+use crate::model::{Block, Event, Place, Primitive, Sequence, Service, State, Text};
+use crate::model::{Transaction, Transition, Variable};
 use crate::parsed::parse;
 
 /// A block in MATLAB.
@@ -161,16 +162,13 @@ impl<'b> Writer<'b> {
         self.out.push_str(&format!("% BLOCK {}", block.name.text));
         let comment = &block.comment;
         self.line(if comment.is_empty() { String::new() } else { format!(" {}", quoted(comment)) });
-        let pairs = |pairs: &[(String, String)]| {
-            let all = pairs.iter().map(|(name, value)| format!(" {name} {}", quoted(value)));
-            all.collect::<String>()
-        };
         if !block.identification.is_empty() {
             self.line(format!("% Identification{}", pairs(&block.identification)));
         }
         for version in &block.versions {
             self.line(format!("% VersionInfo{}", pairs(version)));
         }
+        block.service.iter().for_each(|one| self.service(one));
         block.inputs.iter().for_each(|one| self.variable(one, false));
         block.outputs.iter().for_each(|one| self.variable(one, true));
         for event in &block.event_outputs {
@@ -181,6 +179,30 @@ impl<'b> Writer<'b> {
             let note = ending(&with, &event.comment);
             self.line(format!("e_{} = false;{note}", event.name.text));
         }
+    }
+
+    fn service(&mut self, service: &Service) {
+        self.line(format!("% Service{}", pairs(&service.attributes)));
+        for Sequence { name, attributes, transactions } in &service.sequences {
+            let name = quoted(&name.text);
+            self.line(format!("% ServiceSequence Name {name}{}", pairs(attributes)));
+            for Transaction { input, outputs } in transactions {
+                self.line("% ServiceTransaction");
+                input.iter().for_each(|one| self.primitive("InputPrimitive", one));
+                outputs.iter().for_each(|one| self.primitive("OutputPrimitive", one));
+            }
+        }
+    }
+
+    fn primitive(&mut self, name: &str, one: &Primitive) {
+        let all =
+            [("Interface", &one.interface), ("Event", &one.event), ("Parameters", &one.parameters)];
+        let all: Vec<(String, String)> = all
+            .iter()
+            .map(|(name, text)| ((*name).to_owned(), text.text.clone()))
+            .filter(|(_, text)| !text.is_empty())
+            .collect();
+        self.line(format!("% {name}{}", pairs(&all)));
     }
 
     /// A variable, which keeps its value between calls; of an output also what was sent.
@@ -427,6 +449,11 @@ impl<'b> Writer<'b> {
             self.line(format!("v_{name} = e_v_{name};", name = output.name.text));
         }
     }
+}
+
+/// Names with values, in a comment.
+fn pairs(pairs: &[(String, String)]) -> String {
+    pairs.iter().map(|(name, value)| format!(" {name} {}", quoted(value))).collect()
 }
 
 fn placed(at: &Place) -> [String; 2] {

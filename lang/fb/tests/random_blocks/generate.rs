@@ -7,6 +7,7 @@ use diagnostics::Span;
 use fastrand::Rng;
 use fb::DataType;
 use fb::model::{Action, Algorithm, Block, Event, Place, State, Text, Transition, Variable};
+use fb::model::{Primitive, Sequence, Service, Transaction};
 
 /// Types that are computed with.
 const TYPES: [DataType; 4] = [DataType::Bool, DataType::Int, DataType::Dint, DataType::Real];
@@ -29,6 +30,9 @@ impl Generator {
         let mut generator = Generator { random, block, is_tame };
         generator.interface();
         generator.chart();
+        if generator.chance(30) {
+            generator.service();
+        }
         generator.block
     }
 
@@ -136,6 +140,24 @@ impl Generator {
                 });
             }
         }
+    }
+
+    fn service(&mut self) {
+        let primitive = |event: &Text, parameters: &str| Primitive {
+            interface: text("RESOURCE"),
+            event: event.clone(),
+            parameters: text(parameters),
+        };
+        let Block { event_inputs, event_outputs, .. } = &self.block;
+        let transactions = event_inputs.iter().map(|event| Transaction {
+            input: Some(primitive(&event.name, "in1:=1")),
+            outputs: event_outputs.iter().map(|one| primitive(&one.name, "")).collect(),
+        });
+        let transactions = transactions.collect();
+        let attributes = vec![("Comment".to_owned(), self.comment())];
+        let sequence = Sequence { name: text("first \"one\""), attributes, transactions };
+        let attributes = vec![("RightInterface".to_owned(), "RESOURCE".to_owned())];
+        self.block.service = Some(Service { attributes, sequences: vec![sequence] });
     }
 
     fn condition(&mut self) -> String {
