@@ -31,8 +31,15 @@ struct Step<'b> {
     /// The event that is sent, and what is set before it.
     event: Option<usize>,
     inputs: Vec<(&'b Text, Value)>,
-    /// The events that must come, in order, with values.
-    outputs: Vec<(usize, &'b Primitive, Vec<(&'b Text, Value)>)>,
+    /// What must come, in order.
+    outputs: Vec<Answer<'b>>,
+}
+
+/// An event that must come, with values.
+struct Answer<'b> {
+    event: usize,
+    primitive: &'b Primitive,
+    values: Vec<(&'b Text, Value)>,
 }
 
 /// Runs a sequence from the beginning of the block, or in the state in which it starts.
@@ -53,7 +60,7 @@ pub fn run(block: &Block, parsed: &Parsed, sequence: &Sequence) -> Outcome<()> {
             Ok(done) => done.sent,
             Err(stopped) => return broken(place, stopped.to_string()),
         };
-        let wanted: Vec<usize> = step.outputs.iter().map(|(event, ..)| *event).collect();
+        let wanted: Vec<usize> = step.outputs.iter().map(|one| one.event).collect();
         if sent != wanted {
             let message =
                 format!("the block sends {}, not {}", names(block, &sent), names(block, &wanted));
@@ -92,7 +99,7 @@ pub fn scenario(block: &Block, sequence: &Sequence) -> Outcome<String> {
         }
         now += 10;
         let sent = block.event_outputs.iter().enumerate().map(|(at, event)| {
-            let is_sent = step.outputs.iter().any(|(sent, ..)| *sent == at);
+            let is_sent = step.outputs.iter().any(|one| one.event == at);
             format!("{} = {}", safe_name(&event.name.text), u8::from(is_sent))
         });
         let values =
@@ -136,15 +143,15 @@ fn start(block: &Block, sequence: &Sequence) -> Outcome<Option<usize>> {
 /// What must be seen after a transaction: of a value that is sent twice the last one.
 fn last_values<'b>(block: &Block, step: &Step<'b>) -> Vec<(&'b Text, Value, &'b Primitive)> {
     let mut values = Vec::new();
-    for (at, (_, primitive, parameters)) in step.outputs.iter().enumerate() {
-        for (name, value) in parameters {
+    for (at, answer) in step.outputs.iter().enumerate() {
+        for (name, value) in &answer.values {
             let mut later = step.outputs.iter().skip(at + 1);
-            let is_sent_again = later.any(|(event, ..)| {
-                let event = block.event_outputs.get(*event);
+            let is_sent_again = later.any(|one| {
+                let event = block.event_outputs.get(one.event);
                 event.is_some_and(|one| one.with.iter().any(|with| with.names(&name.text)))
             });
             if !is_sent_again {
-                values.push((*name, *value, *primitive));
+                values.push((*name, *value, answer.primitive));
             }
         }
     }
@@ -162,7 +169,8 @@ fn steps<'b>(block: &'b Block, sequence: &'b Sequence) -> Outcome<Vec<Step<'b>>>
         let mut outputs = Vec::new();
         for primitive in &transaction.outputs {
             let event = event_of(&block.event_outputs, primitive)?;
-            outputs.push((event, primitive, parameters(block, primitive)?));
+            let values = parameters(block, primitive)?;
+            outputs.push(Answer { event, primitive, values });
         }
         steps.push(Step { event, inputs, outputs });
     }

@@ -217,7 +217,7 @@ fn statements_and_operators_have_their_form_in_both() {
 #[test]
 fn what_people_write_in_matlab_means_the_same_in_st() {
     let cases = [
-        ("n=-n^2;", "n:=-(n ** 2);"),
+        ("n=-n^2;", "n:=-(n**2);"),
         ("r = n / 2.0", "r := n / 2.0;"),
         ("flag = r == 1 < 2;", "flag := (r = 1) < 2;"),
         ("n = rem(n + 1, 2);", "n := (n + 1) MOD 2;"),

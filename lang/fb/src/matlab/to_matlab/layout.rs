@@ -33,12 +33,9 @@ impl Translator<'_> {
             let start = piece.span.start;
             if let Some(skipped) = self.skipped.iter().find(|skipped| is_in(piece.span, **skipped))
             {
-                let is_first = skipped.start == start;
-                if let Some(text) = self.before.get(&start).filter(|_| is_first) {
-                    if text.starts_with("case ") {
-                        out.push_str(&self.gap(end, start));
-                        out.push_str(text);
-                    }
+                if let Some(label) = self.label(piece.span, *skipped) {
+                    out.push_str(&self.gap(end, start));
+                    out.push_str(label);
                 }
                 end = piece.span.end;
                 continue;
@@ -67,6 +64,12 @@ impl Translator<'_> {
         }
         out.push_str(self.text.get(end as usize..part.end as usize).unwrap_or(""));
         out
+    }
+
+    /// The labels of a CASE, which stand where the first of them was.
+    fn label(&self, span: Span, skipped: Span) -> Option<&str> {
+        let text = self.before.get(&span.start).filter(|_| span.start == skipped.start)?;
+        text.starts_with("case ").then_some(text.as_str())
     }
 
     /// What is between two pieces.

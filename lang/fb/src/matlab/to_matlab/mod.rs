@@ -11,7 +11,7 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 
 use diagnostics::Span;
 use st::lexer::{Kind, Token, cut};
-use st::tree::Expression;
+use st::tree::{Expression, ExpressionKind};
 
 use super::vocabulary::WHOLE;
 use crate::model::Block;
@@ -144,9 +144,11 @@ impl<'b> Translator<'b> {
 
     /// Whether an expression has brackets around it: they belong to its place.
     fn has_brackets(&self, expression: &Expression) -> bool {
-        use st::tree::ExpressionKind::Binary;
         let begins = expression.span.text(self.text).starts_with('(');
-        let is_in_first = matches!(&expression.kind, Binary(_, left, _) if left.span.start == expression.span.start);
+        let is_in_first = match &expression.kind {
+            ExpressionKind::Binary(_, left, _) => left.span.start == expression.span.start,
+            _ => false,
+        };
         begins && !is_in_first
     }
 }

@@ -61,8 +61,10 @@ fn joined(left: Phrase, gap: &str, operator: BinaryOperator, right: Phrase) -> P
     let (before, left) = left.within(level);
     let (between, right) = right.within(level + 1);
     let word = operator.text();
-    let gap = if gap.is_empty() { " " } else { gap };
-    let between = if between.is_empty() { " ".to_owned() } else { between };
+    // A word needs blanks around it, a sign has those that are there.
+    let needed = if word.starts_with(char::is_alphabetic) { " " } else { "" };
+    let gap = if gap.is_empty() { needed } else { gap };
+    let between = if between.is_empty() { needed.to_owned() } else { between };
     let text = format!("{left}{gap}{word}{between}{right}");
     Phrase { gap: before, text, level, of, own, is_whole_division: false }
 }
@@ -315,7 +317,7 @@ fn translated(name: &str, all: Vec<Phrase>, mode: Option<&str>) -> Option<Phrase
         _ => None,
     };
     match (operator, second, mode) {
-        (Some(operator), Some(second), _) => Some(joined(first, "", operator, second)),
+        (Some(operator), Some(second), _) => Some(joined(first, " ", operator, second)),
         (None, None, Some(class)) if name == "cast" && first.of.is_none() => {
             let of = type_of_class(class)?;
             let text = format!("{}#{}", of.name(), first.text);

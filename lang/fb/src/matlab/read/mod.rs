@@ -1,14 +1,20 @@
 //! A block from MATLAB text, of the form that is written here. What a line says is read once; the
 //! lines that follow from others are compared with those that would be written.
 
+mod condition;
+mod follow;
+mod lines;
+
 use diagnostics::{Severity, Source, Span};
 
-use super::SECTIONS;
 use super::constant::Constant;
-use super::note::{Piece, pieces, said, split, words};
+use super::note::{Piece, pieces, said, words};
 use super::to_st::{Translator, Wrong};
-use super::vocabulary::{BEFORE, NOW, RUNNING, class};
-use super::write::again;
+use super::vocabulary::{NOW, RUNNING, class};
+use condition::{Condition, condition};
+use follow::what_follows;
+use lines::{Line, Outcome, lines, sections, wrong};
+
 use crate::check::check;
 use crate::data_type::DataType;
 use crate::diagnostic::{Code, Diagnostic};
@@ -44,56 +50,6 @@ pub fn read(source: &Source) -> Read {
 
 fn has_errors(diagnostics: &[Diagnostic]) -> bool {
     diagnostics.iter().any(|one| one.severity() == Severity::Error)
-}
-
-/// A line that says something.
-#[derive(Debug, Clone)]
-struct Line<'t> {
-    span: Span,
-    code: &'t str,
-    note: Vec<Piece>,
-}
-
-/// Ends the reading: what follows cannot be understood.
-type Outcome<T> = Result<T, Wrong>;
-
-fn wrong<T>(span: Span, message: impl Into<String>, help: &str) -> Outcome<T> {
-    Err(Wrong { span, message: message.into(), help: help.to_owned() })
-}
-
-/// The lines of a stretch of the text that say something.
-fn lines(text: &str, part: Span) -> Vec<Line<'_>> {
-    let mut at = part.start as usize;
-    let mut lines = Vec::new();
-    for line in part.text(text).split_inclusive('\n') {
-        let trimmed = line.trim();
-        let start = at + line.len() - line.trim_start().len();
-        at += line.len();
-        if !trimmed.is_empty() {
-            let (code, note) = split(trimmed);
-            lines.push(Line { span: Span::new(start, start + trimmed.len()), code, note });
-        }
-    }
-    lines
-}
-
-/// Where the sections are, without their markers.
-fn sections(text: &str) -> Outcome<Vec<Span>> {
-    let mut starts = Vec::new();
-    let mut from = 0;
-    for marker in SECTIONS {
-        let Some(at) = text.get(from..).and_then(|rest| rest.find(marker)) else {
-            let span = Span::new(from, text.len().min(from + 1));
-            let help = "a block in MATLAB has ten sections, each begun by its line";
-            return wrong(span, format!("the section `{marker}` is missing"), help);
-        };
-        starts.push((from + at, from + at + marker.len()));
-        from += at + marker.len();
-    }
-    let ends = starts.iter().skip(1).map(|(start, _)| *start).chain([text.len()]);
-    let head = Span::new(0, starts.first().map_or(0, |(start, _)| *start));
-    let parts = starts.iter().zip(ends).map(|((_, start), end)| Span::new(*start, end));
-    Ok(std::iter::once(head).chain(parts).collect())
 }
 
 struct Reader<'t> {
@@ -499,94 +455,4 @@ fn pairs(note: &[Piece]) -> Vec<(String, String)> {
 fn place(words: &[&str]) -> Option<Place> {
     let number = |at: usize| words.get(at)?.parse::<f64>().ok().filter(|one| one.is_finite());
     Some(Place { x: number(0)?, y: number(1)? })
-}
-
-/// What a line of section 5 asks for.
-struct Condition {
-    source: String,
-    event: Option<String>,
-    guard: Option<String>,
-    place: Span,
-}
-
-/// `if CE(1) && e_CU && (guard) && ~E(2)`
-fn condition(translator: &mut Translator) -> Outcome<Condition> {
-    translator.step();
-    let start = translator.token().span.start;
-    if !translator.is_word(BEFORE) {
-        let help = "such as: if CE(1) && e_REQ && (X > 5)";
-        return translator.wrong("a transition begins with the state that it leaves", help);
-    }
-    translator.step();
-    translator.sign("(")?;
-    let source = translator.word().to_owned();
-    translator.step();
-    let mut end = translator.sign(")")?.span.end;
-    let (mut event, mut guard) = (None, None);
-    while translator.sign("&&").is_ok() {
-        let word = translator.word();
-        if word == "~" {
-            break;
-        }
-        match word.strip_prefix("e_") {
-            Some(name) if event.is_none() && guard.is_none() => {
-                event = Some(name.to_owned());
-                end = translator.step().span.end;
-            }
-            _ if guard.is_some() => {
-                return translator.wrong("a second guard", "write one: (a && b)");
-            }
-            _ => {
-                translator.sign("(")?;
-                let text = translator.expression()?.text();
-                translator.gap(false);
-                end = translator.sign(")")?.span.end;
-                guard = Some(text.trim().to_owned());
-            }
-        }
-    }
-    Ok(Condition { source, event, guard, place: Span { start, end } })
-}
-
-/// Lines that follow from what was read and say something else.
-fn what_follows(block: &Block, text: &str) -> Vec<Diagnostic> {
-    let written = again(block, text);
-    let (Ok(found), Ok(wanted)) = (sections(text), sections(&written)) else { return Vec::new() };
-    let mut different = Vec::new();
-    for number in [3, 4, 5, 6, 8, 9, 10] {
-        let part = |all: &[Span]| all.get(number).copied().unwrap_or_default();
-        let (part, should) = (part(&found), part(&wanted));
-        let lines_of = |text, part| -> Vec<Line> {
-            let all = lines(text, part).into_iter().filter(|line| !line.code.is_empty());
-            let end = all.collect::<Vec<_>>();
-            // What is behind the block's function are functions of ST.
-            let count = if number == 10 { 1 } else { end.len() };
-            end.into_iter().take(count).collect()
-        };
-        let (there, should) = (lines_of(text, part), lines_of(&written, should));
-        let count = there.len().max(should.len());
-        let differs = (0..count).find(|at| !is_same(there.get(*at), should.get(*at)));
-        let Some(at) = differs else { continue };
-        let place = there.get(at).map_or(Span { start: part.end, end: part.end }, |line| line.span);
-        let message = match (there.get(at), should.get(at)) {
-            (Some(_), Some(_)) => "this does not follow from the sections before",
-            (Some(_), None) => "this is more than the sections before say",
-            _ => "something is missing here that the sections before say",
-        };
-        let mut error = Diagnostic::new(Code::BrokenMatlab, place, message);
-        error.help.extend(should.get(at).map(|line| format!("`{}` is what they say", line.code)));
-        different.push(error);
-    }
-    different
-}
-
-/// Whether two lines say the same. Guards can be written in more than one way.
-fn is_same(there: Option<&Line>, should: Option<&Line>) -> bool {
-    let (Some(there), Some(should)) = (there, should) else { return false };
-    let state = format!("if {BEFORE}(");
-    if !there.code.starts_with(&state) {
-        return there.code == should.code;
-    }
-    let others = |code: &str| code.split(" && ").filter(|one| one.starts_with("~E(")).count();
-    should.code.starts_with(&state) && others(there.code) == others(should.code)
 }
