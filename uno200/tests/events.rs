@@ -6,12 +6,13 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 const TANK: &str = include_str!("../../examples/fbt/tank.fbt");
+const RAMP: &str = include_str!("../../examples/fbt/ramp.fbt");
 const COUNTER: &str = include_str!("../../lang/fb/tests/blocks/counter.fbt");
 
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("tank.fbt"), TANK).unwrap();
-    fs::write(folder.path().join("counter.fbt"), COUNTER).unwrap();
+    fs::write(folder.path().join("ramp.fbt"), RAMP).unwrap();
     folder
 }
 
@@ -45,8 +46,8 @@ fn the_session_of_the_page_is_what_is_printed() {
     let expected: String = lines.map(|line| format!("{line}\n")).collect();
     let (code, text, errors) = events(folder.path(), &["tank.fbt"], &commands);
     assert_eq!((code, text, errors), (Some(0), expected, String::new()));
-    let expected = session(page, "uno200 events counter.fbt --service").to_owned();
-    let (code, text, _) = events(folder.path(), &["counter.fbt", "--service"], "");
+    let expected = session(page, "uno200 events ramp.fbt --service").to_owned();
+    let (code, text, _) = events(folder.path(), &["ramp.fbt", "--service"], "");
     assert_eq!((code, text), (Some(0), expected));
 }
 
