@@ -105,8 +105,12 @@ pub enum ParityName {
 pub enum Command {
     /// Makes AWL or an image of the files of a program: AWL, Structured Text, blocks of IEC 61499
     Build(Build),
-    /// Draws a chart, converts it into a program or text of another tool, or tells what is in it
+    /// Draws a chart, converts it into a program or text of another tool, or tells what is in it;
+    /// writes blocks as MATLAB text and back
     Convert(Convert),
+    /// Runs a block of IEC 61499 event by event, typed or from a script; `help` in it says what can
+    /// be done
+    Events(Events),
     /// Explains the code of an error or warning
     Explain {
         /// As it is printed, such as E0205
@@ -250,11 +254,12 @@ pub struct Build {
 /// Arguments of `convert`.
 #[derive(Debug, Args)]
 pub struct Convert {
-    /// A project of PLCopen or a chart of SFCEdit (.xml), or a chart as text (.sfc)
+    /// A project of PLCopen or a chart of SFCEdit (.xml), a chart as text (.sfc), a block of IEC
+    /// 61499 (.fbt) or one in MATLAB (.m)
     #[arg(value_name = "IN")]
     pub input: PathBuf,
-    /// Where the result goes: a text (.st, .sfc), a project (.xml) or a picture (.svg); without it
-    /// to standard output
+    /// Where the result goes: a text (.st, .sfc, .m), a project (.xml), a block (.fbt), the service
+    /// sequences of a block (.scn) or a picture (.svg); without it to standard output
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
     /// For whom Structured Text is written [default: uno200]
@@ -273,6 +278,22 @@ pub struct Convert {
     /// Replaces a text that is there
     #[arg(long)]
     pub overwrite: bool,
+    /// How errors and warnings are written
+    #[command(flatten)]
+    pub messages: Messages,
+}
+
+/// Arguments of `events`.
+#[derive(Debug, Args)]
+pub struct Events {
+    /// A block of IEC 61499 (.fbt), or one in MATLAB (.m)
+    #[arg(value_name = "F.fbt")]
+    pub file: PathBuf,
+    /// A script, a command a line; without it standard input
+    pub script: Option<PathBuf>,
+    /// Runs the service sequences of the block and tells which of them hold
+    #[arg(long, conflicts_with = "script")]
+    pub service: bool,
     /// How errors and warnings are written
     #[command(flatten)]
     pub messages: Messages,

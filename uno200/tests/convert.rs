@@ -180,3 +180,53 @@ fn what_fails_leaves_no_file() {
     let (code, ..) = convert(path, &["chart.xml", "-o", "out.png"]);
     assert_eq!(code, Some(2), "an ending that says nothing");
 }
+
+const TANK: &str = include_str!("../../examples/fbt/tank.fbt");
+const COUNTER: &str = include_str!("../../lang/fb/tests/blocks/counter.fbt");
+
+#[test]
+fn a_block_becomes_matlab_and_a_block_again() {
+    let folder = folder();
+    let path = folder.path();
+    fs::write(path.join("tank.fbt"), TANK).unwrap();
+    let (code, _, errors) = convert(path, &["tank.fbt", "-o", "tank.m"]);
+    assert_eq!((code, errors.as_str()), (Some(0), ""));
+    let text = fs::read_to_string(path.join("tank.m")).unwrap();
+    let first = "function [e_Bomba, v_Potencia] = fcn (e_Control, v_Nivel, v_Nivel_actual)\n%1-";
+    assert!(text.starts_with(first), "{text}");
+    let (code, _, errors) = convert(path, &["tank.m", "-o", "again.fbt"]);
+    assert_eq!((code, errors.as_str()), (Some(0), ""));
+    let (_, again, _) = convert(path, &["again.fbt"]);
+    assert_eq!(again, text);
+    let (code, _, errors) = convert(path, &["tank.fbt", "-o", "tank.m"]);
+    assert_eq!(code, Some(2), "a text that is there is kept: {errors}");
+
+    let wrong = text.replace("Potencia = double(Pot_min)", "Potencia = Pot_mid");
+    let wrong = wrong.replace("Potencia = Pot_min", "Potencia = Pot_mid");
+    fs::write(path.join("wrong.m"), wrong).unwrap();
+    let (code, _, errors) = convert(path, &["wrong.m", "-o", "wrong.fbt"]);
+    assert_eq!(code, Some(1));
+    assert!(errors.contains("E0408") && errors.contains("wrong.m:"), "{errors}");
+    assert!(!path.join("wrong.fbt").exists());
+    let (code, _, errors) = convert(path, &["tank.fbt", "-o", "tank.svg"]);
+    assert_eq!(code, Some(2), "{errors}");
+    let (code, _, errors) = convert(path, &["tank.fbt", "--summary"]);
+    assert!(code == Some(2) && errors.contains("charts"), "{errors}");
+}
+
+#[test]
+fn service_sequences_become_scenarios() {
+    let folder = folder();
+    let path = folder.path();
+    fs::write(path.join("counter.fbt"), COUNTER).unwrap();
+    let (code, _, errors) = convert(path, &["counter.fbt", "-o", "counter.scn"]);
+    assert_eq!((code, errors.as_str()), (Some(0), ""));
+    let text = fs::read_to_string(path.join("counter.count.scn")).unwrap();
+    let expected = "# Service sequence count\nscan 10ms\nat 0ms PV = 2\nat 0ms event CU\n\
+                    at 10ms expect CUO = 1, RO = 0, CV = 1, Q = 0\nat 10ms event CU\n";
+    assert!(text.starts_with(expected), "{text}");
+    assert!(path.join("counter.from_CU.scn").exists());
+    fs::write(path.join("tank.fbt"), TANK).unwrap();
+    let (code, _, errors) = convert(path, &["tank.fbt", "-o", "tank.scn"]);
+    assert!(code == Some(2) && errors.contains("no service sequences"), "{errors}");
+}

@@ -23,6 +23,8 @@ pub const VIRTUAL_BOARD: &[&str] =
     &["simavr", "libsimavr-dev", "libelf-dev", "arduino-core-avr", "avrdude"];
 /// An editor that talks to the language server.
 pub const EDITOR: &[&str] = &["neovim"];
+/// What runs MATLAB text.
+pub const OCTAVE: &[&str] = &["octave"];
 /// A Modbus client that people use, and what installs another.
 pub const MODBUS_CLIENTS: &[&str] = &["mbpoll", "python3"];
 

@@ -67,6 +67,7 @@ pub fn run(host_only: bool) -> Result<()> {
             packages::VIRTUAL_BOARD,
             packages::MODBUS_CLIENTS,
             packages::EDITOR,
+            packages::OCTAVE,
             packages::NODE,
             packages::BROWSER,
             packages::WASM_LINKER,

@@ -80,7 +80,7 @@ fn beside(path: &Path) -> PathBuf {
 }
 
 /// Endings of texts that people write.
-const SOURCES: [&str; 9] = ["awl", "scn", "plant", "st", "sfc", "fbd", "fbt", "xml", "mwp"];
+const SOURCES: [&str; 10] = ["awl", "scn", "plant", "st", "sfc", "fbd", "fbt", "m", "xml", "mwp"];
 
 /// Which of the known endings an output has: it decides what is written. A device, such as
 /// `/dev/stdout`, gets the first of them.

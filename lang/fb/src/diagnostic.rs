@@ -13,6 +13,9 @@ diagnostics::codes! {
     DataType = "E0405";
     Condition = "E0406";
     NeverRests = "E0407";
+    BrokenMatlab = "E0408";
+    NoMatlab = "E0409";
     Ignored = "W0400";
     Unused = "W0401";
+    MatlabDiffers = "W0402";
 }

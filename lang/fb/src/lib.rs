@@ -7,12 +7,16 @@ pub mod data_type;
 pub mod diagnostic;
 pub mod generate;
 pub mod interpreter;
+pub mod matlab;
 pub mod model;
 pub mod parsed;
 mod rest;
+pub mod service;
+pub mod session;
 pub mod xml;
 
 pub use data_type::DataType;
 pub use diagnostic::{Code, Diagnostic};
 pub use interpreter::Interpreter;
 pub use model::Block;
+pub use session::Session;

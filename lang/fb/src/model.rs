@@ -60,6 +60,8 @@ pub struct Block {
     pub transitions: Vec<Transition>,
     /// Its algorithms.
     pub algorithms: Vec<Algorithm>,
+    /// What it must answer.
+    pub service: Option<Service>,
 }
 
 impl Block {
@@ -174,4 +176,44 @@ pub struct Algorithm {
     pub comment: String,
     /// Its statements.
     pub text: Text,
+}
+
+/// What a block must answer to which events.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Service {
+    /// Names of its two interfaces and a comment: names with values, in order.
+    pub attributes: Vec<(String, String)>,
+    /// Its sequences.
+    pub sequences: Vec<Sequence>,
+}
+
+/// A sequence of events and answers, from the beginning.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Sequence {
+    /// Its name.
+    pub name: Text,
+    /// What else is said about it, such as a comment and the state in which it starts.
+    pub attributes: Vec<(String, String)>,
+    /// Its steps.
+    pub transactions: Vec<Transaction>,
+}
+
+/// An event and the answers to it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Transaction {
+    /// The event, with values.
+    pub input: Option<Primitive>,
+    /// The answers, in order, with values.
+    pub outputs: Vec<Primitive>,
+}
+
+/// An event at an interface.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Primitive {
+    /// The name of the interface.
+    pub interface: Text,
+    /// The name of the event.
+    pub event: Text,
+    /// Values that it has with it: `PV:=3;Q:=TRUE`.
+    pub parameters: Text,
 }

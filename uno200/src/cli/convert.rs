@@ -1,5 +1,7 @@
 //! `convert`: from one form of a program to another. What fails leaves no file.
 
+mod block;
+
 use std::collections::HashSet;
 use std::io::Write;
 use std::path::Path;
@@ -37,9 +39,10 @@ pub(super) fn convert(arguments: &Convert) -> Result<bool> {
             }
         }
         Some("sfc") => from_text(arguments),
+        Some("fbt" | "m") => block::convert(arguments),
         _ => bail!(
-            "{}: charts are converted: projects of PLCopen and charts of SFCEdit (.xml), and \
-             charts as text (.sfc)",
+            "{}: charts are converted, projects of PLCopen and charts of SFCEdit (.xml), charts \
+             as text (.sfc), and blocks of IEC 61499 (.fbt, in MATLAB .m)",
             arguments.input.display()
         ),
     }

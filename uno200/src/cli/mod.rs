@@ -4,6 +4,7 @@ mod build;
 mod context;
 mod control;
 mod convert;
+mod events;
 mod explain;
 mod flash;
 mod force;
@@ -69,6 +70,7 @@ fn run(arguments: Arguments) -> Result<u8> {
         Command::Build(arguments) if arguments.fmt => layout::layout(&arguments),
         Command::Build(arguments) => build::build(&arguments),
         Command::Convert(arguments) => convert::convert(&arguments),
+        Command::Events(arguments) => events::events(&arguments),
         Command::Explain { code } => explain::explain(&code).map(|()| true),
         Command::Flash(arguments) => {
             let program = files.open(&arguments.files)?;

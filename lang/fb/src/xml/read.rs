@@ -9,6 +9,7 @@ use crate::check::check;
 use crate::data_type::DataType;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Action, Algorithm, Block, Event, Place, State, Text, Transition, Variable};
+use crate::model::{Primitive, Sequence, Service, Transaction};
 
 /// What is in a file.
 #[derive(Debug)]
@@ -126,6 +127,7 @@ impl Reader {
                     is_basic = true;
                     self.basic(child, &mut block);
                 }
+                "Service" => block.service = Some(self.service(child)),
                 _ => self.unexpected(child),
             }
         }
@@ -279,6 +281,45 @@ impl Reader {
             self.diagnostics.push(Diagnostic::new(Code::Incomplete, value(&written), message));
         }
         number
+    }
+
+    fn service(&mut self, node: Node) -> Service {
+        let mut sequences = Vec::new();
+        for child in elements(node) {
+            if child.tag_name().name() != "ServiceSequence" {
+                self.unexpected(child);
+                continue;
+            }
+            let mut attributes = pairs(child);
+            attributes.retain(|(name, _)| !name.eq_ignore_ascii_case("Name"));
+            let mut transactions = Vec::new();
+            for one in elements(child) {
+                match one.tag_name().name() {
+                    "ServiceTransaction" => transactions.push(self.transaction(one)),
+                    _ => self.unexpected(one),
+                }
+            }
+            let name = self.needed(child, "Name");
+            sequences.push(Sequence { name, attributes, transactions });
+        }
+        Service { attributes: pairs(node), sequences }
+    }
+
+    fn transaction(&mut self, node: Node) -> Transaction {
+        let mut transaction = Transaction::default();
+        for child in elements(node) {
+            let primitive = Primitive {
+                interface: optional(child, "Interface").unwrap_or_default(),
+                event: optional(child, "Event").unwrap_or_default(),
+                parameters: optional(child, "Parameters").unwrap_or_default(),
+            };
+            match child.tag_name().name() {
+                "InputPrimitive" => transaction.input = Some(primitive),
+                "OutputPrimitive" => transaction.outputs.push(primitive),
+                _ => self.unexpected(child),
+            }
+        }
+        transaction
     }
 
     fn algorithm(&mut self, node: Node) -> Option<Algorithm> {

@@ -4,6 +4,7 @@
 use diagnostics::xml::Writer;
 
 use crate::model::{Algorithm, Block, Event, Place, State, Text, Transition, Variable};
+use crate::model::{Primitive, Sequence, Service, Transaction};
 
 /// Writes a block.
 pub fn write(block: &Block) -> String {
@@ -19,6 +20,7 @@ pub fn write(block: &Block) -> String {
         }
         out.element("InterfaceList", &[], |out| interface(out, block));
         out.element("BasicFB", &[], |out| basic(out, block));
+        block.service.iter().for_each(|one| service(out, one));
     });
     out.finish()
 }
@@ -93,6 +95,33 @@ fn algorithm(out: &mut Writer, algorithm: &Algorithm) {
     let head = [("Name", algorithm.name.text.as_str()), ("Comment", &algorithm.comment)];
     let Text { text, .. } = &algorithm.text;
     out.element("Algorithm", &said(&head), |out| out.empty("ST", &[("Text", text)]));
+}
+
+fn service(out: &mut Writer, service: &Service) {
+    out.element("Service", &borrowed(&service.attributes), |out| {
+        for Sequence { name, attributes, transactions } in &service.sequences {
+            let mut head = vec![("Name", name.text.as_str())];
+            head.extend(borrowed(attributes));
+            out.element("ServiceSequence", &head, |out| {
+                for Transaction { input, outputs } in transactions {
+                    out.element("ServiceTransaction", &[], |out| {
+                        input.iter().for_each(|one| primitive(out, "InputPrimitive", one));
+                        outputs.iter().for_each(|one| primitive(out, "OutputPrimitive", one));
+                    });
+                }
+            });
+        }
+    });
+}
+
+fn primitive(out: &mut Writer, name: &str, one: &Primitive) {
+    let head = [
+        ("Interface", one.interface.text.as_str()),
+        ("Event", &one.event.text),
+        ("Parameters", &one.parameters.text),
+    ];
+    let is_said = |(_, value): &(&str, &str)| !value.is_empty();
+    out.empty(name, &head.into_iter().filter(is_said).collect::<Vec<_>>());
 }
 
 /// Without a comment that says nothing: it is nothing without it, too.

@@ -7,6 +7,7 @@ use diagnostics::Span;
 use fastrand::Rng;
 use fb::DataType;
 use fb::model::{Action, Algorithm, Block, Event, Place, State, Text, Transition, Variable};
+use fb::model::{Primitive, Sequence, Service, Transaction};
 
 /// Types that are computed with.
 const TYPES: [DataType; 4] = [DataType::Bool, DataType::Int, DataType::Dint, DataType::Real];
@@ -14,6 +15,7 @@ const TYPES: [DataType; 4] = [DataType::Bool, DataType::Int, DataType::Dint, Dat
 pub struct Generator {
     random: Rng,
     block: Block,
+    is_tame: bool,
 }
 
 fn text(text: impl Into<String>) -> Text {
@@ -21,11 +23,16 @@ fn text(text: impl Into<String>) -> Text {
 }
 
 impl Generator {
-    /// The block of a number.
-    pub fn block(seed: u64) -> Block {
-        let mut generator = Generator { random: Rng::with_seed(seed), block: Block::default() };
+    /// The block of a number. `is_tame`: no result is out of the range of its type, nothing is
+    /// divided by zero, and no transition leads to the state that it leaves.
+    pub fn block(seed: u64, is_tame: bool) -> Block {
+        let (random, block) = (Rng::with_seed(seed), Block::default());
+        let mut generator = Generator { random, block, is_tame };
         generator.interface();
         generator.chart();
+        if generator.chance(30) {
+            generator.service();
+        }
         generator.block
     }
 
@@ -42,11 +49,15 @@ impl Generator {
         let initial = match of_type {
             _ if self.chance(60) => None,
             DataType::Bool => Some(["TRUE", "FALSE"][self.random.usize(..2)].to_owned()),
-            DataType::Real => Some(format!("{}.5", self.random.i8(..))),
-            _ => Some(self.random.i8(..).to_string()),
+            DataType::Real => Some(format!("{}.5", self.whole())),
+            _ => Some(self.whole().to_string()),
         };
         let (name, initial, type_span) = (text(name), initial.map(text), Span::default());
         Variable { name, of_type, type_span, size: None, initial, comment: self.comment() }
+    }
+
+    fn whole(&mut self) -> i8 {
+        if self.is_tame { self.random.i8(-19..19) } else { self.random.i8(..) }
     }
 
     fn interface(&mut self) {
@@ -86,7 +97,7 @@ impl Generator {
     }
 
     fn chart(&mut self) {
-        let states = self.random.usize(1..=4);
+        let states = self.random.usize(if self.is_tame { 2..=4 } else { 1..=4 });
         let algorithms = self.random.usize(1..=3);
         for number in 0..algorithms {
             let body = self.statements(0);
@@ -114,7 +125,11 @@ impl Generator {
         }
         for source in 0..states {
             for _ in 0..self.random.usize(1..=3) {
-                let destination = text(format!("S{}", self.random.usize(..states)));
+                let destination = match self.is_tame {
+                    true => (source + self.random.usize(1..states)) % states,
+                    false => self.random.usize(..states),
+                };
+                let destination = text(format!("S{destination}"));
                 let (condition, comment) = (text(self.condition()), self.comment());
                 self.block.transitions.push(Transition {
                     source: text(format!("S{source}")),
@@ -125,6 +140,24 @@ impl Generator {
                 });
             }
         }
+    }
+
+    fn service(&mut self) {
+        let primitive = |event: &Text, parameters: &str| Primitive {
+            interface: text("RESOURCE"),
+            event: event.clone(),
+            parameters: text(parameters),
+        };
+        let Block { event_inputs, event_outputs, .. } = &self.block;
+        let transactions = event_inputs.iter().map(|event| Transaction {
+            input: Some(primitive(&event.name, "in1:=1")),
+            outputs: event_outputs.iter().map(|one| primitive(&one.name, "")).collect(),
+        });
+        let transactions = transactions.collect();
+        let attributes = vec![("Comment".to_owned(), self.comment())];
+        let sequence = Sequence { name: text("first \"one\""), attributes, transactions };
+        let attributes = vec![("RightInterface".to_owned(), "RESOURCE".to_owned())];
+        self.block.service = Some(Service { attributes, sequences: vec![sequence] });
     }
 
     fn condition(&mut self) -> String {
@@ -148,7 +181,7 @@ impl Generator {
         match of_type {
             DataType::Bool => ["TRUE", "FALSE"][self.random.usize(..2)].to_owned(),
             DataType::Real => format!("{}.25", self.random.u8(..20)),
-            DataType::Dint => format!("{}", self.random.u32(40_000..90_000)),
+            DataType::Dint if !self.is_tame => format!("{}", self.random.u32(40_000..90_000)),
             _ => format!("{}", self.random.u8(1..20)),
         }
     }
@@ -173,6 +206,11 @@ impl Generator {
             true => format!("({})", self.expression(of_type, depth - 1)),
             false => self.operand(of_type),
         };
+        if self.is_tame && of_type != DataType::Bool && self.chance(30) {
+            let is_real = of_type == DataType::Real;
+            let sign = ["/", "MOD"][if is_real { 0 } else { self.random.usize(..2) }];
+            return format!("{left} {sign} {}", self.literal(of_type).replace(".25", ".5"));
+        }
         match of_type {
             DataType::Bool => match self.random.u8(..5) {
                 0 => format!("NOT {left}"),
@@ -181,9 +219,14 @@ impl Generator {
             },
             DataType::Real if self.chance(20) => format!("ABS({left})"),
             DataType::Real => {
-                format!("{left} {} {right}", ["+", "-", "*", "/"][self.random.usize(..4)])
+                let count = if self.is_tame { 3 } else { 4 };
+                format!("{left} {} {right}", ["+", "-", "*", "/"][self.random.usize(..count)])
             }
-            _ => format!("{left} {} {right}", ["+", "-", "*", "/", "MOD"][self.random.usize(..5)]),
+            _ => {
+                let count = if self.is_tame { 3 } else { 5 };
+                let sign = ["+", "-", "*", "/", "MOD"][self.random.usize(..count)];
+                format!("{left} {sign} {right}")
+            }
         }
     }
 
@@ -265,7 +308,16 @@ impl Generator {
             _ => {
                 let (name, of_type) = self.writable();
                 let value = self.expression(of_type, 2);
-                writeln!(lines, "{margin}{name} := {value};")
+                let _ = writeln!(lines, "{margin}{name} := {value};");
+                if !self.is_tame || of_type == DataType::Bool {
+                    return;
+                }
+                let most = if of_type == DataType::Real { "20.0" } else { "20" };
+                writeln!(
+                    lines,
+                    "{margin}IF {name} > {most} THEN {name} := {most}; END_IF;\n\
+                     {margin}IF {name} < -{most} THEN {name} := -{most}; END_IF;"
+                )
             }
         };
     }

@@ -2,6 +2,7 @@
 //! `FB_BLOCKS` sets how many, `FB_SEED` shows one.
 
 mod generate;
+mod seeds;
 
 use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
@@ -15,18 +16,6 @@ use fb::{Block, DataType, Interpreter, xml};
 use generate::Generator;
 
 const SCANS: usize = 15;
-
-fn number(name: &str) -> Option<u64> {
-    std::env::var(name).ok().and_then(|text| text.parse().ok())
-}
-
-/// The blocks that a run looks at.
-fn seeds(usual: u64) -> Vec<u64> {
-    match number("FB_SEED") {
-        Some(seed) => vec![seed],
-        None => (0..number("FB_BLOCKS").unwrap_or(usual)).collect(),
-    }
-}
 
 /// What a machine shows of a value. Nobody can tell 0.0 from -0.0 by computing.
 fn shown(value: Value) -> i32 {
@@ -130,7 +119,7 @@ impl Pair<'_> {
 
 /// How a compiled block differs from the interpreted one.
 fn differs(seed: u64, tally: &mut Tally) -> Option<String> {
-    let text = xml::write(&Generator::block(seed));
+    let text = xml::write(&Generator::block(seed, false));
     let source = Source::new("random.fbt", text.as_str()).expect("a short text");
     // A chart without rest is no block.
     let block = xml::read(&source).block?;
@@ -158,7 +147,7 @@ fn differs(seed: u64, tally: &mut Tally) -> Option<String> {
 #[test]
 fn compiled_blocks_do_what_the_interpreter_says() {
     let mut tally = Tally::default();
-    let seeds = seeds(150);
+    let seeds = seeds::seeds(150);
     let count = seeds.len();
     let different: Vec<String> =
         seeds.into_iter().filter_map(|seed| differs(seed, &mut tally)).collect();

@@ -1,0 +1,94 @@
+//! A block that is told what to do, line by line: what it answers, and mistakes at their places.
+
+use diagnostics::Source;
+use fb::parsed::{Parsed, parse};
+use fb::session::{Done, Session};
+use fb::{Block, xml};
+
+const TANK: &str = include_str!("../../../examples/fbt/tank.fbt");
+const RAMP: &str = include_str!("../../../examples/fbt/ramp.fbt");
+
+fn read(text: &str) -> (Block, Parsed) {
+    let source = Source::new("block.fbt", text).expect("a short text");
+    let block = xml::read(&source).block.expect("a block");
+    let parsed = parse(&block, &source);
+    (block, parsed)
+}
+
+fn said(session: &mut Session, line: &str) -> String {
+    match session.obey(line) {
+        Ok(Done::Said(text)) => text,
+        other => panic!("{line}: {other:?}"),
+    }
+}
+
+#[test]
+fn events_tell_the_way_through_the_chart_and_what_is_sent() {
+    let (block, parsed) = read(TANK);
+    let mut session = Session::new(&block, &parsed).expect("a sound block");
+    assert_eq!(said(&mut session, "Nivel = 10.0, nivel_actual = 5 # full"), "");
+    assert_eq!(
+        said(&mut session, "event Control"),
+        "Control: START -> E12 -> START\n  Bomba Potencia = 90.0"
+    );
+    assert_eq!(
+        said(&mut session, "show"),
+        "State = START\nin  Nivel = 10.0, Nivel_actual = 5.0\nout Potencia = 90.0\n\
+         own Pot_min = 10, Pot_max = 90, H = 0.05"
+    );
+    assert_eq!(
+        said(&mut session, "chart"),
+        "> START\n      Control -> E12\n  E12 Histeresis !Bomba\n      1 -> START"
+    );
+    assert_eq!(said(&mut session, "expect State = START, Bomba = 1, Potencia = 90, H = 0.05"), "");
+    let failed = session.obey("expect Bomba = 0, Potencia = 10.0, State = E12");
+    let text = "Bomba was sent; Potencia is 90.0, not 10.0; State is START, not E12";
+    assert_eq!(failed, Ok(Done::Failed(text.to_owned())));
+    said(&mut session, "reset");
+    said(&mut session, "expect Potencia = 0.0, Bomba = 0");
+    assert_eq!(session.obey("exit"), Ok(Done::End));
+    assert!(said(&mut session, "help").contains("expect X = 5"));
+}
+
+#[test]
+fn of_several_events_one_is_used() {
+    let (block, parsed) = read(RAMP);
+    let mut session = Session::new(&block, &parsed).expect("a sound block");
+    assert_eq!(
+        said(&mut session, "event REQ, INIT"),
+        "INIT: START -> E2 -> START\n  INITO\n  REQ is lost: it came with another"
+    );
+}
+
+#[test]
+fn mistakes_are_told_at_their_places() {
+    let (block, parsed) = read(RAMP);
+    let mut session = Session::new(&block, &parsed).expect("a sound block");
+    let cases = [
+        ("X9 = 5", "X9", "X9: no input of the block"),
+        ("X0 = 1,  Cycle = 1.5", "1.5", "DINT has no value 1.5"),
+        (
+            "Cycle = 3000000000",
+            "3000000000",
+            "3000000000 is no DINT: that is -2147483648 to 2147483647",
+        ),
+        ("Cycle = 2 +", "2 +", "`2 +` is no value"),
+        ("event REG", "REG", "REG: no event of the block"),
+        ("expect Hol = 1", "Hol", "Hol: no variable or output event of the block"),
+        ("expect State = E9", "E9", "E9: no state of the block"),
+        ("expect CNF = 2", "2", "2: no value of an event"),
+        ("expect CNF", "CNF", "CNF: no value"),
+        ("  evnt REQ", "evnt", "evnt: no such command"),
+    ];
+    for (line, place, message) in cases {
+        let mistake = session.obey(line).expect_err(line);
+        assert_eq!((mistake.span.text(line), mistake.message.as_str()), (place, message));
+    }
+    let near = session.obey("event REG").expect_err("a mistake");
+    assert_eq!(near.help.as_deref(), Some("`REQ` is one"));
+    assert_eq!(
+        said(&mut session, "show").lines().nth(1),
+        Some("in  X0 = 0.0, X1 = 0.0, Cycle = 0, Duration = 0, PV = 0.0"),
+        "a line with a mistake changes nothing"
+    );
+}

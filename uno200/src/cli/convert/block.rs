@@ -1,0 +1,97 @@
+//! Blocks of IEC 61499: as MATLAB text, and back; their service sequences as scenarios.
+
+use std::path::Path;
+
+use anyhow::{Result, bail};
+use awl_asm::files::{ending, ensure_no_source, read_source, write_whole};
+use awl_asm::report::Report;
+use diagnostics::Source;
+use fb::{matlab, service, xml};
+
+use super::super::args::Convert;
+use super::{has_ending, print, told};
+
+pub(super) fn convert(arguments: &Convert) -> Result<bool> {
+    let input = &arguments.input;
+    if arguments.target.is_some() || arguments.variables.is_some() || arguments.table {
+        bail!("{}: --target, --variables and --table are for charts of SFCEdit", input.display());
+    }
+    if arguments.summary {
+        bail!("{}: --summary counts what is in charts", input.display());
+    }
+    let source = read_source(input)?;
+    let is_matlab = has_ending(input, "m");
+    if let Some(output) = &arguments.output {
+        let kind = ending(output, if is_matlab { &["fbt"] } else { &["m", "scn"] })?;
+        if kind == "scn" {
+            return scenarios(arguments, &source, output);
+        }
+    }
+    let mut report = Report::new(arguments.messages, false);
+    let text = match is_matlab {
+        true => from_matlab(&source, &mut report),
+        false => to_matlab(&source, &mut report),
+    };
+    let Some(text) = text else { return Ok(false) };
+    match &arguments.output {
+        Some(output) => write_whole(output, text.as_bytes())?,
+        None => print(&text)?,
+    }
+    Ok(true)
+}
+
+fn to_matlab(source: &Source, report: &mut Report) -> Option<String> {
+    let xml::Read { block, diagnostics } = xml::read(source);
+    let is_sound = told(report, source, diagnostics);
+    let block = block.filter(|_| is_sound)?;
+    let matlab::Written { text, diagnostics, of_st } = matlab::write(&block, source);
+    let is_sound = told(report, source, of_st);
+    (told(report, source, diagnostics) && is_sound).then_some(text)?
+}
+
+fn from_matlab(source: &Source, report: &mut Report) -> Option<String> {
+    let matlab::Read { block, diagnostics } = matlab::read(source);
+    let is_sound = told(report, source, diagnostics);
+    Some(xml::write(&block.filter(|_| is_sound)?))
+}
+
+/// Writes each service sequence as a scenario: `tank.scn`, or `tank.NAME.scn` where there are
+/// several.
+fn scenarios(arguments: &Convert, source: &Source, output: &Path) -> Result<bool> {
+    let mut report = Report::new(arguments.messages, false);
+    let xml::Read { block, diagnostics } = xml::read(source);
+    let is_sound = told(&mut report, source, diagnostics);
+    let Some(block) = block.filter(|_| is_sound) else { return Ok(false) };
+    let sequences = block.service.as_ref().map_or(&[][..], |one| &one.sequences);
+    if sequences.is_empty() {
+        bail!("{}: the block has no service sequences", arguments.input.display());
+    }
+    let mut files = Vec::new();
+    for sequence in sequences {
+        let text = match service::scenario(&block, sequence) {
+            Ok(text) => text,
+            Err(broken) => {
+                let (line, column) = source.position(broken.span.start as usize);
+                bail!("{}:{line}:{column}: {}", source.name, broken.message);
+            }
+        };
+        let file = match sequences {
+            [_] => output.to_path_buf(),
+            _ => output.with_extension(format!("{}.scn", file_name(&sequence.name.text))),
+        };
+        ensure_no_source(&file, arguments.overwrite)?;
+        if files.iter().any(|(other, _)| *other == file) {
+            bail!("{}: two sequences have this name", sequence.name.text);
+        }
+        files.push((file, text));
+    }
+    for (file, text) in files {
+        write_whole(&file, text.as_bytes())?;
+    }
+    Ok(true)
+}
+
+/// A name as part of one of a file.
+fn file_name(name: &str) -> String {
+    name.chars().map(|one| if one.is_ascii_alphanumeric() { one } else { '_' }).collect()
+}
