@@ -179,14 +179,13 @@ impl Judge<'_> {
             ExpressionKind::Real(value) => Some(f64::from(*value)),
             ExpressionKind::Typed(_, inside) => self.number(inside),
             ExpressionKind::Unary(UnaryOperator::Minus, inside) => Some(-self.number(inside)?),
-            ExpressionKind::Binary(Add, left, right) => {
-                Some(self.number(left)? + self.number(right)?)
-            }
-            ExpressionKind::Binary(Subtract, left, right) => {
-                Some(self.number(left)? - self.number(right)?)
-            }
-            ExpressionKind::Binary(Multiply, left, right) => {
-                Some(self.number(left)? * self.number(right)?)
+            ExpressionKind::Binary(operator @ (Add | Subtract | Multiply), left, right) => {
+                let (left, right) = (self.number(left)?, self.number(right)?);
+                held(match operator {
+                    Add => left + right,
+                    Subtract => left - right,
+                    _ => left * right,
+                })
             }
             ExpressionKind::Variable(..) | ExpressionKind::Address(_) => self.value(expression),
             _ => self.truth(expression).map(|value| f64::from(u8::from(value))),
@@ -222,6 +221,11 @@ impl Judge<'_> {
         };
         Missing { text, between: None }
     }
+}
+
+/// A result that an INT holds: a larger one is another one where it has wrapped around.
+fn held(result: f64) -> Option<f64> {
+    (result.abs() <= f64::from(i16::MAX)).then_some(result)
 }
 
 fn joined(mut parts: Vec<Missing>, between: &'static str) -> Option<Missing> {

@@ -310,3 +310,18 @@ fn charts_of_sfcedit_become_programs_with_the_kinds_that_are_chosen() {
     assert_eq!((&problem["isOfTable"], &problem["line"]), (&json!(true), &json!(1)));
     assert!(convert("", "logo").unwrap_err().contains("logo"));
 }
+
+#[test]
+fn sums_that_can_have_wrapped_around_are_not_judged() {
+    let mut page = Page::with(
+        "INITIAL_STEP A: END_STEP STEP B: END_STEP\n\
+         TRANSITION FROM A TO B := Level + 30000 > 5; END_TRANSITION",
+    );
+    let id = page.draw()["sheets"][0]["transitions"][0]["id"].clone();
+    let mut judge = |level: i32| {
+        let one = json!([{ "chart": 0, "transition": id, "values": [level] }]);
+        let answer = page.ask(json!({ "do": "judge", "transitions": one })).unwrap();
+        answer[0]["isTrue"].as_bool()
+    };
+    assert_eq!((judge(2767), judge(2768), judge(-30_000)), (Some(true), None, Some(false)));
+}
