@@ -1,5 +1,5 @@
-//! Variables that an algorithm declares itself, `VAR ... END_VAR` before its statements: they become
-//! internal variables of the block.
+//! Variables that an algorithm declares itself, `VAR ... END_VAR` before its statements: they
+//! become internal variables of the block.
 
 use diagnostics::xml::Places;
 use diagnostics::{Source, Span};
