@@ -191,7 +191,61 @@ fn the_examples_do_in_octave_what_the_interpreter_says() {
     let events = [1, 0, 1, 1, 1, 1, 1, 1, 1, 0];
     let events = events.iter().map(|event| (Some(*event), inputs()));
     assert!(calls.add(folder.path(), "ramp", ramp, &events.collect::<Vec<Call>>()));
-    let out: Vec<f64> = calls.expected[8..].iter().map(|(_, outputs)| outputs[2]).collect();
+    let excitation = include_str!("../../examples/fbt/excitation.fbt");
+    let inputs = || [1.0, 0.8, -0.3, 0.01, 0.5].map(Value::Real).to_vec();
+    let events = (0..120).map(|at| (Some(usize::from(at > 0)), inputs()));
+    assert!(calls.add(folder.path(), "excitation", excitation, &events.collect::<Vec<Call>>()));
+    let out: Vec<f64> = calls.expected[8..18].iter().map(|(_, outputs)| outputs[2]).collect();
     assert_eq!(out, [0.0, 0.0, 0.0, 2.0, 4.0, 6.0, 8.0, 8.0, 8.0, 8.0], "the published trace");
+    calls.assert_are_the_same(folder.path());
+}
+
+/// A block whose outputs are of all types that a controller computes with.
+fn of_all_types(algorithm: &str) -> String {
+    let types = ["BOOL", "INT", "DINT", "REAL", "SINT", "USINT", "UINT", "UDINT", "BYTE", "WORD"];
+    let names = types.map(|of| (of.to_lowercase(), of));
+    let declared =
+        names.iter().map(|(name, of)| format!("<VarDeclaration Name='x_{name}' Type='{of}'/>"));
+    let with = names.iter().map(|(name, _)| format!("<With Var='x_{name}'/>"));
+    format!(
+        "<FBType Name='Types'><InterfaceList><EventInputs><Event Name='REQ'><With Var='in'/></Event>
+        </EventInputs><EventOutputs><Event Name='CNF'>{}</Event></EventOutputs>
+        <InputVars><VarDeclaration Name='in' Type='INT'/></InputVars>
+        <OutputVars>{}</OutputVars></InterfaceList><BasicFB><InternalVars>
+        <VarDeclaration Name='list' Type='DINT' ArraySize='4' InitialValue='[1, 2, 3, 4]'/>
+        </InternalVars><ECC><ECState Name='S'/>
+        <ECState Name='T'><ECAction Algorithm='A' Output='CNF'/></ECState>
+        <ECTransition Source='S' Destination='T' Condition='REQ'/>
+        <ECTransition Source='T' Destination='S' Condition='1'/></ECC>
+        <Algorithm Name='A'><ST Text='{algorithm}'/></Algorithm></BasicFB></FBType>",
+        with.collect::<String>(),
+        declared.collect::<String>(),
+    )
+}
+
+#[test]
+fn functions_and_types_do_in_octave_what_the_interpreter_says() {
+    let algorithms = [
+        "x_dint := INT_TO_DINT(in) * 1000; x_int := DINT_TO_INT(x_dint); x_bool := in > 3;",
+        "x_sint := INT_TO_SINT(in); x_usint := INT_TO_USINT(in); x_uint := INT_TO_UINT(in);",
+        "x_real := INT_TO_REAL(in) / 4.0; x_int := REAL_TO_INT(x_real); x_dint := TRUNC(x_real);",
+        "x_int := LIMIT(-3, in, 4); x_dint := SEL(in > 0, 5, 6); x_real := MAX(1.5, x_real);",
+        "x_byte := INT_TO_BYTE(in) AND 15; x_word := INT_TO_WORD(in) OR NOT x_word;",
+        "x_byte := x_byte XOR INT_TO_BYTE(in); x_bool := x_byte = 3;",
+        "x_dint := list[ABS(in) MOD 4]; list[1] := x_dint + in; x_udint := DINT_TO_UDINT(list[1]);",
+        "x_real := SQRT(ABS(INT_TO_REAL(in))) + EXP(0.5) + LN(2.0) + LOG(3.0) + ATAN(0.5);",
+        "x_real := SIN(0.5) + COS(0.5) + TAN(0.5) + ASIN(0.5) + ACOS(0.5) + 2.0 ** 3.0;",
+        "x_sint := x_sint / 2 + 7; x_dint := x_dint + x_sint; x_usint := x_usint / 3 + 20;",
+        "x_int := 7 / -2; x_dint := (INT_TO_DINT(in) - 40) / 7; x_uint := x_uint MOD 5 + 9;",
+        "x_dint := 0; FOR x_dint := 5 TO 1 DO x_int := 3; END_FOR;",
+    ];
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut calls = Calls::default();
+    for (at, algorithm) in algorithms.iter().enumerate() {
+        let text = of_all_types(&algorithm.replace('<', "&lt;"));
+        let whole = |value: i64| Value::Literal(value).to(DataType::Int);
+        let inputs = [0, 1, -1, 3, 7, -7, 15, 19, -20].map(|value| (Some(0), vec![whole(value)]));
+        assert!(calls.add(folder.path(), &format!("types_{at}"), &text, &inputs), "{algorithm}");
+    }
     calls.assert_are_the_same(folder.path());
 }

@@ -69,6 +69,33 @@ fn newer_files_have_their_algorithms_between_the_tags() {
 }
 
 #[test]
+fn variables_of_an_algorithm_are_internal_ones() {
+    let with = |text: &str| HYSTERESIS.replace("<ST Text=\"IF", &format!("<ST Text=\"{text}IF"));
+    let text = with(
+        "VAR a, b : INT := 5; END_VAR&#10;VAR_TEMP&#10;c : ARRAY[0..2] OF REAL;&#10;END_VAR&#10;",
+    );
+    let block = block(&text);
+    let own: Vec<String> = block.internals[3..]
+        .iter()
+        .map(|one| {
+            let initial = one.initial.as_ref().map(|text| text.text.as_str());
+            format!("{} {} {:?} {initial:?}", one.name.text, one.of_type.name(), one.size)
+        })
+        .collect();
+    let expected = ["a INT None Some(\"5\")", "b INT None Some(\"5\")", "c REAL Some(3) None"];
+    assert_eq!(own, expected);
+    assert_eq!(block.algorithms[0].text, self::block(HYSTERESIS).algorithms[0].text);
+    assert_eq!(self::block(&xml::write(&block)), block);
+    let errors = |text: &str| {
+        let all = found(&with(text)).into_iter();
+        all.filter(|(code, _)| code.starts_with('E')).collect::<Vec<_>>()
+    };
+    assert_eq!(errors("VAR H : INT; END_VAR "), [("E0404", "H".to_owned())]);
+    assert_eq!(errors("VAR t : TON; END_VAR "), [("E0405", "TON".to_owned())]);
+    assert_eq!(errors("VAR t INT; END_VAR "), [("E0405", "t INT".to_owned())]);
+}
+
+#[test]
 fn every_mistake_is_told_at_its_place() {
     let wrong = HYSTERESIS
         .replace("Var=\"Nivel\"", "Var=\"Nivl\"")

@@ -1,5 +1,6 @@
 //! Blocks as XML files (`.fbt`): reading and writing. What a block means is not asked here.
 
+mod locals;
 mod read;
 mod write;
 

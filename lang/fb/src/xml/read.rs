@@ -5,6 +5,7 @@ use diagnostics::xml::{
 };
 use diagnostics::{Source, Span};
 
+use super::locals::locals;
 use crate::check::check;
 use crate::data_type::DataType;
 use crate::diagnostic::{Code, Diagnostic};
@@ -22,7 +23,7 @@ pub struct Read {
 
 /// Reads a block.
 pub fn read(source: &Source) -> Read {
-    let mut reader = Reader { diagnostics: Vec::new() };
+    let mut reader = Reader { file: &source.text, diagnostics: Vec::new() };
     let text = with_known_references(&source.text);
     let block = match xml::parse(&text) {
         Ok(document) => reader.root(document.root_element()),
@@ -59,11 +60,12 @@ fn other_kind(element: &str) -> Option<&'static str> {
     })
 }
 
-struct Reader {
+struct Reader<'t> {
+    file: &'t str,
     diagnostics: Vec<Diagnostic>,
 }
 
-impl Reader {
+impl Reader<'_> {
     fn has_errors(&self) -> bool {
         let mut all = self.diagnostics.iter();
         all.any(|one| one.severity() == diagnostics::Severity::Error)
@@ -227,7 +229,14 @@ impl Reader {
             match child.tag_name().name() {
                 "InternalVars" => block.internals.extend(self.variables(child)),
                 "ECC" => self.chart(child, block),
-                "Algorithm" => block.algorithms.extend(self.algorithm(child)),
+                "Algorithm" => {
+                    let Some(mut algorithm) = self.algorithm(child) else { continue };
+                    let found = locals(algorithm.text, self.file);
+                    algorithm.text = found.statements;
+                    block.internals.extend(found.variables);
+                    self.diagnostics.extend(found.diagnostics);
+                    block.algorithms.push(algorithm);
+                }
                 _ => self.unexpected(child),
             }
         }
