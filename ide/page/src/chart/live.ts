@@ -98,6 +98,7 @@ export class Live {
   private forget(): void {
     this.trail.clear();
     this.forgetStates();
+    this.tell();
   }
 
   private forgetStates(): void {
