@@ -62,18 +62,13 @@ export class Shape {
       const ways = element.lines.map((points) => line(points, "way"));
       this.button.replaceChildren(...ways, rect(barFrame(element), "frame"));
     }
-    this.placeNote();
     this.name();
-  }
-
-  private placeNote(): void {
-    const { item } = this;
-    const [x, y] = item.kind === "step" ? timePoint(item.element) : item.note;
-    this.noted.setAttribute("transform", `translate(${x} ${y})`);
   }
 
   /** What is read beside it, and whether it was crossed last. */
   tell(note: Note | null, isCrossed: boolean): void {
+    if (note && note.at.join() !== this.note?.at.join())
+      this.noted.setAttribute("transform", `translate(${note.at.join(" ")})`);
     if (note?.all !== this.note?.all) {
       this.noted.replaceChildren(...(note ? noteParts(note) : []));
       this.noted.classList.toggle("good", note?.isGood === true);
@@ -196,9 +191,6 @@ function lookParts({ look, frame: [x, y, width, height] }: ChartStep): SVGElemen
         ]);
   return parts.map((points) => line(points));
 }
-
-/** Above the right half of a step. */
-const timePoint = ({ frame: [x, y, width] }: ChartStep): Point => [x + width / 2 + 8, y - 8];
 
 function noteParts({ lines, all }: Note): SVGElement[] {
   const parts = lines.map((words, at) => s("tspan", { x: 0, y: at * NOTE_LINE }, words));
