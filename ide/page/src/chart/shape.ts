@@ -20,8 +20,8 @@ export class Shape {
   /** What is drawn of it. */
   readonly picture = s("g", { "aria-hidden": "true" });
   private actions = s("g");
-  /** What is read beside it while the program runs. */
-  private noted = s("text", { class: "note-live", "aria-hidden": "true" });
+  /** What is read beside it while the program runs; it is over all elements. */
+  readonly noted = s("text", { class: "note-live", "aria-hidden": "true" });
   private note: Note | null = null;
   private isCrossed = false;
   private drawn = "";
@@ -38,8 +38,8 @@ export class Shape {
       this.picture,
       this.button,
       this.actions,
-      this.noted,
     );
+    this.noted.setAttribute("data-key", item.key);
     this.update(item);
   }
 
@@ -111,8 +111,14 @@ export class Shape {
   move(by: Point | null): void {
     this.isMoved = by !== null;
     this.group.classList.toggle("moving", this.isMoved);
+    this.noted.toggleAttribute("hidden", this.isMoved);
     if (by) this.group.setAttribute("transform", `translate(${by.join(" ")})`);
     else this.group.removeAttribute("transform");
+  }
+
+  remove(): void {
+    this.group.remove();
+    this.noted.remove();
   }
 
   /** Its button, or that of an action. */
