@@ -431,6 +431,24 @@ fn each_situation_of_the_simulator_is_told() {
 }
 
 #[test]
+fn situations_that_are_too_many_are_missing_and_that_is_told() {
+    let mut page = turns();
+    page.pass(200);
+    let lost = |page: &Page| {
+        page.events.iter().any(|event| matches!(event, Event::Situation { lost: true, .. }))
+    };
+    assert!(!lost(&page));
+    page.target(TargetWish::Speed { factor: 0.0 });
+    page.pass(500);
+    assert!(lost(&page));
+    let most = page.events.iter().map(|event| match event {
+        Event::Situation { before, .. } => before.len(),
+        _ => 0,
+    });
+    assert!(most.max().unwrap() <= 1000);
+}
+
+#[test]
 fn a_step_is_set_by_hand() {
     let mut page = turns();
     page.target(TargetWish::Set { operand: "Hold".to_owned(), value: "1".to_owned() });

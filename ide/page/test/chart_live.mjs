@@ -7,6 +7,7 @@ import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { controls, open, watched } from "./browser.mjs";
 import { file, load } from "./chart_page.mjs";
+import { loadSource } from "./load.mjs";
 
 const [, , address, pictures] = process.argv;
 const { browser, page, errors } = await open({ patience: 60_000 });
@@ -37,6 +38,42 @@ const picture = async (name) => {
 };
 const target = (name) =>
   page.getByRole("combobox", { name: "Target" }).selectOption({ label: name });
+
+// What is kept of moments: so many, with gaps, from one start on.
+const { Trail } = await loadSource("src/chart/trail.ts");
+const trail = new Trail();
+const moment = (timeMs, active) => {
+  const steps = [[active === 0, active === 1]];
+  return { timeMs, scan: timeMs, steps, values: [timeMs] };
+};
+for (let time = 0; time < 50_000; time += 1) {
+  trail.add([], moment(time, time % 2), false);
+  if (time === 49_000) trail.goTo(trail.moments.length - 1);
+}
+assert(trail.moments.length <= 20_000 && trail.moments.length >= 17_000, `${trail.moments.length}`);
+assert.equal(trail.shown.timeMs, 49_000, "what is shown stays while others go");
+trail.go(-1);
+assert.equal(trail.shown.timeMs, 48_999);
+assert.deepEqual(trail.lasting(0, 1), { ms: 0, isLeast: false });
+trail.goTo(-1);
+trail.add([], moment(60_000, 1), false);
+assert.equal(trail.moments.at(-1).timeMs, 49_999, "the same situation is no other moment");
+assert.deepEqual(trail.lasting(0, 1), { ms: 10_001, isLeast: false });
+trail.add([], moment(60_001, 0), true);
+assert.equal(trail.losses, 1);
+assert.deepEqual(trail.moments.at(-2).steps, [[null, null]], "a gap");
+trail.add([], moment(5, 0), false);
+assert.deepEqual([trail.moments.length, trail.losses], [1, 0], "another start");
+assert.deepEqual(trail.lasting(0, 0), { ms: 0, isLeast: true });
+const large = Array.from({ length: 2_500 }, () => false);
+for (let time = 0; time < 2_000; time += 1)
+  trail.add(
+    [],
+    { timeMs: time, scan: 0, steps: [large.with(0, time % 2 === 0)], values: [] },
+    false,
+  );
+assert(trail.moments.length <= 800, "fewer of a large chart");
+console.log("moments: as many as there is room for");
 
 const TANK = `PROGRAM Tank
 VAR
@@ -96,7 +133,10 @@ for (const name of ["Simulator", "Virtual Uno"]) {
   await set("MW2", "9");
   await step("Wait", ", active").waitFor();
   await set("MW2", "1");
-  console.log(`conditions, values and times on ${name}`);
+  await chart.getByRole("button", { name: "Moment back" }).click();
+  assert.match(await told(), /moment \d+ of \d+/);
+  await chart.getByRole("button", { name: "Back to now" }).click();
+  console.log(`conditions, values, times and moments on ${name}`);
 }
 
 // The moments that were: back and forth by keys, buttons and the slider.
@@ -200,12 +240,12 @@ await mode("RUN");
 await page.locator(".cm-line", { hasText: "INITIAL_STEP Wait" }).click();
 await key("Home");
 await page.keyboard.insertText("STEP Later:\nEND_STEP\n");
-await chart.getByText("The text was changed: what runs is the program of before").waitFor();
+await chart.getByText("The target has another program than this text").waitFor();
 await step("Later").waitFor();
 await picture("other");
 await chart.getByRole("button", { name: "Load anew" }).click();
 await step("Wait", ", active").waitFor();
-await chart.getByText("The text was changed").waitFor({ state: "hidden" });
+await chart.getByText("The target has another program").waitFor({ state: "hidden" });
 console.log("another program in the target");
 
 // A macro-step folded and unfolded: its chart is left out, the step stays active with it.
@@ -253,10 +293,10 @@ await rows.tap({ position: { x: 60, y: 10 } });
 await there.getByRole("button", { name: /^initial step Wait, active/ }).waitFor();
 if (pictures) await phone.screenshot({ path: join(pictures, "chart-live-phone.png") });
 await tap("Back to now");
-const large = await there
+const areLarge = await there
   .locator(".moments button")
   .evaluateAll((buttons) => buttons.every((one) => one.getBoundingClientRect().height >= 44));
-assert(large, "buttons are as large as fingers");
+assert(areLarge, "buttons are as large as fingers");
 console.log("charts that run under a finger");
 
 assert.deepEqual(errors, []);

@@ -108,7 +108,6 @@ for (const colorScheme of ["light", "dark"])
     await look(page, `structured-${colorScheme}-${width}`);
     await run(page, "traffic_light-sfc");
     await page.getByRole("tab", { name: "Chart", exact: true }).click();
-    await page.getByRole("button", { name: "Fit", exact: true }).click();
     await page.waitForTimeout(4000);
     await look(page, `chart-${colorScheme}-${width}`);
     await page.getByRole("button", { name: "Follow", exact: true }).click();

@@ -31,6 +31,7 @@ interface Layer {
   group: SVGGElement;
   transitions: SVGGElement;
   steps: SVGGElement;
+  notes: SVGGElement;
 }
 
 export class Canvas {
@@ -96,10 +97,10 @@ export class Canvas {
   }
 
   private layer(): Layer {
-    const [transitions, steps] = [s("g"), s("g")];
-    const group = s("g", { role: "group" }, title([0, 0], ""), transitions, steps);
+    const [transitions, steps, notes] = [s("g"), s("g"), s("g")];
+    const group = s("g", { role: "group" }, title([0, 0], ""), transitions, steps, notes);
     this.overlay.before(group);
-    return { group, transitions, steps };
+    return { group, transitions, steps, notes };
   }
 
   /** Shows before the next frame what has changed. */
@@ -144,7 +145,7 @@ export class Canvas {
   private keep(keys: Set<string>): void {
     for (const [key, shape] of this.shapes)
       if (!keys.has(key)) {
-        shape.group.remove();
+        shape.remove();
         this.shapes.delete(key);
       }
   }
@@ -163,6 +164,8 @@ export class Canvas {
     }
     shape.show(this.looks.state(item));
     shape.tell(this.looks.note(item), this.looks.isCrossed(item));
+    const notes = this.layers[item.sheet]?.notes;
+    if (shape.noted.parentNode !== notes) notes?.append(shape.noted);
     shape.select(this.looks.isSelected(item));
     shape.group.classList.toggle("current", this.looks.isCurrent(item));
     return shape;

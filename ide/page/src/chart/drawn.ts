@@ -17,12 +17,7 @@ interface Common {
 }
 /** `isFolded`: of a macro-step whether its chart is; null of other steps. */
 export type StepItem = Common & { kind: "step"; element: ChartStep; isFolded: boolean | null };
-/** `note`: where is room for what is read beside it, below its condition. */
-export type TransitionItem = Common & {
-  kind: "transition";
-  element: ChartTransition;
-  note: Point;
-};
+export type TransitionItem = Common & { kind: "transition"; element: ChartTransition };
 export type Item = StepItem | TransitionItem;
 
 /** Around points, with room for the thickness of lines. */
@@ -67,40 +62,11 @@ function stepItem(sheet: number, element: ChartStep, isFolded: boolean | null): 
   };
 }
 
-/** Below the condition, and right of a step that is there; where lines are, beside it. */
-function notePoint(element: ChartTransition, steps: readonly ChartStep[]): Point {
-  const { label, text, to, lines, doubles } = element;
-  const [x, y] = [label[0], label[1] + text.length * TEXT_LINE];
-  const room: Frame = [x, y - TEXT_LINE / 2, 6 * LETTER, 2 * TEXT_LINE];
-  const across = [...lines.flatMap(segments), ...doubles].filter(([, top, , end]) => top === end);
-  if (
-    across.some(([from, top, end]) =>
-      meet(room, [Math.min(from, end), top, Math.abs(end - from), 0]),
-    )
-  )
-    return [x + (Math.max(...text.map(({ length }) => length)) + 2) * LETTER, label[1]];
-  const inTheWay = steps.filter(({ id, frame }) => to.includes(id) && meet(frame, room));
-  return [Math.max(x, ...inTheWay.map(({ frame }) => frame[0] + frame[2] + 6)), y];
-}
-
-/** The straight parts of a line. */
-function segments(points: readonly Point[]): [number, number, number, number][] {
-  return points.slice(1).map(([x, y], at) => {
-    const [fromX, fromY] = points[at] ?? [x, y];
-    return [fromX, fromY, x, y];
-  });
-}
-
-function transitionItem(
-  sheet: number,
-  element: ChartTransition,
-  steps: readonly ChartStep[],
-): TransitionItem {
+function transitionItem(sheet: number, element: ChartTransition): TransitionItem {
   const { bar, lines, id } = element;
-  const note = notePoint(element, steps);
   const box = around([...lines.flat(), ...corners(barFrame(element))]);
   const middle = [(bar[0] + bar[2]) / 2, (bar[1] + bar[3]) / 2] as const;
-  return { kind: "transition", key: `${sheet}:${id}`, sheet, id, element, box, middle, note };
+  return { kind: "transition", key: `${sheet}:${id}`, sheet, id, element, box, middle };
 }
 
 /** Whether two frames have something in common. */
@@ -118,7 +84,7 @@ export class Drawn {
       expansion === null ? null : (charts.sheets[expansion]?.isFolded ?? null);
     this.items = charts.sheets.flatMap((sheet, at) => [
       ...sheet.steps.map((step) => stepItem(at, step, isFolded(step))),
-      ...sheet.transitions.map((one) => transitionItem(at, one, sheet.steps)),
+      ...sheet.transitions.map((one) => transitionItem(at, one)),
     ]);
     this.byKey = new Map(this.items.map((item) => [item.key, item]));
   }

@@ -2,7 +2,6 @@
 // the other, always with the last values.
 import type { ChartDocument } from "./document";
 import type { TransitionItem } from "./drawn";
-import { Overtaken } from "./charts";
 import type { Judgement } from "./protocol";
 
 /** A transition with the values in its condition. */
@@ -47,26 +46,26 @@ export class Judging {
 
   private async ask(): Promise<void> {
     this.isAsking = true;
-    while (this.wanted) {
-      const { transitions, reading } = this.wanted;
+    for (let wanted = this.wanted; wanted; wanted = this.wanted) {
       this.wanted = null;
-      const questions = transitions.map(({ item: { sheet, id }, values }) => ({
-        chart: sheet,
-        transition: id,
-        values,
-      }));
-      const answers = await this.document.judge(questions, reading).catch((error: unknown) => {
-        if (!(error instanceof Overtaken)) throw error;
-        return [];
-      });
-      this.judged = new Map(
-        answers.flatMap((answer, at) => {
-          const { item, values } = transitions[at] ?? {};
-          return item && values ? [[item.key, { ...answer, values }] as const] : [];
-        }),
-      );
+      await this.answer(wanted.transitions, wanted.reading);
       this.changed();
     }
     this.isAsking = false;
+  }
+
+  private async answer(transitions: Wanted[], reading: number): Promise<void> {
+    const questions = transitions.map(({ item: { sheet, id }, values }) => ({
+      chart: sheet,
+      transition: id,
+      values,
+    }));
+    // Of a text that is no more, or cannot be read, nothing is known.
+    const answers = await this.document.judge(questions, reading).catch(() => []);
+    this.judged.clear();
+    for (const [at, { item, values }] of transitions.entries()) {
+      const answer = answers[at];
+      if (answer) this.judged.set(item.key, { ...answer, values });
+    }
   }
 }

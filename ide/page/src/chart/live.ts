@@ -10,7 +10,8 @@ import type { Drawn, Item, StepItem, TransitionItem } from "./drawn";
 import { Judging } from "./judging";
 import type { ChartOperand, ElementId } from "./protocol";
 import { seconds, Trail } from "./trail";
-import { noteOf, type Note } from "./note";
+import { noteOf, timeOf, type Note } from "./note";
+import { roomFor } from "./room";
 
 type States = Map<string, boolean | null>;
 
@@ -98,6 +99,7 @@ export class Live {
   private forget(): void {
     this.trail.clear();
     this.forgetStates();
+    this.tell();
   }
 
   private forgetStates(): void {
@@ -246,10 +248,11 @@ export class Live {
   note(item: Item): Note | null {
     if (item.kind === "step") {
       const time = this.times.get(this.key(item));
-      return time === undefined ? null : { lines: [time], all: time, said: "", isGood: true };
+      return time === undefined ? null : timeOf(item.element, time);
     }
+    const { drawn } = this.document;
     const judged = this.state(item) ? this.judging.of(item) : undefined;
-    return judged ? noteOf(item.element, judged) : null;
+    return judged && drawn ? noteOf(item.element, judged, roomFor(drawn, item)) : null;
   }
 
   /** Whether a transition led to the situation that is shown. */

@@ -20,8 +20,8 @@ export class Shape {
   /** What is drawn of it. */
   readonly picture = s("g", { "aria-hidden": "true" });
   private actions = s("g");
-  /** What is read beside it while the program runs. */
-  private noted = s("text", { class: "note-live", "aria-hidden": "true" });
+  /** What is read beside it while the program runs; it is over all elements. */
+  readonly noted = s("text", { class: "note-live", "aria-hidden": "true" });
   private note: Note | null = null;
   private isCrossed = false;
   private drawn = "";
@@ -38,8 +38,8 @@ export class Shape {
       this.picture,
       this.button,
       this.actions,
-      this.noted,
     );
+    this.noted.setAttribute("data-key", item.key);
     this.update(item);
   }
 
@@ -62,18 +62,13 @@ export class Shape {
       const ways = element.lines.map((points) => line(points, "way"));
       this.button.replaceChildren(...ways, rect(barFrame(element), "frame"));
     }
-    this.placeNote();
     this.name();
-  }
-
-  private placeNote(): void {
-    const { item } = this;
-    const [x, y] = item.kind === "step" ? timePoint(item.element) : item.note;
-    this.noted.setAttribute("transform", `translate(${x} ${y})`);
   }
 
   /** What is read beside it, and whether it was crossed last. */
   tell(note: Note | null, isCrossed: boolean): void {
+    if (note && note.at.join() !== this.note?.at.join())
+      this.noted.setAttribute("transform", `translate(${note.at.join(" ")})`);
     if (note?.all !== this.note?.all) {
       this.noted.replaceChildren(...(note ? noteParts(note) : []));
       this.noted.classList.toggle("good", note?.isGood === true);
@@ -116,8 +111,14 @@ export class Shape {
   move(by: Point | null): void {
     this.isMoved = by !== null;
     this.group.classList.toggle("moving", this.isMoved);
+    this.noted.toggleAttribute("hidden", this.isMoved);
     if (by) this.group.setAttribute("transform", `translate(${by.join(" ")})`);
     else this.group.removeAttribute("transform");
+  }
+
+  remove(): void {
+    this.group.remove();
+    this.noted.remove();
   }
 
   /** Its button, or that of an action. */
@@ -196,9 +197,6 @@ function lookParts({ look, frame: [x, y, width, height] }: ChartStep): SVGElemen
         ]);
   return parts.map((points) => line(points));
 }
-
-/** Above the right half of a step. */
-const timePoint = ({ frame: [x, y, width] }: ChartStep): Point => [x + width / 2 + 8, y - 8];
 
 function noteParts({ lines, all }: Note): SVGElement[] {
   const parts = lines.map((words, at) => s("tspan", { x: 0, y: at * NOTE_LINE }, words));

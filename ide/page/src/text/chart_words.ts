@@ -204,9 +204,9 @@ export const CHART_WORDS = {
     "se muestra un momento anterior: vuelva primero a ahora",
   ],
   chartOther: [
-    "The text was changed: what runs is the program of before, whose steps are not told.",
-    "Der Text wurde geändert: Es läuft das Programm von vorher, dessen Schritte nicht angezeigt werden.",
-    "El texto ha cambiado: se ejecuta el programa anterior, cuyas etapas no se muestran.",
+    "The target has another program than this text, such as that before a change: its steps are not shown.",
+    "Das Ziel enthält ein anderes Programm als diesen Text, etwa das vor einer Änderung: Seine Schritte werden nicht gezeigt.",
+    "El destino tiene otro programa que este texto, como el de antes de un cambio: sus etapas no se muestran.",
   ],
   chartLoadAnew: ["Load anew", "Neu laden", "Cargar de nuevo"],
   chartTimes: ["Steps over time", "Schritte über der Zeit", "Etapas en el tiempo"],
