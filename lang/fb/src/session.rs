@@ -68,9 +68,9 @@ impl<'l> Part<'l> {
 
     fn split(self, at: usize, separator: usize) -> (Part<'l>, Part<'l>) {
         let first = Part { text: self.text.get(..at).unwrap_or(""), start: self.start };
-        let behind = at + separator;
-        let text = self.text.get(behind..).unwrap_or("");
-        (first.trimmed(), Part { text, start: self.start + behind }.trimmed())
+        let after = at + separator;
+        let text = self.text.get(after..).unwrap_or("");
+        (first.trimmed(), Part { text, start: self.start + after }.trimmed())
     }
 
     /// The parts between commas.

@@ -183,7 +183,7 @@ impl Generator<'_> {
     }
 }
 
-/// A comment that fits behind `//`.
+/// A comment that fits after `//`.
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

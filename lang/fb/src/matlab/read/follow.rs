@@ -19,7 +19,7 @@ pub(super) fn what_follows(block: &Block, text: &str) -> Vec<Diagnostic> {
         let lines_of = |text, part| -> Vec<Line> {
             let all = lines(text, part).into_iter().filter(|line| !line.code.is_empty());
             let end = all.collect::<Vec<_>>();
-            // What is behind the block's function are functions of ST.
+            // What is after the block's function are functions of ST.
             let count = if number == 10 { 1 } else { end.len() };
             end.into_iter().take(count).collect()
         };

@@ -325,8 +325,8 @@ impl<'t> Reader<'t> {
                 Some(Text { text: state.name.text.clone(), span: line.span })
             };
             let destination = next.and_then(|next| {
-                let (_, behind) = next.code.split_once(&format!("; {NOW}("))?;
-                state(behind.split(')').next())
+                let (_, after) = next.code.split_once(&format!("; {NOW}("))?;
+                state(after.split(')').next())
             });
             let source = state(Some(source.as_str()));
             let Some((source, destination)) = source.zip(destination) else {

@@ -179,7 +179,7 @@ impl Translator<'_> {
         let token = self.word_at(expression.span.start, words);
         if operator == UnaryOperator::Not && self.type_of(operand).is_some_and(is_bits) {
             self.replace(token, "bitcmp(");
-            self.behind.entry(operand.span.end).or_default().insert(0, ')');
+            self.after.entry(operand.span.end).or_default().insert(0, ')');
             return self.expression(operand, 0);
         }
         if operator == UnaryOperator::Not {

@@ -51,8 +51,8 @@ impl Translator<'_> {
             if piece.is_comment {
                 let is_done = self.comment(piece.span, is_last_of_line, &mut out);
                 if is_done && follows.contains('\n') {
-                    let behind = follows.find('\n').map_or(0, |at| at + 1);
-                    end += u32::try_from(behind).unwrap_or(0);
+                    let after = follows.find('\n').map_or(0, |at| at + 1);
+                    end += u32::try_from(after).unwrap_or(0);
                 }
                 continue;
             }
@@ -98,7 +98,7 @@ impl Translator<'_> {
         false
     }
 
-    /// Writes a token. `is_last`: the line ends behind it.
+    /// Writes a token. `is_last`: the line ends after it.
     fn token(&mut self, span: Span, is_last: bool, open: &mut Vec<Open>, out: &mut String) {
         let separator = if is_last { "" } else { "," };
         let word = span.text(self.text).to_uppercase();
@@ -180,7 +180,7 @@ impl Translator<'_> {
             self.skipped = skipped;
             out.push_str(&format!("{step}:"));
         }
-        out.push_str(self.behind.get(&span.end).map_or("", String::as_str));
+        out.push_str(self.after.get(&span.end).map_or("", String::as_str));
     }
 }
 

@@ -59,9 +59,9 @@ struct Translator<'b> {
     block: &'b Block,
     text: &'b str,
     tokens: Vec<Token>,
-    /// What is written before and behind something, the outer first.
+    /// What is written before and after something, the outer first.
     before: HashMap<u32, String>,
-    behind: HashMap<u32, String>,
+    after: HashMap<u32, String>,
     /// What is written in place of a token.
     replaced: HashMap<u32, String>,
     /// Tokens without the blanks before them.
@@ -84,7 +84,7 @@ impl<'b> Translator<'b> {
             text,
             tokens: cut(text).tokens,
             before: HashMap::new(),
-            behind: HashMap::new(),
+            after: HashMap::new(),
             replaced: HashMap::new(),
             close: HashSet::new(),
             skipped: Vec::new(),
@@ -110,12 +110,12 @@ impl<'b> Translator<'b> {
         self.out.problems.push(Problem { span, message, help, is_warning: true });
     }
 
-    /// The first token at or behind a place.
+    /// The first token at or after a place.
     fn token_at(&self, place: u32) -> Option<Token> {
         self.tokens.iter().copied().find(|token| token.span.start >= place)
     }
 
-    /// The first of these words at or behind a place.
+    /// The first of these words at or after a place.
     fn word_at(&self, place: u32, words: &[&str]) -> Option<Token> {
         self.tokens.iter().copied().find(|token| {
             let written = token.span.text(self.text);
@@ -130,9 +130,9 @@ impl<'b> Translator<'b> {
     }
 
     /// Something around a stretch, inside of what is there already.
-    fn around(&mut self, first: u32, before: &str, last: u32, behind: &str) {
+    fn around(&mut self, first: u32, before: &str, last: u32, after: &str) {
         self.before.entry(first).or_default().push_str(before);
-        self.behind.entry(last).or_default().insert_str(0, behind);
+        self.after.entry(last).or_default().insert_str(0, after);
     }
 
     /// Brackets around an expression that has none, if what it is in binds more strongly.

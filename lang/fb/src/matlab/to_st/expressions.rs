@@ -207,7 +207,7 @@ impl Translator<'_> {
         self.called(name)
     }
 
-    /// The index behind a variable: the first element is 1 here, and 0 in ST.
+    /// The index after a variable: the first element is 1 here, and 0 in ST.
     pub(super) fn element(&mut self) -> Outcome<String> {
         if !self.is_sign("(") {
             return Ok(String::new());

@@ -23,7 +23,7 @@ pub(super) type Outcome<T> = Result<T, Wrong>;
 /// The number and the text of an algorithm, and where it is.
 pub(super) struct Body {
     pub(super) number: Span,
-    /// What is said behind `case 1`.
+    /// What is said after `case 1`.
     pub(super) note: Span,
     pub(super) text: String,
     pub(super) span: Span,
