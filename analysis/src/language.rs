@@ -27,8 +27,8 @@ pub enum Language {
 }
 
 impl Language {
-    /// The language of a text of this name, by its ending: `.awl`, `.st`, `.fbd`, `.sfc`, `.fbt`, `.scn`,
-    /// `.plant`; `.csv` and `.txt` are symbol tables.
+    /// The language of a text of this name, by its ending: `.awl`, `.st`, `.fbd`, `.sfc`, `.fbt`,
+    /// `.scn`, `.plant`; `.csv` and `.txt` are symbol tables.
     pub fn of_name(name: &str) -> Option<Language> {
         let (_, ending) = name.rsplit_once('.')?;
         match ending.to_ascii_lowercase().as_str() {

@@ -1,5 +1,5 @@
-//! The budgets of the board and of compiled programs that `cargo xtask bench` and `cargo xtask size`
-//! enforce, with their reasons. Those of this computer are in `speed`.
+//! The budgets of the board and of compiled programs that `cargo xtask bench` and `size` enforce,
+//! with their reasons. Those of this computer are in `speed`.
 
 /// Bytes of flash for the firmware, initial values of variables included: what lies below the
 /// program slot.
