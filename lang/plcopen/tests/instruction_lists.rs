@@ -186,8 +186,40 @@ fn large_lists_end() {
     assert!(said(&format!("LD n\n{long}ST n"))[0].contains("too long"));
     // Each jump leads over the label of the one before.
     let over: String = (0..60).map(|n| format!("L{n}: LD a\nJMPC L{}\nADD n\n", n + 2)).collect();
-    let told = said(&format!("{over}L60: ST n\nL61: ST n"));
+    assert!(!said(&format!("{over}L60: ST n\nL61: ST n")).is_empty());
+    let told = said(&"LD a\n".repeat(20_001));
+    assert!(told.len() == 1 && told[0].contains("too large"), "{told:?}");
+    let told = said(&format!("LD a\nST {}", "b".repeat(10_001)));
+    assert!(told.len() == 1 && told[0].contains("too large"), "{told:?}");
+    // A comment that is written again and again.
+    let comment = format!("(* {} *)\n", "word ".repeat(20_000));
+    let told = said(&format!("{over}L60: {comment}ST n\nL61: ST n"));
     assert!(!told.is_empty());
     let many: String = (0..2_000).map(|n| format!("LD a\nJMPC L{n}\nST n\nL{n}: ST q\n")).collect();
     assert!(said(&many).is_empty());
+}
+
+#[test]
+fn any_list_is_read_or_refused() {
+    let mut random = fastrand::Rng::with_seed(11);
+    let list =
+        "LD a\nJMPC Store\nAND( b\nOR c\n)\nCAL Pause(\n IN := a\n)\nLD d\nStore:\nST q (* é *)\n";
+    let snippets = ["(", ")", "(*", "*)", "//", "'", ":", "é", "\n", "[", "JMP Store\n", "L:\n"];
+    let (mut good, mut bad) = (0, 0);
+    for _ in 0..2_000 {
+        let mut text: Vec<char> = list.chars().collect();
+        for _ in 0..random.usize(1..4) {
+            let at = random.usize(..text.len());
+            let end = (at + random.usize(..4)).min(text.len());
+            let snippet = snippets[random.usize(..snippets.len())];
+            match random.bool() {
+                true => drop(text.splice(at..at, snippet.chars())),
+                false => drop(text.drain(at..end)),
+            }
+        }
+        let found = imported(&program(&text.into_iter().collect::<String>()));
+        assert!(found.text.text().is_empty() != found.diagnostics.is_empty());
+        *(if found.diagnostics.is_empty() { &mut good } else { &mut bad }) += 1;
+    }
+    assert!(good > 100 && bad > 100, "{good} good, {bad} bad");
 }

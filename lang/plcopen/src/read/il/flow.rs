@@ -12,8 +12,9 @@ use super::instructions::{Instruction, List};
 use super::value::{Value, is_operand, sign};
 use crate::diagnostic::Code as ErrorCode;
 
-/// Most characters of an expression.
+/// Most characters of an instruction and of an expression, and of all statements.
 const LENGTH_MAX: usize = 10_000;
+const WRITTEN_MAX: usize = 1_000_000;
 /// Most instructions that are followed, again on each way.
 const FOLLOWED_MAX: usize = 20_000;
 /// How many forks can be in each other.
@@ -47,6 +48,7 @@ pub(super) struct Translator<'t, 'f> {
     /// Where each instruction jumps to.
     targets: Vec<Option<usize>>,
     followed: usize,
+    written: usize,
     depth: usize,
     pub(super) codes: Vec<Code>,
 }
@@ -56,8 +58,9 @@ impl<'t, 'f> Translator<'t, 'f> {
     pub(super) fn new(reader: &'t mut Reader<'f>, list: &'t List, text: &Text) -> Self {
         let places = Places::of(&text.text, text.span, reader.file);
         let (targets, codes) = (Vec::new(), Vec::new());
+        let (followed, written, depth) = (0, 0, 0);
         let mut translator =
-            Translator { reader, list, places, targets, followed: 0, depth: 0, codes };
+            Translator { reader, list, places, targets, followed, written, depth, codes };
         for (name, span) in &list.twice {
             let message = format!("label {name} is there twice");
             let place = translator.places.span(*span);
@@ -68,10 +71,19 @@ impl<'t, 'f> Translator<'t, 'f> {
                 "labels have different names",
             );
         }
-        let targets = (0..list.instructions.len()).map(|at| translator.target(at));
-        let targets = targets.collect();
-        translator.targets = targets;
+        let end = translator.end();
+        translator.targets = (0..end).map(|at| translator.target(at)).collect();
         translator
+    }
+
+    /// The end of the list, which is reported where it is too large: nothing is read then.
+    fn end(&mut self) -> usize {
+        let all = &self.list.instructions;
+        let length = |one: &Instruction| (one.span.end - one.span.start) as usize;
+        let is_long = |(at, one): (usize, _)| at >= FOLLOWED_MAX || length(one) > LENGTH_MAX;
+        let Some(at) = all.iter().enumerate().position(is_long) else { return all.len() };
+        self.refuse(at, "this instruction list is too large to be read".to_owned(), WRITE_ST);
+        0
     }
 
     /// All instructions, from the first to the last.
@@ -83,7 +95,7 @@ impl<'t, 'f> Translator<'t, 'f> {
 
     /// The same; returns what is in the accumulator then.
     pub(super) fn value(&mut self) -> Option<Value> {
-        let end = self.list.instructions.len();
+        let end = self.targets.len();
         let value = self.way(0, end, None);
         self.comments(end);
         value
@@ -118,6 +130,7 @@ impl<'t, 'f> Translator<'t, 'f> {
     fn push(&mut self, at: usize, text: &str) {
         let span = self.list.instructions.get(at).map(|one| self.places.span(one.span));
         let text = format!("{}{text}", INDENT.repeat(self.depth));
+        self.written += text.len();
         self.codes.push(Code { text, origin: Origin(span.unwrap_or_default()) });
     }
 
@@ -147,7 +160,7 @@ impl<'t, 'f> Translator<'t, 'f> {
         let mut at = from;
         while let Some(one) = list.instructions.get(at).filter(|_| at < end) {
             self.followed += 1;
-            if self.followed > FOLLOWED_MAX {
+            if self.followed > FOLLOWED_MAX || self.written > WRITTEN_MAX {
                 self.refuse(at, "jumps lead over each other too often".to_owned(), WRITE_ST);
                 return None;
             }
