@@ -187,13 +187,6 @@ fn wrong_projects_are_told_with_their_places() {
         <step localId=\"9\" name=\"N\"><connectionPointIn>\
         <connection refLocalId=\"8\"/></connectionPointIn></step>";
     assert_eq!(on(circle), none);
-    assert_eq!(
-        said(&program("", "<IL/>")),
-        ["E0702 2 `IL` Lamp is written in IL, which is not read"]
-    );
-    let actions = "<actions><action name=\"Turn\"><body><IL/></body></action></actions>";
-    let text = chart("<reference name=\"b\"/>", "").replace("<body>", &format!("{actions}<body>"));
-    assert_eq!(said(&text), ["E0702 2 `IL` action Turn is written in IL, which is not read"]);
     let added = "<addData><data name=\"vendor\" handleUnknown=\"discard\"><x/></data></addData>";
     let text = program(added, "<ST/>").replace("</pous>", &format!("{added}</pous>"));
     assert_eq!(said(&text), ["W0700 3 `data` vendor: what a vendor has added is left out"]);

@@ -1,7 +1,8 @@
-//! What a unit does: statements as they are, a drawing of steps as a chart. Other drawings are not
-//! read.
+//! What a unit does: statements as they are, a drawing of steps as a chart, diagrams and
+//! instruction lists as statements.
 
 use chart::Chart;
+use chart::model::Code as Statements;
 use chart::text::write_chart;
 use diagnostics::Span;
 use diagnostics::traced::Traced;
@@ -9,8 +10,9 @@ use diagnostics::xml::{Node, Places, elements, tag};
 use st::names::is_same;
 
 use super::chart::chart;
-use super::diagram::statements;
+use super::diagram;
 use super::formatted::{formatted, language};
+use super::il;
 use super::reader::{Reader, child, optional};
 use crate::diagnostic::Code;
 
@@ -41,10 +43,15 @@ pub(super) fn refuse(reader: &mut Reader, language: Node, of: &str) {
     let name = language.tag_name().name();
     let message = format!("{of} is written in {name}, which is not read");
     let help = match name {
-        "IL" => "instruction lists are written in AWL here, or as Structured Text (ST)",
+        "IL" => "one that computes one value is: LD, AND, GT; write others as Structured Text (ST)",
         _ => "write it as Structured Text (ST) or as a chart (SFC) in the tool it comes from",
     };
     reader.error(Code::OtherLanguage, tag(language), message, help);
+}
+
+/// The statements of a diagram or instruction list; `None`: it is another language.
+pub(super) fn translated(reader: &mut Reader, body: Node) -> Option<Vec<Statements>> {
+    diagram::statements(reader, body).or_else(|| il::statements(reader, body))
 }
 
 /// The body of a unit; returns its chart, if it is one.
@@ -69,7 +76,7 @@ pub(super) fn body(reader: &mut Reader, around: &Surroundings, out: &mut Traced)
             Some(chart)
         }
         _ => {
-            let Some(codes) = statements(reader, found) else {
+            let Some(codes) = translated(reader, found) else {
                 refuse(reader, found, around.unit);
                 return None;
             };

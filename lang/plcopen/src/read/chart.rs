@@ -12,9 +12,8 @@ use diagnostics::Span;
 use diagnostics::xml::{Node, attribute, elements, tag};
 use st::names::is_same;
 
-use super::body::{Surroundings, refuse};
+use super::body::{Surroundings, refuse, translated};
 use super::condition::{Condition, condition};
-use super::diagram::statements;
 use super::formatted::{documentation, formatted, language};
 use super::macro_step::expand;
 use super::network::{Network, id, lines_into, title};
@@ -132,9 +131,9 @@ fn middle(node: Node) -> Option<Position> {
     Some(Position { x: x.round() as i32, y: y.round() as i32 })
 }
 
-/// The statements of a diagram; `None`: it is none.
-fn drawn_body(reader: &mut Reader, diagram: Node) -> Option<Body> {
-    let codes = statements(reader, diagram)?;
+/// The statements of a diagram or instruction list; `None`: it is none.
+fn translated_body(reader: &mut Reader, diagram: Node) -> Option<Body> {
+    let codes = translated(reader, diagram)?;
     let texts: Vec<String> = codes.into_iter().map(|code| code.text).collect();
     Some(Body::Code(Code { text: texts.join(NEXT_LINE), origin: Origin(tag(diagram)) }))
 }
@@ -163,7 +162,7 @@ fn actions(reader: &mut Reader, around: &Surroundings, chart: &mut Chart) {
                 initial(reader, &inner, found);
                 Body::Chart(Box::new(inner))
             }
-            _ => match drawn_body(reader, found) {
+            _ => match translated_body(reader, found) {
                 Some(body) => body,
                 None => {
                     refuse(reader, found, &format!("action {}", name.text));
@@ -546,7 +545,7 @@ impl<'a, 'i> Builder<'_, '_, 'a, 'i> {
                 let Text { text, span } = formatted(found);
                 Body::Code(Code { text, origin: Origin(span) })
             }
-            _ => match drawn_body(self.reader, found) {
+            _ => match translated_body(self.reader, found) {
                 Some(body) => body,
                 None => {
                     refuse(self.reader, found, &format!("an action of step {name}"));

@@ -9,6 +9,7 @@ use st::names::is_same;
 use super::body::{Surroundings, refuse};
 use super::drawn::{Drawn, drawn};
 use super::formatted::{formatted, language};
+use super::il;
 use super::network::{Network, lines_into, lines_of, title};
 use super::reader::{Reader, Text, child, is_true, optional};
 use crate::diagnostic::Code as ErrorCode;
@@ -93,7 +94,9 @@ fn in_body<'a, 'i>(
             Drawn::plain(text.to_owned(), span)
         }
         Some(found) => {
-            let result = result(reader, found, name);
+            let listed = il::value(reader, found, name);
+            let listed = listed.map(|code| Drawn::plain(code.text, code.origin.0));
+            let result = listed.or_else(|| result(reader, found, name));
             result.unwrap_or_else(|| {
                 refuse(reader, found, of);
                 Drawn::default()

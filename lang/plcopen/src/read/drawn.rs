@@ -19,7 +19,7 @@ const DEPTH_MAX: usize = 50;
 /// Most characters of a drawn condition.
 const LENGTH_MAX: usize = 10_000;
 /// Blocks that are operators, and the operator.
-const OPERATORS: [(&str, &str); 14] = [
+pub(super) const OPERATORS: [(&str, &str); 14] = [
     ("AND", "AND"),
     ("OR", "OR"),
     ("XOR", "XOR"),

@@ -8,6 +8,7 @@ mod condition;
 mod diagram;
 mod drawn;
 mod formatted;
+mod il;
 mod macro_step;
 mod network;
 mod reader;
