@@ -188,7 +188,12 @@ impl Judge<'_> {
                 })
             }
             ExpressionKind::Variable(..) | ExpressionKind::Address(_) => self.value(expression),
-            _ => self.truth(expression).map(|value| f64::from(u8::from(value))),
+            ExpressionKind::Bool(value) => Some(f64::from(u8::from(*value))),
+            ExpressionKind::Binary(relation, ..) if relation.is_comparison() => {
+                self.truth(expression).map(|value| f64::from(u8::from(value)))
+            }
+            // Of words AND and its like are words, which values do not tell.
+            _ => None,
         }
     }
 
@@ -223,9 +228,9 @@ impl Judge<'_> {
     }
 }
 
-/// A result that an INT holds: a larger one is another one where it has wrapped around.
+/// A result that INT and UINT hold both: another one may have wrapped around.
 fn held(result: f64) -> Option<f64> {
-    (result.abs() <= f64::from(i16::MAX)).then_some(result)
+    (0.0..=f64::from(i16::MAX)).contains(&result).then_some(result)
 }
 
 fn joined(mut parts: Vec<Missing>, between: &'static str) -> Option<Missing> {

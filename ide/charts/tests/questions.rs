@@ -324,4 +324,5 @@ fn sums_that_can_have_wrapped_around_are_not_judged() {
         answer[0]["isTrue"].as_bool()
     };
     assert_eq!((judge(2767), judge(2768), judge(-30_000)), (Some(true), None, Some(false)));
+    assert_eq!(judge(-30_001), None);
 }

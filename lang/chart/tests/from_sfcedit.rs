@@ -166,6 +166,24 @@ fn signals_stand_for_what_defines_them() {
     assert!(!found.contains("Ready : BOOL"), "{found}");
     let itself = xml.replace("a + <re/>b", "a + Ready");
     assert!(said(&itself)[0].contains("defined by itself"), "{:?}", said(&itself));
+    // Each of them twice the one before, or a long chain.
+    let many = |count: usize, define: &dyn Fn(usize) -> String| {
+        let define = |at: usize| match at {
+            0 => "a".to_owned(),
+            at => define(at),
+        };
+        let one = |at| {
+            let defined = format!("<comment>Ready{at} := {}</comment>", define(at));
+            let condition = format!("<condition>Ready{at}</condition>");
+            format!("<step name=\"Y{at}\"/><transition>{defined}{condition}</transition>")
+        };
+        let more: String = (0..count).map(one).collect();
+        small("", "a", "").replace("<step name=\"X2\"/>", &format!("{more}<step name=\"X2\"/>"))
+    };
+    let doubled = many(40, &|at| format!("Ready{0} . Other + Ready{0} . b", at - 1));
+    assert!(said(&doubled).iter().any(|one| one.contains("too large")), "{:?}", said(&doubled));
+    let chain = many(2_000, &|at| format!("Ready{}", at - 1));
+    assert!(said(&chain).iter().any(|one| one.contains("too large")), "{:?}", said(&chain));
     let plain = xml.replace("<re/>b", "b");
     let found = text(&plain, "Ready,output,BOOL");
     assert!(found.contains("Ready {if a OR b};"), "{found}");

@@ -5,8 +5,16 @@ use diagnostics::Span;
 use st::tree::{Argument, Expression, ExpressionKind, Statement, StatementKind};
 use st::visit;
 
+use crate::addresses::{self, Addresses};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::feedback::Feedback;
+
+/// What it takes to read elements.
+pub(crate) struct Reading<'r, 't> {
+    pub(crate) text: &'t str,
+    pub(crate) addresses: Addresses,
+    pub(crate) feedback: &'r mut Feedback<'t>,
+}
 
 /// A call of a block, or an assignment.
 pub(crate) struct Element {
@@ -22,9 +30,9 @@ pub(crate) struct Element {
 
 /// A variable or an address in an element.
 pub(crate) struct Operand {
-    /// The variable, without what is after its name, or the address; in upper case.
+    /// The address, or the variable without what is after its name; in upper case.
     pub(crate) name: String,
-    /// All of it, in upper case and without blanks.
+    /// All of it, in upper case and without blanks; of a variable with an address that.
     pub(crate) path: String,
     pub(crate) span: Span,
     /// Whether it is read as it was in the scan before.
@@ -34,16 +42,15 @@ pub(crate) struct Operand {
 impl Element {
     /// The element that a statement is.
     pub(crate) fn of(
-        text: &str,
         statement: Statement,
-        feedback: &mut Feedback,
+        reading: &mut Reading,
     ) -> Result<Element, Box<Diagnostic>> {
         let (target, is_call) = match &statement.kind {
             StatementKind::Assign(target, _) => (target.clone(), false),
             StatementKind::Call(target, _) => (target.clone(), true),
             _ => return Err(Box::new(no_element(statement.span))),
         };
-        let name = target.span.text(text).split_whitespace().collect::<Vec<_>>().join(" ");
+        let name = target.span.text(reading.text).split_whitespace().collect::<Vec<_>>().join(" ");
         let mut element = Element {
             name,
             is_call,
@@ -51,57 +58,66 @@ impl Element {
             reads: Vec::new(),
             writes: Vec::new(),
         };
-        element.written(text, &target, feedback);
+        element.written(&target, reading);
         match &statement.kind {
-            StatementKind::Assign(_, value) => element.read(text, value, feedback),
-            StatementKind::Call(_, arguments) => element.arguments(text, arguments, feedback),
+            StatementKind::Assign(_, value) => element.read(value, reading),
+            StatementKind::Call(_, arguments) => element.arguments(arguments, reading),
             _ => {}
         }
         Ok(element)
     }
 
-    fn arguments(&mut self, text: &str, arguments: &[Argument], feedback: &mut Feedback) {
+    fn arguments(&mut self, arguments: &[Argument], reading: &mut Reading) {
         for argument in arguments {
             match argument.is_output {
-                true => self.written(text, &argument.value, feedback),
-                false => self.read(text, &argument.value, feedback),
+                true => self.written(&argument.value, reading),
+                false => self.read(&argument.value, reading),
             }
         }
     }
 
     /// What is written to; the indexes in it are read.
-    fn written(&mut self, text: &str, target: &Expression, feedback: &mut Feedback) {
-        self.writes.extend(operand(text, target));
+    fn written(&mut self, target: &Expression, reading: &mut Reading) {
+        self.writes.extend(reading.operand(target));
         visit::expressions(&mut target.clone(), &mut |one| {
             if one.span != target.span {
-                self.reads.extend(read(text, one, feedback));
+                self.reads.extend(reading.read(one));
             }
             true
         });
     }
 
-    fn read(&mut self, text: &str, value: &Expression, feedback: &mut Feedback) {
+    fn read(&mut self, value: &Expression, reading: &mut Reading) {
         visit::expressions(&mut value.clone(), &mut |one| {
-            self.reads.extend(read(text, one, feedback));
+            self.reads.extend(reading.read(one));
             true
         });
     }
 }
 
-fn read(text: &str, one: &Expression, feedback: &mut Feedback) -> Option<Operand> {
-    let operand = operand(text, one)?;
-    Some(Operand { is_feedback: feedback.take(operand.span), ..operand })
-}
+impl Reading<'_, '_> {
+    fn read(&mut self, one: &Expression) -> Option<Operand> {
+        let operand = self.operand(one)?;
+        Some(Operand { is_feedback: self.feedback.take(operand.span), ..operand })
+    }
 
-fn operand(text: &str, expression: &Expression) -> Option<Operand> {
-    let path: String = expression.span.text(text).split_whitespace().collect();
-    let path = path.to_uppercase();
-    let name = match &expression.kind {
-        ExpressionKind::Variable(name, _) => name.text.to_uppercase(),
-        ExpressionKind::Address(_) => path.clone(),
-        _ => return None,
-    };
-    Some(Operand { name, path, span: expression.span, is_feedback: false })
+    fn operand(&self, expression: &Expression) -> Option<Operand> {
+        let span = expression.span;
+        let (name, path) = match &expression.kind {
+            ExpressionKind::Variable(name, selectors) => {
+                let name = self.addresses.resolve(&name.text);
+                let path: String = span.text(self.text).split_whitespace().collect();
+                let is_whole = selectors.is_empty();
+                (name.clone(), if is_whole { name } else { path.to_uppercase() })
+            }
+            ExpressionKind::Address(address) => {
+                let address = addresses::written(address);
+                (address.clone(), address)
+            }
+            _ => return None,
+        };
+        Some(Operand { name, path, span, is_feedback: false })
+    }
 }
 
 fn no_element(span: Span) -> Diagnostic {

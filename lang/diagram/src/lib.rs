@@ -4,6 +4,7 @@
 //!
 //! `elements` says what a statement reads and writes, `order` which is executed before which.
 
+mod addresses;
 mod connections;
 pub mod diagnostic;
 mod elements;
@@ -14,8 +15,9 @@ use diagnostics::Source;
 use st::lexer::cut;
 use st::tree::{File, Statement, Unit, UnitKind};
 
+use addresses::Addresses;
 pub use diagnostic::{Code, Diagnostic};
-use elements::Element;
+use elements::{Element, Reading};
 use feedback::Feedback;
 
 /// Puts the units of a file, as Structured Text has read it, into the order in which they are
@@ -33,7 +35,13 @@ pub fn arrange(source: &Source, file: &mut File) -> Vec<Diagnostic> {
     found
 }
 
-fn arrange_unit(text: &str, unit: &mut Unit, feedback: &mut Feedback, found: &mut Vec<Diagnostic>) {
+fn arrange_unit<'t>(
+    text: &'t str,
+    unit: &mut Unit,
+    feedback: &mut Feedback<'t>,
+    found: &mut Vec<Diagnostic>,
+) {
+    let mut reading = Reading { text, addresses: Addresses::of(unit), feedback };
     let statements = std::mem::take(&mut unit.body);
     if statements.is_empty() {
         let message = format!("{}: there is nothing in this diagram", unit.name.text);
@@ -42,12 +50,12 @@ fn arrange_unit(text: &str, unit: &mut Unit, feedback: &mut Feedback, found: &mu
     }
     let mut elements = Vec::new();
     for statement in statements {
-        match Element::of(text, statement, feedback) {
+        match Element::of(statement, &mut reading) {
             Ok(element) => elements.push(element),
             Err(wrong) => found.push(*wrong),
         }
     }
-    connections::check(text, unit, &elements, found);
+    connections::check(&reading, unit, &elements, found);
     let order = order::of(&elements, found);
     let mut statements: Vec<Option<Statement>> =
         elements.into_iter().map(|element| Some(element.statement)).collect();

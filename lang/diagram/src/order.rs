@@ -15,19 +15,43 @@ struct After<'e> {
 /// The numbers of the elements in their order. Loops are reported, each once, and opened.
 pub(crate) fn of(elements: &[Element], found: &mut Vec<Diagnostic>) -> Vec<usize> {
     let mut after = links(elements);
-    let mut order = Vec::new();
-    let mut left: BTreeSet<usize> = (0..elements.len()).collect();
-    while let Some(first) = left.first().copied() {
-        let is_ready = |at: &usize| waits_for(&after, &left, *at).next().is_none();
-        if let Some(ready) = left.iter().copied().find(is_ready) {
-            left.remove(&ready);
-            order.push(ready);
-            continue;
+    // How many links each waits for, and who waits for it by how many.
+    let mut open: Vec<usize> = after.iter().map(Vec::len).collect();
+    let mut waiting: Vec<Vec<usize>> = elements.iter().map(|_| Vec::new()).collect();
+    for (at, links) in after.iter().enumerate() {
+        for link in links {
+            waiting.get_mut(link.other).into_iter().for_each(|waiting| waiting.push(at));
         }
-        let closed = loop_from(&after, &left, first);
-        let (opened, link) = report(elements, &after, &closed, found);
-        if let Some(links) = after.get_mut(opened) {
+    }
+    let is_open = |open: &[usize], at: usize| open.get(at).is_some_and(|count| *count > 0);
+    let all = 0..elements.len();
+    let mut ready: BTreeSet<usize> = all.clone().filter(|at| !is_open(&open, *at)).collect();
+    let mut left: BTreeSet<usize> = all.collect();
+    let mut order = Vec::new();
+    while let Some(first) = left.first().copied() {
+        let Some(next) = ready.pop_first() else {
+            let closed = loop_from(&after, &left, first);
+            let (opened, link) = report(elements, &after, &closed, found);
+            let (Some(links), Some(count)) = (after.get_mut(opened), open.get_mut(opened)) else {
+                break;
+            };
+            let before = links.len();
             links.retain(|one| one.other != link);
+            *count = count.saturating_sub(before - links.len());
+            waiting.get_mut(link).into_iter().for_each(|all| all.retain(|one| *one != opened));
+            if *count == 0 {
+                ready.insert(opened);
+            }
+            continue;
+        };
+        left.remove(&next);
+        order.push(next);
+        for at in waiting.get_mut(next).map(std::mem::take).unwrap_or_default() {
+            let Some(count) = open.get_mut(at) else { continue };
+            *count = count.saturating_sub(1);
+            if *count == 0 {
+                ready.insert(at);
+            }
         }
     }
     order

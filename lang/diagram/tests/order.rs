@@ -7,7 +7,12 @@ use st::tree::Unit;
 
 /// What is said about a diagram of these statements, and the statements in their order.
 fn arranged(statements: &[String]) -> (Vec<String>, Vec<String>) {
-    let text = format!("PROGRAM Main\n{}\nEND_PROGRAM\n", statements.join("\n"));
+    arranged_with("", statements)
+}
+
+/// The same with declarations, in the first line.
+fn arranged_with(declared: &str, statements: &[String]) -> (Vec<String>, Vec<String>) {
+    let text = format!("PROGRAM Main {declared}\n{}\nEND_PROGRAM\n", statements.join("\n"));
     let source = Source::new("d.fbd", text.as_str()).expect("a short text");
     let (mut file, found) = st::parser::parse(&source);
     assert!(found.is_empty(), "{text}\n{found:?}");
@@ -72,6 +77,42 @@ fn loops_are_named_once_each_at_the_link_that_leads_back() {
     // One output as it is, the other one as it was.
     let (said, _) = of(&["A(IN := 1);", "x := A.Q + {feedback} A.ET;"]);
     assert_eq!(said, ["E0503 2 `A.ET` a loop: x -> A -> x"]);
+}
+
+#[test]
+fn names_with_an_address_are_that_address() {
+    let declared = "VAR Lamp AT %Q0.0 : BOOL; Other AT %QX0.0 : BOOL; END_VAR";
+    let of = |all: &[&str]| {
+        arranged_with(declared, &all.iter().map(|one| (*one).to_owned()).collect::<Vec<_>>())
+    };
+    let (said, order) = of(&["Copy := %QX0.0;", "Lamp := Button;"]);
+    assert_eq!(said, [""; 0]);
+    assert_eq!(order, ["Lamp := Button", "Copy := %QX0.0"]);
+    let (said, _) = of(&["Lamp := a;", "%Q0.0 := b;", "OTHER := c;"]);
+    assert_eq!(
+        said,
+        [
+            "E0502 2 `%Q0.0` %Q0.0: two elements give it a value",
+            "E0502 3 `OTHER` OTHER: two elements give it a value",
+        ]
+    );
+}
+
+#[test]
+fn inputs_of_a_block_are_given_in_its_call() {
+    let (said, _) = of(&["fb.IN := x;", "Fb();", "y := Fb.Q;"]);
+    let wanted = "E0502 1 `fb.IN` fb.IN: its block is called, and that is what gives it a value";
+    assert_eq!(said, [wanted]);
+}
+
+#[test]
+fn large_diagrams_the_other_way_round_are_ordered() {
+    let count = 20_000;
+    let one = |at: usize| format!("a{} := a{at};", at + 1);
+    let statements: Vec<String> = (0..count).rev().map(one).collect();
+    let (said, order) = arranged(&statements);
+    assert_eq!((said.len(), order.len()), (0, count));
+    assert_eq!((&order[0][..], &order[count - 1][..]), ("a1 := a0", "a20000 := a19999"));
 }
 
 #[test]

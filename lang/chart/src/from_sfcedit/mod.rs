@@ -42,7 +42,7 @@ pub fn program(project: &Project, table: &Table) -> Program {
         return Program { text: Traced::default(), diagnostics };
     };
     let mut names = Names::of(&plan);
-    names.circles(first.name.span, &mut diagnostics);
+    names.check_signals(first.name.span, &mut diagnostics);
     if has_errors(&diagnostics) {
         return Program { text: Traced::default(), diagnostics };
     }

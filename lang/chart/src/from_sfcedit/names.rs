@@ -14,6 +14,9 @@ use crate::set_reset::variables::Kind;
 use crate::sfcedit::condition::{Condition, Edges};
 use crate::text;
 
+/// Variables and signals that can stand for a signal.
+const SIGNAL_MAX: usize = 1_000;
+
 /// The names of a program.
 pub(super) struct Names<'p> {
     plan: &'p Plan,
@@ -107,23 +110,65 @@ impl<'p> Names<'p> {
         signals.any(|signal| self.variable(signal) == name && is_signal(signal))
     }
 
-    /// Reports signals that are defined by themselves.
-    pub(super) fn circles(&self, at: Span, found: &mut Vec<Diagnostic>) {
-        for (signal, condition) in &self.plan.derived {
-            let mut open = vec![condition];
-            let mut seen: HashSet<&str> = HashSet::new();
-            while let Some(one) = open.pop() {
-                let mut names = Vec::new();
-                one.visit(&mut |name, _| names.push(name.to_owned()));
-                let defined = self.plan.derived.iter().filter(|(name, _)| names.contains(name));
-                open.extend(defined.filter(|(name, _)| seen.insert(name)).map(|(_, one)| one));
-            }
-            if seen.contains(signal.as_str()) {
+    /// Reports a signal that cannot be replaced by what defines it: by itself, or by too much.
+    pub(super) fn check_signals(&self, at: Span, found: &mut Vec<Diagnostic>) {
+        let sizes = self.sizes();
+        let is_small = |signal: &str| sizes.get(signal).is_some_and(|size| *size <= SIGNAL_MAX);
+        let mut signals = self.plan.derived.iter().map(|(signal, _)| signal.as_str());
+        let Some(signal) = signals.find(|signal| !is_small(signal)) else { return };
+        let one = match self.circle(signal, &sizes) {
+            Some(signal) => {
                 let message = format!("{signal}: the signal is defined by itself");
                 let help = "in a GRAFCET it stands for what the comment says: let a step hold it";
-                found.push(Diagnostic::new(Code::NotInStyle, at, message).help(help));
+                Diagnostic::new(Code::NotInStyle, at, message).help(help)
+            }
+            None => {
+                let message = format!("{signal}: what defines this signal is too large");
+                Diagnostic::new(Code::NotInStyle, at, message).help("let a step hold a part of it")
+            }
+        };
+        found.push(one);
+    }
+
+    /// How many variables and signals stand for a signal, once all in it are replaced; of those in
+    /// circles, and those that go too deep, nothing.
+    fn sizes(&self) -> HashMap<&str, usize> {
+        let signals: HashSet<&str> = self.plan.derived.iter().map(|(name, _)| &name[..]).collect();
+        let mut sizes: HashMap<&str, usize> = HashMap::new();
+        // Each time those become known whose signals are.
+        for _ in 0..SIGNAL_MAX {
+            let before = sizes.len();
+            for (signal, condition) in &self.plan.derived {
+                let mut size = Some(1usize);
+                condition.visit(&mut |name, _| {
+                    let of_name = match signals.contains(name) {
+                        true => sizes.get(name).copied(),
+                        false => Some(1),
+                    };
+                    size = size.zip(of_name).map(|(all, one)| all.saturating_add(one));
+                });
+                sizes.extend(size.map(|size| (&signal[..], size)));
+            }
+            if sizes.len() == before {
+                break;
             }
         }
+        sizes
+    }
+
+    /// A signal in a circle, looked for from one whose size is not known.
+    fn circle<'n>(&'n self, signal: &'n str, sizes: &HashMap<&str, usize>) -> Option<&'n str> {
+        let mut way = HashSet::new();
+        let mut signal = signal;
+        while way.insert(signal) {
+            let condition = self.definition(signal)?;
+            let mut names = Vec::new();
+            condition.visit(&mut |name, _| names.push(name.to_owned()));
+            let mut open = self.plan.derived.iter().map(|(name, _)| name.as_str());
+            signal =
+                open.find(|name| !sizes.contains_key(name) && names.iter().any(|one| one == name))?;
+        }
+        Some(signal)
     }
 
     /// A condition as the program writes it.

@@ -1,7 +1,8 @@
 //! Circles of a GRAFCET in which each condition is TRUE whenever the first one is: from then on the
 //! situation is not stable. Conditions that can, but need not be TRUE together are left alone, as
 //! those of sensors are that never come together; so are circles in which something can change the
-//! conditions: steps, times, edges, calls, and variables that actions write.
+//! conditions: steps, times, edges, calls, and variables that actions write; nothing is said where one writes
+//! an address.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
@@ -35,8 +36,11 @@ pub(super) fn check(text: &str, parsed: &Parsed, found: &mut Vec<Diagnostic>) {
     }
     let hierarchy = Hierarchy::of(parsed.chart);
     let members = parsed.with_inner();
-    let written = written(&members);
-    let edges = edges(&hierarchy, &members, &written);
+    let touched = touched(&members);
+    if touched.writes_address {
+        return;
+    }
+    let edges = edges(&hierarchy, &members, &touched.written);
     let mut leaving: BTreeMap<Key, Vec<&Edge>> = BTreeMap::new();
     edges.iter().for_each(|edge| leaving.entry(edge.from).or_default().push(edge));
     let mut told: HashSet<BTreeSet<(usize, TransitionId)>> = HashSet::new();
@@ -48,8 +52,8 @@ pub(super) fn check(text: &str, parsed: &Parsed, found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// The variables that actions write. Of a step that is written, and so on, others report.
-fn written(members: &[&Parsed]) -> HashSet<String> {
+/// What actions write. Of a step that is written, and so on, others report.
+fn touched(members: &[&Parsed]) -> Touched {
     let mut touched = Touched::default();
     for member in members {
         member.bodies.values().for_each(|body| touched.statements(body));
@@ -58,7 +62,7 @@ fn written(members: &[&Parsed]) -> HashSet<String> {
         let variables = actions.filter(|one| one.body == Body::Variable);
         touched.written.extend(variables.map(|one| one.name.to_uppercase()));
     }
-    touched.written
+    touched
 }
 
 fn edges<'e>(

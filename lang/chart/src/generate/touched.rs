@@ -10,6 +10,8 @@ use st::visit;
 pub(super) struct Touched {
     pub(super) read: HashSet<String>,
     pub(super) written: HashSet<String>,
+    /// Whether an address is written by itself, which can be that of any variable with one.
+    pub(super) writes_address: bool,
 }
 
 /// The variable that an expression is, or is a part of.
@@ -54,6 +56,7 @@ impl Touched {
     /// What is written; the indexes in it are read.
     fn target(&mut self, to: &Expression) {
         self.written.extend(variable(to));
+        self.writes_address |= matches!(to.kind, ExpressionKind::Address(_));
         let name = variable(to);
         visit::expressions(&mut to.clone(), &mut |one| {
             self.read.extend(variable(one).filter(|_| variable(one) != name));
