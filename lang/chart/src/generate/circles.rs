@@ -1,8 +1,8 @@
 //! Circles of a GRAFCET in which each condition is TRUE whenever the first one is: from then on the
 //! situation is not stable. Conditions that can, but need not be TRUE together are left alone, as
 //! those of sensors are that never come together; so are circles in which something can change the
-//! conditions: steps, times, edges, calls, and variables that actions write; nothing is said where one writes
-//! an address.
+//! conditions: steps, times, edges, calls, and variables that actions write. Nothing is said where
+//! an action writes an address.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
