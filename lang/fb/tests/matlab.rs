@@ -235,6 +235,16 @@ fn what_people_write_in_matlab_means_the_same_in_st() {
 }
 
 #[test]
+fn endless_loops_in_each_other_are_read_once() {
+    let depth = 40;
+    let loops = format!("{}break\n{}", "while true\n".repeat(depth), "end\n".repeat(depth));
+    let matlab = written(&small("n := 1;", "flag")).replace("\nn = 1;\n", &format!("\n{loops}"));
+    let text = &read(&matlab).algorithms[0].text.text;
+    assert_eq!(text.matches("WHILE TRUE DO\n").count(), depth, "{text}");
+    assert_eq!(text.matches("END_WHILE;").count(), depth, "{text}");
+}
+
+#[test]
 fn a_quotient_that_matlab_does_not_cut_is_told() {
     let matlab = written(&small("n := 1;", "flag"));
     for (statement, is_told) in [
@@ -244,6 +254,9 @@ fn a_quotient_that_matlab_does_not_cut_is_told() {
         ("r = n / 2.0;", false),
         ("n = fix(n / 2);", false),
         ("r = DINT_TO_REAL(d) / n;", false),
+        ("while true\nn = n / 2;\nend", true),
+        ("while true\nif n / 2 > 1, n = 0; end\nend", true),
+        ("while true\nn = 0;\nif n / 2 > 1, break; end\nend", true),
     ] {
         let text = matlab.replace("case 1 % L\nn = 1;\n", &format!("case 1 % L\n{statement}\n"));
         let expected = [("W0402", "/".to_owned())];
