@@ -226,6 +226,12 @@ fn what_people_write_in_matlab_means_the_same_in_st() {
         ("d = int32(r); n = n; % here", "d := REAL_TO_DINT(r); n := n; // here"),
         ("r = fix(r / 2);", "r := TRUNC(r / 2);"),
         ("d = idivide(d, n, 'fix');", "d := d / n;"),
+        ("d = int32(n) * int32(n);", "d := INT_TO_DINT(n) * n;"),
+        ("d = int32(n) + -int32(s) * 200;", "d := n + SINT_TO_DINT(-s) * 200;"),
+        ("d = d - int32(n) * d + int32(n) / int32(s);", "d := d - n * d + n / s;"),
+        ("d = 200 - (int32(n));", "d := 200 - INT_TO_DINT((n));"),
+        ("r = double(d) * double(d) + r;", "r := DINT_TO_REAL(d) * d + r;"),
+        ("n = double(n) * double(n);", "n := n * n;"),
     ];
     let matlab = written(&small("n := 1;", "flag"));
     for (of_matlab, of_st) in cases {
