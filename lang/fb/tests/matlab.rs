@@ -226,6 +226,8 @@ fn what_people_write_in_matlab_means_the_same_in_st() {
         ("d = int32(r); n = n; % here", "d := REAL_TO_DINT(r); n := n; // here"),
         ("r = fix(r / 2);", "r := TRUNC(r / 2);"),
         ("d = idivide(d, n, 'fix');", "d := d / n;"),
+        ("if flag & n > 1, n = 1; end", "IF flag AND n > 1 THEN n := 1; END_IF;"),
+        ("flag = flag | flag && n == 1 | flag;", "flag := (flag OR flag) AND (n = 1 OR flag);"),
         ("d = int32(n) * int32(n);", "d := INT_TO_DINT(n) * n;"),
         ("d = int32(n) + -int32(s) * 200;", "d := n + SINT_TO_DINT(-s) * 200;"),
         ("d = d - int32(n) * d + int32(n) / int32(s);", "d := d - n * d + n / s;"),
