@@ -228,6 +228,10 @@ fn what_people_write_in_matlab_means_the_same_in_st() {
         ("d = idivide(d, n, 'fix');", "d := d / n;"),
         ("if flag & n > 1, n = 1; end", "IF flag AND n > 1 THEN n := 1; END_IF;"),
         ("flag = flag | flag && n == 1 | flag;", "flag := (flag OR flag) AND (n = 1 OR flag);"),
+        (
+            "switch n, case {9223372036854775807,1,2}, n = 1; end",
+            "CASE n OF 9223372036854775807, 1..2: n := 1; END_CASE;",
+        ),
         ("d = int32(n) * int32(n);", "d := INT_TO_DINT(n) * n;"),
         ("d = int32(n) + -int32(s) * 200;", "d := n + SINT_TO_DINT(-s) * 200;"),
         ("d = d - int32(n) * d + int32(n) / int32(s);", "d := d - n * d + n / s;"),

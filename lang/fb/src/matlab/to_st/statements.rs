@@ -164,7 +164,7 @@ impl Translator<'_> {
             self.gap(false);
             let value = self.label()?;
             match ranges.last_mut() {
-                Some((_, last)) if is_range && *last + 1 == value => *last = value,
+                Some((_, last)) if is_range && last.checked_add(1) == Some(value) => *last = value,
                 _ => ranges.push((value, value)),
             }
             self.gap(false);
