@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use diagnostics::Span;
 use st::names::safe_name;
 
+use crate::generate::state_name;
 use crate::interpreter::{Interpreter, Value};
 use crate::model::{Block, Event, Primitive, Sequence, Text, Transaction};
 use crate::parsed::Parsed;
@@ -83,7 +84,7 @@ pub fn scenario(block: &Block, sequence: &Sequence) -> Outcome<String> {
     let mut text = format!("# Service sequence {}\nscan 10ms\n", sequence.name.text);
     let mut now = 0;
     if let Some(state) = start(block, sequence)? {
-        let _ = writeln!(text, "at {now}ms State = {state}");
+        let _ = writeln!(text, "at {now}ms {} = {state}", state_name(block));
     }
     for step in steps(block, sequence)? {
         let shown =

@@ -106,8 +106,7 @@ impl<'b> Session<'b> {
 
     /// Executes a line.
     pub fn obey(&mut self, line: &str) -> Outcome<Done> {
-        let code = line.split('#').next().unwrap_or("");
-        let line = Part { text: code, start: 0 }.trimmed();
+        let line = Part { text: without_comment(line), start: 0 }.trimmed();
         let end = line.text.find(char::is_whitespace).unwrap_or(line.text.len());
         let (word, rest) = line.split(end, 0);
         if rest.text.starts_with('=') || line.text.contains('=') && word.text.contains('=') {
@@ -321,6 +320,14 @@ impl<'b> Session<'b> {
         }
         lines.join("\n")
     }
+}
+
+/// A line up to a `#` that is the first character or after a blank: others belong to values such as
+/// `16#FF` and `T#5s`.
+fn without_comment(line: &str) -> &str {
+    let mut signs = line.match_indices('#').map(|(at, _)| line.get(..at).unwrap_or(""));
+    let code = signs.find(|code| code.is_empty() || code.ends_with(char::is_whitespace));
+    code.unwrap_or(line)
 }
 
 /// Whether two values are the same: of REAL as far as six digits.

@@ -226,12 +226,34 @@ fn what_people_write_in_matlab_means_the_same_in_st() {
         ("d = int32(r); n = n; % here", "d := REAL_TO_DINT(r); n := n; // here"),
         ("r = fix(r / 2);", "r := TRUNC(r / 2);"),
         ("d = idivide(d, n, 'fix');", "d := d / n;"),
+        ("if flag & n > 1, n = 1; end", "IF flag AND n > 1 THEN n := 1; END_IF;"),
+        ("flag = flag | flag && n == 1 | flag;", "flag := (flag OR flag) AND (n = 1 OR flag);"),
+        (
+            "switch n, case {9223372036854775807,1,2}, n = 1; end",
+            "CASE n OF 9223372036854775807, 1..2: n := 1; END_CASE;",
+        ),
+        ("d = int32(n) * int32(n);", "d := INT_TO_DINT(n) * n;"),
+        ("d = int32(n) + -int32(s) * 200;", "d := n + SINT_TO_DINT(-s) * 200;"),
+        ("d = d - int32(n) * d + int32(n) / int32(s);", "d := d - n * d + n / s;"),
+        ("d = 200 - (int32(n));", "d := 200 - INT_TO_DINT((n));"),
+        ("r = double(d) * double(d) + r;", "r := DINT_TO_REAL(d) * d + r;"),
+        ("n = double(n) * double(n);", "n := n * n;"),
     ];
     let matlab = written(&small("n := 1;", "flag"));
     for (of_matlab, of_st) in cases {
         let text = matlab.replace("case 1 % L\nn = 1;\n", &format!("case 1 % L\n{of_matlab}\n"));
         assert_eq!(read(&text).algorithms[0].text.text.trim_end(), of_st);
     }
+}
+
+#[test]
+fn endless_loops_in_each_other_are_read_once() {
+    let depth = 40;
+    let loops = format!("{}break\n{}", "while true\n".repeat(depth), "end\n".repeat(depth));
+    let matlab = written(&small("n := 1;", "flag")).replace("\nn = 1;\n", &format!("\n{loops}"));
+    let text = &read(&matlab).algorithms[0].text.text;
+    assert_eq!(text.matches("WHILE TRUE DO\n").count(), depth, "{text}");
+    assert_eq!(text.matches("END_WHILE;").count(), depth, "{text}");
 }
 
 #[test]
@@ -244,6 +266,9 @@ fn a_quotient_that_matlab_does_not_cut_is_told() {
         ("r = n / 2.0;", false),
         ("n = fix(n / 2);", false),
         ("r = DINT_TO_REAL(d) / n;", false),
+        ("while true\nn = n / 2;\nend", true),
+        ("while true\nif n / 2 > 1, n = 0; end\nend", true),
+        ("while true\nn = 0;\nif n / 2 > 1, break; end\nend", true),
     ] {
         let text = matlab.replace("case 1 % L\nn = 1;\n", &format!("case 1 % L\n{statement}\n"));
         let expected = [("W0402", "/".to_owned())];

@@ -104,3 +104,13 @@ fn sequences_hold_in_the_simulator() {
     assert_eq!(failures.len(), 1, "{failures:?}");
     assert!(failures[0].contains("CV"), "{failures:?}");
 }
+
+#[test]
+fn the_state_in_which_a_sequence_starts_has_its_own_name() {
+    let variable = "<InternalVars><VarDeclaration Name=\"State\" Type=\"INT\"/></InternalVars>";
+    let (block, _) = read(&COUNTER.replace("<BasicFB>", &format!("<BasicFB>{variable}")));
+    assert_eq!(failures(&block, 1), Vec::<String>::new());
+    let sequence = &block.service.as_ref().expect("sequences").sequences[1];
+    let text = service::scenario(&block, sequence).expect("names that are known");
+    assert!(text.contains("at 0ms State_ = 1\n"), "{text}");
+}

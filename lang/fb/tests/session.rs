@@ -61,6 +61,29 @@ fn of_several_events_one_is_used() {
 }
 
 #[test]
+fn a_sign_in_a_value_begins_no_comment() {
+    let text = RAMP.replace("Name=\"Duration\" Type=\"DINT\"", "Name=\"Duration\" Type=\"TIME\"");
+    assert_ne!(text, RAMP);
+    let (block, parsed) = read(&text);
+    let mut session = Session::new(&block, &parsed).expect("a sound block");
+    for (line, text) in [
+        ("# X9 = 1", ""),
+        ("Cycle = 16#FF, Duration = T#5s # Cycle = 1", ""),
+        ("expect Cycle = 255, Duration = T#5000ms", ""),
+        ("expect Cycle = 16#FF, Duration = T#5s\t#16", ""),
+        ("Cycle = DINT#5", ""),
+        ("expect Cycle = DINT#5", ""),
+    ] {
+        let message = match session.obey(line) {
+            Ok(Done::Said(text)) => text,
+            Err(mistake) => mistake.message,
+            other => panic!("{line}: {other:?}"),
+        };
+        assert_eq!(message, text, "{line}");
+    }
+}
+
+#[test]
 fn mistakes_are_told_at_their_places() {
     let (block, parsed) = read(RAMP);
     let mut session = Session::new(&block, &parsed).expect("a sound block");

@@ -80,6 +80,11 @@ fn write(block: &Block, parsed: &Parsed, source: &Source, form: Form) -> Out {
     generator.out
 }
 
+/// The name of the number of the state in the program that a block is.
+pub(crate) fn state_name(block: &Block) -> String {
+    Names::of(block).state
+}
+
 /// Names of what a block has not itself.
 struct Names {
     state: String,

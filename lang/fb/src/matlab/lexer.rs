@@ -28,9 +28,9 @@ pub(super) struct Token {
 }
 
 /// Longest first.
-const SIGNS: [&str; 28] = [
+const SIGNS: [&str; 30] = [
     "==", "~=", "!=", "<=", ">=", "&&", "||", ".*", "./", ".^", "(", ")", "[", "]", "{", "}", ",",
-    ";", ":", "=", "<", ">", "+", "-", "*", "/", "^", "~",
+    ";", ":", "=", "<", ">", "+", "-", "*", "/", "^", "~", "&", "|",
 ];
 
 /// The tokens of a part of a text; the last one is the end.

@@ -117,9 +117,9 @@ impl Translator<'_> {
 
     fn number(&mut self, expression: &Expression, value: i64, around: u8) {
         let span = expression.span;
-        let token = self.tokens.iter().copied().find(|token| {
-            token.span.start >= span.start && matches!(token.kind, Kind::Integer | Kind::Prefixed)
-        });
+        let token = self
+            .tokens_from(span.start)
+            .find(|token| matches!(token.kind, Kind::Integer | Kind::Prefixed));
         self.replace(token, &value.unsigned_abs().to_string());
         if span.text(self.text).starts_with('-') {
             self.brackets(expression, UNARY, around);
@@ -136,9 +136,8 @@ impl Translator<'_> {
             let help = "leave the type out: it follows from what it is used for";
             return self.problem(expression.span, "MATLAB has no literal of this type", help);
         };
-        let token = self.tokens.iter().copied().find(|token| {
-            token.span.start >= expression.span.start && token.kind == Kind::Prefixed
-        });
+        let start = expression.span.start;
+        let token = self.tokens_from(start).find(|token| token.kind == Kind::Prefixed);
         self.replace(token, &format!("cast({number}, '{}')", class(of)));
     }
 

@@ -110,16 +110,22 @@ impl<'b> Translator<'b> {
         self.out.problems.push(Problem { span, message, help, is_warning: true });
     }
 
+    /// The tokens at or after a place.
+    fn tokens_from(&self, place: u32) -> impl Iterator<Item = Token> {
+        let first = self.tokens.partition_point(|token| token.span.start < place);
+        self.tokens.iter().skip(first).copied()
+    }
+
     /// The first token at or after a place.
     fn token_at(&self, place: u32) -> Option<Token> {
-        self.tokens.iter().copied().find(|token| token.span.start >= place)
+        self.tokens_from(place).next()
     }
 
     /// The first of these words at or after a place.
     fn word_at(&self, place: u32, words: &[&str]) -> Option<Token> {
-        self.tokens.iter().copied().find(|token| {
+        self.tokens_from(place).find(|token| {
             let written = token.span.text(self.text);
-            token.span.start >= place && words.iter().any(|word| word.eq_ignore_ascii_case(written))
+            words.iter().any(|word| word.eq_ignore_ascii_case(written))
         })
     }
 

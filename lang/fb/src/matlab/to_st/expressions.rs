@@ -6,6 +6,7 @@ use st::tree::BinaryOperator;
 
 use super::{Outcome, Translator, Wrong};
 use crate::data_type::DataType;
+use crate::interpreter::range;
 use crate::matlab::functions;
 use crate::matlab::lexer::Kind;
 use crate::matlab::to_matlab::common;
@@ -22,13 +23,16 @@ pub(in crate::matlab) struct Phrase {
     of: Option<DataType>,
     /// The type that its text has in ST, without the class that MATLAB wants.
     own: Option<DataType>,
+    /// The type that MATLAB makes of it, where that has more values than its own.
+    lost: Option<DataType>,
     /// It divides what are whole numbers in ST.
     is_whole_division: bool,
 }
 
 impl Phrase {
     fn whole(gap: String, text: impl Into<String>, of: Option<DataType>) -> Phrase {
-        Phrase { gap, text: text.into(), level: WHOLE, of, own: of, is_whole_division: false }
+        let text = text.into();
+        Phrase { gap, text, level: WHOLE, of, own: of, lost: None, is_whole_division: false }
     }
 
     /// As it stands.
@@ -47,10 +51,45 @@ impl Phrase {
     fn is_real(&self) -> bool {
         self.of.is_some_and(is_real)
     }
+
+    /// With a conversion to the type that it lost, for an operation that is done in another one.
+    fn kept(self, operation: Option<DataType>) -> Phrase {
+        let Some((own, to)) = self.own.zip(self.lost) else { return self };
+        if operation.is_some_and(|of| !is_wider(to, of)) {
+            return self;
+        }
+        let text = format!("{}_TO_{}({})", own.name(), to.name(), self.text);
+        Phrase::whole(self.gap, text, Some(to))
+    }
+}
+
+/// Whether a type has all values of another and more.
+fn is_wider(one: DataType, other: DataType) -> bool {
+    match (range(one), range(other)) {
+        (None, Some(_)) => is_real(one),
+        (Some((low, high)), Some((least, most))) => {
+            low <= least && most <= high && (low, high) != (least, most)
+        }
+        _ => false,
+    }
+}
+
+/// Two operands, one of them converted where ST would do the operation in a type with fewer values
+/// than MATLAB. A quotient has no more values than what is divided.
+fn in_their_class(left: Phrase, operator: BinaryOperator, right: Phrase) -> (Phrase, Phrase) {
+    use BinaryOperator::{Add, Multiply, Subtract};
+    if !matches!(operator, Add | Subtract | Multiply) {
+        return (left, right);
+    }
+    let operation = common(left.own, right.own);
+    let left = left.kept(operation);
+    let operation = common(left.own, right.own);
+    (left, right.kept(operation))
 }
 
 /// Two operands with an operator of ST between them. `gap`: what is before the operator.
 fn joined(left: Phrase, gap: &str, operator: BinaryOperator, right: Phrase) -> Phrase {
+    let (left, right) = in_their_class(left, operator, right);
     let level = level(operator);
     let typed = |left, right| match operator {
         BinaryOperator::Power => Some(DataType::Real),
@@ -66,7 +105,7 @@ fn joined(left: Phrase, gap: &str, operator: BinaryOperator, right: Phrase) -> P
     let gap = if gap.is_empty() { needed } else { gap };
     let between = if between.is_empty() { needed.to_owned() } else { between };
     let text = format!("{left}{gap}{word}{between}{right}");
-    Phrase { gap: before, text, level, of, own, is_whole_division: false }
+    Phrase { gap: before, text, level, of, own, lost: None, is_whole_division: false }
 }
 
 impl Translator<'_> {
@@ -127,11 +166,11 @@ impl Translator<'_> {
         };
         self.step();
         let operand = self.deeper(Self::unary)?;
-        let (of, own) = (operand.of, operand.own);
+        let (of, own, lost) = (operand.of, operand.own, operand.lost);
         let (between, text) = operand.within(UNARY);
         let between = if between.is_empty() && word == "NOT" { " ".to_owned() } else { between };
         let text = format!("{word}{between}{text}");
-        Ok(Phrase { gap, text, level: UNARY, of, own, is_whole_division: false })
+        Ok(Phrase { gap, text, level: UNARY, of, own, lost, is_whole_division: false })
     }
 
     fn power(&mut self) -> Outcome<Phrase> {
@@ -333,19 +372,18 @@ fn alone(name: &str, value: Phrase) -> Option<Phrase> {
     if name == "bitcmp" {
         let of = value.of.filter(|of| is_bits(*of));
         let (gap, text) = value.within(UNARY);
-        let (gap, text) = (String::new(), format!("NOT {gap}{text}"));
-        return Some(Phrase { gap, text, level: UNARY, of, own: of, is_whole_division: false });
+        let whole = Phrase::whole(String::new(), format!("NOT {gap}{text}"), of);
+        return Some(Phrase { level: UNARY, ..whole });
     }
     let to = type_of_class(name)?;
     if value.is_real() && !is_real(to) {
         let text = format!("REAL_TO_{}({})", to.name(), value.text());
         return Some(Phrase::whole(String::new(), text, Some(to)));
     }
-    // What is written around it is for the class alone.
-    let of = match (value.of, is_real(to)) {
-        (_, true) => Some(DataType::Real),
-        (Some(of), false) => Some(of),
-        (None, false) => Some(to),
-    };
-    Some(Phrase { of, is_whole_division: false, ..value })
+    // What is written around it is for the class alone, but where ST computes with too few values.
+    let to = if is_real(to) { DataType::Real } else { to };
+    let of = if is_real(to) { Some(to) } else { value.of.or(Some(to)) };
+    let is_lost = |own: DataType| class(own) != class(to) && is_wider(to, own);
+    let lost = value.own.filter(|own| is_lost(*own)).map(|_| to);
+    Some(Phrase { of, lost, is_whole_division: false, ..value })
 }

@@ -164,7 +164,7 @@ impl Translator<'_> {
             self.gap(false);
             let value = self.label()?;
             match ranges.last_mut() {
-                Some((_, last)) if is_range && *last + 1 == value => *last = value,
+                Some((_, last)) if is_range && last.checked_add(1) == Some(value) => *last = value,
                 _ => ranges.push((value, value)),
             }
             self.gap(false);
@@ -196,51 +196,54 @@ impl Translator<'_> {
     fn while_loop(&mut self) -> Outcome<String> {
         self.step();
         let before = self.at;
-        self.gap(false);
+        let gap = self.gap(false);
         if self.is_word("true") {
             self.step();
             if matches!(self.token().kind, Kind::Newline | Kind::Sign(",") | Kind::Comment) {
-                let start = self.at;
-                if let Some(text) = self.repeat()? {
-                    return Ok(text);
-                }
-                self.at = start;
+                return self.while_true(&gap);
             }
-            self.at = before;
         }
+        self.at = before;
         let condition = self.expression()?.text();
         let body = self.statements(&["end"])?;
         self.step();
         self.ended(format!("WHILE{condition} DO{body}END_WHILE"))
     }
 
-    /// A loop whose last statement is `if condition, break; end`; `None`: it is none.
-    fn repeat(&mut self) -> Outcome<Option<String>> {
-        let mut text = "REPEAT".to_owned();
+    /// The rest of `while true`: a REPEAT if the last statement is `if condition, break; end`.
+    fn while_true(&mut self, gap: &str) -> Outcome<String> {
+        let mut body = String::new();
         loop {
-            text.push_str(&self.gap(true));
-            if self.is_word("end") || self.token().kind == Kind::End {
-                return Ok(None);
+            body.push_str(&self.gap(true));
+            if self.token().kind == Kind::End {
+                return self.expected("`end`");
             }
-            if self.is_word("if") {
-                let before = self.at;
-                if let Some(condition) = self.until()? {
-                    return self.ended(format!("{text}UNTIL{condition} END_REPEAT")).map(Some);
-                }
-                self.at = before;
+            if self.is_word("end") {
+                self.step();
+                return self.ended(format!("WHILE{gap}TRUE DO{body}END_WHILE"));
+            }
+            if let Some(condition) = self.until()? {
+                return self.ended(format!("REPEAT{body}UNTIL{condition} END_REPEAT"));
             }
             let statement = self.deeper(Self::statement)?;
-            text.push_str(&statement);
+            body.push_str(&statement);
         }
     }
 
-    /// `if condition, break; end` and the end of the loop.
+    /// `if condition, break; end` and the end of the loop; `None`: something else, of which nothing
+    /// is taken.
     fn until(&mut self) -> Outcome<Option<String>> {
+        if !self.is_word("if") {
+            return Ok(None);
+        }
+        let (before, told) = (self.at, self.differs.len());
         self.step();
         let condition = self.expression()?.text();
         for word in ["break", "end", "end"] {
             self.gap(true);
             if !self.is_word(word) {
+                self.at = before;
+                self.differs.truncate(told);
                 return Ok(None);
             }
             self.step();
