@@ -112,11 +112,11 @@ pub(super) fn instance<'a, 'i>(
 struct Drawing<'r, 'f, 'a, 'i> {
     reader: &'r mut Reader<'f>,
     network: &'r Network<'a, 'i>,
-    /// What elements give to those after them; `None`: that has been reported, or is asked for
-    /// right now.
-    known: HashMap<Node<'a, 'i>, Option<String>>,
+    /// What elements give to those after them, at ENO or elsewhere; `None`: that has been
+    /// reported, or is asked for right now.
+    known: HashMap<(Node<'a, 'i>, bool), Option<String>>,
     /// Those that are asked for right now.
-    open: Vec<Node<'a, 'i>>,
+    open: Vec<(Node<'a, 'i>, bool)>,
     /// Function blocks that are asked for.
     blocks: Vec<Node<'a, 'i>>,
     /// Whether the first function may have EN, and what that gets.
@@ -138,8 +138,7 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
             let from = self.network.from(self.reader, line, to);
             all.push(from.and_then(|node| match optional(node, "instanceName") {
                 Some(instance) => self.output(node, &instance, &line.output),
-                None if line.output == "ENO" => self.enabled(node),
-                None => self.value(node, to),
+                None => self.value(node, line.output == "ENO", to),
             }));
         }
         let all = all.into_iter().collect::<Option<Vec<String>>>()?;
@@ -150,22 +149,23 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
         })
     }
 
-    /// What an element gives to those after it.
-    fn value(&mut self, node: Node<'a, 'i>, to: Node<'a, 'i>) -> Option<String> {
-        if self.open.contains(&node) {
+    /// What an element gives to those after it, at ENO or elsewhere.
+    fn value(&mut self, node: Node<'a, 'i>, is_eno: bool, to: Node<'a, 'i>) -> Option<String> {
+        let asked = (node, is_eno);
+        if self.open.contains(&asked) {
             let message = format!("{}: what it asks for depends on itself", title(node));
             let help = "a line leads back to it: a variable that the program writes keeps a value";
             self.refuse(node, message, help);
             return None;
         }
-        if let Some(known) = self.known.get(&node) {
+        if let Some(known) = self.known.get(&asked) {
             return known.clone();
         }
         let is_deep = self.open.len() >= DEPTH_MAX;
         let mut found = None;
         if !is_deep {
-            self.open.push(node);
-            found = self.read(node);
+            self.open.push(asked);
+            found = if is_eno { self.enabled(node) } else { self.read(node) };
             self.open.pop();
         }
         if is_deep || found.as_ref().is_some_and(|text| text.len() >= LENGTH_MAX) {
@@ -174,7 +174,7 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
             self.refuse(node, message, help);
             found = None;
         }
-        self.known.insert(node, found.clone());
+        self.known.insert(asked, found.clone());
         found
     }
 
@@ -235,22 +235,26 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
     fn inputs(&mut self, node: Node<'a, 'i>) -> Option<Vec<(String, String)>> {
         let mut inputs = Vec::new();
         for input in child(node, "inputVariables").into_iter().flat_map(elements) {
-            let point = child(input, "connectionPointIn");
-            let lines = point.map(|point| lines_of(point)).unwrap_or_default();
-            // Some tools write what comes in without a line.
-            let written = point.and_then(|point| child(point, "expression"));
             let name = optional(input, "formalParameter");
-            let text = match written {
-                Some(written) => Some(formatted(written).text),
-                None => self.lines(node, &lines),
-            };
-            let text = text.map(|text| match is_true(input, "negated") {
-                true if !text.is_empty() => format!("NOT ({text})"),
-                _ => text,
-            });
+            let text = self.input(node, input);
             inputs.push((name.map_or_else(String::new, |name| name.text), text));
         }
         inputs.into_iter().map(|(name, text)| Some((name, text?))).collect()
+    }
+
+    /// What an input of a block gets; empty, if it is not connected.
+    fn input(&mut self, node: Node<'a, 'i>, input: Node<'a, 'i>) -> Option<String> {
+        let point = child(input, "connectionPointIn");
+        let lines = point.map(|point| lines_of(point)).unwrap_or_default();
+        // Some tools write what comes in without a line.
+        let text = match point.and_then(|point| child(point, "expression")) {
+            Some(written) => formatted(written).text,
+            None => self.lines(node, &lines)?,
+        };
+        Some(match is_true(input, "negated") {
+            true if !text.is_empty() => format!("NOT ({text})"),
+            _ => text,
+        })
     }
 
     /// Reports an element, once.
@@ -297,9 +301,14 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
 
     /// ENO of a function is what EN gets.
     fn enabled(&mut self, node: Node<'a, 'i>) -> Option<String> {
-        let inputs = self.inputs(node)?;
-        let enable = inputs.into_iter().find(|(name, text)| name == "EN" && !text.is_empty());
-        Some(enable.map_or_else(|| "TRUE".to_owned(), |(_, text)| text))
+        let mut inputs = child(node, "inputVariables").into_iter().flat_map(elements);
+        let is_enable =
+            |one: &Node| optional(*one, "formalParameter").is_some_and(|name| name.text == "EN");
+        let enable = match inputs.find(is_enable) {
+            Some(enable) => self.input(node, enable)?,
+            None => String::new(),
+        };
+        Some(if enable.is_empty() { "TRUE".to_owned() } else { enable })
     }
 
     /// What is at the connector of the same name.
@@ -323,7 +332,7 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
         let (enable, inputs): (Vec<_>, Vec<_>) = inputs.partition(|(name, _)| name == "EN");
         // Without a line EN is TRUE.
         if let Some((_, enable)) = enable.into_iter().find(|(_, text)| !text.is_empty()) {
-            if !self.can_enable || self.open != [node] {
+            if !self.can_enable || self.open != [(node, false)] {
                 return self.unread(node);
             }
             self.enable = Some(enable);
