@@ -100,3 +100,59 @@ fn functions_that_enable_each_other_end() {
     }
     assert_eq!(said(&both), ["block 2: this part of a drawn condition is not read"]);
 }
+
+/// An output of a block.
+const OUTPUT: &str = "<variable formalParameter=\"Q\"/>";
+
+/// A function block.
+fn timer(id: usize, inputs: &[(&str, &str)]) -> String {
+    block(id, &format!("TON instanceName=\"T{id}\""), inputs, OUTPUT)
+}
+
+#[test]
+fn function_blocks_are_called_after_those_that_they_ask_for() {
+    let both = |first: &str, second: &str| {
+        block(2, "OR", &[("IN1", first), ("IN2", second)], "")
+            + &timer(7, &[("IN", "8.Q")])
+            + &timer(8, &[])
+    };
+    for drawing in [both("7.Q", "8.Q"), both("8.Q", "7.Q")] {
+        let text = statements(&(result(1, "2") + &drawing));
+        assert!(text.starts_with("T8();\nT7(IN := T8.Q);\nq := "), "{text}");
+    }
+    // Through what both ask for, from a block that comes first in the file.
+    let shared = |first: &str, second: &str| {
+        let inputs = [("IN", first), ("PT", second)];
+        timer(6, &inputs)
+            + &block(9, "NOT", &[("IN", "8.Q")], "")
+            + &timer(7, &[("IN", "9")])
+            + &timer(8, &[])
+    };
+    let before = "T8();\nT7(IN := NOT (T8.Q));\n";
+    for (first, second, last) in [
+        ("9", "7.Q", "T6(IN := NOT (T8.Q), PT := T7.Q);\n"),
+        ("7.Q", "9", "T6(IN := T7.Q, PT := NOT (T8.Q));\n"),
+    ] {
+        assert_eq!(statements(&shared(first, second)), format!("{before}{last}"));
+    }
+    // Two that ask for each other keep what they have from scan to scan.
+    let circle = timer(7, &[("IN", "8.Q")]) + &timer(8, &[("IN", "7.Q")]);
+    assert_eq!(statements(&circle), "T8(IN := T7.Q);\nT7(IN := T8.Q);\n");
+    // EN of a function before a block is no matter of what asks for the block.
+    let moved = block(8, "MOVE", &[("EN", "9"), ("IN", "9")], "") + &variable(9, "a");
+    let told = said(&(result(1, "7.Q") + &timer(7, &[("IN", "8")]) + &moved));
+    assert_eq!(told, ["block 8: this part of a drawn condition is not read"]);
+}
+
+#[test]
+fn many_function_blocks_in_a_row_are_called_in_order() {
+    let count = 3_000;
+    let mut drawing = String::new();
+    for id in 1..count {
+        drawing += &timer(id, &[("IN", &format!("{}.Q", id + 1))]);
+    }
+    let text = statements(&(drawing + &timer(count, &[])));
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines.len(), count);
+    assert_eq!((lines[0], lines[count - 1]), ("T3000();", "T1(IN := T2.Q);"));
+}

@@ -2,7 +2,8 @@
 //! something from scan to scan: of those the outputs are asked for, and their calls are given
 //! apart.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::mem;
 
 use chart::model::{Code, Origin};
 use diagnostics::Span;
@@ -38,22 +39,18 @@ pub(super) const OPERATORS: [(&str, &str); 14] = [
 
 /// An expression, and what has to be called for it.
 #[derive(Debug, Default)]
-pub(super) struct Drawn<'a, 'i> {
+pub(super) struct Drawn {
     pub(super) code: Code,
     /// What EN of the function gets that gives the value: it is given if that is TRUE.
     pub(super) enable: Option<String>,
     /// Calls of function blocks, those that others ask for first.
-    pub(super) calls: Vec<Call<'a, 'i>>,
+    pub(super) calls: Vec<Code>,
 }
 
-/// The call of a function block.
-#[derive(Debug)]
-pub(super) struct Call<'a, 'i> {
-    pub(super) block: Node<'a, 'i>,
-    pub(super) code: Code,
-}
+/// Function blocks whose calls are written.
+pub(super) type Called<'a, 'i> = HashSet<Node<'a, 'i>>;
 
-impl Drawn<'_, '_> {
+impl Drawn {
     /// An expression that is written.
     pub(super) fn plain(text: String, span: Span) -> Self {
         let code = Code { text, origin: Origin(span) };
@@ -69,42 +66,46 @@ pub(super) fn drawn<'a, 'i>(
     to: Node<'a, 'i>,
     lines: &[Line],
     place: Span,
-) -> Drawn<'a, 'i> {
-    expression(reader, network, to, lines, place, false)
+) -> Drawn {
+    let called = &mut Called::new();
+    expression(Drawing::of(reader, network, called), to, lines, place)
 }
 
-/// As [`drawn`], for what is assigned: a function at its beginning may have EN.
+/// As [`drawn`], for what is assigned: a function at its beginning may have EN. What is called
+/// already is not called again.
 pub(super) fn assigned<'a, 'i>(
     reader: &mut Reader,
     network: &Network<'a, 'i>,
     to: Node<'a, 'i>,
-) -> Drawn<'a, 'i> {
+    called: &mut Called<'a, 'i>,
+) -> Drawn {
     let lines = lines_into(to);
-    expression(reader, network, to, &lines, tag(to), lines.len() == 1)
+    let can_enable = lines.len() == 1;
+    let drawing = Drawing { can_enable, ..Drawing::of(reader, network, called) };
+    expression(drawing, to, &lines, tag(to))
 }
 
 fn expression<'a, 'i>(
-    reader: &mut Reader,
-    network: &Network<'a, 'i>,
+    mut drawing: Drawing<'_, '_, 'a, 'i>,
     to: Node<'a, 'i>,
     lines: &[Line],
     place: Span,
-    can_enable: bool,
-) -> Drawn<'a, 'i> {
-    let mut drawing = Drawing { can_enable, ..Drawing::of(reader, network) };
+) -> Drawn {
     let text = drawing.lines(to, lines).unwrap_or_default();
     let Some(calls) = drawing.calls() else { return Drawn::default() };
     let enable = drawing.enable.as_deref().map(outside);
     Drawn { code: Code { text: outside(&text), origin: Origin(place) }, enable, calls }
 }
 
-/// The call of a function block, after those of others that it asks for. What is wrong is reported.
+/// The call of a function block, after those of others that it asks for, unless they are called
+/// already. What is wrong is reported.
 pub(super) fn instance<'a, 'i>(
     reader: &mut Reader,
     network: &Network<'a, 'i>,
     block: Node<'a, 'i>,
-) -> Vec<Call<'a, 'i>> {
-    let mut drawing = Drawing { blocks: vec![block], ..Drawing::of(reader, network) };
+    called: &mut Called<'a, 'i>,
+) -> Vec<Code> {
+    let mut drawing = Drawing { blocks: vec![block], ..Drawing::of(reader, network, called) };
     drawing.calls().unwrap_or_default()
 }
 
@@ -117,17 +118,22 @@ struct Drawing<'r, 'f, 'a, 'i> {
     known: HashMap<(Node<'a, 'i>, bool), Option<String>>,
     /// Those that are asked for right now.
     open: Vec<(Node<'a, 'i>, bool)>,
-    /// Function blocks that are asked for.
+    /// Function blocks that are asked for, as often as that.
     blocks: Vec<Node<'a, 'i>>,
+    called: &'r mut Called<'a, 'i>,
     /// Whether the first function may have EN, and what that gets.
     can_enable: bool,
     enable: Option<String>,
 }
 
 impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
-    fn of(reader: &'r mut Reader<'f>, network: &'r Network<'a, 'i>) -> Self {
+    fn of(
+        reader: &'r mut Reader<'f>,
+        network: &'r Network<'a, 'i>,
+        called: &'r mut Called<'a, 'i>,
+    ) -> Self {
         let (known, open, blocks) = (HashMap::new(), Vec::new(), Vec::new());
-        Drawing { reader, network, known, open, blocks, can_enable: false, enable: None }
+        Drawing { reader, network, known, open, blocks, called, can_enable: false, enable: None }
     }
 
     /// What lines into an element carry: one of them is enough. `None`: what is wrong has been
@@ -180,9 +186,7 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
 
     /// An output of a function block, which is called elsewhere.
     fn output(&mut self, node: Node<'a, 'i>, instance: &Text, output: &str) -> Option<String> {
-        if !self.blocks.contains(&node) {
-            self.blocks.push(node);
-        }
+        self.blocks.push(node);
         let outputs = child(node, "outputVariables").into_iter().flat_map(elements);
         let only = outputs.filter_map(|one| optional(one, "formalParameter")).next();
         let name = match output {
@@ -195,14 +199,26 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
         }
     }
 
-    /// The calls of the function blocks that are asked for, and of those that they ask for, before
-    /// them.
-    fn calls(&mut self) -> Option<Vec<Call<'a, 'i>>> {
+    /// The calls of the function blocks that are asked for, each after those that it asks for
+    /// itself.
+    fn calls(&mut self) -> Option<Vec<Code>> {
+        // EN of a function before a block is no matter of what is assigned.
+        self.can_enable = false;
         let mut calls = Vec::new();
-        while let Some(block) = self.blocks.get(calls.len()).copied() {
-            calls.push(Call { block, code: self.call(block)? });
+        // Calls, and the blocks that each still waits for.
+        let mut waiting = vec![(None, mem::take(&mut self.blocks).into_iter())];
+        while let Some((_, asked)) = waiting.last_mut() {
+            let Some(block) = asked.next() else {
+                calls.extend(waiting.pop().and_then(|(call, _)| call));
+                continue;
+            };
+            if self.called.insert(block) {
+                // What is known would not tell which blocks it asks for.
+                self.known.clear();
+                let call = self.call(block)?;
+                waiting.push((Some(call), mem::take(&mut self.blocks).into_iter()));
+            }
         }
-        calls.reverse();
         Some(calls)
     }
 
