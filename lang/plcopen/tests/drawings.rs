@@ -156,3 +156,43 @@ fn many_function_blocks_in_a_row_are_called_in_order() {
     assert_eq!(lines.len(), count);
     assert_eq!((lines[0], lines[count - 1]), ("T3000();", "T1(IN := T2.Q);"));
 }
+
+#[test]
+fn what_is_said_at_inputs_and_outputs_is_kept_or_told() {
+    let output = |name: &str, more: &str| format!("<variable formalParameter=\"{name}\" {more}/>");
+    let negated = "negated=\"true\"";
+    let kind = "SR instanceName=\"Keep\"";
+    for (outputs, from, text) in [
+        (output("Q", negated), "7.Q", "NOT (Keep.Q)"),
+        (output("Q", negated), "7", "NOT (Keep.Q)"),
+        (output("P", "") + &output("Q", negated), "7.q", "NOT (Keep.q)"),
+        (output("P", negated) + &output("Q", "edge=\"none\""), "7.Q", "Keep.Q"),
+        // Of an output that nothing asks for.
+        (output("P", "edge=\"rising\"") + &output("Q", ""), "7.Q", "Keep.Q"),
+    ] {
+        let found = statements(&(result(1, from) + &block(7, kind, &[], &outputs)));
+        assert_eq!(found, format!("Keep();\nq := {text};\n"));
+    }
+    let inputs = [("EN", "8"), ("IN", "9")];
+    let operands = variable(8, "a") + &variable(9, "b");
+    for (outputs, from, text) in [
+        (output("ENO", "") + &output("OUT", negated), "7", "IF a THEN q := NOT (b); END_IF;"),
+        (output("ENO", "") + &output("", negated), "7.OUT", "IF a THEN q := NOT (b); END_IF;"),
+        (output("ENO", negated) + &output("OUT", ""), "7.ENO", "q := NOT (a);"),
+        (output("ENO", negated) + &output("OUT", ""), "7.OUT", "IF a THEN q := b; END_IF;"),
+    ] {
+        let drawing = result(1, from) + &block(7, "MOVE", &inputs, &outputs) + &operands;
+        assert_eq!(statements(&drawing), format!("{text}\n"));
+    }
+    let unread = ["block 7: this part of a drawn condition is not read"];
+    for more in ["edge=\"rising\"", "edge=\"falling\"", "storage=\"set\""] {
+        let input = format!("IN {more}");
+        for kind in ["NOT", "TON instanceName=\"T\""] {
+            let at_input = block(7, kind, &[(&input, "8")], OUTPUT);
+            let at_output = block(7, kind, &[("IN", "8")], &output("Q", more));
+            for block in [at_input, at_output] {
+                assert_eq!(said(&(result(1, "7.Q") + &block + &operands)), unread, "{more}");
+            }
+        }
+    }
+}

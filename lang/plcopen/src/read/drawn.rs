@@ -142,10 +142,7 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
         let mut all = Vec::new();
         for line in lines {
             let from = self.network.from(self.reader, line, to);
-            all.push(from.and_then(|node| match optional(node, "instanceName") {
-                Some(instance) => self.output(node, &instance, &line.output),
-                None => self.value(node, line.output == "ENO", to),
-            }));
+            all.push(from.and_then(|node| self.line(node, &line.output, to)));
         }
         let all = all.into_iter().collect::<Option<Vec<String>>>()?;
         Some(match &all[..] {
@@ -153,6 +150,20 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
             _ if all.is_empty() => String::new(),
             _ => format!("({})", all.join(" OR ")),
         })
+    }
+
+    /// What comes from an output of an element.
+    fn line(&mut self, node: Node<'a, 'i>, output: &str, to: Node<'a, 'i>) -> Option<String> {
+        let variable = output_of(node, output);
+        let text = match optional(node, "instanceName") {
+            Some(instance) => self.output(node, variable, &instance, output),
+            None => self.value(node, output == "ENO", to),
+        }?;
+        match variable {
+            Some(variable) if !is_plain(variable) => self.unread(node),
+            Some(variable) if is_true(variable, "negated") => Some(format!("NOT ({text})")),
+            _ => Some(text),
+        }
     }
 
     /// What an element gives to those after it, at ENO or elsewhere.
@@ -185,12 +196,16 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
     }
 
     /// An output of a function block, which is called elsewhere.
-    fn output(&mut self, node: Node<'a, 'i>, instance: &Text, output: &str) -> Option<String> {
+    fn output(
+        &mut self,
+        node: Node<'a, 'i>,
+        variable: Option<Node>,
+        instance: &Text,
+        output: &str,
+    ) -> Option<String> {
         self.blocks.push(node);
-        let outputs = child(node, "outputVariables").into_iter().flat_map(elements);
-        let only = outputs.filter_map(|one| optional(one, "formalParameter")).next();
         let name = match output {
-            "" => only.map(|only| only.text),
+            "" => variable.and_then(|one| optional(one, "formalParameter")).map(|one| one.text),
             name => Some(name.to_owned()),
         };
         match name {
@@ -262,6 +277,10 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
     fn input(&mut self, node: Node<'a, 'i>, input: Node<'a, 'i>) -> Option<String> {
         let point = child(input, "connectionPointIn");
         let lines = point.map(|point| lines_of(point)).unwrap_or_default();
+        if !is_plain(input) {
+            self.unread(node);
+            return None;
+        }
         // Some tools write what comes in without a line.
         let text = match point.and_then(|point| child(point, "expression")) {
             Some(written) => formatted(written).text,
@@ -290,11 +309,10 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
 
     fn read(&mut self, node: Node<'a, 'i>) -> Option<String> {
         let plain = |name: &str| child(node, name).map(|one| formatted(one).text);
-        let has_edge = optional(node, "edge").is_some_and(|edge| edge.text != "none");
         let text = match node.tag_name().name() {
             "leftPowerRail" => Some("TRUE".to_owned()),
-            "inVariable" | "inOutVariable" if !has_edge => plain("expression"),
-            "contact" if !has_edge => plain("variable"),
+            "inVariable" | "inOutVariable" if is_plain(node) => plain("expression"),
+            "contact" if is_plain(node) => plain("variable"),
             "step" | "macroStep" => optional(node, "name").map(|name| format!("{}.X", name.text)),
             "coil" => return self.lines(node, &lines_into(node)),
             "continuation" => return self.continued(node),
@@ -367,6 +385,21 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
             _ => self.unread(node),
         }
     }
+}
+
+/// The variable of a block for an output; for none, or one without a name, the first beside ENO.
+fn output_of<'a, 'i>(block: Node<'a, 'i>, output: &str) -> Option<Node<'a, 'i>> {
+    let mut outputs = child(block, "outputVariables").into_iter().flat_map(elements);
+    outputs.find(|one| match optional(*one, "formalParameter") {
+        Some(name) if output.is_empty() => name.text != "ENO",
+        Some(name) => is_same(&name.text, output),
+        None => output != "ENO",
+    })
+}
+
+/// Whether an element says nothing of edges, nor that it sets or resets.
+fn is_plain(node: Node) -> bool {
+    ["edge", "storage"].iter().all(|kind| optional(node, kind).is_none_or(|it| it.text == "none"))
 }
 
 /// Without the brackets around all of it.
