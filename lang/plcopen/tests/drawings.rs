@@ -196,3 +196,47 @@ fn what_is_said_at_inputs_and_outputs_is_kept_or_told() {
         }
     }
 }
+
+#[test]
+fn expressions_at_variables_stay_whole() {
+    let both = block(7, "AND", &[("IN1", "8"), ("IN2", "9")], "");
+    let with =
+        |text: &str| statements(&(result(1, "7") + &both + &variable(8, text) + &variable(9, "c")));
+    for text in ["a", "m[i + 1].n", "%IX0.0", "16#FF", "-1.5E-3", "T#-2s", "'a b'", "D#2026-01-02"]
+    {
+        assert_eq!(with(text), format!("q := {text} AND c;\n"));
+    }
+    for text in ["a OR b", "a+b", "NOT a", "f(a)", "(a) OR (b)", "t-T#2s", "T#3s-t", "T#3s-T#2s"] {
+        assert_eq!(with(text), format!("q := ({text}) AND c;\n"));
+    }
+    let alone = result(1, "8") + &variable(8, "a OR b");
+    assert_eq!(statements(&alone), "q := a OR b;\n");
+    let negated = alone.replace("localId=\"8\"", "localId=\"8\" negated=\"true\"");
+    assert_eq!(statements(&negated), "q := NOT (a OR b);\n");
+    for (kind, text) in [
+        ("NOT", "q := NOT (a OR b);\n"),
+        ("TO_INT", "q := TO_INT(a OR b);\n"),
+        ("TON instanceName=\"T\"", "T(IN := a OR b);\nq := T.Q;\n"),
+    ] {
+        let drawing = block(7, kind, &[("IN", "8")], OUTPUT) + &variable(8, "a OR b");
+        assert_eq!(statements(&(result(1, "7") + &drawing)), text);
+    }
+    // What some tools write without a line.
+    let written = both.replacen(
+        &point("8"),
+        "<connectionPointIn><expression>a OR b</expression></connectionPointIn>",
+        1,
+    );
+    let text = statements(&(result(1, "7") + &written + &variable(9, "c")));
+    assert_eq!(text, "q := (a OR b) AND c;\n");
+    let contact = |id: usize, from: &str, text: &str| {
+        let into = point(from);
+        format!("<contact localId=\"{id}\">{into}<variable>{text}</variable></contact>\n")
+    };
+    let row = result(1, "3") + "<leftPowerRail localId=\"5\"/>\n";
+    let row = row + &contact(4, "5", "n &gt; 2 OR a") + &contact(3, "4", "b");
+    assert_eq!(statements(&row), "q := (n > 2 OR a) AND b;\n");
+    // Nothing is no operand.
+    let told = said(&(result(1, "7") + &both + &variable(8, "") + &variable(9, "c")));
+    assert_eq!(told, ["block 7: this part of a drawn condition is not read"]);
+}

@@ -12,6 +12,7 @@ use st::names::{is_name, is_same};
 
 use super::formatted::formatted;
 use super::network::{Line, Network, lines_into, lines_of, title};
+use super::operand::is_operand;
 use super::reader::{Reader, Text, child, is_true, optional};
 use crate::diagnostic::Code as ErrorCode;
 
@@ -255,7 +256,7 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
         let mut inputs = Vec::new();
         for (name, text) in self.inputs(node)? {
             if !text.is_empty() {
-                inputs.push(format!("{name} := {text}"));
+                inputs.push(format!("{name} := {}", outside(&text)));
             }
         }
         let text = format!("{}({});", instance.text, inputs.join(", "));
@@ -282,14 +283,13 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
             return None;
         }
         // Some tools write what comes in without a line.
-        let text = match point.and_then(|point| child(point, "expression")) {
-            Some(written) => formatted(written).text,
-            None => self.lines(node, &lines)?,
-        };
-        Some(match is_true(input, "negated") {
-            true if !text.is_empty() => format!("NOT ({text})"),
-            _ => text,
-        })
+        let is_negated = is_true(input, "negated");
+        if let Some(written) = point.and_then(|point| child(point, "expression")) {
+            return Some(operand(formatted(written).text, is_negated));
+        }
+        let text = self.lines(node, &lines)?;
+        let is_negated = is_negated && !text.is_empty();
+        Some(if is_negated { format!("NOT ({text})") } else { text })
     }
 
     /// Reports an element, once.
@@ -320,10 +320,7 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
             _ => None,
         };
         let Some(text) = text else { return self.unread(node) };
-        let text = match is_true(node, "negated") {
-            true => format!("NOT ({text})"),
-            false => text,
-        };
+        let text = operand(text, is_true(node, "negated"));
         if node.tag_name().name() != "contact" {
             return Some(text);
         }
@@ -376,12 +373,17 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
         let operator = OPERATORS.iter().find(|(block, _)| block.eq_ignore_ascii_case(&name));
         match (operator, &operands[..]) {
             _ if !is_whole || operands.is_empty() => self.unread(node),
-            (None, [one]) if name.eq_ignore_ascii_case("NOT") => Some(format!("NOT ({one})")),
+            (None, [one]) if name.eq_ignore_ascii_case("NOT") => {
+                Some(format!("NOT ({})", outside(one)))
+            }
             (None, [one]) if name.eq_ignore_ascii_case("MOVE") => Some((*one).to_owned()),
             (Some((_, sign)), [_, _, ..]) => {
                 Some(format!("({})", operands.join(&format!(" {sign} "))))
             }
-            (None, _) if is_name(&name) => Some(format!("{name}({})", operands.join(", "))),
+            (None, _) if is_name(&name) => {
+                let operands: Vec<String> = operands.into_iter().map(outside).collect();
+                Some(format!("{name}({})", operands.join(", ")))
+            }
             _ => self.unread(node),
         }
     }
@@ -400,6 +402,16 @@ fn output_of<'a, 'i>(block: Node<'a, 'i>, output: &str) -> Option<Node<'a, 'i>> 
 /// Whether an element says nothing of edges, nor that it sets or resets.
 fn is_plain(node: Node) -> bool {
     ["edge", "storage"].iter().all(|kind| optional(node, kind).is_none_or(|it| it.text == "none"))
+}
+
+/// What is written, as an operand of whatever comes next.
+fn operand(text: String, is_negated: bool) -> String {
+    match is_negated {
+        _ if text.is_empty() => text,
+        true => format!("NOT ({text})"),
+        false if is_operand(&text) => text,
+        false => format!("({text})"),
+    }
 }
 
 /// Without the brackets around all of it.
