@@ -445,6 +445,24 @@ fn a_transition_that_is_joined_with_nothing_is_left_out() {
 }
 
 #[test]
+fn comments_are_those_of_the_nearest_step_however_far() {
+    let at = |x: &str, y: &str| format!("<position x=\"{x}\" y=\"{y}\"/>");
+    let comment = format!(
+        "<comment localId=\"9\">{}<content>far away</content></comment>\n",
+        at("-3e9", "-3e9")
+    );
+    let text = chart("<reference name=\"b\"/>", &comment)
+        .replace(
+            "initialStep=\"true\"/>",
+            &format!("initialStep=\"true\">{}</step>", at("3e9", "3e9")),
+        )
+        .replace("name=\"On\">", &format!("name=\"On\">{}", at("3e9", "2e9")));
+    let chart = &imported(&text).charts[0];
+    let near = chart.steps.values().find(|step| step.comment == "far away");
+    assert_eq!(near.map(|step| step.name.as_str()), Some("On"));
+}
+
+#[test]
 fn lines_that_meet_again_and_again_end() {
     let variable = "<inVariable localId=\"50\"><expression>x</expression></inVariable>\n";
     let ladder = |count: usize| -> String {

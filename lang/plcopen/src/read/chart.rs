@@ -587,7 +587,8 @@ impl<'a, 'i> Builder<'_, '_, 'a, 'i> {
         let here = middle(node).unwrap_or_default();
         let far = |step: &Step| {
             let at = step.at.unwrap_or_default();
-            i64::from(at.x - here.x).pow(2) + i64::from(at.y - here.y).pow(2)
+            let square = |a: i32, b: i32| u128::from(a.abs_diff(b)).pow(2);
+            square(at.x, here.x) + square(at.y, here.y)
         };
         if let Some(step) = self.chart.steps.values_mut().min_by_key(|step| far(step)) {
             let gap = if step.comment.is_empty() { "" } else { "\n" };

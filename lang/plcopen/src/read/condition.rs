@@ -70,17 +70,11 @@ pub(super) fn condition<'a, 'i>(
     if is_true(node, "negated") && !code.text.is_empty() {
         code.text = format!("NOT ({})", code.text);
     }
-    let calls = calls.into_iter().map(|call| call.code).collect();
     Condition { code, name, calls }
 }
 
 /// The expression of a body, which some tools write as an assignment.
-fn in_body<'a, 'i>(
-    reader: &mut Reader,
-    body: Node<'a, 'i>,
-    of: &str,
-    name: Option<&Text>,
-) -> Drawn<'a, 'i> {
+fn in_body(reader: &mut Reader, body: Node, of: &str, name: Option<&Text>) -> Drawn {
     let place = Span::new(body.range().start, body.range().end);
     let name = name.map_or("", |name| name.text.as_str());
     match language(body) {
@@ -112,7 +106,7 @@ fn in_body<'a, 'i>(
 
 /// What the only coil or variable of a drawing gets, which is called like the condition; `None`: it
 /// is another drawing.
-fn result<'a, 'i>(reader: &mut Reader, drawing: Node<'a, 'i>, name: &str) -> Option<Drawn<'a, 'i>> {
+fn result(reader: &mut Reader, drawing: Node, name: &str) -> Option<Drawn> {
     if !matches!(drawing.tag_name().name(), "LD" | "FBD") {
         return None;
     }

@@ -1,12 +1,10 @@
 //! Diagrams, LD and FBD, as statements: what coils and variables get, in the order of the drawing,
 //! and calls of function blocks before what asks for them. Jumps and edges are not read.
 
-use std::collections::HashSet;
-
 use chart::model::{Code, Origin};
 use diagnostics::xml::{Node, tag};
 
-use super::drawn::{Call, assigned, instance};
+use super::drawn::{Called, assigned, instance};
 use super::formatted::formatted;
 use super::network::{Network, lines_into, title};
 use super::reader::{Reader, child, is_true, optional};
@@ -20,8 +18,7 @@ pub(super) fn statements(reader: &mut Reader, diagram: Node) -> Option<Vec<Code>
     let network = Network::of(reader, diagram);
     let mut all = network.elements.clone();
     all.sort_by_key(|node| place(*node));
-    let mut writer =
-        Writer { reader, network: &network, called: HashSet::new(), codes: Vec::new() };
+    let mut writer = Writer { reader, network: &network, called: Called::new(), codes: Vec::new() };
     all.into_iter().for_each(|node| writer.element(node));
     Some(writer.codes)
 }
@@ -40,8 +37,7 @@ fn place(node: Node) -> (u32, i64, i64) {
 struct Writer<'w, 'f, 'a, 'i> {
     reader: &'w mut Reader<'f>,
     network: &'w Network<'a, 'i>,
-    /// Function blocks whose calls are written.
-    called: HashSet<Node<'a, 'i>>,
+    called: Called<'a, 'i>,
     codes: Vec<Code>,
 }
 
@@ -53,8 +49,8 @@ impl<'a, 'i> Writer<'_, '_, 'a, 'i> {
             "inOutVariable" if lines_into(node).is_empty() => {}
             "inOutVariable" => self.assignment(node, "expression"),
             "block" if optional(node, "instanceName").is_some() => {
-                let calls = instance(self.reader, self.network, node);
-                self.calls(calls);
+                let calls = instance(self.reader, self.network, node, &mut self.called);
+                self.codes.extend(calls);
             }
             "comment" => {
                 let text =
@@ -81,14 +77,6 @@ impl<'a, 'i> Writer<'_, '_, 'a, 'i> {
         self.codes.push(Code { text, origin: Origin(tag(node)) });
     }
 
-    fn calls(&mut self, calls: Vec<Call<'a, 'i>>) {
-        for call in calls {
-            if self.called.insert(call.block) {
-                self.codes.push(call.code);
-            }
-        }
-    }
-
     /// What a coil or variable gets.
     fn assignment(&mut self, node: Node<'a, 'i>, part: &str) {
         let says = |name: &str| optional(node, name).map_or_else(String::new, |one| one.text);
@@ -97,8 +85,8 @@ impl<'a, 'i> Writer<'_, '_, 'a, 'i> {
         let is_plain = edge.is_empty() || edge == "none";
         let (Some(target), true) = (target, is_plain) else { return self.unread(node) };
         let told = self.reader.diagnostics.len();
-        let found = assigned(self.reader, self.network, node);
-        self.calls(found.calls);
+        let found = assigned(self.reader, self.network, node, &mut self.called);
+        self.codes.extend(found.calls);
         let text = found.code.text;
         if text.is_empty() {
             if self.reader.diagnostics.len() == told {

@@ -2,7 +2,8 @@
 //! something from scan to scan: of those the outputs are asked for, and their calls are given
 //! apart.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::mem;
 
 use chart::model::{Code, Origin};
 use diagnostics::Span;
@@ -11,6 +12,7 @@ use st::names::{is_name, is_same};
 
 use super::formatted::formatted;
 use super::network::{Line, Network, lines_into, lines_of, title};
+use super::operand::is_operand;
 use super::reader::{Reader, Text, child, is_true, optional};
 use crate::diagnostic::Code as ErrorCode;
 
@@ -38,22 +40,18 @@ pub(super) const OPERATORS: [(&str, &str); 14] = [
 
 /// An expression, and what has to be called for it.
 #[derive(Debug, Default)]
-pub(super) struct Drawn<'a, 'i> {
+pub(super) struct Drawn {
     pub(super) code: Code,
     /// What EN of the function gets that gives the value: it is given if that is TRUE.
     pub(super) enable: Option<String>,
     /// Calls of function blocks, those that others ask for first.
-    pub(super) calls: Vec<Call<'a, 'i>>,
+    pub(super) calls: Vec<Code>,
 }
 
-/// The call of a function block.
-#[derive(Debug)]
-pub(super) struct Call<'a, 'i> {
-    pub(super) block: Node<'a, 'i>,
-    pub(super) code: Code,
-}
+/// Function blocks whose calls are written.
+pub(super) type Called<'a, 'i> = HashSet<Node<'a, 'i>>;
 
-impl Drawn<'_, '_> {
+impl Drawn {
     /// An expression that is written.
     pub(super) fn plain(text: String, span: Span) -> Self {
         let code = Code { text, origin: Origin(span) };
@@ -69,42 +67,46 @@ pub(super) fn drawn<'a, 'i>(
     to: Node<'a, 'i>,
     lines: &[Line],
     place: Span,
-) -> Drawn<'a, 'i> {
-    expression(reader, network, to, lines, place, false)
+) -> Drawn {
+    let called = &mut Called::new();
+    expression(Drawing::of(reader, network, called), to, lines, place)
 }
 
-/// As [`drawn`], for what is assigned: a function at its beginning may have EN.
+/// As [`drawn`], for what is assigned: a function at its beginning may have EN. What is called
+/// already is not called again.
 pub(super) fn assigned<'a, 'i>(
     reader: &mut Reader,
     network: &Network<'a, 'i>,
     to: Node<'a, 'i>,
-) -> Drawn<'a, 'i> {
+    called: &mut Called<'a, 'i>,
+) -> Drawn {
     let lines = lines_into(to);
-    expression(reader, network, to, &lines, tag(to), lines.len() == 1)
+    let can_enable = lines.len() == 1;
+    let drawing = Drawing { can_enable, ..Drawing::of(reader, network, called) };
+    expression(drawing, to, &lines, tag(to))
 }
 
 fn expression<'a, 'i>(
-    reader: &mut Reader,
-    network: &Network<'a, 'i>,
+    mut drawing: Drawing<'_, '_, 'a, 'i>,
     to: Node<'a, 'i>,
     lines: &[Line],
     place: Span,
-    can_enable: bool,
-) -> Drawn<'a, 'i> {
-    let mut drawing = Drawing { can_enable, ..Drawing::of(reader, network) };
+) -> Drawn {
     let text = drawing.lines(to, lines).unwrap_or_default();
     let Some(calls) = drawing.calls() else { return Drawn::default() };
     let enable = drawing.enable.as_deref().map(outside);
     Drawn { code: Code { text: outside(&text), origin: Origin(place) }, enable, calls }
 }
 
-/// The call of a function block, after those of others that it asks for. What is wrong is reported.
+/// The call of a function block, after those of others that it asks for, unless they are called
+/// already. What is wrong is reported.
 pub(super) fn instance<'a, 'i>(
     reader: &mut Reader,
     network: &Network<'a, 'i>,
     block: Node<'a, 'i>,
-) -> Vec<Call<'a, 'i>> {
-    let mut drawing = Drawing { blocks: vec![block], ..Drawing::of(reader, network) };
+    called: &mut Called<'a, 'i>,
+) -> Vec<Code> {
+    let mut drawing = Drawing { blocks: vec![block], ..Drawing::of(reader, network, called) };
     drawing.calls().unwrap_or_default()
 }
 
@@ -112,22 +114,27 @@ pub(super) fn instance<'a, 'i>(
 struct Drawing<'r, 'f, 'a, 'i> {
     reader: &'r mut Reader<'f>,
     network: &'r Network<'a, 'i>,
-    /// What elements give to those after them; `None`: that has been reported, or is asked for
-    /// right now.
-    known: HashMap<Node<'a, 'i>, Option<String>>,
+    /// What elements give to those after them, at ENO or elsewhere; `None`: that has been
+    /// reported, or is asked for right now.
+    known: HashMap<(Node<'a, 'i>, bool), Option<String>>,
     /// Those that are asked for right now.
-    open: Vec<Node<'a, 'i>>,
-    /// Function blocks that are asked for.
+    open: Vec<(Node<'a, 'i>, bool)>,
+    /// Function blocks that are asked for, as often as that.
     blocks: Vec<Node<'a, 'i>>,
+    called: &'r mut Called<'a, 'i>,
     /// Whether the first function may have EN, and what that gets.
     can_enable: bool,
     enable: Option<String>,
 }
 
 impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
-    fn of(reader: &'r mut Reader<'f>, network: &'r Network<'a, 'i>) -> Self {
+    fn of(
+        reader: &'r mut Reader<'f>,
+        network: &'r Network<'a, 'i>,
+        called: &'r mut Called<'a, 'i>,
+    ) -> Self {
         let (known, open, blocks) = (HashMap::new(), Vec::new(), Vec::new());
-        Drawing { reader, network, known, open, blocks, can_enable: false, enable: None }
+        Drawing { reader, network, known, open, blocks, called, can_enable: false, enable: None }
     }
 
     /// What lines into an element carry: one of them is enough. `None`: what is wrong has been
@@ -136,11 +143,7 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
         let mut all = Vec::new();
         for line in lines {
             let from = self.network.from(self.reader, line, to);
-            all.push(from.and_then(|node| match optional(node, "instanceName") {
-                Some(instance) => self.output(node, &instance, &line.output),
-                None if line.output == "ENO" => self.enabled(node),
-                None => self.value(node, to),
-            }));
+            all.push(from.and_then(|node| self.line(node, &line.output, to)));
         }
         let all = all.into_iter().collect::<Option<Vec<String>>>()?;
         Some(match &all[..] {
@@ -150,22 +153,37 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
         })
     }
 
-    /// What an element gives to those after it.
-    fn value(&mut self, node: Node<'a, 'i>, to: Node<'a, 'i>) -> Option<String> {
-        if self.open.contains(&node) {
+    /// What comes from an output of an element.
+    fn line(&mut self, node: Node<'a, 'i>, output: &str, to: Node<'a, 'i>) -> Option<String> {
+        let variable = output_of(node, output);
+        let text = match optional(node, "instanceName") {
+            Some(instance) => self.output(node, variable, &instance, output),
+            None => self.value(node, output == "ENO", to),
+        }?;
+        match variable {
+            Some(variable) if !is_plain(variable) => self.unread(node),
+            Some(variable) if is_true(variable, "negated") => Some(format!("NOT ({text})")),
+            _ => Some(text),
+        }
+    }
+
+    /// What an element gives to those after it, at ENO or elsewhere.
+    fn value(&mut self, node: Node<'a, 'i>, is_eno: bool, to: Node<'a, 'i>) -> Option<String> {
+        let asked = (node, is_eno);
+        if self.open.contains(&asked) {
             let message = format!("{}: what it asks for depends on itself", title(node));
             let help = "a line leads back to it: a variable that the program writes keeps a value";
             self.refuse(node, message, help);
             return None;
         }
-        if let Some(known) = self.known.get(&node) {
+        if let Some(known) = self.known.get(&asked) {
             return known.clone();
         }
         let is_deep = self.open.len() >= DEPTH_MAX;
         let mut found = None;
         if !is_deep {
-            self.open.push(node);
-            found = self.read(node);
+            self.open.push(asked);
+            found = if is_eno { self.enabled(node) } else { self.read(node) };
             self.open.pop();
         }
         if is_deep || found.as_ref().is_some_and(|text| text.len() >= LENGTH_MAX) {
@@ -174,19 +192,21 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
             self.refuse(node, message, help);
             found = None;
         }
-        self.known.insert(node, found.clone());
+        self.known.insert(asked, found.clone());
         found
     }
 
     /// An output of a function block, which is called elsewhere.
-    fn output(&mut self, node: Node<'a, 'i>, instance: &Text, output: &str) -> Option<String> {
-        if !self.blocks.contains(&node) {
-            self.blocks.push(node);
-        }
-        let outputs = child(node, "outputVariables").into_iter().flat_map(elements);
-        let only = outputs.filter_map(|one| optional(one, "formalParameter")).next();
+    fn output(
+        &mut self,
+        node: Node<'a, 'i>,
+        variable: Option<Node>,
+        instance: &Text,
+        output: &str,
+    ) -> Option<String> {
+        self.blocks.push(node);
         let name = match output {
-            "" => only.map(|only| only.text),
+            "" => variable.and_then(|one| optional(one, "formalParameter")).map(|one| one.text),
             name => Some(name.to_owned()),
         };
         match name {
@@ -195,14 +215,26 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
         }
     }
 
-    /// The calls of the function blocks that are asked for, and of those that they ask for, before
-    /// them.
-    fn calls(&mut self) -> Option<Vec<Call<'a, 'i>>> {
+    /// The calls of the function blocks that are asked for, each after those that it asks for
+    /// itself.
+    fn calls(&mut self) -> Option<Vec<Code>> {
+        // EN of a function before a block is no matter of what is assigned.
+        self.can_enable = false;
         let mut calls = Vec::new();
-        while let Some(block) = self.blocks.get(calls.len()).copied() {
-            calls.push(Call { block, code: self.call(block)? });
+        // Calls, and the blocks that each still waits for.
+        let mut waiting = vec![(None, mem::take(&mut self.blocks).into_iter())];
+        while let Some((_, asked)) = waiting.last_mut() {
+            let Some(block) = asked.next() else {
+                calls.extend(waiting.pop().and_then(|(call, _)| call));
+                continue;
+            };
+            if self.called.insert(block) {
+                // What is known would not tell which blocks it asks for.
+                self.known.clear();
+                let call = self.call(block)?;
+                waiting.push((Some(call), mem::take(&mut self.blocks).into_iter()));
+            }
         }
-        calls.reverse();
         Some(calls)
     }
 
@@ -224,7 +256,7 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
         let mut inputs = Vec::new();
         for (name, text) in self.inputs(node)? {
             if !text.is_empty() {
-                inputs.push(format!("{name} := {text}"));
+                inputs.push(format!("{name} := {}", outside(&text)));
             }
         }
         let text = format!("{}({});", instance.text, inputs.join(", "));
@@ -235,22 +267,29 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
     fn inputs(&mut self, node: Node<'a, 'i>) -> Option<Vec<(String, String)>> {
         let mut inputs = Vec::new();
         for input in child(node, "inputVariables").into_iter().flat_map(elements) {
-            let point = child(input, "connectionPointIn");
-            let lines = point.map(|point| lines_of(point)).unwrap_or_default();
-            // Some tools write what comes in without a line.
-            let written = point.and_then(|point| child(point, "expression"));
             let name = optional(input, "formalParameter");
-            let text = match written {
-                Some(written) => Some(formatted(written).text),
-                None => self.lines(node, &lines),
-            };
-            let text = text.map(|text| match is_true(input, "negated") {
-                true if !text.is_empty() => format!("NOT ({text})"),
-                _ => text,
-            });
+            let text = self.input(node, input);
             inputs.push((name.map_or_else(String::new, |name| name.text), text));
         }
         inputs.into_iter().map(|(name, text)| Some((name, text?))).collect()
+    }
+
+    /// What an input of a block gets; empty, if it is not connected.
+    fn input(&mut self, node: Node<'a, 'i>, input: Node<'a, 'i>) -> Option<String> {
+        let point = child(input, "connectionPointIn");
+        let lines = point.map(|point| lines_of(point)).unwrap_or_default();
+        if !is_plain(input) {
+            self.unread(node);
+            return None;
+        }
+        // Some tools write what comes in without a line.
+        let is_negated = is_true(input, "negated");
+        if let Some(written) = point.and_then(|point| child(point, "expression")) {
+            return Some(operand(formatted(written).text, is_negated));
+        }
+        let text = self.lines(node, &lines)?;
+        let is_negated = is_negated && !text.is_empty();
+        Some(if is_negated { format!("NOT ({text})") } else { text })
     }
 
     /// Reports an element, once.
@@ -270,11 +309,10 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
 
     fn read(&mut self, node: Node<'a, 'i>) -> Option<String> {
         let plain = |name: &str| child(node, name).map(|one| formatted(one).text);
-        let has_edge = optional(node, "edge").is_some_and(|edge| edge.text != "none");
         let text = match node.tag_name().name() {
             "leftPowerRail" => Some("TRUE".to_owned()),
-            "inVariable" | "inOutVariable" if !has_edge => plain("expression"),
-            "contact" if !has_edge => plain("variable"),
+            "inVariable" | "inOutVariable" if is_plain(node) => plain("expression"),
+            "contact" if is_plain(node) => plain("variable"),
             "step" | "macroStep" => optional(node, "name").map(|name| format!("{}.X", name.text)),
             "coil" => return self.lines(node, &lines_into(node)),
             "continuation" => return self.continued(node),
@@ -282,10 +320,7 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
             _ => None,
         };
         let Some(text) = text else { return self.unread(node) };
-        let text = match is_true(node, "negated") {
-            true => format!("NOT ({text})"),
-            false => text,
-        };
+        let text = operand(text, is_true(node, "negated"));
         if node.tag_name().name() != "contact" {
             return Some(text);
         }
@@ -297,9 +332,14 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
 
     /// ENO of a function is what EN gets.
     fn enabled(&mut self, node: Node<'a, 'i>) -> Option<String> {
-        let inputs = self.inputs(node)?;
-        let enable = inputs.into_iter().find(|(name, text)| name == "EN" && !text.is_empty());
-        Some(enable.map_or_else(|| "TRUE".to_owned(), |(_, text)| text))
+        let mut inputs = child(node, "inputVariables").into_iter().flat_map(elements);
+        let is_enable =
+            |one: &Node| optional(*one, "formalParameter").is_some_and(|name| name.text == "EN");
+        let enable = match inputs.find(is_enable) {
+            Some(enable) => self.input(node, enable)?,
+            None => String::new(),
+        };
+        Some(if enable.is_empty() { "TRUE".to_owned() } else { enable })
     }
 
     /// What is at the connector of the same name.
@@ -323,7 +363,7 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
         let (enable, inputs): (Vec<_>, Vec<_>) = inputs.partition(|(name, _)| name == "EN");
         // Without a line EN is TRUE.
         if let Some((_, enable)) = enable.into_iter().find(|(_, text)| !text.is_empty()) {
-            if !self.can_enable || self.open != [node] {
+            if !self.can_enable || self.open != [(node, false)] {
                 return self.unread(node);
             }
             self.enable = Some(enable);
@@ -333,14 +373,44 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
         let operator = OPERATORS.iter().find(|(block, _)| block.eq_ignore_ascii_case(&name));
         match (operator, &operands[..]) {
             _ if !is_whole || operands.is_empty() => self.unread(node),
-            (None, [one]) if name.eq_ignore_ascii_case("NOT") => Some(format!("NOT ({one})")),
+            (None, [one]) if name.eq_ignore_ascii_case("NOT") => {
+                Some(format!("NOT ({})", outside(one)))
+            }
             (None, [one]) if name.eq_ignore_ascii_case("MOVE") => Some((*one).to_owned()),
             (Some((_, sign)), [_, _, ..]) => {
                 Some(format!("({})", operands.join(&format!(" {sign} "))))
             }
-            (None, _) if is_name(&name) => Some(format!("{name}({})", operands.join(", "))),
+            (None, _) if is_name(&name) => {
+                let operands: Vec<String> = operands.into_iter().map(outside).collect();
+                Some(format!("{name}({})", operands.join(", ")))
+            }
             _ => self.unread(node),
         }
+    }
+}
+
+/// The variable of a block for an output; for none, or one without a name, the first beside ENO.
+fn output_of<'a, 'i>(block: Node<'a, 'i>, output: &str) -> Option<Node<'a, 'i>> {
+    let mut outputs = child(block, "outputVariables").into_iter().flat_map(elements);
+    outputs.find(|one| match optional(*one, "formalParameter") {
+        Some(name) if output.is_empty() => name.text != "ENO",
+        Some(name) => is_same(&name.text, output),
+        None => output != "ENO",
+    })
+}
+
+/// Whether an element says nothing of edges, nor that it sets or resets.
+fn is_plain(node: Node) -> bool {
+    ["edge", "storage"].iter().all(|kind| optional(node, kind).is_none_or(|it| it.text == "none"))
+}
+
+/// What is written, as an operand of whatever comes next.
+fn operand(text: String, is_negated: bool) -> String {
+    match is_negated {
+        _ if text.is_empty() => text,
+        true => format!("NOT ({text})"),
+        false if is_operand(&text) => text,
+        false => format!("({text})"),
     }
 }
 

@@ -11,6 +11,7 @@ mod formatted;
 mod il;
 mod macro_step;
 mod network;
+mod operand;
 mod reader;
 mod types;
 mod units;

@@ -7,9 +7,10 @@ use chart::model::{Code, Origin};
 use diagnostics::xml::Places;
 use st::names::is_name;
 
+use super::super::operand::is_operand;
 use super::super::reader::{Reader, Text};
 use super::instructions::{Instruction, List};
-use super::value::{Value, is_operand, sign};
+use super::value::{Value, sign};
 use crate::diagnostic::Code as ErrorCode;
 
 /// Most characters of an instruction and of an expression, and of all statements.

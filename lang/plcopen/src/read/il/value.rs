@@ -2,6 +2,7 @@
 //! statements know it.
 
 use super::super::drawn::OPERATORS;
+use super::super::operand::is_operand;
 
 /// What is in the accumulator.
 #[derive(Debug, Clone, Default)]
@@ -65,34 +66,4 @@ pub(super) fn sign(operator: &str) -> Option<(&'static str, bool)> {
         Some(name) => Some((of(name)?, true)),
         None => Some((of(operator)?, false)),
     }
-}
-
-/// Whether a text is one operand, a variable, an address or a literal.
-pub(super) fn is_operand(text: &str) -> bool {
-    let quoted = |quote: char| {
-        let inside = text.strip_prefix(quote).and_then(|rest| rest.strip_suffix(quote));
-        inside.is_some_and(|inside| !inside.contains(quote))
-    };
-    if quoted('\'') || quoted('"') {
-        return true;
-    }
-    let is_typed = text.contains('#');
-    let is_number = text.starts_with(|c: char| c.is_ascii_digit() || "+-".contains(c));
-    let (mut indexes, mut before) = (0, None);
-    for c in text.chars() {
-        let is_exponent = is_number && matches!(before, Some('E' | 'e'));
-        let is_part = match c {
-            '[' | ']' => true,
-            _ if indexes > 0 => true,
-            '+' | '-' => before.is_none() || is_typed || is_exponent,
-            ':' => is_typed,
-            _ => c.is_alphanumeric() || "_.#%".contains(c),
-        };
-        indexes += i32::from(c == '[') - i32::from(c == ']');
-        if !is_part || indexes < 0 {
-            return false;
-        }
-        before = Some(c);
-    }
-    before.is_some() && indexes == 0
 }
