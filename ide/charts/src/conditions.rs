@@ -163,7 +163,7 @@ impl Judge<'_> {
                 Some(self.truth(left)? != self.truth(right)?)
             }
             ExpressionKind::Binary(relation, left, right) if relation.is_comparison() => {
-                Some(compares(self.number(left)?, *relation, self.number(right)?))
+                relation.compare(self.number(left)?, self.number(right)?)
             }
             ExpressionKind::Variable(..) | ExpressionKind::Address(_) => {
                 self.value(expression).map(|value| value != 0.0)
@@ -243,15 +243,4 @@ fn joined(mut parts: Vec<Missing>, between: &'static str) -> Option<Missing> {
     };
     let text = parts.iter().map(within).collect::<Vec<_>>().join(between);
     Some(Missing { text, between: Some(between) })
-}
-
-fn compares(left: f64, relation: BinaryOperator, right: f64) -> bool {
-    match relation {
-        BinaryOperator::Less => left < right,
-        BinaryOperator::LessOrEqual => left <= right,
-        BinaryOperator::Greater => left > right,
-        BinaryOperator::GreaterOrEqual => left >= right,
-        BinaryOperator::Equal => left == right,
-        _ => left != right,
-    }
 }

@@ -113,7 +113,7 @@ impl Formula {
             Formula::Constant(value) => *value,
             Formula::Leaf(atom, relation, number) => {
                 let value = values.get(*atom).copied().unwrap_or_default();
-                compares(value, *relation, *number)
+                relation.compare(value, *number) == Some(true)
             }
             Formula::Not(inside) => !inside.holds(values),
             Formula::Both(operator, left, right) => {
@@ -125,17 +125,6 @@ impl Formula {
                 }
             }
         }
-    }
-}
-
-fn compares(left: i64, relation: BinaryOperator, right: i64) -> bool {
-    match relation {
-        BinaryOperator::Less => left < right,
-        BinaryOperator::LessOrEqual => left <= right,
-        BinaryOperator::Greater => left > right,
-        BinaryOperator::GreaterOrEqual => left >= right,
-        BinaryOperator::Equal => left == right,
-        _ => left != right,
     }
 }
 
@@ -339,7 +328,7 @@ impl Named {
 /// What is named in an expression. An address that there is not is reported elsewhere.
 fn named(expression: &Expression) -> Vec<Named> {
     let mut all = Vec::new();
-    visit::expressions(&mut expression.clone(), &mut |one| {
+    visit::each(expression, &mut |one| {
         match &one.kind {
             ExpressionKind::Variable(name, selectors) => {
                 let mut text = name.text.to_uppercase();

@@ -79,7 +79,7 @@ impl Element {
     /// What is written to; the indexes in it are read.
     fn written(&mut self, target: &Expression, reading: &mut Reading) {
         self.writes.extend(reading.operand(target));
-        visit::expressions(&mut target.clone(), &mut |one| {
+        visit::each(target, &mut |one| {
             if one.span != target.span {
                 self.reads.extend(reading.read(one));
             }
@@ -88,7 +88,7 @@ impl Element {
     }
 
     fn read(&mut self, value: &Expression, reading: &mut Reading) {
-        visit::expressions(&mut value.clone(), &mut |one| {
+        visit::each(value, &mut |one| {
             self.reads.extend(reading.read(one));
             true
         });

@@ -21,6 +21,9 @@ pub(crate) fn binary(operator: BinaryOperator, kind: &Type, left: &Value, right:
 
 fn whole(operator: BinaryOperator, kind: &Type, a: i64, b: i64) -> Value {
     use BinaryOperator::*;
+    if let Some(answer) = operator.compare(a, b) {
+        return Value::Bool(answer);
+    }
     let (low, high) = kind.range().unwrap_or((i64::MIN, i64::MAX));
     let executed = match operator {
         Add => a.checked_add(b),
@@ -31,31 +34,22 @@ fn whole(operator: BinaryOperator, kind: &Type, a: i64, b: i64) -> Value {
         And => Some(a & b),
         Or => Some(a | b),
         Xor => Some(a ^ b),
-        Power => None,
-        Less => return Value::Bool(a < b),
-        Greater => return Value::Bool(a > b),
-        LessOrEqual => return Value::Bool(a <= b),
-        GreaterOrEqual => return Value::Bool(a >= b),
-        Equal => return Value::Bool(a == b),
-        NotEqual => return Value::Bool(a != b),
+        _ => None,
     };
     Value::Int(executed.filter(|value| (low..=high).contains(value)).unwrap_or(a))
 }
 
 fn real(operator: BinaryOperator, a: f32, b: f32) -> Value {
     use BinaryOperator::*;
+    if let Some(answer) = operator.compare(a, b) {
+        return Value::Bool(answer);
+    }
     let executed = match operator {
         Add => a + b,
         Subtract => a - b,
         Multiply => a * b,
         Divide if b == 0.0 => a,
         Divide => a / b,
-        Less => return Value::Bool(a < b),
-        Greater => return Value::Bool(a > b),
-        LessOrEqual => return Value::Bool(a <= b),
-        GreaterOrEqual => return Value::Bool(a >= b),
-        Equal => return Value::Bool(a == b),
-        NotEqual => return Value::Bool(a != b),
         _ => a,
     };
     Value::Real(if executed.is_finite() { executed } else { a })

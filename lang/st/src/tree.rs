@@ -335,4 +335,18 @@ impl BinaryOperator {
         use BinaryOperator::*;
         matches!(self, Less | Greater | LessOrEqual | GreaterOrEqual | Equal | NotEqual)
     }
+
+    /// That answer; `None` of operators that do not compare.
+    pub fn compare<T: PartialOrd>(self, left: T, right: T) -> Option<bool> {
+        use BinaryOperator::*;
+        Some(match self {
+            Less => left < right,
+            Greater => left > right,
+            LessOrEqual => left <= right,
+            GreaterOrEqual => left >= right,
+            Equal => left == right,
+            NotEqual => left != right,
+            _ => return None,
+        })
+    }
 }

@@ -3,42 +3,70 @@
 
 use crate::tree::{Argument, Expression, ExpressionKind, Selector, Statement, StatementKind};
 
-/// Calls `found` with an expression and those in it. Where it says false, those in it are left out.
-pub fn expressions(expression: &mut Expression, found: &mut dyn FnMut(&mut Expression) -> bool) {
-    if !found(expression) {
-        return;
-    }
-    match &mut expression.kind {
-        ExpressionKind::Variable(_, selectors) => {
-            for selector in selectors {
-                if let Selector::Index(indexes) = selector {
-                    indexes.iter_mut().for_each(|index| expressions(index, found));
+/// The walk through an expression, to look or to change.
+macro_rules! expressions {
+    ($(#[$doc:meta])* $name:ident $(, $mutable:tt)?) => {
+        $(#[$doc])*
+        pub fn $name(
+            expression: &$($mutable)? Expression,
+            found: &mut dyn FnMut(&$($mutable)? Expression) -> bool,
+        ) {
+            if !found(expression) {
+                return;
+            }
+            match &$($mutable)? expression.kind {
+                ExpressionKind::Variable(_, selectors) => {
+                    for selector in selectors {
+                        if let Selector::Index(indexes) = selector {
+                            for index in indexes {
+                                $name(index, found);
+                            }
+                        }
+                    }
                 }
+                ExpressionKind::Call(_, arguments) => {
+                    for argument in arguments {
+                        $name(&$($mutable)? argument.value, found);
+                    }
+                }
+                ExpressionKind::Typed(_, inside) | ExpressionKind::Unary(_, inside) => {
+                    $name(inside, found);
+                }
+                ExpressionKind::Binary(_, left, right) => {
+                    $name(left, found);
+                    $name(right, found);
+                }
+                ExpressionKind::List(list) => {
+                    for (_, one) in list {
+                        $name(one, found);
+                    }
+                }
+                ExpressionKind::Members(list) => {
+                    for (_, one) in list {
+                        $name(one, found);
+                    }
+                }
+                ExpressionKind::Integer(_)
+                | ExpressionKind::Real(_)
+                | ExpressionKind::Bool(_)
+                | ExpressionKind::Duration(_)
+                | ExpressionKind::Member(..)
+                | ExpressionKind::Text(_)
+                | ExpressionKind::Address(_)
+                | ExpressionKind::Missing => {}
             }
         }
-        ExpressionKind::Call(_, arguments) => in_arguments(arguments, found),
-        ExpressionKind::Typed(_, inside) | ExpressionKind::Unary(_, inside) => {
-            expressions(inside, found);
-        }
-        ExpressionKind::Binary(_, left, right) => {
-            expressions(left, found);
-            expressions(right, found);
-        }
-        ExpressionKind::List(list) => {
-            list.iter_mut().for_each(|(_, one)| expressions(one, found));
-        }
-        ExpressionKind::Members(list) => {
-            list.iter_mut().for_each(|(_, one)| expressions(one, found));
-        }
-        ExpressionKind::Integer(_)
-        | ExpressionKind::Real(_)
-        | ExpressionKind::Bool(_)
-        | ExpressionKind::Duration(_)
-        | ExpressionKind::Member(..)
-        | ExpressionKind::Text(_)
-        | ExpressionKind::Address(_)
-        | ExpressionKind::Missing => {}
-    }
+    };
+}
+
+expressions! {
+    /// Calls `found` with an expression and those in it. Where it says false, those in it are left
+    /// out.
+    expressions, mut
+}
+expressions! {
+    /// As [`expressions`], to look at alone.
+    each
 }
 
 fn in_arguments(arguments: &mut [Argument], found: &mut dyn FnMut(&mut Expression) -> bool) {

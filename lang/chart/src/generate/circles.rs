@@ -89,7 +89,7 @@ fn edges<'e>(
 /// Whether a condition stays as it is as long as evolutions follow each other.
 fn is_constant(condition: &Expression, scope: &Scope, written: &HashSet<String>) -> bool {
     let mut is_constant = true;
-    visit::expressions(&mut condition.clone(), &mut |one| {
+    visit::each(condition, &mut |one| {
         is_constant &= match &one.kind {
             _ if scope.mention(one).is_some() => false,
             ExpressionKind::Variable(name, _) => !written.contains(&name.text.to_uppercase()),

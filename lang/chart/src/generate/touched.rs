@@ -58,7 +58,7 @@ impl Touched {
         self.written.extend(variable(to));
         self.writes_address |= matches!(to.kind, ExpressionKind::Address(_));
         let name = variable(to);
-        visit::expressions(&mut to.clone(), &mut |one| {
+        visit::each(to, &mut |one| {
             self.read.extend(variable(one).filter(|_| variable(one) != name));
             true
         });
@@ -70,7 +70,7 @@ impl Touched {
     }
 
     pub(super) fn expression(&mut self, expression: &Expression) {
-        visit::expressions(&mut expression.clone(), &mut |one| {
+        visit::each(expression, &mut |one| {
             self.read.extend(variable(one));
             if let ExpressionKind::Call(_, arguments) = &one.kind {
                 self.arguments(arguments);

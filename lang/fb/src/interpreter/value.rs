@@ -141,15 +141,8 @@ fn of_bits(operator: BinaryOperator, left: bool, right: bool) -> Value {
     })
 }
 
-fn compared<T: PartialOrd>(operator: BinaryOperator, left: T, right: T) -> Value {
-    Value::Bool(match operator {
-        BinaryOperator::Less => left < right,
-        BinaryOperator::Greater => left > right,
-        BinaryOperator::LessOrEqual => left <= right,
-        BinaryOperator::GreaterOrEqual => left >= right,
-        BinaryOperator::Equal => left == right,
-        _ => left != right,
-    })
+fn compared<T: PartialOrd + Copy>(operator: BinaryOperator, left: T, right: T) -> Value {
+    Value::Bool(operator.compare(left, right).unwrap_or(left != right))
 }
 
 fn of_reals(operator: BinaryOperator, left: f32, right: f32) -> Value {

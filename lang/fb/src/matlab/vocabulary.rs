@@ -94,23 +94,6 @@ pub(super) const LEVELS: [&[(&str, BinaryOperator)]; 7] = [
     ],
 ];
 
-/// How strongly an operator binds in ST.
-pub(super) const fn level(operator: BinaryOperator) -> u8 {
-    match operator {
-        BinaryOperator::Or => 1,
-        BinaryOperator::Xor => 2,
-        BinaryOperator::And => 3,
-        BinaryOperator::Equal | BinaryOperator::NotEqual => 4,
-        BinaryOperator::Less
-        | BinaryOperator::Greater
-        | BinaryOperator::LessOrEqual
-        | BinaryOperator::GreaterOrEqual => 5,
-        BinaryOperator::Add | BinaryOperator::Subtract => 6,
-        BinaryOperator::Multiply | BinaryOperator::Divide | BinaryOperator::Modulo => 7,
-        BinaryOperator::Power => 8,
-    }
-}
-
 /// Functions that both have: in ST, in MATLAB, and how many arguments they take.
 pub(super) const FUNCTIONS: [(&str, &str, usize); 14] = [
     ("ABS", "abs", 1),

@@ -31,6 +31,12 @@ const LEVELS: [&[(&str, BinaryOperator)]; 8] = [
     &[("**", BinaryOperator::Power)],
 ];
 
+/// How strongly an operator binds, from 1.
+pub fn precedence(operator: BinaryOperator) -> u8 {
+    let has_it = |level: &&[(&str, BinaryOperator)]| level.iter().any(|(_, one)| *one == operator);
+    (1..).zip(&LEVELS).find(|(_, level)| has_it(level)).map_or(0, |(number, _)| number)
+}
+
 pub(super) fn joined(first: Span, last: Span) -> Span {
     Span { start: first.start, end: last.end.max(first.end) }
 }

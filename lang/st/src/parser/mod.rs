@@ -9,6 +9,8 @@ mod translated;
 
 use diagnostics::{Source, Span};
 
+pub use expressions::precedence;
+
 use crate::diagnostic::{Code, Diagnostic};
 use crate::habits;
 use crate::keywords::{SECTIONS, is_keyword};

@@ -82,7 +82,7 @@ impl Translator<'_> {
             }
             ExpressionKind::Binary(operator, left, right) => match operator {
                 BinaryOperator::Power => Some(DataType::Real),
-                one if is_comparison(*one) => Some(DataType::Bool),
+                one if one.is_comparison() => Some(DataType::Bool),
                 _ => common(self.type_of(left), self.type_of(right)),
             },
             _ => None,
@@ -265,10 +265,6 @@ fn function_of(operator: BinaryOperator, of: Option<DataType>) -> Option<&'stati
         BinaryOperator::Modulo => "rem",
         _ => return None,
     })
-}
-
-pub(super) fn is_comparison(operator: BinaryOperator) -> bool {
-    infix(operator).is_some_and(|(_, level)| level == 5)
 }
 
 /// The type of what two make: of two the one that has all values of the other.

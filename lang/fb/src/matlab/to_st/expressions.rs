@@ -2,6 +2,7 @@
 //! them, and with its type, which says how numbers are divided.
 
 use diagnostics::Span;
+use st::parser::precedence;
 use st::tree::BinaryOperator;
 
 use super::{Outcome, Translator, Wrong};
@@ -11,7 +12,7 @@ use crate::matlab::functions;
 use crate::matlab::lexer::Kind;
 use crate::matlab::to_matlab::common;
 use crate::matlab::vocabulary::{FUNCTIONS, LEVELS, UNARY, WHOLE, is_bits, is_real, keeps_type};
-use crate::matlab::vocabulary::{class, level, type_of_class};
+use crate::matlab::vocabulary::{class, type_of_class};
 
 /// An expression in ST.
 pub(in crate::matlab) struct Phrase {
@@ -90,10 +91,10 @@ fn in_their_class(left: Phrase, operator: BinaryOperator, right: Phrase) -> (Phr
 /// Two operands with an operator of ST between them. `gap`: what is before the operator.
 fn joined(left: Phrase, gap: &str, operator: BinaryOperator, right: Phrase) -> Phrase {
     let (left, right) = in_their_class(left, operator, right);
-    let level = level(operator);
+    let level = precedence(operator);
     let typed = |left, right| match operator {
         BinaryOperator::Power => Some(DataType::Real),
-        _ if matches!(level, 4 | 5) => Some(DataType::Bool),
+        _ if operator.is_comparison() => Some(DataType::Bool),
         _ => common(left, right),
     };
     let (of, own) = (typed(left.of, right.of), typed(left.own, right.own));
