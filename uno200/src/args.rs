@@ -254,8 +254,8 @@ pub struct Build {
 /// Arguments of `convert`.
 #[derive(Debug, Args)]
 pub struct Convert {
-    /// A project of PLCopen or a chart of SFCEdit (.xml), a chart as text (.sfc), a block of IEC
-    /// 61499 (.fbt) or one in MATLAB (.m)
+    /// A project of PLCopen or a chart of SFCEdit (.xml), a chart as text (.sfc), a diagram of
+    /// blocks (.fbd), a block of IEC 61499 (.fbt) or one in MATLAB (.m)
     #[arg(value_name = "IN")]
     pub input: PathBuf,
     /// Where the result goes: a text (.st, .sfc, .m), a project (.xml), a block (.fbt), the service

@@ -119,6 +119,36 @@ fn a_chart_becomes_a_picture() {
 }
 
 #[test]
+fn a_diagram_becomes_a_picture() {
+    let folder = folder();
+    let path = folder.path();
+    let text = "PROGRAM Main VAR Delay : TON; END_VAR\nDelay(IN := %I0.0, PT := T#1s);\n\
+                %Q0.0 := Delay.Q;\nEND_PROGRAM\n";
+    fs::write(path.join("d.fbd"), text).unwrap();
+    let (code, _, errors) = convert(path, &["d.fbd", "-o", "d.svg"]);
+    assert_eq!(code, Some(0), "{errors}");
+    let svg = fs::read_to_string(path.join("d.svg")).unwrap();
+    assert!(svg.starts_with("<svg ") && svg.contains(">TON</text>"), "{svg}");
+    assert_eq!(convert(path, &["d.fbd"]).1, svg, "without a file to standard output");
+
+    let twice = text.replace("%Q0.0 :=", "%Q0.0 := 1; %Q0.0 :=");
+    fs::write(path.join("twice.fbd"), twice).unwrap();
+    fs::write(path.join("no.fbd"), "(* nothing *)").unwrap();
+    for (arguments, code, words) in [
+        (["twice.fbd", "-o", "out.svg"], 1, "E0502"),
+        (["no.fbd", "-o", "out.svg"], 2, "nothing to draw"),
+        (["d.fbd", "-o", "out.st"], 2, "`-o diagram.svg`"),
+        (["d.fbd", "--table", "--overwrite"], 2, "--table"),
+        (["d.fbd", "--summary", "--overwrite"], 2, "--summary"),
+    ] {
+        let (found, _, errors) = convert(path, &arguments);
+        assert_eq!(found, Some(code), "{arguments:?}: {errors}");
+        assert!(errors.contains(words), "{arguments:?}: {errors}");
+        assert!(!path.join("out.svg").exists() && !path.join("out.st").exists());
+    }
+}
+
+#[test]
 fn a_chart_of_sfcedit_becomes_a_program() {
     let folder = folder();
     let path = folder.path();

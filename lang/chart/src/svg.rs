@@ -1,24 +1,14 @@
 //! A drawing as a picture, SVG: text that any browser shows, in light and dark.
 
-use std::fmt::Write;
+use picture::svg::Svg;
+use picture::text::TEXT_LINE;
+use picture::{Point, Rect};
 
-use crate::drawing::measures::TEXT_LINE;
 use crate::drawing::shapes::{ActionShape, Look, StepShape, TransitionShape};
-use crate::drawing::{DOUBLE, Drawing, Point, Rect, Sheet};
+use crate::drawing::{DOUBLE, Drawing, Sheet};
 
 const STYLE: &str = "\
-svg { background: #fff; color: #1a1a1a; --soft: #0b57a4; }
-@media (prefers-color-scheme: dark) {
-  svg { background: #1b1d21; color: #e6e6e6; --soft: #8ab8f0; }
-}
-path, rect { fill: none; stroke: currentColor; stroke-width: 1.5; }
 .bar { stroke-width: 4; }
-.arrow { fill: currentColor; stroke: none; }
-text { fill: currentColor; font: 13px ui-monospace, 'DejaVu Sans Mono', Consolas, monospace; \
-dominant-baseline: central; white-space: pre; }
-.name { font-weight: bold; text-anchor: middle; }
-.note { font-size: 11px; text-anchor: middle; }
-.title { font-size: 15px; font-weight: bold; }
 .condition { fill: var(--soft); }
 ";
 
@@ -27,66 +17,21 @@ const INSET: i32 = 4;
 
 /// The picture of a drawing.
 pub fn write(drawing: &Drawing) -> String {
-    let Drawing { width, height, .. } = drawing;
-    let mut svg = Svg(String::new());
-    svg.line(&format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" role=\"img\">"
-    ));
     let names: Vec<&str> = drawing.sheets.iter().map(|sheet| sheet.name.as_str()).collect();
-    svg.line(&format!("<title>{}</title>", escaped(&names.join(", "))));
-    svg.line(&format!("<style>\n{STYLE}</style>"));
+    let mut svg = Svg::new(drawing.width, drawing.height, &names.join(", "), STYLE);
     drawing.sheets.iter().for_each(|sheet| svg.sheet(sheet));
-    svg.line("</svg>");
-    svg.0
+    svg.end()
 }
 
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out += "&amp;",
-            '<' => out += "&lt;",
-            '>' => out += "&gt;",
-            '"' => out += "&quot;",
-            // XML has no other control characters.
-            c if c.is_control() => out.push(' '),
-            c => out.push(c),
-        }
-    }
-    out
+/// What is drawn of a chart.
+trait Shapes {
+    fn sheet(&mut self, sheet: &Sheet);
+    fn step(&mut self, step: &StepShape);
+    fn action(&mut self, action: &ActionShape);
+    fn transition(&mut self, one: &TransitionShape);
 }
 
-struct Svg(String);
-
-impl Svg {
-    fn line(&mut self, text: &str) {
-        self.0 += text;
-        self.0.push('\n');
-    }
-
-    fn text(&mut self, class: &str, at: Point, text: &str) {
-        if !text.is_empty() {
-            let Point { x, y } = at;
-            let text = escaped(text);
-            self.line(&format!("<text class=\"{class}\" x=\"{x}\" y=\"{y}\">{text}</text>"));
-        }
-    }
-
-    fn rect(&mut self, rect: Rect) {
-        let Rect { x, y, width, height } = rect;
-        self.line(&format!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"/>"));
-    }
-
-    fn path(&mut self, class: &str, points: &[Point]) {
-        let mut d = String::new();
-        for (point, letter) in points.iter().zip(std::iter::once('M').chain(std::iter::repeat('L')))
-        {
-            let _ = write!(d, "{letter}{} {}", point.x, point.y);
-        }
-        self.line(&format!("<path class=\"{class}\" d=\"{d}\"/>"));
-    }
-
+impl Shapes for Svg {
     fn sheet(&mut self, sheet: &Sheet) {
         self.line("<g>");
         self.text("title", sheet.title, &sheet.name);

@@ -12,4 +12,5 @@ diagnostics::codes! {
     Empty = "E0504";
     Feedback = "E0505";
     NotConnected = "W0500";
+    Drawing = "W0501";
 }

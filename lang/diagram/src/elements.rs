@@ -67,6 +67,13 @@ impl Element {
         Ok(element)
     }
 
+    /// Which output of the instance that is called an operand is.
+    pub(crate) fn output_in<'o>(&self, operand: &'o Operand) -> Option<&'o str> {
+        let instance = self.writes.first().filter(|_| self.is_call)?;
+        let field = operand.path.strip_prefix(&instance.path)?.strip_prefix('.')?;
+        field.split(['.', '[']).next()
+    }
+
     fn arguments(&mut self, arguments: &[Argument], reading: &mut Reading) {
         for argument in arguments {
             match argument.is_output {

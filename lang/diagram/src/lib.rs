@@ -2,14 +2,19 @@
 //! assignments. They are checked by the rules of diagrams and put into the order of their links;
 //! what a call means is the business of Structured Text.
 //!
-//! `elements` says what a statement reads and writes, `order` which is executed before which.
+//! `elements` says what a statement reads and writes, `order` which is executed before which;
+//! [`drawing`] draws them, with the pins that [`interfaces`] gives blocks.
 
 mod addresses;
 mod connections;
 pub mod diagnostic;
+pub mod drawing;
 mod elements;
 mod feedback;
+pub mod interfaces;
 mod order;
+mod pragmas;
+pub mod svg;
 
 use diagnostics::Source;
 use st::lexer::cut;
@@ -20,19 +25,48 @@ pub use diagnostic::{Code, Diagnostic};
 use elements::{Element, Reading};
 use feedback::Feedback;
 
+/// A text with diagrams.
+#[derive(Debug)]
+pub struct Read {
+    /// Its units; their elements are in the order of the text.
+    pub file: File,
+    /// What Structured Text says about it.
+    pub of_st: Vec<st::Diagnostic>,
+    /// What breaks the rules of diagrams; nothing where Structured Text finds something.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Reads a text and checks its diagrams, for who wants to see them.
+pub fn read(source: &Source) -> Read {
+    let (file, of_st) = st::parser::parse(source);
+    let diagnostics = match of_st.is_empty() {
+        true => arrange(source, &mut file.clone()),
+        false => Vec::new(),
+    };
+    Read { file, of_st, diagnostics }
+}
+
 /// Puts the units of a file, as Structured Text has read it, into the order in which they are
 /// executed. Returns what breaks the rules of diagrams; functions have none.
 pub fn arrange(source: &Source, file: &mut File) -> Vec<Diagnostic> {
-    let mut feedback = Feedback::of(&source.text, &cut(&source.text).pragmas);
-    let mut found = Vec::new();
-    for unit in &mut file.units {
-        if !matches!(unit.kind, UnitKind::Function(_)) {
-            arrange_unit(&source.text, unit, &mut feedback, &mut found);
-        }
+    let pragmas = cut(&source.text).pragmas;
+    let mut feedback = Feedback::of(&source.text, &pragmas);
+    let mut found = pragmas::check(&source.text, &pragmas, diagrams(file));
+    for unit in file.units.iter_mut().filter(|one| is_diagram(one)) {
+        arrange_unit(&source.text, unit, &mut feedback, &mut found);
     }
     found.extend(feedback.left());
     found.sort_by_key(|one| one.span);
     found
+}
+
+/// The units of a file that are diagrams.
+fn diagrams(file: &File) -> impl Iterator<Item = &Unit> {
+    file.units.iter().filter(|one| is_diagram(one))
+}
+
+fn is_diagram(unit: &Unit) -> bool {
+    !matches!(unit.kind, UnitKind::Function(_))
 }
 
 fn arrange_unit<'t>(

@@ -1,7 +1,10 @@
-//! The standard functions as people read about them: what each takes, gives and means. The checker
-//! knows how they are computed.
+//! The standard functions as people read about them: what each takes, gives and means; the standard
+//! blocks as text. The checker knows how they are computed.
 
 use crate::model::ELEMENTARY;
+
+/// The standard blocks, in Structured Text.
+pub const BLOCKS: &str = include_str!("blocks.st");
 
 /// A standard function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

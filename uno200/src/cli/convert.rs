@@ -1,6 +1,7 @@
 //! `convert`: from one form of a program to another. What fails leaves no file.
 
 mod block;
+mod diagram;
 
 use std::collections::HashSet;
 use std::io::Write;
@@ -40,9 +41,11 @@ pub(super) fn convert(arguments: &Convert) -> Result<bool> {
         }
         Some("sfc") => from_text(arguments),
         Some("fbt" | "m") => block::convert(arguments),
+        Some("fbd") => diagram::convert(arguments),
         _ => bail!(
             "{}: charts are converted, projects of PLCopen and charts of SFCEdit (.xml), charts \
-             as text (.sfc), and blocks of IEC 61499 (.fbt, in MATLAB .m)",
+             as text (.sfc), diagrams of blocks (.fbd), and blocks of IEC 61499 (.fbt, in MATLAB \
+             .m)",
             arguments.input.display()
         ),
     }

@@ -4,8 +4,9 @@
 use super::measures::{
     ACTION_HEIGHT, BLOCK_GAP, LABEL_GAP, Measures, TEXT_LINE, short, text_width, wrapped,
 };
-use super::shapes::{ActionShape, Point, Rect};
+use super::shapes::ActionShape;
 use crate::model::{Chart, Forcing, Instance, Situation, Step, StepKind, Transition};
+use picture::{Point, Rect};
 
 /// What a step takes to the left and to the right of its middle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -10,8 +10,8 @@ use super::boxes::beside_bar;
 use super::measures::{CLEARANCE, CORRIDOR};
 use super::order::{Order, Place, order};
 use super::room::Room;
-use super::shapes::Point;
 use crate::model::{Chart, StepId, TransitionId};
+use picture::Point;
 
 /// Where steps are, and bars that do not follow from steps.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -1,5 +1,7 @@
-//! Sizes in a drawing, and how texts are cut to them. Texts are set in a font whose characters are
-//! all as wide, 13 units high.
+//! Sizes in the drawing of a chart, and how texts are cut to them.
+
+pub use picture::text::{CHARACTER, TEXT_LINE, cut, text_width};
+pub(super) use picture::{CLEARANCE, CORRIDOR};
 
 /// The sizes that lines depend on, as they are called where standards are explained.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,10 +22,6 @@ pub struct Measures {
 
 /// The gap of double lines.
 pub const DOUBLE: i32 = 4;
-/// Width of a character.
-pub const CHARACTER: i32 = 8;
-/// From one line of a text to the next one.
-pub const TEXT_LINE: i32 = 15;
 /// Height of the box of an action.
 pub const ACTION_HEIGHT: i32 = 18;
 /// From a step to the block of its actions.
@@ -33,13 +31,10 @@ pub const TITLE_HEIGHT: i32 = 30;
 
 pub(super) const STEP_HEIGHT: i32 = 36;
 pub(super) const BAR: i32 = 24;
-pub(super) const CLEARANCE: i32 = 10;
 /// The shortest stub: a bar with its text has room on it.
 pub(super) const STUB_MIN: i32 = 32;
 /// From the bar of a transition to its text.
 pub(super) const LABEL_GAP: i32 = 5;
-/// Free between what is side by side: room for lines.
-pub(super) const CORRIDOR: i32 = 40;
 
 const STEP_WIDTH_MIN: i32 = 56;
 /// Characters of a name.
@@ -63,22 +58,9 @@ impl Measures {
     }
 }
 
-/// How wide a text is.
-pub fn text_width(text: &str) -> i32 {
-    text.chars().count() as i32 * CHARACTER
-}
-
 /// A name that fits into a box; a longer one ends in dots.
 pub(super) fn short(name: &str) -> String {
     cut(name, NAME_MAX)
-}
-
-fn cut(text: &str, most: usize) -> String {
-    if text.chars().count() <= most {
-        return text.to_owned();
-    }
-    let begin: String = text.chars().take(most.saturating_sub(1)).collect();
-    format!("{begin}…")
 }
 
 /// A text in short lines. What is too long ends in dots.

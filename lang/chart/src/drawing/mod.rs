@@ -5,14 +5,11 @@
 //! has the rules by which lines are drawn, `wiring` leads them around what is in the way.
 
 mod boxes;
-mod layer;
 mod layout;
 pub mod measures;
-mod obstacles;
 mod order;
 mod places;
 mod room;
-mod search;
 pub mod shapes;
 mod sites;
 pub mod standard;
@@ -25,22 +22,17 @@ use diagnostics::Source;
 
 use crate::model::{Chart, Origin, Position, Step, StepKind, Transition, TransitionId};
 use boxes::{block, label, label_room, label_start, note};
-use measures::{BLOCK_GAP, CORRIDOR, Measures, TITLE_HEIGHT, short, text_width};
+use measures::{BLOCK_GAP, Measures, TITLE_HEIGHT, short, text_width};
 use shapes::{ActionShape, Look, StepShape, TransitionShape};
 use standard::Route;
 
 pub use crate::model::StepId;
 pub use measures::DOUBLE;
-pub use shapes::{Drawing, Point, Rect, Sheet};
+pub use picture::{PLACE_MAX, Point, Rect};
+pub use shapes::{Drawing, Sheet};
 
 /// Most steps, and most transitions, of a chart that is drawn.
 pub const ELEMENTS_MAX: usize = 2_500;
-/// Places in the text are between this and its negative.
-pub const PLACE_MAX: i32 = 1_000_000;
-/// Charts are side by side up to this width.
-const WIDTH: i32 = 1100;
-/// Free around everything.
-const MARGIN: i32 = 16;
 /// Half the width of an arrow.
 const ARROW: i32 = 5;
 
@@ -169,7 +161,7 @@ fn transition_shape(transition: &Transition, route: Route) -> TransitionShape {
     let text = label(transition);
     let sides = route.before.into_iter().chain(route.after).map(|(_, points)| points);
     let between = Some(route.between).filter(|points| !points.is_empty());
-    let lines: Vec<Vec<Point>> = sides.chain(between).map(search::simplified).collect();
+    let lines: Vec<Vec<Point>> = sides.chain(between).map(picture::search::simplified).collect();
     TransitionShape {
         from: transition.from.iter().copied().collect(),
         to: transition.to.iter().copied().collect(),
@@ -221,17 +213,9 @@ fn framed(mut sheet: Sheet) -> Sheet {
 
 /// The sheets in rows.
 fn packed(mut sheets: Vec<Sheet>) -> Drawing {
-    let mut next = Point::new(MARGIN, MARGIN);
-    let (mut right, mut bottom) = (0, 0);
-    for sheet in &mut sheets {
-        if next.x > MARGIN && next.x + sheet.frame.width > WIDTH {
-            next = Point::new(MARGIN, bottom + CORRIDOR);
-        }
-        sheet.move_by(next);
-        next.x = sheet.frame.right() + CORRIDOR;
-        (right, bottom) = (right.max(sheet.frame.right()), bottom.max(sheet.frame.bottom()));
-    }
-    Drawing { width: right + MARGIN, height: bottom + MARGIN, sheets }
+    let (corners, size) = picture::packed(sheets.iter().map(|sheet| sheet.frame));
+    sheets.iter_mut().zip(corners).for_each(|(sheet, corner)| sheet.move_by(corner));
+    Drawing { width: size.x, height: size.y, sheets }
 }
 
 impl Drawing {

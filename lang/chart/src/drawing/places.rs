@@ -7,8 +7,8 @@ use super::PLACE_MAX;
 use super::layout::Placement;
 use super::measures::CORRIDOR;
 use super::room::Room;
-use super::shapes::Point;
 use crate::model::{Chart, Position, StepId};
+use picture::Point;
 
 /// More than that is not left free between two rows or columns.
 const FREE_MAX: i64 = 400;

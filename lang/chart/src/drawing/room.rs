@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 
 use super::boxes::{Extent, beside_bar, block, label, note};
 use super::measures::{ACTION_HEIGHT, Measures};
-use super::shapes::{Point, Rect};
 use crate::model::{Chart, Step, StepId};
+use picture::{Point, Rect};
 
 /// What a step needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

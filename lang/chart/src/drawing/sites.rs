@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
 use super::measures::CLEARANCE;
-use super::shapes::{Point, Rect};
+use picture::{Point, Rect};
 
 /// Where the middle of a bar passes by a room.
 pub(super) fn edges(room: Rect) -> [i32; 2] {

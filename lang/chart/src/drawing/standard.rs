@@ -2,8 +2,8 @@
 //! way. Lines leave steps in the middle of the bottom and enter them in the middle of the top.
 
 use super::measures::Measures;
-use super::shapes::Point;
 use crate::model::StepId;
+use picture::Point;
 
 /// A step and its centre.
 pub type Place = (StepId, Point);

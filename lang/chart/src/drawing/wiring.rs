@@ -7,14 +7,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::boxes::{label, label_room};
 use super::layout::Placement;
 use super::measures::{BAR, CLEARANCE, DOUBLE};
-use super::obstacles::{Family, Lines, Segment, Terrain, Walls, rect};
 use super::room::Room;
-use super::search::{search, simplified};
-use super::shapes::{Point, Rect};
 use super::sites::{Sites, edges};
 use super::standard::{Place, Route, converging, diverging, forking, joining, meeting, simple};
 use crate::drawn::Drawn;
 use crate::model::{Chart, StepId, Transition, TransitionId};
+use picture::obstacles::{self, Lines, Terrain, Walls, rect};
+use picture::search::{search, simplified};
+use picture::{Point, Rect};
 
 /// From a step to the first bend of a line that shares its way with no other one.
 const SHORT_STUB: i32 = 6;
@@ -26,6 +26,16 @@ const TO_BEND: i32 = 4;
 const SITES_MAX: usize = 4;
 /// What it costs to go through the text of another transition.
 const THROUGH_TEXT: u32 = 20_000;
+
+/// Which lines may lie upon each other: they mean the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Family {
+    From(StepId),
+    To(StepId),
+    Of(TransitionId),
+}
+
+type Segment = obstacles::Segment<Family>;
 
 /// How a transition is drawn, by the rules.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -44,7 +54,7 @@ struct Wiring<'c> {
     walls: Walls,
     /// Bars with their texts.
     bars: Walls,
-    lines: Lines,
+    lines: Lines<Family>,
     /// Where the middle of a bar passes by walls and bars.
     edges: BTreeSet<i32>,
 }

@@ -89,7 +89,7 @@ static STANDARD: OnceLock<[tree::File; 2]> = OnceLock::new();
 
 /// The standard blocks, and functions that no instruction computes.
 fn standard() -> [tree::File; 2] {
-    [include_str!("../blocks.st"), include_str!("../functions.st")].map(|text| {
+    [crate::standard::BLOCKS, include_str!("../functions.st")].map(|text| {
         let source = Source::new("standard.st", text).ok();
         source.map(|source| parser::parse(&source).0).unwrap_or_default()
     })

@@ -1,16 +1,16 @@
 //! Things that are drawn, found by where they are: what is in the way of a line is near it, however
-//! large the chart is.
+//! large the drawing is.
 
 use std::collections::HashMap;
 
-use super::shapes::Rect;
+use crate::geometry::Rect;
 
 /// Edge of the squares in which things are looked up.
 const CELL: i32 = 256;
 
 /// Things of one kind, each with the room that it takes.
 #[derive(Debug)]
-pub(super) struct Layer<T> {
+pub(crate) struct Layer<T> {
     things: Vec<(Rect, T)>,
     cells: HashMap<(i32, i32), Vec<usize>>,
     bounds: Option<Rect>,
@@ -34,7 +34,7 @@ impl<T> Default for Layer<T> {
 }
 
 impl<T> Layer<T> {
-    pub(super) fn add(&mut self, room: Rect, thing: T) {
+    pub(crate) fn add(&mut self, room: Rect, thing: T) {
         for cell in cells(room) {
             self.cells.entry(cell).or_default().push(self.things.len());
         }
@@ -43,12 +43,12 @@ impl<T> Layer<T> {
     }
 
     /// What holds everything.
-    pub(super) fn bounds(&self) -> Option<Rect> {
+    pub(crate) fn bounds(&self) -> Option<Rect> {
         self.bounds
     }
 
     /// What shares a point with a room, in the order in which it was added.
-    pub(super) fn near(&self, room: Rect) -> impl Iterator<Item = &(Rect, T)> {
+    pub(crate) fn near(&self, room: Rect) -> impl Iterator<Item = &(Rect, T)> {
         let mut found: Vec<usize> = Vec::new();
         let cells_of = |length: i32| i64::from(length / CELL) + 2;
         if cells_of(room.width) * cells_of(room.height) < self.things.len() as i64 {

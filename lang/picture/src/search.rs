@@ -6,9 +6,9 @@
 
 use std::collections::BTreeMap;
 
-use super::measures::CLEARANCE;
-use super::obstacles::{Terrain, Window};
-use super::shapes::{Point, Rect};
+use crate::CLEARANCE;
+use crate::geometry::{Point, Rect};
+use crate::obstacles::{Terrain, Window};
 
 const BEND: u32 = 40;
 const CROSSING: u32 = 60;
@@ -47,7 +47,7 @@ fn stretches(list: &[i32], from: i32, to: i32) -> std::ops::Range<usize> {
 }
 
 impl Grid {
-    fn new(terrain: &Terrain, ends: [Point; 2], window: Window) -> Grid {
+    fn new<F: PartialEq>(terrain: &Terrain<F>, ends: [Point; 2], window: Window) -> Grid {
         let [xs, ys] = terrain.coordinates(ends, window);
         let lengths = |list: &[i32]| -> Vec<u32> {
             let ends = list.iter().skip(1).chain(list.last());
@@ -146,7 +146,11 @@ fn around(a: Point, b: Point, margin: u32) -> Window {
 
 /// The way from a point that is left downward to one that is not entered upward, with its cost.
 /// None if walls are around one of them.
-pub(super) fn search(terrain: &Terrain, from: Point, to: Point) -> Option<(Vec<Point>, u32)> {
+pub fn search<F: PartialEq>(
+    terrain: &Terrain<F>,
+    from: Point,
+    to: Point,
+) -> Option<(Vec<Point>, u32)> {
     let mut margin = MARGIN;
     loop {
         let grid = Grid::new(terrain, [from, to], around(from, to, margin));
@@ -270,7 +274,7 @@ impl<'g> Search<'g> {
 }
 
 /// Without points that are there twice or where nothing bends.
-pub(super) fn simplified(points: Vec<Point>) -> Vec<Point> {
+pub fn simplified(points: Vec<Point>) -> Vec<Point> {
     let mut kept: Vec<Point> = Vec::with_capacity(points.len());
     for point in points {
         if kept.last() == Some(&point) {

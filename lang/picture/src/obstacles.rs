@@ -1,89 +1,95 @@
-//! What is in the way of a line that is drawn around things: steps, texts, and the lines of other
-//! transitions.
+//! What is in the way of a line that is drawn around things: boxes, texts, other lines. A line has
+//! a family: lines of one may lie upon each other, because they mean the same.
 
-use super::layer::Layer;
-use super::measures::CLEARANCE;
-use super::shapes::{Point, Rect};
-use crate::model::{StepId, TransitionId};
+use crate::CLEARANCE;
+use crate::geometry::{Point, Rect};
+use crate::layer::Layer;
 
-/// Which lines may lie upon each other: they mean the same.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Family {
-    From(StepId),
-    To(StepId),
-    Of(TransitionId),
-}
+/// A straight piece of a line, with its family.
+pub type Segment<F> = (F, Point, Point);
 
-pub(super) type Segment = (Family, Point, Point);
-
-pub(super) fn rect((_, a, b): &Segment) -> Rect {
+/// The room of a piece.
+pub fn rect<F>((_, a, b): &Segment<F>) -> Rect {
     Rect::between(*a, *b)
 }
 
 /// Rooms that no line goes through.
 #[derive(Debug, Default)]
-pub(super) struct Walls(Layer<()>);
+pub struct Walls(Layer<()>);
 
 impl Walls {
-    pub(super) fn add(&mut self, room: Rect) {
+    /// One more.
+    pub fn add(&mut self, room: Rect) {
         self.0.add(room, ());
     }
 
     /// Those that share a point with a room.
-    pub(super) fn near(&self, room: Rect) -> impl Iterator<Item = Rect> {
+    pub fn near(&self, room: Rect) -> impl Iterator<Item = Rect> {
         self.0.near(room).map(|(room, ())| *room)
     }
 
-    pub(super) fn bounds(&self) -> Option<Rect> {
+    /// What holds all of them.
+    pub fn bounds(&self) -> Option<Rect> {
         self.0.bounds()
     }
 }
 
 /// Lines that may be crossed, but not lain upon.
-#[derive(Debug, Default)]
-pub(super) struct Lines {
-    all: Layer<Segment>,
+#[derive(Debug)]
+pub struct Lines<F> {
+    all: Layer<Segment<F>>,
     /// Those of them that are double: what crosses one looks as if it belonged to it.
     doubles: Layer<(Point, Point)>,
 }
 
-impl Lines {
-    pub(super) fn add(&mut self, line: Segment) {
+impl<F> Default for Lines<F> {
+    fn default() -> Lines<F> {
+        Lines { all: Layer::default(), doubles: Layer::default() }
+    }
+}
+
+impl<F> Lines<F> {
+    /// One more.
+    pub fn add(&mut self, line: Segment<F>) {
         self.all.add(rect(&line), line);
     }
 
-    pub(super) fn add_double(&mut self, a: Point, b: Point) {
+    /// The upper one of a double line.
+    pub fn add_double(&mut self, a: Point, b: Point) {
         self.doubles.add(Rect::between(a, b), (a, b));
     }
 
     /// Those that share a point with a room.
-    pub(super) fn near(&self, room: Rect) -> impl Iterator<Item = &Segment> {
+    pub fn near(&self, room: Rect) -> impl Iterator<Item = &Segment<F>> {
         self.all.near(room).map(|(_, line)| line)
     }
 
-    pub(super) fn bounds(&self) -> Option<Rect> {
+    /// What holds all of them.
+    pub fn bounds(&self) -> Option<Rect> {
         self.all.bounds()
     }
 }
 
 /// What is in the way of one line.
 #[derive(Debug)]
-pub(super) struct Terrain<'t> {
+pub struct Terrain<'t, F> {
     /// Which others it may lie upon.
-    pub(super) family: Family,
-    pub(super) walls: &'t [&'t Walls],
+    pub family: F,
+    /// What it does not go through.
+    pub walls: &'t [&'t Walls],
     /// Walls that are there for this line alone.
-    pub(super) own_walls: &'t [Rect],
-    pub(super) lines: &'t Lines,
+    pub own_walls: &'t [Rect],
+    /// What it may cross.
+    pub lines: &'t Lines<F>,
     /// Lines that are not among the others yet.
-    pub(super) own_lines: &'t [Segment],
+    pub own_lines: &'t [Segment<F>],
 }
 
 /// From where to where a search goes, in both directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Window {
-    pub(super) xs: (i32, i32),
-    pub(super) ys: (i32, i32),
+pub(crate) struct Window {
+    pub(crate) xs: (i32, i32),
+    pub(crate) ys: (i32, i32),
 }
 
 impl Window {
@@ -92,10 +98,10 @@ impl Window {
     }
 }
 
-impl Terrain<'_> {
+impl<F: PartialEq> Terrain<'_, F> {
     /// The coordinates of a window at which lines pass by what is there, and on the outside by all
     /// of it.
-    pub(super) fn coordinates(&self, ends: [Point; 2], window: Window) -> [Vec<i32>; 2] {
+    pub(crate) fn coordinates(&self, ends: [Point; 2], window: Window) -> [Vec<i32>; 2] {
         let mut xs: Vec<i32> = ends.iter().map(|end| end.x).collect();
         let mut ys: Vec<i32> = ends.iter().map(|end| end.y).collect();
         for wall in self.walls_in(window) {
@@ -123,7 +129,7 @@ impl Terrain<'_> {
     }
 
     /// Whether nothing is outside of a window, and no way leads around it there.
-    pub(super) fn is_all_in(&self, window: Window) -> bool {
+    pub(crate) fn is_all_in(&self, window: Window) -> bool {
         let own = self.own_walls.iter().copied().chain(self.own_lines.iter().map(rect));
         let others = self.walls.iter().filter_map(|walls| walls.bounds());
         let all = own.chain(others).chain(self.lines.bounds()).reduce(Rect::union);
@@ -136,18 +142,18 @@ impl Terrain<'_> {
         })
     }
 
-    pub(super) fn walls_in(&self, window: Window) -> impl Iterator<Item = Rect> {
+    pub(crate) fn walls_in(&self, window: Window) -> impl Iterator<Item = Rect> {
         let room = window.rect().grown(CLEARANCE);
         let walls = self.walls.iter().flat_map(move |walls| walls.near(room));
         walls.chain(self.own_walls.iter().copied())
     }
 
-    pub(super) fn lines_in(&self, window: Window) -> impl Iterator<Item = (Point, Point)> {
+    pub(crate) fn lines_in(&self, window: Window) -> impl Iterator<Item = (Point, Point)> {
         let others = self.lines.near(window.rect().grown(CLEARANCE)).chain(self.own_lines);
         others.filter(|line| line.0 != self.family).map(|(_, a, b)| (*a, *b))
     }
 
-    pub(super) fn doubles_in(&self, window: Window) -> impl Iterator<Item = (Point, Point)> {
+    pub(crate) fn doubles_in(&self, window: Window) -> impl Iterator<Item = (Point, Point)> {
         self.lines.doubles.near(window.rect().grown(CLEARANCE)).map(|(_, line)| *line)
     }
 }
