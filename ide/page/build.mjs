@@ -39,12 +39,12 @@ const worker = await build({
   outdir: VERSION,
   external: ["./ide_core.js"],
 });
-// So is the module of charts: `ide_charts.js` and `ide_charts_bg.wasm`.
+// So is the module of drawings: `ide_drawings.js` and `ide_drawings_bg.wasm`.
 await build({
   ...options,
-  entryPoints: { charts: "src/chart/worker.ts" },
+  entryPoints: { drawings: "src/drawings/worker.ts" },
   outdir: VERSION,
-  external: ["./ide_charts.js"],
+  external: ["./ide_drawings.js"],
 });
 // Its address is the same for all versions, and what it keeps is below it.
 await build({

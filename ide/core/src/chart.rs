@@ -1,5 +1,5 @@
 //! How the charts are that the page shows: what the PLC is asked for, and what follows from that.
-//! What charts look like, `ide/charts` knows.
+//! What charts look like, `ide/drawings` knows.
 
 use analysis::chart::Chart;
 use analysis::chart::model::StepKind;

@@ -2,6 +2,7 @@
 import { EditorView } from "@codemirror/view";
 import "./css/page.css";
 import { Core } from "./core/core";
+import { Watching } from "./core/watching";
 import { Commands } from "./editor/commands";
 import { Editors } from "./editor/editors";
 import { LiveView } from "./page/live_view";
@@ -17,9 +18,9 @@ import { Tabs } from "./page/tabs";
 import { unfitWords } from "./page/unfit";
 import { valueMenu, valuesMenu } from "./page/values";
 import { Capture } from "./panels/capture";
-import { Chart } from "./panels/chart";
 import { Exercises } from "./panels/exercises";
 import { Ladder } from "./panels/ladder";
+import { Lazy } from "./panels/lazy";
 import { Operands } from "./panels/operands";
 import { Plant } from "./panels/plant";
 import { Problems } from "./panels/problems";
@@ -45,6 +46,7 @@ const core = new Core((message) => notice(t("coreBroken", message), true));
 const project = new Project(core);
 const keeper = new Keeper(project, () => notice(t("storageFull"), true));
 const operands = new Operands(core);
+const watching = new Watching(core);
 const bridge = Bridge.fromAddress();
 let current = { id: "", title: "" };
 
@@ -75,7 +77,7 @@ const problems = new Problems(
   () => tabs,
 );
 const chosen = new Chosen(project, () => current);
-const watch: Watch = new Watch(core, editors, operands, chosen, () => tabs);
+const watch: Watch = new Watch(core, watching, editors, operands, chosen, () => tabs);
 const scope = new Scope(core, operands, chosen);
 const capture = new Capture(core, project, operands, chosen);
 const plant = new Plant(core, project);
@@ -98,7 +100,18 @@ const menus = {
 };
 const header = new Header(core, menus, (act) => opening.afterwards(act));
 const ladder = new Ladder(core, editors, project, header);
-const chart = new Chart(core, editors, project, header, operands);
+const chart = new Lazy("chart", async (element) => {
+  const { ChartEditor } = await import("./chart/editor");
+  return new ChartEditor(element, core, editors, project, header, operands);
+});
+const diagram = new Lazy("diagram", async (element) => {
+  const { DiagramView } = await import("./diagram/diagram");
+  const plot = (operand: string) => {
+    scope.add(operand);
+    tabs.show("scope", true);
+  };
+  return new DiagramView(element, core, editors, project, header, operands, watching, plot);
+});
 const tabs: Tabs = new Tabs("panels", [
   { id: "problems", text: "problems", element: problems.element },
   { id: "watch", text: "watch", element: watch.element, shown: (shown) => watch.shown(shown) },
@@ -123,6 +136,12 @@ const tabs: Tabs = new Tabs("panels", [
     shown: (shown) => ladder.shown(shown),
   },
   { id: "chart", text: "chart", element: chart.element, shown: (shown) => chart.shown(shown) },
+  {
+    id: "diagram",
+    text: "diagram",
+    element: diagram.element,
+    shown: (shown) => diagram.shown(shown),
+  },
   {
     id: "exercises",
     text: "exercises",

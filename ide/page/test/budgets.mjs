@@ -82,7 +82,7 @@ assert(
   ["page.js", "worker.js", "ide_core_bg.wasm"].every((name) => asked.has(name)),
   `${loaded}`,
 );
-assert(!asked.has("ide_charts_bg.wasm"), `${loaded}`);
+assert(!asked.has("ide_drawings_bg.wasm"), `${loaded}`);
 const files = [...loaded.map((name) => join(inner, name)), join(folder, "index.html")];
 const sizes = await Promise.all(files.map(async (file) => gzipSync(await readFile(file)).length));
 most("page with its core, gzip", round(sizes.reduce((a, b) => a + b) / 1e6), "MB", 1.5, 1);

@@ -106,6 +106,12 @@ for (const colorScheme of ["light", "dark"])
     for (let line = 1; line < 70; line += 1) await page.keyboard.press("ArrowDown");
     await page.waitForTimeout(4000);
     await look(page, `structured-${colorScheme}-${width}`);
+    await run(page, "control_loop-fbd");
+    await page.getByRole("tab", { name: "Diagram", exact: true }).click();
+    await page.locator(".diagram .element", { hasText: "Loop" }).click();
+    await page.getByRole("slider", { name: "Slider for SP" }).fill("0.8");
+    await page.waitForTimeout(4000);
+    await look(page, `diagram-${colorScheme}-${width}`);
     await run(page, "traffic_light-sfc");
     await page.getByRole("tab", { name: "Chart", exact: true }).click();
     await page.waitForTimeout(4000);

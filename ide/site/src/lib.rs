@@ -18,7 +18,7 @@ const LIST: &str = "files.json";
 
 /// The modules of WebAssembly that the page loads: the core, and what draws and edits charts, which
 /// it loads when it needs it.
-pub const MODULES: [&str; 2] = ["ide_core", "ide_charts"];
+pub const MODULES: [&str; 2] = ["ide_core", "ide_drawings"];
 
 /// The modules, as wasm-bindgen gives them: files by their names.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

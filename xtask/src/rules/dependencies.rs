@@ -43,7 +43,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "ide-site",
         ],
     ),
-    ("ide-charts", &["diagnostics", "st", "chart"]),
+    ("ide-drawings", &["diagnostics", "st", "chart", "diagram", "picture"]),
     (
         "ide-core",
         &["plc-isa", "diagnostics", "awl-asm", "project", "awl-sim", "analysis", "client", "flash"],

@@ -5,9 +5,9 @@ import { Refusal } from "../core/core";
 import type { Editors } from "../editor/editors";
 import type { Project } from "../project/project";
 import { t } from "../text/language";
-import { Overtaken, type ChartsModule } from "./charts";
+import { Overtaken, type DrawingsModule } from "../drawings/module";
 import { Drawn, type Item } from "./drawn";
-import type { Charts, Edit, ElementId, Judged, Judgement } from "./protocol";
+import type { Charts, Edit, ElementId, Judged, Judgement, Questions } from "./protocol";
 
 /** So long nothing is drawn while a text is being written. */
 const QUIET_MS = 120;
@@ -38,7 +38,7 @@ export class ChartDocument {
   private listeners: Listener[] = [];
 
   constructor(
-    private module: ChartsModule,
+    private module: DrawingsModule<Questions>,
     private editors: Editors,
     private project: Project,
   ) {

@@ -1,7 +1,8 @@
 // What a drag does: moves the ground, draws a band that selects, moves what is selected, draws a
 // line to the step that is to be connected.
 import { setAttributes, s } from "../page/dom";
-import { meet, type Item, type Point } from "./drawn";
+import { meet, type Point } from "../page/ground";
+import type { Item } from "./drawn";
 import { place, shift } from "./edits";
 import type { ChartEditor } from "./editor";
 import type { Frame } from "./protocol";

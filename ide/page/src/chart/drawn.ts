@@ -1,8 +1,9 @@
 // What is drawn, to be found: by its id, its place, its line in the text. Where everything is, the
 // module of charts says.
+import type { Point } from "../page/ground";
 import type { Charts, ChartSheet, ChartStep, ChartTransition, ElementId, Frame } from "./protocol";
 
-export type Point = readonly [x: number, y: number];
+export type { Point };
 
 interface Common {
   /** Tells elements of all charts apart. */
@@ -67,11 +68,6 @@ function transitionItem(sheet: number, element: ChartTransition): TransitionItem
   const box = around([...lines.flat(), ...corners(barFrame(element))]);
   const middle = [(bar[0] + bar[2]) / 2, (bar[1] + bar[3]) / 2] as const;
   return { kind: "transition", key: `${sheet}:${id}`, sheet, id, element, box, middle };
-}
-
-/** Whether two frames have something in common. */
-export function meet(a: Frame, b: Frame): boolean {
-  return a[0] <= b[0] + b[2] && b[0] <= a[0] + a[2] && a[1] <= b[1] + b[3] && b[1] <= a[1] + a[3];
 }
 
 export class Drawn {

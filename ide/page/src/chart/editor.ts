@@ -10,7 +10,7 @@ import type { Operands } from "../panels/operands";
 import { CHART_WORDS } from "../text/chart_words";
 import { addWords, onLanguage, t } from "../text/language";
 import { Canvas } from "./canvas";
-import { ChartsModule, Overtaken } from "./charts";
+import { DrawingsModule, Overtaken } from "../drawings/module";
 import { Commands } from "./commands";
 import { ChartDocument, type Same } from "./document";
 import { barFrame, type Drawn, type Item } from "./drawn";
@@ -24,7 +24,7 @@ import { Minimap } from "./minimap";
 import { Moments } from "./moments";
 import { Pictures } from "./picture";
 import { Pointer } from "./pointer";
-import type { Edit, ElementId } from "./protocol";
+import type { Edit, ElementId, Questions } from "./protocol";
 import { actionOf, type Scene } from "./edits";
 import { Selection } from "./selection";
 import { SetReset } from "./set_reset";
@@ -70,7 +70,9 @@ export class ChartEditor {
     header: Header,
     operands: Operands,
   ) {
-    const module = new ChartsModule((message) => notice(t("chartBroken", message), true));
+    const module = new DrawingsModule<Questions>((message) =>
+      notice(t("drawingBroken", message), true),
+    );
     this.document = new ChartDocument(module, editors, project);
     this.canvas = new Canvas({
       state: (item) => this.live.state(item),

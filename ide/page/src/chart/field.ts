@@ -4,7 +4,7 @@ import { Refusal } from "../core/core";
 import { h, newId } from "../page/dom";
 import { t, type Args, type Key } from "../text/language";
 import type { Canvas } from "./canvas";
-import { Overtaken } from "./charts";
+import { Overtaken } from "../drawings/module";
 import type { Frame } from "./protocol";
 
 const OFFERED_MAX = 8;

@@ -1,5 +1,5 @@
-// A pointer in the drawing: a click selects, a drag moves steps, the ground or a band, a wheel and
-// two fingers change the size.
+// A pointer in the drawing: a click selects, a drag moves steps, the ground or a band, two fingers
+// change the size.
 import { Autoscroll } from "./autoscroll";
 import { connection, band, move, pan, type Drag } from "./drags";
 import type { ChartEditor } from "./editor";
@@ -29,7 +29,6 @@ export class Pointer {
     element.addEventListener("pointermove", (event) => this.moved(event));
     element.addEventListener("pointerup", (event) => this.up(event));
     element.addEventListener("pointercancel", (event) => this.cancel(event));
-    element.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     // The focus goes where this has it go, and nothing of the page is selected.
     element.addEventListener("mousedown", (event) => {
       if (!isField(event)) event.preventDefault();
@@ -140,12 +139,6 @@ export class Pointer {
   }
 
   /** With Ctrl it changes the size; so does a pinch on a touchpad. */
-  private wheel(event: WheelEvent): void {
-    if (!event.ctrlKey) return;
-    event.preventDefault();
-    const { canvas } = this.editor;
-    canvas.zoomTo(canvas.zoom * Math.exp(-event.deltaY / 300), event);
-  }
 }
 
 const isIn = (event: Event, what: string) =>

@@ -1,4 +1,4 @@
-// What the module of charts is asked and what it answers; `ide/charts` defines it. Each question has the
+// What the module of charts is asked and what it answers; `ide/drawings` defines it. Each question has the
 // text as it is in the editor: the text is the file, and nothing else is kept of a chart.
 
 /** Identifies an element of a chart: `s` or `t` for a step or a transition, and its number. It stays the same over edits of

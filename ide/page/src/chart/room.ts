@@ -1,6 +1,7 @@
 // Where there is room for what is read beside a transition: the place of several at which the least
 // of the drawing is in the way.
-import { barFrame, LETTER, meet, TEXT_LINE } from "./drawn";
+import { meet } from "../page/ground";
+import { barFrame, LETTER, TEXT_LINE } from "./drawn";
 import type { Drawn, Point, TransitionItem } from "./drawn";
 import type { Frame } from "./protocol";
 

@@ -8,9 +8,9 @@ import { labelled } from "../panels/scope";
 import { save } from "../project/files";
 import type { Project } from "../project/project";
 import { t, type Key } from "../text/language";
-import type { ChartsModule } from "./charts";
+import type { DrawingsModule } from "../drawings/module";
 import { stemOf } from "./paper";
-import type { Converted, ConvertedVariable, ConvertTarget } from "./protocol";
+import type { Converted, ConvertedVariable, ConvertTarget, Questions } from "./protocol";
 
 const TARGETS: readonly (readonly [ConvertTarget, { plain: string }])[] = [
   ["uno200", { plain: "uno200" }],
@@ -53,7 +53,7 @@ export class SetReset {
   readonly element = button("chartConvert", () => void this.open(), { class: "primary" });
 
   constructor(
-    private module: ChartsModule,
+    private module: DrawingsModule<Questions>,
     private editors: Editors,
     private project: Project,
   ) {
@@ -125,7 +125,7 @@ class Kinds {
   );
 
   constructor(
-    private module: ChartsModule,
+    private module: DrawingsModule<Questions>,
     private name: string,
     private text: string,
     /** The table that a file of the project has. */

@@ -136,8 +136,8 @@ export class Editors {
   }
 
   openLine(file: string, line: number): void {
-    const doc = this.sheet(file)?.state.doc;
-    if (!doc) return;
+    if (!this.sheet(file)) return;
+    const { doc } = this.stateOf(file);
     const { from, to } = doc.line(Math.max(1, Math.min(line, doc.lines)));
     this.open(file, { from, to });
   }

@@ -39,7 +39,7 @@ const SHORTCUTS: [string, Key][] = [
   ["Ctrl+S", "helpSave"],
   ["Esc Tab", "helpLeave"],
   ["F6, Shift+F6", "helpRegions"],
-  ["Alt+1 … Alt+9", "helpPanels"],
+  ["Alt+1 … Alt+9, Alt+0", "helpPanels"],
   ["F1", "help"],
 ];
 

@@ -32,9 +32,9 @@ export function shortcuts({ header, tabs, menu, search }: Parts): void {
     "Ctrl+Shift+F": search,
   };
   addEventListener("keydown", (event) => {
-    const panel = /^Digit([1-9])$/.exec(event.code);
+    const panel = /^Digit(\d)$/.exec(event.code);
     const act = event.altKey
-      ? panel && !event.ctrlKey && (() => tabs.showAt(Number(panel[1]) - 1))
+      ? panel && !event.ctrlKey && (() => tabs.showAt((Number(panel[1]) + 9) % 10))
       : keys[keyName(event)];
     // A dialog has the page for itself.
     if (!act || document.querySelector("dialog[open]")) return;

@@ -94,6 +94,11 @@ export class Scope {
     );
   }
 
+  /** Shows one more signal. */
+  add(signal: string): void {
+    this.signals.add([signal]);
+  }
+
   shown(isShown: boolean): void {
     this.isShown = isShown;
     if (isShown && !this.isUsed) {

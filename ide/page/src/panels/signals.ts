@@ -31,7 +31,7 @@ export class Signals {
     });
     const submit = (event: Event) => {
       event.preventDefault();
-      this.set([...this.names, ...this.field.value.split(/[\s,;]+/).filter(Boolean)]);
+      this.add(this.field.value.split(/[\s,;]+/).filter(Boolean));
       this.field.value = "";
     };
     this.element = h(
@@ -53,8 +53,13 @@ export class Signals {
     this.draw();
   }
 
+  /** Chooses these too; where there are too many the first ones go. */
+  add(names: string[]): void {
+    this.set([...this.names, ...names]);
+  }
+
   private set(names: string[]): void {
-    this.names = [...new Set(names)].slice(0, SIGNALS_MAX);
+    this.names = [...new Set(names)].slice(-SIGNALS_MAX);
     this.chosen.keep(this.what, this.names.join(","));
     this.draw();
     this.changed();

@@ -1,5 +1,6 @@
 // The watch table, what is forced, and faults.
 import type { Core } from "../core/core";
+import type { Watching } from "../core/watching";
 import type { Status, Value } from "../core/protocol";
 import type { Editors } from "../editor/editors";
 import { button, h, iconButton, say, select, setAttributes } from "../page/dom";
@@ -32,9 +33,11 @@ export class Watch {
   private forcedPart: HTMLElement;
   private fault = h("div", { class: "fault", attributes: { hidden: true, "aria-live": "polite" } });
   private isShown = false;
+  private ask: (operands: readonly string[]) => void;
 
   constructor(
     private core: Core,
+    watching: Watching,
     private editors: Editors,
     operands: Operands,
     private chosen: Chosen,
@@ -57,7 +60,7 @@ export class Watch {
       h("div", { class: "scroll" }, this.table),
       this.forcedPart,
     );
-    core.on("watched", ({ values }) => this.fill(values));
+    this.ask = watching.part((values) => this.fill(values));
     core.on("forced", ({ values }) => this.setForced(values));
     chosen.onOpened(() => this.begin());
     this.begin();
@@ -186,13 +189,10 @@ export class Watch {
   }
 
   private send(): void {
-    const operands = this.isShown ? this.rows.map((row) => row.operand) : [];
-    this.core.tell({ do: "watch", operands });
+    this.ask(this.isShown ? this.rows.map((row) => row.operand) : []);
   }
 
   private fill(values: Value[]): void {
-    // Otherwise it is an answer to the table as it was before.
-    if (values.length !== this.rows.length) return;
     for (const [index, row] of this.rows.entries()) {
       row.value = values[index];
       this.draw(row);

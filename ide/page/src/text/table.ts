@@ -91,6 +91,7 @@ export const TABLE = {
   tests: ["Tests", "Prüfungen", "Pruebas"],
   ladder: ["Ladder", "Kontaktplan", "Escalera"],
   chart: ["Chart", "Ablauf", "Secuencia"],
+  diagram: ["Diagram", "Bausteinplan", "Diagrama"],
   sizeOfFiles: ["Width of the files", "Breite der Dateien", "Ancho de los archivos"],
   sizeOfPanels: ["Width of the panels", "Breite der Bereiche", "Ancho de los paneles"],
   showFiles: ["Files and outline", "Dateien und Gliederung", "Archivos y esquema"],
@@ -626,11 +627,11 @@ export const TABLE = {
     "Paneles, de izquierda a derecha",
   ],
 
-  // The chart; its editor has its own words
-  chartBroken: [
-    "Charts cannot be drawn now: {0}. Your texts are kept; reload the page.",
-    "Ablaufpläne können jetzt nicht gezeichnet werden: {0}. Ihre Texte sind gesichert; laden Sie die Seite neu.",
-    "Ahora no se pueden dibujar los grafcets: {0}. Sus textos están guardados; recargue la página.",
+  // Charts and diagrams; what draws them has its own words
+  drawingBroken: [
+    "Nothing can be drawn now: {0}. Your texts are kept; reload the page.",
+    "Jetzt kann nichts gezeichnet werden: {0}. Ihre Texte sind gesichert; laden Sie die Seite neu.",
+    "Ahora no se puede dibujar nada: {0}. Sus textos están guardados; recargue la página.",
   ],
 
   // The ladder

@@ -58,11 +58,11 @@ impl Unwired<'_> {
         let written = value.span.text(self.text);
         let text = cut(&in_box(written), ASSIGNED_MAX);
         let input = Pin { text, written: Some(written.to_owned()), ..Pin::default() };
-        let output = Pin { names: self.names_of(element), ..Pin::default() };
+        let output = Pin { names: self.names_of(&element.name), ..Pin::default() };
         let of_type = self.declaration(&element.name).map(|one| self.type_name(&one.of_type));
         let of_type = of_type.unwrap_or_default();
         let output = Pin { of_type: of_type.clone(), ..output };
-        let input = Pin { of_type, ..input };
+        let input = Pin { of_type, names: self.source_of(value), ..input };
         ElementShape { inputs: vec![input], outputs: vec![output], ..ElementShape::default() }
     }
 
@@ -80,16 +80,20 @@ impl Unwired<'_> {
         let interface = self.interfaces.find(&block);
         let given = self.given(arguments, interface);
         let values = declaration.map(|one| self.values(one)).unwrap_or_default();
-        let owners = self.names_of(element);
+        let owners = self.names_of(&element.name);
         let (pins, parameters) = inputs_of(interface, &given, &values);
-        let names = |pin: &str| owners.iter().map(|owner| format!("{owner}.{pin}")).collect();
+        let names = |pin: &str| -> Vec<String> {
+            owners.iter().map(|owner| format!("{owner}.{pin}")).collect()
+        };
         let pin = |name: &str, of_type: &str, is_output: bool| {
             let one =
                 given.iter().find(|one| is(one.name.as_str(), name) && one.is_output == is_output);
             let written = one.map(|one| one.value.span.text(self.text).to_owned());
             let text = cut(&in_box(written.as_deref().unwrap_or_default()), TEXT_MAX);
+            let source = one.map(|one| self.source_of(one.value)).unwrap_or_default();
+            let names = if source.is_empty() { names(name) } else { source };
             let (name, of_type) = (name.to_owned(), of_type.to_owned());
-            Pin { names: names(&name), name, of_type, text, written, ..Pin::default() }
+            Pin { name, of_type, text, written, names, ..Pin::default() }
         };
         let inputs = pins.iter().map(|(name, of_type)| pin(name, of_type, false)).collect();
         let outputs = self.outputs_of(element, interface, &given);
@@ -151,14 +155,23 @@ impl Unwired<'_> {
         all
     }
 
-    /// What the name of an element may be called in the program.
-    fn names_of(&self, element: &Element) -> Vec<String> {
-        let name = &element.name;
+    /// What a value may be called in the program that is a variable or an address, and no more.
+    fn source_of(&self, value: &Expression) -> Vec<String> {
+        match &value.kind {
+            ExpressionKind::Variable(..) | ExpressionKind::Address(_) => {
+                self.names_of(value.span.text(self.text))
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// What a name in the diagram may be called in the program.
+    fn names_of(&self, name: &str) -> Vec<String> {
         if let Some(address) = name.strip_prefix('%') {
             return vec![address.to_owned()];
         }
         match self.unit.kind {
-            UnitKind::Program => vec![format!("{}.{name}", self.unit.name.text), name.clone()],
+            UnitKind::Program => vec![format!("{}.{name}", self.unit.name.text), name.to_owned()],
             _ => Vec::new(),
         }
     }

@@ -84,7 +84,8 @@ pub struct Pin {
     pub text: String,
     /// That in full, as written.
     pub written: Option<String>,
-    /// What its value may be called in the program: the first one that there is.
+    /// What its value may be called in the program: the first one that there is. Of an input that
+    /// a variable gives its value that variable.
     pub names: Vec<String>,
 }
 

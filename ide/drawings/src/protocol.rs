@@ -1,11 +1,14 @@
-//! What is asked about charts, and the answers, as JSON; the page's `chart/protocol.ts` says the
-//! same. A rectangle is left, top, width, height; a line from one point to another four numbers,
-//! too.
+//! What is asked about drawings, and the answers, as JSON; the page's `chart/protocol.ts` and
+//! `diagram/protocol.ts` say the same. A rectangle is left, top, width, height; a line from one
+//! point to another four numbers, too.
+
+pub mod diagrams;
 
 use std::fmt;
 
 use chart::edit::Element;
 use chart::model::{StepId, TransitionId};
+use diagrams::Diagrams;
 use serde::{Deserialize, Serialize};
 
 /// A point of a drawing, or a place in a text.
@@ -59,6 +62,9 @@ pub enum Question {
     /// Charts of SFCEdit for a target, `twincat`, `pl7`, `plcopen`, `uno200`, with a table of
     /// variables as a file has it. Answer: [`Converted`].
     Convert { text: String, name: String, variables: String, target: String },
+    /// The diagrams of blocks of a text; `others` are the other texts of its project in Structured
+    /// Text. Answer: [`Diagrams`].
+    Diagrams { text: String, name: String, others: Vec<String> },
 }
 
 /// A transition of a chart, with a value for each operand of its condition.
@@ -181,6 +187,7 @@ pub enum Answer {
     Copy(String),
     Judged(Vec<Judgement>),
     Converted(Converted),
+    Diagrams(Diagrams),
 }
 
 /// An element of a chart, as `s3` or `t4`: a step or a transition, and its number.

@@ -1,19 +1,19 @@
-//! The charts of the IDE, asked as the page asks.
+//! The drawings of the IDE, asked as the page asks.
 
-use ide_charts::Charts;
+use ide_drawings::Drawings;
 use serde_json::{Value, json};
 
 const STATION: &str = include_str!("../../../examples/grafcet/station1.sfc");
 
 /// What asks, with the text as an editor would have it.
 struct Page {
-    charts: Charts,
+    drawings: Drawings,
     text: String,
 }
 
 impl Page {
     fn with(text: &str) -> Page {
-        Page { charts: Charts::default(), text: text.to_owned() }
+        Page { drawings: Drawings::default(), text: text.to_owned() }
     }
 
     fn ask(&mut self, mut question: Value) -> Result<Value, String> {
@@ -21,7 +21,7 @@ impl Page {
         for (key, value) in more {
             question[key] = value;
         }
-        let reply = self.charts.request_json(&question.to_string());
+        let reply = self.drawings.request_json(&question.to_string());
         let reply: Value = serde_json::from_str(&reply).unwrap();
         assert_eq!(reply["id"], 7);
         match reply["refused"].as_str() {
@@ -325,4 +325,41 @@ fn sums_that_can_have_wrapped_around_are_not_judged() {
     };
     assert_eq!((judge(2767), judge(2768), judge(-30_000)), (Some(true), None, Some(false)));
     assert_eq!(judge(-30_001), None);
+}
+
+#[test]
+fn diagrams_are_drawn_with_what_their_project_has() {
+    let text = "PROGRAM Main\nVAR A : OWN; Loop : PID := (KP := 2.0); END_VAR\n\
+                A(IN := {feedback} Loop.U);\nLoop(SP := A.OUT);\nEND_PROGRAM\n";
+    let own = "FUNCTION_BLOCK OWN VAR_INPUT IN, BIAS : REAL; END_VAR\n\
+        VAR_OUTPUT OUT : REAL; END_VAR\n\
+               OUT := IN + BIAS; END_FUNCTION_BLOCK\n";
+    let mut page = Page::with(text);
+    let ask = |page: &mut Page, others: Value| {
+        page.ask(json!({ "do": "diagrams", "others": others })).unwrap()
+    };
+    let drawn = ask(&mut page, json!([own]));
+    let sheet = &drawn["sheets"][0];
+    assert_eq!((drawn["mistake"].clone(), sheet["name"].as_str()), (Value::Null, Some("Main")));
+    let [a, pid] = &sheet["elements"].as_array().unwrap()[..] else { panic!("{sheet}") };
+    assert_eq!(
+        (a["id"].as_str(), a["block"].as_str(), a["line"].as_u64()),
+        (Some("A"), Some("OWN"), Some(3))
+    );
+    assert_eq!(a["inputs"][1]["name"], "BIAS");
+    assert_eq!(a["outputs"][0]["names"][0], "Main.A.OUT");
+    let kp = pid["parameters"].as_array().unwrap().iter().find(|one| one["name"] == "KP").unwrap();
+    assert_eq!((kp["value"].as_str(), kp["type"].as_str()), (Some("2.0"), Some("REAL")));
+    let links = sheet["links"].as_array().unwrap();
+    let ends: Vec<String> =
+        links.iter().map(|one| format!("{}{}", one["from"], one["to"])).collect();
+    assert_eq!(ends, ["[0,0][1,0]", "[1,0][0,0]"]);
+    assert_eq!(links[1]["isFeedback"], true);
+
+    // Without the text of its block, and with a mistake: what could be read is drawn.
+    assert_eq!(ask(&mut page, json!([]))["sheets"][0]["elements"][0]["isUnknown"], true);
+    page.text = text.replace("{feedback} ", "");
+    let drawn = ask(&mut page, json!([own]));
+    assert_eq!(drawn["mistake"]["line"], 3);
+    assert_eq!(drawn["sheets"][0]["elements"].as_array().unwrap().len(), 2);
 }

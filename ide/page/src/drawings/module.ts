@@ -1,25 +1,24 @@
-// The module of charts as the rest of the page sees it: questions. Where it runs is known here
+// The module of drawings as the rest of the page sees it: questions. Where it runs is known here
 // alone.
 import { Refusal } from "../core/core";
 import { OpenQuestions } from "../core/questions";
 import { addressOf } from "../offline/address";
-import type { Questions } from "./protocol";
 
-type Kind = keyof Questions;
-type Question<K extends Kind> = { do: K } & Questions[K]["wish"];
+/** What can be asked: a wish and its answer for each question. */
+type Asked<Q> = { [K in keyof Q]: { wish: object; answer: unknown } };
 type Answer = { id: number } & ({ answer: unknown } | { refused: string });
 
 /** A question whose answer nobody waits for any more. */
 export class Overtaken extends Error {}
 
-export class ChartsModule {
+export class DrawingsModule<Q extends Asked<Q>> {
   private worker: Worker | undefined;
   private questions = new OpenQuestions();
 
   constructor(private broken: (message: string) => void) {}
 
   /** Asks; the promise fails with a [`Refusal`], or as [`Overtaken`]. */
-  ask<K extends Kind>(question: Question<K>): Promise<Questions[K]["answer"]> {
+  ask<K extends keyof Q>(question: { do: K } & Q[K]["wish"]): Promise<Q[K]["answer"]> {
     this.worker ??= this.begin();
     const id = this.questions.newId();
     this.worker.postMessage(JSON.stringify({ id, ...question }));
@@ -27,8 +26,8 @@ export class ChartsModule {
   }
 
   private begin(): Worker {
-    const worker = new Worker(addressOf("charts.js"), { type: "module" });
-    worker.onerror = (event) => this.end(event.message || "charts.js");
+    const worker = new Worker(addressOf("drawings.js"), { type: "module" });
+    worker.onerror = (event) => this.end(event.message || "drawings.js");
     worker.onmessage = ({ data }: MessageEvent<string | { broken: string }>) => {
       if (typeof data === "string") this.take(JSON.parse(data) as Answer);
       else this.end(data.broken);

@@ -1,5 +1,6 @@
-// The worker that draws charts and edits them: passes questions on to the module, posts answers.
-import init, { Charts } from "./ide_charts.js";
+// The worker that draws charts and diagrams, and edits charts: passes questions on to the module,
+// posts answers.
+import init, { Drawings } from "./ide_drawings.js";
 
 /** What is used of a worker's surroundings; the page's types have another `self`. */
 interface Surroundings {
@@ -8,25 +9,25 @@ interface Surroundings {
 }
 const surroundings = self as unknown as Surroundings;
 
-let charts: Charts | undefined;
+let drawings: Drawings | undefined;
 const early: string[] = [];
 
 /** What the module does not survive ends it: its state cannot be trusted any more. */
 function take(question: string): void {
   try {
-    if (charts) surroundings.postMessage(charts.request(question));
+    if (drawings) surroundings.postMessage(drawings.request(question));
     else early.push(question);
   } catch (error) {
-    charts = undefined;
+    drawings = undefined;
     surroundings.postMessage({ broken: String(error) });
   }
 }
 
 surroundings.onmessage = ({ data }) => take(data);
 
-init({ module_or_path: new URL("ide_charts_bg.wasm", import.meta.url) }).then(
+init({ module_or_path: new URL("ide_drawings_bg.wasm", import.meta.url) }).then(
   () => {
-    charts = new Charts();
+    drawings = new Drawings();
     early.splice(0).forEach(take);
   },
   (error: unknown) => surroundings.postMessage({ broken: String(error) }),

@@ -1,10 +1,12 @@
-//! Charts of the IDE: draws them and changes them. Questions in, answers out; the text is all there
-//! is of a chart, and nothing is known here of the project around it, of PLCs and of the page.
+//! Drawings of the IDE: draws charts and changes them, draws diagrams of blocks. Questions in,
+//! answers out; the text is all there is of a drawing, and nothing is known here of PLCs and of the
+//! page.
 //!
-//! [`Charts`] answers, [`protocol`] is what it is asked. A page loads it when a chart is looked at
-//! for the first time; the same code runs natively in tests.
+//! [`Drawings`] answers, [`protocol`] is what it is asked. A page loads it when a drawing is looked
+//! at for the first time; the same code runs natively in tests.
 
 mod conditions;
+mod diagrams;
 mod drawn;
 mod opened;
 mod places;
@@ -15,15 +17,15 @@ mod wanted;
 use opened::Opened;
 use protocol::{Answer, Number, Question, Reply, Request};
 
-/// What answers. It keeps the text that it was asked about last, so that elements are the same ones
-/// from edit to edit.
+/// What answers. It keeps the text with charts that it was asked about last, so that elements are
+/// the same ones from edit to edit.
 #[derive(Debug, Default)]
-pub struct Charts {
+pub struct Drawings {
     opened: Option<Opened>,
 }
 
-impl Charts {
-    /// As [`answer`](Charts::answer), both as JSON.
+impl Drawings {
+    /// As [`answer`](Drawings::answer), both as JSON.
     pub fn request_json(&mut self, request: &str) -> String {
         let reply = match serde_json::from_str(request) {
             Ok(Request { id, question }) => Reply::of(id, self.answer(question)),
@@ -61,6 +63,9 @@ impl Charts {
             Question::Convert { text, name, variables, target } => {
                 Ok(Answer::Converted(set_reset::convert(&name, text, variables, &target)?))
             }
+            Question::Diagrams { text, name, others } => {
+                Ok(Answer::Diagrams(diagrams::draw(text, name, &others)?))
+            }
         }
     }
 
@@ -80,20 +85,20 @@ impl Charts {
 mod page {
     use wasm_bindgen::prelude::wasm_bindgen;
 
-    /// [`Charts`](crate::Charts); what it takes and gives is JSON.
+    /// [`Drawings`](crate::Drawings); what it takes and gives is JSON.
     #[wasm_bindgen]
     #[derive(Default)]
-    pub struct Charts(crate::Charts);
+    pub struct Drawings(crate::Drawings);
 
     #[wasm_bindgen]
-    impl Charts {
+    impl Drawings {
         /// Before any text.
         #[wasm_bindgen(constructor)]
-        pub fn new() -> Charts {
-            Charts::default()
+        pub fn new() -> Drawings {
+            Drawings::default()
         }
 
-        /// See [`request_json`](crate::Charts::request_json).
+        /// See [`request_json`](crate::Drawings::request_json).
         pub fn request(&mut self, json: &str) -> String {
             self.0.request_json(json)
         }

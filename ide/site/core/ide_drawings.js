@@ -1,28 +1,28 @@
 /**
- * [`Charts`](crate::Charts); what it takes and gives is JSON.
+ * [`Drawings`](crate::Drawings); what it takes and gives is JSON.
  */
-export class Charts {
+export class Drawings {
     __destroy_into_raw() {
         const ptr = this.__wbg_ptr;
         this.__wbg_ptr = 0;
-        ChartsFinalization.unregister(this);
+        DrawingsFinalization.unregister(this);
         return ptr;
     }
     free() {
         const ptr = this.__destroy_into_raw();
-        wasm.__wbg_charts_free(ptr, 0);
+        wasm.__wbg_drawings_free(ptr, 0);
     }
     /**
      * Before any text.
      */
     constructor() {
-        const ret = wasm.charts_new();
+        const ret = wasm.drawings_new();
         this.__wbg_ptr = ret;
-        ChartsFinalization.register(this, this.__wbg_ptr, this);
+        DrawingsFinalization.register(this, this.__wbg_ptr, this);
         return this;
     }
     /**
-     * See [`request_json`](crate::Charts::request_json).
+     * See [`request_json`](crate::Drawings::request_json).
      * @param {string} json
      * @returns {string}
      */
@@ -32,7 +32,7 @@ export class Charts {
         try {
             const ptr0 = passStringToWasm0(json, wasm.__wbindgen_malloc, wasm.__wbindgen_realloc);
             const len0 = WASM_VECTOR_LEN;
-            const ret = wasm.charts_request(this.__wbg_ptr, ptr0, len0);
+            const ret = wasm.drawings_request(this.__wbg_ptr, ptr0, len0);
             deferred2_0 = ret[0];
             deferred2_1 = ret[1];
             return getStringFromWasm0(ret[0], ret[1]);
@@ -41,7 +41,7 @@ export class Charts {
         }
     }
 }
-if (Symbol.dispose) Charts.prototype[Symbol.dispose] = Charts.prototype.free;
+if (Symbol.dispose) Drawings.prototype[Symbol.dispose] = Drawings.prototype.free;
 function __wbg_get_imports() {
     const import0 = {
         __proto__: null,
@@ -59,13 +59,13 @@ function __wbg_get_imports() {
     };
     return {
         __proto__: null,
-        "./ide_charts_bg.js": import0,
+        "./ide_drawings_bg.js": import0,
     };
 }
 
-const ChartsFinalization = (typeof FinalizationRegistry === 'undefined')
+const DrawingsFinalization = (typeof FinalizationRegistry === 'undefined')
     ? { register: () => {}, unregister: () => {} }
-    : new FinalizationRegistry(ptr => wasm.__wbg_charts_free(ptr, 1));
+    : new FinalizationRegistry(ptr => wasm.__wbg_drawings_free(ptr, 1));
 
 function getStringFromWasm0(ptr, len) {
     ptr = ptr >>> 0;
@@ -236,7 +236,7 @@ async function __wbg_init_once(module_or_path) {
     }
 
     if (module_or_path === undefined) {
-        module_or_path = new URL('ide_charts_bg.wasm', import.meta.url);
+        module_or_path = new URL('ide_drawings_bg.wasm', import.meta.url);
     }
     const imports = __wbg_get_imports();
 

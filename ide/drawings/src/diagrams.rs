@@ -1,0 +1,114 @@
+//! Diagrams of blocks as the page gets them: what `diagram::drawing` says. What is wrong in a text
+//! is told with it; what could be read is drawn all the same.
+
+use diagnostics::{Code, Diagnostic, Severity, Source};
+use diagram::drawing::shapes::{self, End};
+use diagram::drawing::{self, Drawing};
+use diagram::interfaces::{Interfaces, Origin, of_text};
+use picture::{Point, Rect};
+
+use crate::protocol::diagrams::{Diagrams, Element, Group, Link, Parameter, Pin, Sheet};
+use crate::protocol::{At, Mistake};
+
+/// The diagrams of a text. `others`: the other texts of its project in Structured Text, whose
+/// blocks it may call.
+pub fn draw(text: String, name: String, others: &[String]) -> Result<Diagrams, String> {
+    let source = Source::new(name, text).map_err(|error| error.to_string())?;
+    let diagram::Read { file, of_st, diagnostics } = diagram::read(&source);
+    let mistake = mistake_in(&source, &of_st).or_else(|| mistake_in(&source, &diagnostics));
+    let blocks = others.iter().flat_map(|text| of_text(text, Origin::Project)).collect();
+    match drawing::draw(&source, &file, &Interfaces::with(blocks)) {
+        Ok(drawing) => Ok(drawn(&drawing, mistake)),
+        Err(too_large) => {
+            Ok(Diagrams { obstacle: Some(too_large.to_string()), mistake, ..Diagrams::default() })
+        }
+    }
+}
+
+/// The first error.
+fn mistake_in<C: Code>(source: &Source, found: &[Diagnostic<C>]) -> Option<Mistake> {
+    let error = found.iter().find(|one| one.severity() == Severity::Error)?;
+    let (line, _) = source.position(error.span.start as usize);
+    Some(Mistake { line: line as u32, message: error.message.clone() })
+}
+
+fn drawn(drawing: &Drawing, mistake: Option<Mistake>) -> Diagrams {
+    Diagrams {
+        width: drawing.width,
+        height: drawing.height,
+        sheets: drawing.sheets.iter().map(sheet).collect(),
+        obstacle: None,
+        mistake,
+    }
+}
+
+fn sheet(sheet: &shapes::Sheet) -> Sheet {
+    let group =
+        |one: &shapes::GroupShape| Group { name: one.name.clone(), frame: frame(one.frame) };
+    Sheet {
+        name: sheet.name.clone(),
+        title: point(sheet.title),
+        frame: frame(sheet.frame),
+        elements: sheet.elements.iter().map(element).collect(),
+        links: sheet.links.iter().map(link).collect(),
+        junctions: sheet.junctions.iter().copied().map(point).collect(),
+        groups: sheet.groups.iter().map(group).collect(),
+    }
+}
+
+fn element(one: &shapes::ElementShape) -> Element {
+    Element {
+        id: one.id.clone(),
+        line: one.line,
+        name: one.name.clone(),
+        full_name: one.full_name.clone(),
+        block: one.block.clone(),
+        is_unknown: one.is_unknown,
+        comment: one.comment.clone(),
+        order: one.order,
+        frame: frame(one.frame),
+        room: frame(one.room()),
+        inputs: one.inputs.iter().map(pin).collect(),
+        outputs: one.outputs.iter().map(pin).collect(),
+        parameters: one.parameters.iter().map(parameter).collect(),
+    }
+}
+
+fn pin(pin: &shapes::Pin) -> Pin {
+    Pin {
+        name: pin.name.clone(),
+        of_type: pin.of_type.clone(),
+        at: point(pin.at),
+        text: pin.text.clone(),
+        written: pin.written.clone(),
+        names: pin.names.clone(),
+    }
+}
+
+fn parameter(one: &shapes::Parameter) -> Parameter {
+    Parameter {
+        name: one.name.clone(),
+        of_type: one.of_type.clone(),
+        value: one.value.clone().or_else(|| one.initial.clone()),
+        comment: one.comment.clone(),
+        names: one.names.clone(),
+    }
+}
+
+fn link(link: &shapes::LinkShape) -> Link {
+    let end = |End { element, pin }| (element, pin);
+    Link {
+        from: end(link.from),
+        to: end(link.to),
+        is_feedback: link.is_feedback,
+        points: link.points.iter().copied().map(point).collect(),
+    }
+}
+
+fn point(Point { x, y }: Point) -> At {
+    (x, y)
+}
+
+fn frame(Rect { x, y, width, height }: Rect) -> [i32; 4] {
+    [x, y, width, height]
+}

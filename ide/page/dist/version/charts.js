@@ -1,1 +1,0 @@
-import a,{Charts as i}from"./ide_charts.js";var n=self,e,r=[];function t(s){try{e?n.postMessage(e.request(s)):r.push(s)}catch(o){e=void 0,n.postMessage({broken:String(o)})}}n.onmessage=({data:s})=>t(s);a({module_or_path:new URL("ide_charts_bg.wasm",import.meta.url)}).then(()=>{e=new i,r.splice(0).forEach(t)},s=>n.postMessage({broken:String(s)}));

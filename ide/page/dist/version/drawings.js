@@ -1,0 +1,1 @@
+import t,{Drawings as a}from"./ide_drawings.js";var e=self,s,r=[];function i(n){try{s?e.postMessage(s.request(n)):r.push(n)}catch(o){s=void 0,e.postMessage({broken:String(o)})}}e.onmessage=({data:n})=>i(n);t({module_or_path:new URL("ide_drawings_bg.wasm",import.meta.url)}).then(()=>{s=new a,r.splice(0).forEach(i)},n=>e.postMessage({broken:String(n)}));
