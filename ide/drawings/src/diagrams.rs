@@ -4,20 +4,83 @@
 use diagnostics::{Code, Diagnostic, Severity, Source};
 use diagram::drawing::shapes::{self, End};
 use diagram::drawing::{self, Drawing};
-use diagram::interfaces::{Interfaces, Origin, of_text};
+
+use diagram::edit::{self, Edit, Edited};
+use diagram::interfaces::{Interface, Interfaces, Origin, Variable, of_text};
 use picture::{Point, Rect};
 
-use crate::protocol::diagrams::{Diagrams, Element, Group, Link, Parameter, Pin, Sheet};
-use crate::protocol::{At, Mistake};
+use crate::protocol::diagrams::{
+    Block, DiagramEdit, Diagrams, Element, Group, Link, Parameter, Pin, Sheet,
+};
+use crate::protocol::{Answer, At, Mistake};
 
 /// The diagrams of a text. `others`: the other texts of its project in Structured Text, whose
 /// blocks it may call.
 pub fn draw(text: String, name: String, others: &[String]) -> Result<Diagrams, String> {
-    let source = Source::new(name, text).map_err(|error| error.to_string())?;
-    let diagram::Read { file, of_st, diagnostics } = diagram::read(&source);
-    let mistake = mistake_in(&source, &of_st).or_else(|| mistake_in(&source, &diagnostics));
-    let blocks = others.iter().flat_map(|text| of_text(text, Origin::Project)).collect();
-    match drawing::draw(&source, &file, &Interfaces::with(blocks)) {
+    drawing_of(&source_of(text, name)?, &blocks_of(others))
+}
+
+/// Changes a diagram, by its number.
+pub fn edit(
+    text: String,
+    name: String,
+    others: &[String],
+    (number, change): (usize, DiagramEdit),
+) -> Result<Answer, String> {
+    let interfaces = blocks_of(others);
+    let source = source_of(text, name.clone())?;
+    let edited = edit::edit(&source, number, &edit_of(change), &interfaces);
+    let Edited { text, new } = edited.map_err(|refusal| refusal.to_string())?;
+    let diagrams = drawing_of(&source_of(text.clone(), name)?, &interfaces)?;
+    Ok(Answer::EditedDiagram { text, diagrams, new: new.map(|name| name.to_uppercase()) })
+}
+
+/// The blocks that a diagram of the text can have.
+pub fn blocks(text: String, name: String, others: &[String]) -> Result<Vec<Block>, String> {
+    let own = of_text(&source_of(text, name)?.text, Origin::Project).into_iter();
+    let interfaces = Interfaces::with(own.chain(of_texts(others)).collect());
+    Ok(interfaces.all().map(block).collect())
+}
+
+fn source_of(text: String, name: String) -> Result<Source, String> {
+    Source::new(name, text).map_err(|error| error.to_string())
+}
+
+fn blocks_of(others: &[String]) -> Interfaces {
+    Interfaces::with(of_texts(others).collect())
+}
+
+fn of_texts(texts: &[String]) -> impl Iterator<Item = Interface> {
+    texts.iter().flat_map(|text| of_text(text, Origin::Project))
+}
+
+fn block(one: &Interface) -> Block {
+    let names = |all: &[Variable]| all.iter().map(|one| one.name.clone()).collect();
+    let origin = match one.origin {
+        Origin::Project => "project",
+        Origin::Library => "library",
+        Origin::Standard => "standard",
+    };
+    let (name, summary) = (one.name.clone(), one.summary.clone());
+    Block { name, origin, summary, inputs: names(&one.inputs), outputs: names(&one.outputs) }
+}
+
+fn edit_of(change: DiagramEdit) -> Edit {
+    let point = |(x, y): At| Point::new(x, y);
+    match change {
+        DiagramEdit::Move { elements, by } => Edit::Move { elements, by: point(by) },
+        DiagramEdit::Call { block, at } => Edit::Call { block, at: point(at) },
+        DiagramEdit::Write { statement, at } => Edit::Write { statement, at: point(at) },
+        DiagramEdit::Give { element, input, value } => Edit::Give { element, input, value },
+        DiagramEdit::Set { element, parameter, value } => Edit::Set { element, parameter, value },
+        DiagramEdit::Remove { elements } => Edit::Remove { elements },
+    }
+}
+
+fn drawing_of(source: &Source, interfaces: &Interfaces) -> Result<Diagrams, String> {
+    let diagram::Read { file, of_st, diagnostics } = diagram::read(source);
+    let mistake = mistake_in(source, &of_st).or_else(|| mistake_in(source, &diagnostics));
+    match drawing::draw(source, &file, interfaces) {
         Ok(drawing) => Ok(drawn(&drawing, mistake)),
         Err(too_large) => {
             Ok(Diagrams { obstacle: Some(too_large.to_string()), mistake, ..Diagrams::default() })

@@ -66,6 +66,12 @@ impl Drawings {
             Question::Diagrams { text, name, others } => {
                 Ok(Answer::Diagrams(diagrams::draw(text, name, &others)?))
             }
+            Question::EditDiagram { text, name, others, diagram, edit } => {
+                diagrams::edit(text, name, &others, (diagram, edit))
+            }
+            Question::Blocks { text, name, others } => {
+                Ok(Answer::Blocks(diagrams::blocks(text, name, &others)?))
+            }
         }
     }
 

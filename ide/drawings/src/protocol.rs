@@ -8,7 +8,7 @@ use std::fmt;
 
 use chart::edit::Element;
 use chart::model::{StepId, TransitionId};
-use diagrams::Diagrams;
+use diagrams::{Block, DiagramEdit, Diagrams};
 use serde::{Deserialize, Serialize};
 
 /// A point of a drawing, or a place in a text.
@@ -65,6 +65,17 @@ pub enum Question {
     /// The diagrams of blocks of a text; `others` are the other texts of its project in Structured
     /// Text. Answer: [`Diagrams`].
     Diagrams { text: String, name: String, others: Vec<String> },
+    /// One change of a diagram, which is the number of a sheet. Answer: the text, its diagrams and
+    /// the element that is new.
+    EditDiagram {
+        text: String,
+        name: String,
+        others: Vec<String>,
+        diagram: usize,
+        edit: DiagramEdit,
+    },
+    /// The blocks that a diagram can have. Answer: a [`Block`] each, those of the project first.
+    Blocks { text: String, name: String, others: Vec<String> },
 }
 
 /// A transition of a chart, with a value for each operand of its condition.
@@ -188,6 +199,8 @@ pub enum Answer {
     Judged(Vec<Judgement>),
     Converted(Converted),
     Diagrams(Diagrams),
+    EditedDiagram { text: String, diagrams: Diagrams, new: Option<String> },
+    Blocks(Vec<Block>),
 }
 
 /// An element of a chart, as `s3` or `t4`: a step or a transition, and its number.

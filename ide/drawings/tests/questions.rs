@@ -356,6 +356,24 @@ fn diagrams_are_drawn_with_what_their_project_has() {
     assert_eq!(ends, ["[0,0][1,0]", "[1,0][0,0]"]);
     assert_eq!(links[1]["isFeedback"], true);
 
+    // A change is one of the text, and is drawn with it; what is refused changes nothing.
+    let edit = |page: &mut Page, edit: Value| {
+        page.ask(json!({ "do": "editDiagram", "others": [own], "diagram": 0, "edit": edit }))
+    };
+    let call = json!({ "call": { "block": "OWN", "at": [40, 300] } });
+    let edited = edit(&mut page, call).unwrap();
+    assert_eq!(edited["new"], "OWN1");
+    assert!(edited["text"].as_str().unwrap().contains("Own1 : OWN;"));
+    assert_eq!(edited["diagrams"]["sheets"][0]["elements"][2]["id"], "OWN1");
+    let give = json!({ "give": { "element": "A", "input": "IN", "value": "(" } });
+    assert!(edit(&mut page, give).is_err());
+    let blocks = page.ask(json!({ "do": "blocks", "others": [own] })).unwrap();
+    assert_eq!(
+        (blocks[0]["name"].as_str(), blocks[0]["origin"].as_str()),
+        (Some("OWN"), Some("project"))
+    );
+    assert!(blocks.as_array().unwrap().iter().any(|one| one["name"] == "PID"));
+
     // Without the text of its block, and with a mistake: what could be read is drawn.
     assert_eq!(ask(&mut page, json!([]))["sheets"][0]["elements"][0]["isUnknown"], true);
     page.text = text.replace("{feedback} ", "");

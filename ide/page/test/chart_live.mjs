@@ -6,7 +6,7 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { controls, open, watched } from "./browser.mjs";
-import { file, load } from "./chart_page.mjs";
+import { file, load } from "./drawing_page.mjs";
 import { loadSource } from "./load.mjs";
 
 const [, , address, pictures] = process.argv;

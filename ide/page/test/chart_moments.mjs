@@ -3,7 +3,7 @@
 // `node test/chart_moments.mjs ADDRESS`.
 import assert from "node:assert/strict";
 import { controls, open } from "./browser.mjs";
-import { chain, file, listen, load, middle } from "./chart_page.mjs";
+import { chain, file, listen, load, middle } from "./drawing_page.mjs";
 
 /** So late the core says which steps there are. */
 const LATE_MS = 800;

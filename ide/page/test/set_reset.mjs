@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { open } from "./browser.mjs";
-import { file, load } from "./chart_page.mjs";
+import { file, load } from "./drawing_page.mjs";
 
 const [, , address, pictures] = process.argv;
 const { browser, page, errors } = await open({ patience: 30_000 });

@@ -3,12 +3,13 @@
 //! what a call means is the business of Structured Text.
 //!
 //! `elements` says what a statement reads and writes, `order` which is executed before which;
-//! [`drawing`] draws them, with the pins that [`interfaces`] gives blocks.
+//! [`drawing`] draws them, with the pins that [`interfaces`] gives blocks; [`edit`] changes them.
 
 mod addresses;
 mod connections;
 pub mod diagnostic;
 pub mod drawing;
+pub mod edit;
 mod elements;
 mod feedback;
 pub mod interfaces;

@@ -68,6 +68,7 @@ fn use_page(folder: &Path) -> Result<()> {
     test("chart_live.mjs", [page])?;
     test("set_reset.mjs", [page])?;
     test("diagrams.mjs", [page])?;
+    test("diagram_editor.mjs", [page])?;
     test("touch.mjs", [page])?;
     test("budgets.mjs", [page, folder])?;
     test("reload.mjs", [page])?;

@@ -1,6 +1,6 @@
-//! Diagrams of blocks, as they are answered.
+//! Diagrams of blocks: how they are answered, and changed.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{At, Mistake};
 
@@ -125,4 +125,33 @@ pub struct Group {
     pub name: String,
     /// Around its elements.
     pub frame: [i32; 4],
+}
+
+/// A change of a diagram, as `diagram::edit` describes it.
+#[expect(missing_docs, reason = "told with `diagram::edit::Edit`")]
+#[derive(Debug, Clone, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum DiagramEdit {
+    Move { elements: Vec<String>, by: At },
+    Call { block: String, at: At },
+    Write { statement: String, at: At },
+    Give { element: String, input: String, value: String },
+    Set { element: String, parameter: String, value: String },
+    Remove { elements: Vec<String> },
+}
+
+/// A block that a diagram can have.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Block {
+    /// Its name.
+    pub name: String,
+    /// `project`, `library`, `standard`.
+    pub origin: &'static str,
+    /// What it is, in a line; may be empty.
+    pub summary: String,
+    /// The names of its inputs.
+    pub inputs: Vec<String>,
+    /// The names of its outputs.
+    pub outputs: Vec<String>,
 }

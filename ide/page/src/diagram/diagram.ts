@@ -1,30 +1,36 @@
-// Diagrams of blocks in the page: drawn from the text in the editor, with the values of the target.
-// The text is all there is of them, and is changed in the editor.
+// Diagrams of blocks in the page: drawn from the text in the editor, with the values of the target,
+// and changed by mouse, finger and keys. The text is all there is of them.
 import type { Core } from "../core/core";
 import type { Watching } from "../core/watching";
 import type { Editors } from "../editor/editors";
-import { button, h, iconButton } from "../page/dom";
+import { ask } from "../page/dialog";
+import { button, h, iconButton, say } from "../page/dom";
+import type { Point } from "../page/ground";
 import { tellsOfProgram, type Header } from "../page/header";
 import { icon } from "../page/icons";
 import type { Operands } from "../panels/operands";
 import type { Project } from "../project/project";
 import { DIAGRAM_WORDS } from "../text/diagram_words";
-import { addWords, onLanguage } from "../text/language";
+import { addWords, onLanguage, t } from "../text/language";
 import { Details } from "./details";
 import { DiagramDocument } from "./document";
+import { Edits, freePlace } from "./edits";
+import { pressed, type Acts } from "./keyboard";
 import { Live } from "./live";
+import { Palette } from "./palette";
+import { Pointer } from "./pointer";
+import type { DiagramEdit } from "./protocol";
 import { Sheets, type Item } from "./sheets";
 
 addWords(DIAGRAM_WORDS);
-
-/** A drag is farther than this, in pixels. */
-const FAR = 4;
 
 export class DiagramView {
   private document: DiagramDocument;
   private live: Live;
   private sheets: Sheets;
   private details: Details;
+  private edits: Edits;
+  private palette: Palette;
   private words = h("p", { class: "nothing", text: "diagramNothing" });
   private obstacle = h("p", { class: "obstacle", attributes: { role: "status" } });
   private tools: HTMLElement;
@@ -51,16 +57,27 @@ export class DiagramView {
       () => this.focus,
       () => this.refreshed(),
     );
-    this.details = new Details(core, this.live, plot, (line) => this.document.goTo(line));
+    this.edits = new Edits(this.document, (key) => this.chooseMade(key));
+    this.palette = new Palette(({ name }) => this.add((at) => ({ call: { block: name, at } })));
+    this.details = new Details(core, this.live, this.edits, plot, (line) =>
+      this.document.goTo(line),
+    );
     this.tools = h(
       "div",
       { class: "tools", attributes: { role: "toolbar" }, label: "diagramTools" },
+      button("diagramAddBlock", () => void this.openPalette()),
+      button("diagramAddWritten", () => void this.write()),
+      button("diagramRemove", () => this.remove()),
+      iconButton(icon("undo"), "diagramUndo", () => this.document.goBack(true)),
+      iconButton(icon("redo"), "diagramRedo", () => this.document.goBack(false)),
       iconButton(icon("smaller"), "diagramSmaller", () => this.sheets.zoomBy(-1)),
       iconButton(icon("add"), "diagramLarger", () => this.sheets.zoomBy(1)),
       iconButton(icon("fit"), "diagramFit", () => this.sheets.fit()),
     );
     this.stage = h("div", { class: "stage" }, this.sheets.element);
-    element.append(this.tools, this.obstacle, this.words, this.stage, this.details.element);
+    const { palette, details } = this;
+    element.append(this.tools, this.obstacle, this.words, palette.element, this.stage);
+    element.append(details.element);
     this.document.onDrawn((isOther) => this.take(isOther));
     this.listen();
     core.on("program", () => this.want());
@@ -94,15 +111,19 @@ export class DiagramView {
   private draw(): void {
     const { drawn } = this.document;
     const hadFocus = this.stage.contains(document.activeElement);
-    const isEmpty = !drawn || drawn.sheets.length === 0;
-    this.stage.hidden = this.tools.hidden = isEmpty;
-    this.words.hidden = drawn !== null;
+    const isDrawn = drawn !== null && !drawn.obstacle;
+    this.stage.hidden = this.tools.hidden = !isDrawn;
+    if (!isDrawn) this.palette.show(null);
+    const hasElements = drawn?.sheets.some(({ elements }) => elements.length > 0) ?? false;
+    say(this.words, "text", isDrawn ? "diagramEmpty" : "diagramNothing");
+    this.words.hidden = hasElements || Boolean(drawn?.obstacle);
     this.obstacle.hidden = !drawn?.obstacle && !drawn?.mistake;
     this.showObstacle();
     const key = this.focus?.key;
     this.focus = undefined;
     this.sheets.draw(drawn);
     const { items } = this.sheets;
+    this.details.offer(items);
     this.focus = items.find((item) => item.key === key);
     this.isChosen &&= this.focus !== undefined;
     this.focus ??= items[0];
@@ -173,51 +194,47 @@ export class DiagramView {
 
   private listen(): void {
     const { element } = this.sheets;
-    element.addEventListener("keydown", (event) => this.pressed(event));
+    const acts: Acts = {
+      choose: (item) => this.choose(item),
+      goToText: (item) => this.document.goTo(item.element.line),
+      move: (item, by) => void (this.isChosen && this.edits.move(item, by)),
+      remove: () => this.remove(),
+      goBack: (isUndo) => this.document.goBack(isUndo),
+      addBlock: () => void this.openPalette(),
+    };
+    this.stage.addEventListener("keydown", (event) => {
+      if (pressed(event, this.sheets.items, this.focus, acts)) event.preventDefault();
+    });
     element.addEventListener("click", (event) => this.choose(this.sheets.at(event.target)));
     element.addEventListener("dblclick", (event) => {
       const item = this.sheets.at(event.target);
       if (item) this.document.goTo(item.element.line);
     });
-    element.addEventListener("pointerdown", (event) => this.drag(event));
+    new Pointer(this.sheets, this.edits);
   }
 
-  /** Keys: arrows go along the order of execution, Enter chooses, F12 leads to the text. */
-  private pressed(event: KeyboardEvent): void {
-    if (event.altKey || event.ctrlKey || event.metaKey) return;
-    const inOrder = this.sheets.items.toSorted(
-      (one, other) => one.sheet - other.sheet || one.element.order - other.element.order,
-    );
-    const at = inOrder.findIndex((item) => item === this.focus);
-    const goals: Record<string, number> = {
-      ArrowRight: at + 1,
-      ArrowDown: at + 1,
-      ArrowLeft: at - 1,
-      ArrowUp: at - 1,
-      Home: 0,
-      End: inOrder.length - 1,
-    };
-    const goal = goals[event.key];
-    if (goal !== undefined) this.choose(inOrder[goal] ?? this.focus);
-    else if (event.key === "Enter" || event.key === " ") this.choose(this.focus);
-    else if (event.key === "Escape") this.choose(undefined);
-    else if (event.key === "F12" && this.focus) this.document.goTo(this.focus.element.line);
-    else return;
-    event.preventDefault();
+  private remove(): void {
+    if (this.isChosen && this.focus) void this.edits.remove(this.focus);
   }
 
-  /** A mouse moves the ground; a finger does it by itself. */
-  private drag(down: PointerEvent): void {
-    if (down.pointerType === "touch" || down.button > 1) return;
-    const { element } = this.sheets;
-    const [left, top] = [element.scrollLeft, element.scrollTop];
-    const move = (event: PointerEvent) => {
-      const [x, y] = [event.clientX - down.clientX, event.clientY - down.clientY];
-      if (Math.hypot(x, y) > FAR) element.scrollTo(left - x, top - y);
-    };
-    const end = () => element.removeEventListener("pointermove", move);
-    element.addEventListener("pointermove", move);
-    for (const kind of ["pointerup", "pointercancel", "pointerleave"] as const)
-      element.addEventListener(kind, end, { once: true });
+  private async openPalette(): Promise<void> {
+    this.palette.show(await this.document.blocks());
+  }
+
+  /** Adds an element where there is room, to the diagram that is worked in. */
+  private add(edit: (at: Point) => DiagramEdit): void {
+    const sheet = this.focus?.sheet ?? 0;
+    void this.edits.perform(sheet, edit(freePlace(this.sheets.items, this.sheets.view())));
+  }
+
+  private async write(): Promise<void> {
+    const statement = await ask(t("diagramWritten"), "newValue", "", "diagramAdd");
+    if (statement !== null) this.add((at) => ({ write: { statement, at } }));
+  }
+
+  /** Chooses an element that is new. */
+  private chooseMade(key: string): void {
+    const item = this.sheets.items.find((one) => one.key === key);
+    if (item) this.choose(item);
   }
 }

@@ -1,11 +1,13 @@
-// The file in the editor whose diagrams are drawn. Its text is the file, and nothing else is kept.
+// The file in the editor whose diagrams are drawn. Its text is all that is kept, and a change of a
+// diagram is one of it.
+import { redo, undo } from "@codemirror/commands";
 import { Refusal } from "../core/core";
 import { DrawingsModule, Overtaken } from "../drawings/module";
 import type { Editors } from "../editor/editors";
 import { notice } from "../page/notices";
 import type { Project } from "../project/project";
 import { t } from "../text/language";
-import type { Diagrams, Questions } from "./protocol";
+import type { Block, DiagramEdit, Diagrams, Questions, Wish } from "./protocol";
 
 /** So long nothing is drawn while a text is being written. */
 const QUIET_MS = 120;
@@ -25,6 +27,8 @@ export class DiagramDocument {
   private asked = "";
   private isShown = false;
   private timer = 0;
+  /** The change that comes after all those before. */
+  private turn: Promise<unknown> = Promise.resolve();
   private listeners: ((isOther: boolean) => void)[] = [];
 
   constructor(
@@ -52,26 +56,64 @@ export class DiagramDocument {
     if (this.isShown) this.timer = window.setTimeout(() => void this.draw(), after);
   }
 
+  /** The text in the editor as it is, if it can have diagrams. */
+  private wish(): Wish | null {
+    const name = this.editors.current;
+    const text = name === null ? undefined : this.project.text(name);
+    if (name === null || text === undefined || !OF_DIAGRAMS.test(name)) return null;
+    const names = this.project.names().filter((one) => one !== name && OF_BLOCKS.test(one));
+    return { name, text, others: names.map((one) => this.project.text(one) ?? "") };
+  }
+
   private async draw(): Promise<void> {
-    const file = this.editors.current;
-    const text = file === null ? undefined : this.project.text(file);
-    if (file === null || text === undefined || !OF_DIAGRAMS.test(file)) {
+    const wish = this.wish();
+    if (!wish) {
       this.asked = "";
       return this.take(null, null);
     }
-    const names = this.project.names().filter((name) => name !== file && OF_BLOCKS.test(name));
-    const wish = { name: file, text, others: names.map((name) => this.project.text(name) ?? "") };
     const asked = JSON.stringify(wish);
     if (asked === this.asked) return;
     this.asked = asked;
     try {
       const drawn = await this.module.ask({ do: "diagrams", ...wish });
-      if (this.asked === asked) this.take(file, drawn);
+      if (this.asked === asked) this.take(wish.name, drawn);
     } catch (error) {
-      if (error instanceof Refusal) this.take(file, { ...NOTHING, obstacle: error.message });
+      if (error instanceof Refusal) this.take(wish.name, { ...NOTHING, obstacle: error.message });
       else if (!(error instanceof Overtaken)) throw error;
       else this.asked = "";
     }
+  }
+
+  /** One change, as one of the text; gives the element that is new. Fails with a [`Refusal`]. */
+  edit(diagram: number, edit: DiagramEdit): Promise<string | null> {
+    const turn = this.turn.then(() => this.carryOut(diagram, edit));
+    this.turn = turn.catch(() => null);
+    return turn;
+  }
+
+  private async carryOut(diagram: number, edit: DiagramEdit): Promise<string | null> {
+    const wish = this.wish();
+    if (!wish) throw new Refusal(t("diagramNothing"));
+    const answer = await this.module.ask({ do: "editDiagram", ...wish, diagram, edit });
+    if (this.project.text(wish.name) !== wish.text) throw new Refusal(t("diagramChanged"));
+    this.editors.replace(wish.name, answer.text);
+    this.asked = JSON.stringify({ ...wish, text: answer.text });
+    // A large text and a large drawing are tasks of their own.
+    await new Promise((done) => setTimeout(done));
+    this.take(wish.name, answer.diagrams);
+    return answer.new;
+  }
+
+  /** The blocks that there are. */
+  async blocks(): Promise<Block[]> {
+    const wish = this.wish();
+    return wish ? this.module.ask({ do: "blocks", ...wish }) : [];
+  }
+
+  /** Takes the last change of the text back, or that. */
+  goBack(isUndo: boolean): void {
+    const view = this.file === null ? undefined : this.editors.viewOf(this.file);
+    if (view) (isUndo ? undo : redo)(view);
   }
 
   private take(file: string | null, drawn: Diagrams | null): void {

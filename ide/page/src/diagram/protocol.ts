@@ -79,7 +79,38 @@ export interface Diagrams {
   mistake: { line: number; message: string } | null;
 }
 
+/** A change of a diagram. */
+export type DiagramEdit =
+  | { move: { elements: string[]; by: Point } }
+  | { call: { block: string; at: Point } }
+  | { write: { statement: string; at: Point } }
+  | { give: { element: string; input: string; value: string } }
+  | { set: { element: string; parameter: string; value: string } }
+  | { remove: { elements: string[] } };
+
+/** A block that a diagram can have. */
+export interface Block {
+  name: string;
+  origin: "project" | "library" | "standard";
+  /** What it is, in a line; may be empty. */
+  summary: string;
+  inputs: string[];
+  outputs: string[];
+}
+
+/** What is asked about; `others`: the other texts of the project in Structured Text. */
+export interface Wish {
+  text: string;
+  name: string;
+  others: string[];
+}
+
 export interface Questions {
-  /** `others`: the other texts of the project in Structured Text. */
-  diagrams: { wish: { text: string; name: string; others: string[] }; answer: Diagrams };
+  diagrams: { wish: Wish; answer: Diagrams };
+  /** `new`: the element that is new. */
+  editDiagram: {
+    wish: Wish & { diagram: number; edit: DiagramEdit };
+    answer: { text: string; diagrams: Diagrams; new: string | null };
+  };
+  blocks: { wish: Wish; answer: Block[] };
 }

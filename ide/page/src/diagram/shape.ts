@@ -26,7 +26,7 @@ export class ElementShape {
     this.button = s("g", { role: "button", tabindex: -1 }, rect(element.frame, "body"));
     const picture = s("g", { "aria-hidden": "true" }, ...inside(element), ...outside(element));
     this.values = element.outputs.map(({ at }) => text(valueAt(element, at), "", "live-value"));
-    const parts = [this.button, picture, ...this.values];
+    const parts = [this.button, picture, ...this.values, ...ports(element)];
     this.group = s("g", { class: "element", "data-key": key }, ...parts);
     this.show([]);
   }
@@ -46,6 +46,15 @@ export class ElementShape {
     this.said = said;
     this.button.setAttribute("aria-label", said);
   }
+}
+
+/** What a pointer finds of the pins. */
+function ports({ inputs, outputs }: DiagramElement): SVGElement[] {
+  const port = (side: "input" | "output") => (pin: Pin, at: number) => {
+    const [cx, cy] = pin.at;
+    return s("circle", { class: "port", cx, cy, r: 7, "data-side": side, "data-pin": at });
+  };
+  return [...inputs.map(port("input")), ...outputs.map(port("output"))];
 }
 
 /** Right of the box, above the link. */

@@ -33,6 +33,8 @@ interface Layer {
 }
 
 export class Sheets extends Ground {
+  /** Lines over the drawing, while somebody draws. */
+  readonly overlay = s("g", { class: "overlay", "aria-hidden": "true" });
   items: Item[] = [];
   private parts: Part[] = [];
   private shapes = new Map<Part, ElementShape | LinkShape>();
@@ -46,6 +48,7 @@ export class Sheets extends Ground {
     private refreshed: () => void,
   ) {
     super();
+    this.svg.append(this.overlay);
   }
 
   draw(drawn: Diagrams | null): void {
@@ -64,7 +67,7 @@ export class Sheets extends Ground {
         links,
         elements,
       );
-      this.svg.append(group);
+      this.overlay.before(group);
       return { group, links, elements };
     });
     const links = sheets.flatMap(({ links, elements }, sheet) =>
@@ -134,9 +137,10 @@ export class Sheets extends Ground {
 }
 
 function itemsOf({ elements, links }: DiagramSheet, sheet: number): Item[] {
+  const linked = elements.map((): number[] => []);
+  for (const { to } of links) linked[to[0]]?.push(to[1]);
   return elements.map((element, at) => {
-    const linked = links.flatMap(({ to: [to, pin] }) => (to === at ? [pin] : []));
-    return { key: `${sheet}:${element.id}`, sheet, element, linked };
+    return { key: `${sheet}:${element.id}`, sheet, element, linked: linked[at] ?? [] };
   });
 }
 

@@ -72,11 +72,8 @@ impl Unwired<'_> {
         instance: &Expression,
         arguments: &[Argument],
     ) -> ElementShape {
-        let declaration = match &instance.kind {
-            ExpressionKind::Variable(name, _) => self.declaration(&name.text),
-            _ => None,
-        };
-        let block = declaration.map(|one| self.type_name(&one.of_type)).unwrap_or_default();
+        let declaration = self.declaration_of(instance);
+        let block = self.block_of(instance);
         let interface = self.interfaces.find(&block);
         let given = self.given(arguments, interface);
         let values = declaration.map(|one| self.values(one)).unwrap_or_default();
@@ -113,6 +110,29 @@ impl Unwired<'_> {
             outputs,
             parameters: parameters.collect(),
             ..ElementShape::default()
+        }
+    }
+
+    /// What the arguments of an element are given to, and whether each is an output.
+    pub(super) fn names_given(&self, element: &Element) -> Vec<(String, bool)> {
+        let StatementKind::Call(instance, arguments) = &element.statement.kind else {
+            return Vec::new();
+        };
+        let interface = self.interfaces.find(&self.block_of(instance));
+        let given = self.given(arguments, interface).into_iter();
+        given.map(|one| (one.name, one.is_output)).collect()
+    }
+
+    /// The block of an instance.
+    fn block_of(&self, instance: &Expression) -> String {
+        let declaration = self.declaration_of(instance);
+        declaration.map(|one| self.type_name(&one.of_type)).unwrap_or_default()
+    }
+
+    fn declaration_of(&self, instance: &Expression) -> Option<&Declaration> {
+        match &instance.kind {
+            ExpressionKind::Variable(name, _) => self.declaration(&name.text),
+            _ => None,
         }
     }
 

@@ -61,6 +61,53 @@ struct Unwired<'u> {
     interfaces: &'u Interfaces,
 }
 
+/// A diagram to be changed: its elements, what is said of each, and what each looks like.
+pub(crate) struct Opened<'u> {
+    pub(crate) elements: Vec<Element>,
+    pub(crate) said: Vec<Said>,
+    pub(crate) shapes: Vec<ElementShape>,
+    pub(crate) interfaces: &'u Interfaces,
+    /// Of each element its arguments: what they are given to, and whether that is an output.
+    given: Vec<Vec<(String, bool)>>,
+    corners: Vec<Point>,
+}
+
+impl<'u> Opened<'u> {
+    /// `interfaces`: with the blocks of the text.
+    pub(crate) fn of(
+        source: &'u Source,
+        file: &File,
+        unit: &'u Unit,
+        interfaces: &'u Interfaces,
+    ) -> Opened<'u> {
+        let pragmas = cut(&source.text).pragmas;
+        let mut feedback = Feedback::of(&source.text, &pragmas);
+        // Those of the diagrams before are theirs.
+        let before = crate::diagrams(file).take_while(|one| one.span != unit.span);
+        for other in before {
+            Unwired::of(&source.text, other, &pragmas, &mut feedback, interfaces);
+        }
+        let unwired = Unwired::of(&source.text, unit, &pragmas, &mut feedback, interfaces);
+        let mut shapes = unwired.shapes();
+        let links = unwired.links(&mut shapes);
+        let corners = layout::corners(&shapes, &links, &unwired.said);
+        let given = unwired.elements.iter().map(|one| unwired.names_given(one)).collect();
+        let Unwired { elements, said, .. } = unwired;
+        Opened { elements, said, shapes, interfaces, given, corners }
+    }
+
+    /// The upper left corner of each element, as a text says it.
+    pub(crate) fn corners(&self) -> Vec<Point> {
+        self.corners.clone()
+    }
+
+    /// What the arguments of an element are given to, in their order, and whether each is an
+    /// output.
+    pub(crate) fn given_to(&self, at: usize) -> &[(String, bool)] {
+        self.given.get(at).map_or(&[], |one| &one[..])
+    }
+}
+
 /// Draws the diagrams of a text, as Structured Text has read it. `interfaces`: the blocks that its
 /// project has beside it.
 pub fn draw(source: &Source, file: &File, interfaces: &Interfaces) -> Result<Drawing, TooLarge> {
@@ -95,11 +142,17 @@ impl<'u> Unwired<'u> {
         Unwired { text, unit, elements, said, interfaces }
     }
 
-    /// The diagram, from its upper left corner on.
-    fn sheet(&self, source: &Source) -> Sheet {
+    /// What its elements look like, by names that are told apart; not yet where they are.
+    fn shapes(&self) -> Vec<ElementShape> {
         let mut elements: Vec<ElementShape> =
             self.elements.iter().map(|one| self.shape(one)).collect();
         number(&mut elements);
+        elements
+    }
+
+    /// The diagram, from its upper left corner on.
+    fn sheet(&self, source: &Source) -> Sheet {
+        let mut elements = self.shapes();
         for (place, at) in order::of(&self.elements, &mut Vec::new()).into_iter().enumerate() {
             elements.get_mut(at).into_iter().for_each(|one| one.order = place + 1);
         }

@@ -1,11 +1,15 @@
-// What tests of charts have in common: texts with charts, and a page that shows them.
+// What tests of drawings have in common: texts, and a page that shows them.
 import { deflateSync } from "fflate";
 
 export const file = (name, text = "") => ({ name, text });
 
-/** A project in the address, with the panel of charts. */
+/** A project in the address, with the panel of charts, or another one. */
 export async function load(page, address, ...files) {
-  const content = { files, main: files[0].name, plant: null, view: "chart" };
+  return loadIn("chart", page, address, ...files);
+}
+
+export async function loadIn(view, page, address, ...files) {
+  const content = { files, main: files[0].name, plant: null, view };
   const part = Buffer.from(deflateSync(Buffer.from(JSON.stringify(content)))).toString("base64url");
   await page.goto("about:blank");
   await page.goto(`${address.replace(/\?.*/, "")}#project=${part}`);
@@ -51,4 +55,20 @@ export async function listen(page) {
 export async function middle(node) {
   const { x, y, width, height } = await node.boundingBox();
   return [x + width / 2, y + height / 2];
+}
+
+/** The tasks of a page that are longer than 50 ms while something is done, in ms, and how many there
+ * are in all. The time is that which the page had the processor; what other programs take is not in
+ * it. */
+export async function longTasks(browser, page, act) {
+  await browser.startTracing(page, { categories: ["toplevel", "__metadata", "blink.user_timing"] });
+  await page.evaluate(() => performance.mark("traced"));
+  await act();
+  const { traceEvents } = JSON.parse((await browser.stopTracing()).toString());
+  const { pid, tid } = traceEvents.find(({ name }) => name === "traced");
+  const tasks = traceEvents.filter(
+    (event) => event.pid === pid && event.tid === tid && /RunTask$/.test(event.name),
+  );
+  const long = tasks.filter(({ tdur }) => tdur > 50_000);
+  return { long: long.map(({ tdur }) => Math.round(tdur / 1000)), count: tasks.length };
 }

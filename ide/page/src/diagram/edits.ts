@@ -1,0 +1,78 @@
+// What can be done with a diagram, each as one change of its text. What is refused is told.
+import { Refusal } from "../core/core";
+import { Overtaken } from "../drawings/module";
+import { meet, type Frame, type Point } from "../page/ground";
+import { notice } from "../page/notices";
+import type { DiagramDocument } from "./document";
+import type { DiagramEdit } from "./protocol";
+import type { Item } from "./sheets";
+
+/** Elements are moved and put in steps of so much. */
+const GRID = 20;
+/** What a new element needs: its box, and on the left of it what is given to its inputs. */
+const ROOM = { before: 100, width: 140, height: 110 };
+
+export class Edits {
+  constructor(
+    private document: DiagramDocument,
+    /** Is told the key of an element that is new. */
+    private made: (key: string) => void,
+  ) {}
+
+  /** Whether it could be done. */
+  async perform(sheet: number, edit: DiagramEdit): Promise<boolean> {
+    try {
+      const made = await this.document.edit(sheet, edit);
+      if (made !== null) this.made(`${sheet}:${made}`);
+      return true;
+    } catch (error) {
+      if (error instanceof Refusal) notice(error.message, true);
+      else if (!(error instanceof Overtaken)) throw error;
+      return false;
+    }
+  }
+
+  move({ sheet, element }: Item, by: Point): Promise<boolean> {
+    return this.perform(sheet, { move: { elements: [element.id], by } });
+  }
+
+  remove({ sheet, element }: Item): Promise<boolean> {
+    return this.perform(sheet, { remove: { elements: [element.id] } });
+  }
+
+  /** Gives an input a value; none where it is empty. */
+  give({ sheet, element }: Item, input: string, value: string): Promise<boolean> {
+    return this.perform(sheet, { give: { element: element.id, input, value } });
+  }
+
+  set({ sheet, element }: Item, parameter: string, value: string): Promise<boolean> {
+    return this.perform(sheet, { set: { element: element.id, parameter, value } });
+  }
+}
+
+/** A distance in steps. */
+export function snapped([x, y]: Point): Point {
+  return [Math.round(x / GRID) * GRID, Math.round(y / GRID) * GRID];
+}
+
+/** What an output is called where its value is taken. */
+export function nameOf({ element }: Item, output: number): string {
+  const pin = element.outputs[output]?.name ?? "";
+  return pin === "" ? element.fullName : `${element.fullName}.${pin}`;
+}
+
+/** A free place for a new element: in what can be seen and no higher than the others, otherwise below
+ * everything. */
+export function freePlace(items: Item[], [left, top, width, height]: Frame): Point {
+  const rooms = items.map(({ element }) => element.room);
+  const isFree = (frame: Frame) => !rooms.some((room) => meet(room, frame));
+  const heights = items.map(({ element }) => element.frame[1]);
+  const highest = items.length > 0 ? Math.min(...heights) : top;
+  const first = Math.max(top + 2 * GRID, highest);
+  const begin = left + ROOM.before;
+  for (let y = first; y < top + height - ROOM.height; y += GRID)
+    for (let x = begin; x + ROOM.width <= left + width; x += 2 * GRID)
+      if (isFree([x - ROOM.before, y - GRID, ROOM.before + ROOM.width, ROOM.height])) return [x, y];
+  const bottom = Math.max(top, ...rooms.map(([, y, , height]) => y + height));
+  return [begin, bottom + 2 * GRID];
+}
