@@ -108,7 +108,7 @@ for (const colorScheme of ["light", "dark"])
     await look(page, `structured-${colorScheme}-${width}`);
     await run(page, "control_loop-fbd");
     await page.getByRole("tab", { name: "Diagram", exact: true }).click();
-    await page.locator(".diagram .element", { hasText: "Loop" }).click();
+    await page.getByRole("button", { name: /^2: Loop/ }).click();
     await page.getByRole("slider", { name: "Slider for SP" }).fill("0.8");
     await page.waitForTimeout(4000);
     await look(page, `diagram-${colorScheme}-${width}`);
