@@ -27,6 +27,8 @@ const PANELS = {
       .getByText(/s simulated/)
       .first()
       .waitFor();
+    await page.getByText("Step response", { exact: true }).click();
+    await page.getByRole("table", { name: "Step response" }).scrollIntoViewIfNeeded();
   },
   Tests: async (page) => {
     await page.getByRole("button", { name: "Test all" }).click();

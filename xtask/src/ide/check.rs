@@ -53,6 +53,7 @@ pub fn check() -> Result<()> {
 /// Has all that needs nothing but the page done in it.
 fn use_page(folder: &Path) -> Result<()> {
     test("virtual_uno.mjs", [folder])?;
+    test::<&str>("step_figures.mjs", [])?;
     figures()?;
     let mut server = Serving::page(folder, &[])?;
     let address = server.line()?;
@@ -60,6 +61,7 @@ fn use_page(folder: &Path) -> Result<()> {
     test("lock_step.mjs", [page, folder])?;
     test("first_steps.mjs", [page])?;
     test("page.mjs", [page, &root().join(FIGURES)])?;
+    test("step_response.mjs", [page])?;
     test("plants.mjs", [page])?;
     test("languages.mjs", [page])?;
     test("charts.mjs", [page])?;

@@ -10,6 +10,7 @@ import type { Chosen } from "../project/chosen";
 import { save } from "../project/files";
 import type { Project } from "../project/project";
 import { t } from "../text/language";
+import { Lazy } from "./lazy";
 import type { Operands } from "./operands";
 import { labelled } from "./scope";
 import { Signals } from "./signals";
@@ -31,6 +32,10 @@ export class Capture {
   private isRecording = false;
   private result = h("div", { class: "result", attributes: { hidden: true } });
   private figures = h("tbody");
+  private step = new Lazy("step", async (element) => {
+    const { StepTable } = await import("./step_table");
+    return new StepTable(element, () => this.recording, this.plots.cursors);
+  });
   private words = h("p", { class: "hint", attributes: { "aria-live": "polite" } });
   private recording: Recording | undefined;
   private isShown = false;
@@ -55,6 +60,7 @@ export class Capture {
       this.record,
     );
     this.result.append(this.saveButtons(), this.plots.element, this.cursors.element, this.table());
+    this.result.append(this.stepPart());
     this.element = h(
       "div",
       {},
@@ -88,6 +94,15 @@ export class Capture {
       h("th", { text, attributes: { scope: "col" } }),
     );
     return h("table", { class: "figures" }, h("thead", {}, h("tr", {}, ...heads)), this.figures);
+  }
+
+  private stepPart(): HTMLElement {
+    const summary = h("summary", { text: "stepResponse" });
+    const part = h("details", {}, summary, this.step.element) as HTMLDetailsElement;
+    const show = () => this.step.shown(part.open);
+    part.addEventListener("toggle", show);
+    this.cursors.changed = show;
+    return part;
   }
 
   /** For how long, and from step to step; null where that is not valid, which is shown. */

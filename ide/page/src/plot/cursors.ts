@@ -5,6 +5,8 @@ import type { CursorName, Plots } from "./plots";
 
 export class CursorTable {
   readonly element: HTMLElement;
+  /** Is told when a cursor, or what it is in, is another one. */
+  changed: () => void = () => {};
   private fields: Record<CursorName, HTMLInputElement>;
   private difference = h("td");
   private body = h("tbody");
@@ -77,6 +79,7 @@ export class CursorTable {
       const shown = [a, b, a !== null && b !== null ? b - a : null];
       for (const [at, cell] of cells.entries()) cell.textContent = words(shown[at] ?? null);
     }
+    this.changed();
   }
 
   private setNames(names: string[]): void {

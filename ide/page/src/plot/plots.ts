@@ -2,6 +2,7 @@
 import uPlot from "uplot";
 import { h } from "../page/dom";
 import { colour, onTheme } from "../page/theme";
+import { lastAt } from "./samples";
 
 export type Column = (number | null)[];
 
@@ -231,16 +232,4 @@ function roomy(_: uPlot, min: number | null, max: number | null): [number, numbe
 
 function round(value: number): number {
   return Number(value.toPrecision(6));
-}
-
-/** The index of the last time that is not after `time`; -1 for none. */
-export function lastAt(times: number[], time: number): number {
-  let low = 0;
-  let high = times.length;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if ((times[middle] ?? 0) <= time) low = middle + 1;
-    else high = middle;
-  }
-  return low - 1;
 }

@@ -57,3 +57,15 @@ export class Samples {
     };
   }
 }
+
+/** The index of the last time that is not after `time`; -1 for none. */
+export function lastAt(times: number[], time: number): number {
+  let low = 0;
+  let high = times.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if ((times[middle] ?? 0) <= time) low = middle + 1;
+    else high = middle;
+  }
+  return low - 1;
+}

@@ -1,12 +1,17 @@
 // Which language the page speaks, and its words from the table.
 import type { CHART_WORDS } from "./chart_words";
 import type { DIAGRAM_WORDS } from "./diagram_words";
+import type { STEP_WORDS } from "./step_words";
 import { TABLE } from "./table";
 import { store, storedText } from "../project/stored";
 
 export const LANGUAGES = ["en", "de", "es"] as const;
 export type Language = (typeof LANGUAGES)[number];
-export type Key = keyof typeof TABLE | keyof typeof CHART_WORDS | keyof typeof DIAGRAM_WORDS;
+export type Key =
+  | keyof typeof TABLE
+  | keyof typeof CHART_WORDS
+  | keyof typeof DIAGRAM_WORDS
+  | keyof typeof STEP_WORDS;
 export type Args = (string | number)[];
 
 const STORED = "uno200.language";

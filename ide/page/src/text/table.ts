@@ -475,6 +475,7 @@ export const TABLE = {
   least: ["Minimum", "Minimum", "Mínimo"],
   greatest: ["Maximum", "Maximum", "Máximo"],
   mean: ["Mean", "Mittel", "Media"],
+  stepResponse: ["Step response", "Sprungantwort", "Respuesta al escalón"],
 
   // Plants
   plantChoice: ["Model", "Modell", "Modelo"],
