@@ -1,9 +1,13 @@
 //! Runs apart from the target, as fast as possible: simulations with their recording, and scenarios
 //! as tests.
 
+use std::collections::BTreeSet;
+
+use awl_asm::Address;
 use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
 use awl_sim::open::{Opened, open_files};
+use awl_sim::operand::Operand;
 use awl_sim::plant::PlantSpec;
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
@@ -26,6 +30,8 @@ pub struct Wanted<'a> {
     pub scan_ms: u32,
     /// What is wired to the PLC.
     pub plant: Option<&'a PlantSpec>,
+    /// The double words that the program computes with as reals.
+    pub reals: BTreeSet<Address>,
 }
 
 /// Runs the program for some time.
@@ -35,7 +41,10 @@ pub fn simulate(files: &Files, wanted: &Wanted<'_>) -> Result<Recording, String>
         0 => scan_ms.unwrap_or(1),
         scan_ms => u64::from(scan_ms),
     };
-    let parse = |name: &String| Signal::parse(name, &symbols).map_err(|error| error.to_string());
+    let parse = |name: &String| {
+        let signal = Signal::parse(name, &symbols).map_err(|error| error.to_string())?;
+        Ok::<_, String>(in_program(signal, &wanted.reals))
+    };
     let signals = wanted.signals.iter().map(parse).collect::<Result<Vec<_>, _>>()?;
     let plant = wanted.plant.map(built).transpose()?;
     let length = Length::For(u64::from(wanted.for_ms));
@@ -43,6 +52,16 @@ pub fn simulate(files: &Files, wanted: &Wanted<'_>) -> Result<Recording, String>
     let outcome =
         run(&mut *machine, &Scenario::default(), job).map_err(|error| error.to_string())?;
     recording(&outcome)
+}
+
+/// As a real, if the program uses it as one.
+fn in_program(signal: Signal, reals: &BTreeSet<Address>) -> Signal {
+    match signal.operand {
+        Operand::At(address) if reals.contains(&address) => {
+            Signal { operand: Operand::Real(address), ..signal }
+        }
+        _ => signal,
+    }
 }
 
 fn opened(files: &Files) -> Result<Opened<Host>, String> {

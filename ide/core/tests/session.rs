@@ -273,6 +273,18 @@ fn simulations_and_tests_are_what_awl_sim_does() {
 }
 
 #[test]
+fn a_simulated_real_is_a_number() {
+    let text =
+        "PROGRAM Main\nVAR\n    Level : REAL;\nEND_VAR\nLevel := Level + 0.5;\nEND_PROGRAM\n";
+    let mut page = Page::with("a.st", text);
+    assert_eq!(page.problems(), []);
+    let signals = vec!["Main.Level".to_owned()];
+    let wanted = ApartWish::Simulate { signals, for_ms: 3, scan_ms: 1, plant: None };
+    let recording: Recording = page.answer(Wish::Apart(wanted));
+    assert_eq!(recording.csv, "time_ms,scan,Main.Level\n0,1,0.5\n1,2,1.0\n2,3,1.5\n");
+}
+
+#[test]
 fn what_is_not_right_is_answered() {
     let mut page = Page::default();
     let json = page.session.request_json("{\"id\": 7, \"do\": \"dance\"}", 0);

@@ -115,12 +115,12 @@ const loop = await readFile(
   "utf8",
 );
 await openFile("loop.fbd", loop.replace("Setpoint : REAL;", "Setpoint : REAL := 1.0;"));
-await choose(["Main.Capacitor.Y:real", "Main.Setpoint:real"]);
+await choose(["Main.Capacitor.Y", "Main.Setpoint"]);
 await capture.getByLabel("Seconds", { exact: true }).fill("4");
 await button("Simulate").click();
 await capture.getByText(/s simulated/).waitFor();
 await capture.getByText("Step response", { exact: true }).click();
-await select("Set value").selectOption("Main.Setpoint:real");
+await select("Set value").selectOption("Main.Setpoint");
 await isClosedLoop(1);
 await near("Step at", 0, 0);
 console.log("a simulation: the closed loop answers like a lag of 0.25 s");
