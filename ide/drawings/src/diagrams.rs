@@ -32,7 +32,22 @@ pub fn edit(
     let edited = edit::edit(&source, number, &edit_of(change), &interfaces);
     let Edited { text, new } = edited.map_err(|refusal| refusal.to_string())?;
     let diagrams = drawing_of(&source_of(text.clone(), name)?, &interfaces)?;
-    Ok(Answer::EditedDiagram { text, diagrams, new: new.map(|name| name.to_uppercase()) })
+    Ok(Answer::EditedDiagram {
+        text,
+        diagrams,
+        new: new.iter().map(|name| name.to_uppercase()).collect(),
+    })
+}
+
+/// Elements of a diagram as a text that can be pasted.
+pub fn copy(
+    text: String,
+    name: String,
+    others: &[String],
+    (number, elements): (usize, Vec<String>),
+) -> Result<String, String> {
+    let copied = edit::copy(&source_of(text, name)?, number, &elements, &blocks_of(others));
+    copied.map_err(|refusal| refusal.to_string())
 }
 
 /// The blocks that a diagram of the text can have.
@@ -73,6 +88,7 @@ fn edit_of(change: DiagramEdit) -> Edit {
         DiagramEdit::Write { statement, at } => Edit::Write { statement, at: point(at) },
         DiagramEdit::Give { element, input, value } => Edit::Give { element, input, value },
         DiagramEdit::Set { element, parameter, value } => Edit::Set { element, parameter, value },
+        DiagramEdit::Paste { text, by } => Edit::Paste { text, by: point(by) },
         DiagramEdit::Remove { elements } => Edit::Remove { elements },
     }
 }

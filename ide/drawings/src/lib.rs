@@ -69,6 +69,9 @@ impl Drawings {
             Question::EditDiagram { text, name, others, diagram, edit } => {
                 diagrams::edit(text, name, &others, (diagram, edit))
             }
+            Question::CopyDiagram { text, name, others, diagram, elements } => {
+                Ok(Answer::Copy(diagrams::copy(text, name, &others, (diagram, elements))?))
+            }
             Question::Blocks { text, name, others } => {
                 Ok(Answer::Blocks(diagrams::blocks(text, name, &others)?))
             }

@@ -66,13 +66,21 @@ pub enum Question {
     /// Text. Answer: [`Diagrams`].
     Diagrams { text: String, name: String, others: Vec<String> },
     /// One change of a diagram, which is the number of a sheet. Answer: the text, its diagrams and
-    /// the element that is new.
+    /// the elements that are new.
     EditDiagram {
         text: String,
         name: String,
         others: Vec<String>,
         diagram: usize,
         edit: DiagramEdit,
+    },
+    /// Elements of a diagram as a text that can be pasted. Answer: the text.
+    CopyDiagram {
+        text: String,
+        name: String,
+        others: Vec<String>,
+        diagram: usize,
+        elements: Vec<String>,
     },
     /// The blocks that a diagram can have. Answer: a [`Block`] each, those of the project first.
     Blocks { text: String, name: String, others: Vec<String> },
@@ -199,7 +207,7 @@ pub enum Answer {
     Judged(Vec<Judgement>),
     Converted(Converted),
     Diagrams(Diagrams),
-    EditedDiagram { text: String, diagrams: Diagrams, new: Option<String> },
+    EditedDiagram { text: String, diagrams: Diagrams, new: Vec<String> },
     Blocks(Vec<Block>),
 }
 

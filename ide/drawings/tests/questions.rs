@@ -362,7 +362,7 @@ fn diagrams_are_drawn_with_what_their_project_has() {
     };
     let call = json!({ "call": { "block": "OWN", "at": [40, 300] } });
     let edited = edit(&mut page, call).unwrap();
-    assert_eq!(edited["new"], "OWN1");
+    assert_eq!(edited["new"], json!(["OWN1"]));
     assert!(edited["text"].as_str().unwrap().contains("Own1 : OWN;"));
     assert_eq!(edited["diagrams"]["sheets"][0]["elements"][2]["id"], "OWN1");
     let give = json!({ "give": { "element": "A", "input": "IN", "value": "(" } });

@@ -136,6 +136,10 @@ for (const target of ["Simulator", "Virtual Uno"]) {
   await output(/: Lag1/, "Y", 0.48, 0.52);
   assert((await text()).includes("HIGH := 5.0"), "a slider changes no text");
   if (target === "Virtual Uno") {
+    // What was found by a slider becomes what is declared.
+    await details.getByRole("slider", { name: "Slider for KI" }).fill("3.69");
+    await button("Keep the value of Main.Pid1.KI in the text").click();
+    await isIn("KI := 3.69");
     await tab("Capture");
     await panel("Capture").getByLabel("Signal", { exact: true }).fill("Main.Lag1.Y");
     await key("Enter");
@@ -229,6 +233,26 @@ await isOut("Lag1");
 await page.waitForTimeout(300);
 await diagram.getByRole("button", { name: "Undo", exact: true }).click();
 await page.waitForFunction((whole) => globalThis.texts["loop.fbd"] === whole, whole);
+// Several are chosen, copied with the links among them, moved and taken out together.
+await page.waitForTimeout(300);
+await element(/: Pid1/).click();
+await element(/: Lag1/).click({ modifiers: ["Shift"] });
+assert.equal(await diagram.locator(".selected").count(), 2);
+await page.waitForTimeout(300);
+await key("Control+C");
+await key("Control+V");
+await element(/: Lag2/).waitFor();
+await isIn("PV := Lag2.Y");
+await page.waitForFunction(() => document.querySelectorAll(".diagram .selected").length === 2);
+const copies = await text();
+await key("Control+ArrowDown");
+await page.waitForFunction((was) => globalThis.texts["loop.fbd"] !== was, copies);
+const both = places(await text()).filter((place) => !places(copies).includes(place));
+assert.deepEqual(both.map((place) => place.split(" ")[0]).toSorted(), ["Lag2", "Pid2"]);
+await page.waitForTimeout(300);
+await key("Delete");
+await page.waitForFunction((whole) => globalThis.texts["loop.fbd"] === whole, whole);
+await page.waitForTimeout(300);
 // An assignment, as written.
 await button("Assignment…").click();
 await page.getByRole("dialog").getByRole("textbox").fill("%Q0.0 := Every1.Q");

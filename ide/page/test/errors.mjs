@@ -358,14 +358,14 @@ await situation(
   (page) => page.route(/errors\/E\d+\.md/, (route) => route.abort()),
 );
 
-// What draws charts does not come either.
+// What draws does not come either.
 await situation(
   `${server.plain}#example=mixing-sfc`,
   async (page) => {
     await page.getByRole("tab", { name: "Chart", exact: true }).click();
-    await said(page, "chartBroken");
+    await said(page, "drawingBroken");
   },
-  (page) => page.route(/charts\.js$/, (route) => route.abort()),
+  (page) => page.route(/drawings\.js$/, (route) => route.abort()),
 );
 
 // A PLC on the network that does not answer; its port in use; the bridge that is gone.

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use diagnostics::Source;
 use diagram::drawing::{Sheet, draw};
-use diagram::edit::{Edit, Edited, edit};
+use diagram::edit::{Edit, Edited, copy, edit};
 use diagram::interfaces::Interfaces;
 use fastrand::Rng;
 use picture::Point;
@@ -98,7 +98,7 @@ fn the_first_move_writes_all_places_down() {
 #[test]
 fn a_block_is_declared_and_called() {
     let Edited { text, new } = changed(LOOP, &call("rate_limit")).expect("a block");
-    assert_eq!(new.as_deref(), Some("Rate_limit1"));
+    assert_eq!(new, ["Rate_limit1"]);
     let (gone, new) = differences(LOOP, &text);
     assert_eq!(gone, [""; 0]);
     assert_eq!(new[0], "Rate_limit1 : RATE_LIMIT;");
@@ -209,6 +209,64 @@ fn elements_are_taken_out_with_what_is_theirs() {
     text_after(text, &remove(&["A", "X"]));
 }
 
+fn copied(text: &str, elements: &[&str]) -> String {
+    let source = Source::new("d.fbd", text).expect("a short text");
+    let elements: Vec<String> = elements.iter().map(|one| (*one).to_owned()).collect();
+    copy(&source, 0, &elements, &Interfaces::default()).expect("they are there")
+}
+
+fn paste(text: &str) -> Edit {
+    Edit::Paste { text: text.to_owned(), by: Point::new(40, 20) }
+}
+
+#[test]
+fn elements_are_copied_and_pasted() {
+    let text = copied(LOOP, &["CAPACITOR", "LOOP"]);
+    let wanted = "\
+VAR
+    Loop : PID := (KP := 4.0, TS := T#50ms);
+    Capacitor : LAG := (T1 := T#1s);
+END_VAR
+{at 360 40} Loop(SP := Setpoint, PV := {feedback} Capacitor.Y);
+{at 640 40} Capacitor(X := Loop.U);
+";
+    assert_eq!(text, wanted);
+    // Links among them lead to the new ones, those from others stay.
+    let edited = changed(LOOP, &paste(&text)).expect("a part");
+    assert_eq!(edited.new, ["Loop1", "Capacitor1"]);
+    let added = [
+        "Loop1 : PID := (KP := 4.0, TS := T#50ms);",
+        "Capacitor1 : LAG := (T1 := T#1s);",
+        "{at 400 60} Loop1(SP := Setpoint, PV := {feedback} Capacitor1.Y);",
+        "{at 680 60} Capacitor1(X := Loop1.U);",
+    ];
+    assert_eq!(differences(LOOP, &edited.text), (vec![], added.to_vec()));
+    // Once more, into another diagram, and one of several that are declared together.
+    let twice = changed(&edited.text, &paste(&text)).expect("a part");
+    assert_eq!(twice.new, ["Loop2", "Capacitor2"]);
+    assert_eq!(changed("", &paste(&text)).expect("a part").new, ["Loop", "Capacitor"]);
+    let text = "PROGRAM Main VAR X, Y : BLINK; END_VAR\nX(); Y();\n%Q0.0 := Y.Q;\nEND_PROGRAM";
+    let part = copied(text, &["Y", "%Q0.0"]);
+    assert_eq!(part, "VAR\n    Y : BLINK;\nEND_VAR\nY();\n%Q0.0 := Y.Q;\n");
+    assert_eq!(changed(text, &paste(&part)).expect("a part").new, ["Y1", "%Q0.0"]);
+}
+
+#[test]
+fn names_of_pins_are_not_renamed() {
+    let text = "PROGRAM Main VAR X : LAG; Y : LAG; END_VAR\nX(X := 1.0); Y(X := X.Y);\nEND_PROGRAM";
+    let after = text_after(text, &paste(&copied(text, &["X", "Y"])));
+    assert!(after.contains("X1(X := 1.0);"), "{after}");
+    assert!(after.contains("Y1(X := X1.Y);"), "{after}");
+}
+
+#[test]
+fn what_is_no_part_of_a_diagram_is_not_pasted() {
+    for text in ["", "hello", "IF TRUE THEN", "END_PROGRAM PROGRAM Other", "Loop(", "}{"] {
+        let refusal = changed(LOOP, &paste(text)).expect_err(text);
+        assert_eq!(refusal, "this is no part of a diagram", "{text}");
+    }
+}
+
 #[test]
 fn what_is_wrong_is_refused_and_nothing_changes() {
     let cases = [
@@ -259,7 +317,7 @@ fn random_changes() {
                     let kind = rng.usize(..BLOCKS.len());
                     let Edited { text: after, new } =
                         changed(&text, &call(BLOCKS[kind].0)).expect("a block");
-                    there.push((new.expect("a name").to_uppercase(), kind));
+                    there.push((new[0].to_uppercase(), kind));
                     text = after;
                     continue;
                 }

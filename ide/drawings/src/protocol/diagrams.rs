@@ -137,6 +137,7 @@ pub enum DiagramEdit {
     Write { statement: String, at: At },
     Give { element: String, input: String, value: String },
     Set { element: String, parameter: String, value: String },
+    Paste { text: String, by: At },
     Remove { elements: Vec<String> },
 }
 

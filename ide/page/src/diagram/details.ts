@@ -1,29 +1,15 @@
 // What there is to be read and changed of the element that is chosen: its inputs, outputs and
-// parameters, with what is written and with their values.
+// parameters.
 import type { Core } from "../core/core";
-import type { Value } from "../core/protocol";
-import { button, h, newId, say } from "../page/dom";
-import { valueMenu } from "../page/values";
-import { t } from "../text/language";
+import { button, h, newId } from "../page/dom";
 import { nameOf, type Edits } from "./edits";
 import type { Live } from "./live";
-import type { Parameter, Pin } from "./protocol";
-import { short } from "./shape";
+import type { Pin } from "./protocol";
+import { Row, type Named, type Table } from "./row";
 import type { Item } from "./sheets";
-import { Slider } from "./slider";
-
-type Named = Pin | Parameter;
 
 /** What every call can have. */
 const ENABLE: Pin = { name: "EN", type: "BOOL", at: [0, 0], text: "", written: null, names: [] };
-
-interface Row {
-  named: Named;
-  value: HTMLButtonElement;
-  plot: HTMLButtonElement;
-  slider: Slider | null;
-  known: Value | undefined;
-}
 
 export class Details {
   readonly element = h("section", { class: "block-details", label: "diagramDetails" });
@@ -50,37 +36,56 @@ export class Details {
   show(item: Item | null): void {
     const isSame = JSON.stringify(item) === JSON.stringify(this.shown);
     if (isSame && item) return this.showValues();
+    const focus = this.focused();
     this.shown = item;
     this.rows = [];
     this.element.hidden = item === null;
-    if (!item) return this.element.replaceChildren();
-    const { element, linked } = item;
-    const isLinked = (pin: Pin) => linked.includes(element.inputs.indexOf(pin));
-    const free = element.inputs.filter((pin) => isFree(pin) && !isLinked(pin));
-    const { fullName, block, line, comment } = element;
-    const title = h("h2", {}, block === null ? fullName : `${fullName}: ${block}`);
-    const go = button("showPlace", () => this.goTo(line), { class: "small" });
-    const isCall = block !== null;
-    const hasEnable = element.inputs.some(({ name }) => name.toUpperCase() === "EN");
-    const inputs = isCall && !hasEnable ? [ENABLE, ...element.inputs] : element.inputs;
-    const parts = [
-      this.part("diagramInputs", inputs, free),
-      this.part("diagramOutputs", element.outputs),
-      this.part("diagramParameters", element.parameters, element.parameters),
-    ];
-    const { activeElement } = document;
-    const of = this.element.contains(activeElement)
-      ? (activeElement as HTMLElement).dataset["of"]
-      : undefined;
-    this.element.replaceChildren(
-      this.outputs,
-      h("div", { class: "controls" }, title, go),
-      comment === "" ? "" : h("p", { class: "hint" }, comment),
-      h("div", { class: "scroll" }, h("table", {}, ...parts.filter((part) => part !== null))),
-    );
+    this.element.replaceChildren(...(item ? this.parts(item) : []));
     this.showValues();
     const fields = [...this.element.querySelectorAll<HTMLElement>("[data-of]")];
-    if (of !== undefined) fields.find((field) => field.dataset["of"] === of)?.focus();
+    if (focus !== undefined) fields.find((field) => field.dataset["of"] === focus)?.focus();
+  }
+
+  /** The name beside the field that has the focus. */
+  private focused(): string | undefined {
+    const { activeElement } = document;
+    const isHere = activeElement instanceof HTMLElement && this.element.contains(activeElement);
+    return isHere ? activeElement.dataset["of"] : undefined;
+  }
+
+  private parts(item: Item): HTMLElement[] {
+    const { element, linked } = item;
+    const { fullName, block, line, comment, inputs, outputs, parameters } = element;
+    const { core, edits, plot } = this;
+    const table = { core, edits, item, offered: this.outputs.id, plot };
+    const free = inputs.filter((pin, at) => isFree(pin) && !linked.includes(at));
+    const hasEnable = block === null || inputs.some(({ name }) => name.toUpperCase() === "EN");
+    const title = h("h2", {}, block === null ? fullName : `${fullName}: ${block}`);
+    const go = button("showPlace", () => this.goTo(line), { class: "small" });
+    const bodies = [
+      this.part(table, "diagramInputs", hasEnable ? inputs : [ENABLE, ...inputs], free),
+      this.part(table, "diagramOutputs", outputs, []),
+      this.part(table, "diagramParameters", parameters, parameters),
+    ];
+    return [
+      this.outputs,
+      h("div", { class: "controls" }, title, go),
+      ...(comment === "" ? [] : [h("p", { class: "hint" }, comment)]),
+      h("div", { class: "scroll" }, h("table", {}, ...bodies)),
+    ];
+  }
+
+  private part(
+    table: Table,
+    text: "diagramInputs" | "diagramOutputs" | "diagramParameters",
+    named: Named[],
+    free: Named[],
+  ): HTMLElement | null {
+    if (named.length === 0) return null;
+    const rows = named.map((one) => new Row(table, one, free.includes(one)));
+    this.rows.push(...rows);
+    const head = h("th", { text, attributes: { scope: "rowgroup", colspan: 4 } });
+    return h("tbody", {}, h("tr", {}, head), ...rows.map(({ element }) => element));
   }
 
   /** What inputs can be connected to. */
@@ -91,94 +96,9 @@ export class Details {
     this.outputs.replaceChildren(...names.map((name) => h("option", { set: { value: name } })));
   }
 
-  private part(
-    text: "diagramInputs" | "diagramOutputs" | "diagramParameters",
-    named: Named[],
-    free: Named[] = [],
-  ): HTMLElement | null {
-    if (named.length === 0) return null;
-    const head = h("th", { text, attributes: { scope: "rowgroup", colspan: 4 } });
-    return h(
-      "tbody",
-      {},
-      h("tr", {}, head),
-      ...named.map((one) => this.row(one, free.includes(one))),
-    );
-  }
-
-  private row(named: Named, isFree: boolean): HTMLElement {
-    const isParameter = "value" in named;
-    const written = isParameter ? named.value : named.written;
-    const value = h("button", { attributes: { type: "button" }, class: "value" });
-    const plot = button("diagramPlot", () => row.known && this.plot(row.known.name), {
-      class: "small",
-    });
-    const row: Row = { named, value, plot, slider: null, known: undefined };
-    if (isFree) row.slider = this.slider(row, isParameter ? written : null);
-    value.addEventListener("click", () => row.known && valueMenu(this.core, row.known, value));
-    this.rows.push(row);
-    const comment = isParameter ? named.comment : "";
-    const isOutput = this.shown?.element.outputs.includes(named as Pin) ?? false;
-    const given = isOutput ? h("code", {}, written ?? "") : this.field(named, written ?? "");
-    return h(
-      "tr",
-      {},
-      h("th", { attributes: { scope: "row", title: comment || undefined } }, named.name || ":="),
-      h("td", { class: "type" }, named.type),
-      h("td", { class: "written" }, given, row.slider?.element),
-      h("td", {}, value, plot),
-    );
-  }
-
-  /** What is given to an input, or declared of a parameter, to be written. */
-  private field(named: Named, written: string): HTMLElement {
-    const { name } = named;
-    const field = h("input", {
-      attributes: { list: this.outputs.id, autocomplete: "off", spellcheck: "false" },
-      set: { value: written },
-    });
-    field.dataset["of"] = name;
-    say(field, "aria-label", "diagramValueOf", name || (this.shown?.element.fullName ?? ""));
-    field.addEventListener("keydown", (event) => {
-      if (event.key === "Escape") field.value = written;
-    });
-    field.addEventListener("change", () => {
-      const item = this.shown;
-      const value = field.value.trim();
-      if (!item || value === written) return;
-      const done =
-        "value" in named ? this.edits.set(item, name, value) : this.edits.give(item, name, value);
-      void done.then((isDone) => {
-        if (!isDone) field.value = written;
-      });
-    });
-    return field;
-  }
-
-  /** Of a number, around the value that it begins with. */
-  private slider(row: Row, begin: string | null): Slider | null {
-    const { name, type } = row.named;
-    const declared = Number(begin ?? 0);
-    if (type.toUpperCase() !== "REAL" || Number.isNaN(declared)) return null;
-    return new Slider(name, declared, (value) => {
-      const operand = row.known?.name;
-      if (operand) this.core.tell({ do: "set", operand, value });
-    });
-  }
-
   showValues(): void {
     const values = this.live.of(this.named);
-    for (const [at, row] of this.rows.entries()) {
-      const value = values[at];
-      row.known = value;
-      const text = value ? short(value) : "";
-      if (row.value.textContent !== text) row.value.textContent = text;
-      row.value.hidden = row.plot.hidden = !value;
-      if (value) row.value.setAttribute("aria-label", `${value.name} = ${text}`);
-      row.value.classList.toggle("is-forced", value?.forced === true);
-      row.plot.setAttribute("aria-label", value ? t("diagramPlotOf", value.name) : "");
-      row.slider?.show(value?.number ?? null);
-    }
+    for (const [at, row] of this.rows.entries()) row.show(values[at]);
   }
 }
 

@@ -13,13 +13,15 @@ import type { Project } from "../project/project";
 import { DIAGRAM_WORDS } from "../text/diagram_words";
 import { addWords, onLanguage, t } from "../text/language";
 import { Details } from "./details";
+import { Clipboard } from "./clipboard";
 import { DiagramDocument } from "./document";
-import { Edits, freePlace } from "./edits";
+import { Edits, freePlace, idsOf } from "./edits";
 import { pressed, type Acts } from "./keyboard";
 import { Live } from "./live";
 import { Palette } from "./palette";
 import { Pointer } from "./pointer";
 import type { DiagramEdit } from "./protocol";
+import { Selection } from "./selection";
 import { Sheets, type Item } from "./sheets";
 
 addWords(DIAGRAM_WORDS);
@@ -35,9 +37,8 @@ export class DiagramView {
   private obstacle = h("p", { class: "obstacle", attributes: { role: "status" } });
   private tools: HTMLElement;
   private stage: HTMLElement;
-  /** The element that Tab leads to, and whose details are shown once it was chosen. */
-  private focus: Item | undefined;
-  private isChosen = false;
+  private selection = new Selection();
+  private clipboard: Clipboard;
   private isShown = false;
 
   constructor(
@@ -54,10 +55,15 @@ export class DiagramView {
     this.live = new Live(watching, operands, () => this.showValues());
     this.sheets = new Sheets(
       this.live,
-      () => this.focus,
+      () => this.selection.focus,
       () => this.refreshed(),
     );
-    this.edits = new Edits(this.document, (key) => this.chooseMade(key));
+    this.edits = new Edits(this.document, (keys) => this.chooseMade(keys));
+    this.clipboard = new Clipboard({
+      isHere: () => this.stage.contains(document.activeElement),
+      remove: () => this.remove(),
+      paste: (text) => void this.edits.paste(this.sheet, text),
+    });
     this.palette = new Palette(({ name }) => this.add((at) => ({ call: { block: name, at } })));
     this.details = new Details(core, this.live, this.edits, plot, (line) =>
       this.document.goTo(line),
@@ -102,7 +108,7 @@ export class DiagramView {
   }
 
   private take(isOther: boolean): void {
-    if (isOther) this.isChosen = false;
+    if (isOther) this.selection.only(undefined);
     this.draw();
     if (isOther && this.document.drawn) this.sheets.begin();
     this.followCursor();
@@ -119,17 +125,13 @@ export class DiagramView {
     this.words.hidden = hasElements || Boolean(drawn?.obstacle);
     this.obstacle.hidden = !drawn?.obstacle && !drawn?.mistake;
     this.showObstacle();
-    const key = this.focus?.key;
-    this.focus = undefined;
     this.sheets.draw(drawn);
     const { items } = this.sheets;
     this.details.offer(items);
-    this.focus = items.find((item) => item.key === key);
-    this.isChosen &&= this.focus !== undefined;
-    this.focus ??= items[0];
-    this.sheets.refresh();
-    this.showDetails();
-    if (hadFocus && this.focus) this.sheets.shape(this.focus)?.button.focus();
+    this.selection.take(items);
+    this.selected();
+    const { focus } = this.selection;
+    if (hadFocus && focus) this.sheets.shape(focus)?.button.focus();
   }
 
   private showObstacle(): void {
@@ -144,8 +146,8 @@ export class DiagramView {
     for (const item of this.sheets.items) {
       const shape = this.sheets.shape(item);
       if (!shape) continue;
-      shape.button.setAttribute("tabindex", item === this.focus ? "0" : "-1");
-      shape.group.classList.toggle("selected", this.isChosen && item === this.focus);
+      shape.button.setAttribute("tabindex", item === this.selection.focus ? "0" : "-1");
+      shape.group.classList.toggle("selected", this.selection.has(item));
       shape.group.classList.toggle("current", item === this.current);
     }
     this.want();
@@ -161,16 +163,21 @@ export class DiagramView {
     this.details.showValues();
   }
 
-  private showDetails(): void {
-    this.details.show((this.isChosen && this.focus) || null);
+  /** Other elements are chosen: details are those of the one that keys go to. */
+  private selected(): void {
+    const { focus, chosen } = this.selection;
+    this.sheets.refresh();
+    this.details.show((focus && this.selection.has(focus) && focus) || null);
     this.want();
+    const [first] = chosen;
+    const text = first ? this.document.copy(first.sheet, idsOf(chosen)) : Promise.resolve("");
+    void this.clipboard.prepare(text);
   }
 
-  private choose(item: Item | undefined): void {
-    this.isChosen = item !== undefined;
-    this.focus = item ?? this.focus;
-    this.sheets.refresh();
-    this.showDetails();
+  private choose(item: Item | undefined, isMore = false): void {
+    if (isMore && item) this.selection.toggle(item);
+    else this.selection.only(item);
+    this.selected();
     if (!item) return;
     this.sheets.reveal(item.element.room);
     this.sheets.shape(item)?.button.focus({ preventScroll: true });
@@ -195,26 +202,35 @@ export class DiagramView {
   private listen(): void {
     const { element } = this.sheets;
     const acts: Acts = {
-      choose: (item) => this.choose(item),
+      choose: (item, isMore) => this.choose(item, isMore),
+      chooseAll: () =>
+        this.chooseAll(this.sheets.items.filter(({ sheet }) => sheet === this.sheet)),
       goToText: (item) => this.document.goTo(item.element.line),
-      move: (item, by) => void (this.isChosen && this.edits.move(item, by)),
+      move: (by) => void this.edits.move(this.selection.chosen, by),
       remove: () => this.remove(),
       goBack: (isUndo) => this.document.goBack(isUndo),
       addBlock: () => void this.openPalette(),
     };
     this.stage.addEventListener("keydown", (event) => {
-      if (pressed(event, this.sheets.items, this.focus, acts)) event.preventDefault();
+      if (pressed(event, this.sheets.items, this.selection.focus, acts)) event.preventDefault();
     });
-    element.addEventListener("click", (event) => this.choose(this.sheets.at(event.target)));
+    element.addEventListener("click", (event) => {
+      this.choose(this.sheets.at(event.target), event.shiftKey || event.ctrlKey || event.metaKey);
+    });
     element.addEventListener("dblclick", (event) => {
       const item = this.sheets.at(event.target);
       if (item) this.document.goTo(item.element.line);
     });
-    new Pointer(this.sheets, this.edits);
+    new Pointer(this.sheets, this.edits, this.selection);
+  }
+
+  /** The diagram that is worked in. */
+  private get sheet(): number {
+    return this.selection.focus?.sheet ?? 0;
   }
 
   private remove(): void {
-    if (this.isChosen && this.focus) void this.edits.remove(this.focus);
+    void this.edits.remove(this.selection.chosen);
   }
 
   private async openPalette(): Promise<void> {
@@ -223,8 +239,8 @@ export class DiagramView {
 
   /** Adds an element where there is room, to the diagram that is worked in. */
   private add(edit: (at: Point) => DiagramEdit): void {
-    const sheet = this.focus?.sheet ?? 0;
-    void this.edits.perform(sheet, edit(freePlace(this.sheets.items, this.sheets.view())));
+    const at = freePlace(this.sheets.items, this.sheets.view());
+    void this.edits.perform(this.sheet, edit(at));
   }
 
   private async write(): Promise<void> {
@@ -232,9 +248,17 @@ export class DiagramView {
     if (statement !== null) this.add((at) => ({ write: { statement, at } }));
   }
 
-  /** Chooses an element that is new. */
-  private chooseMade(key: string): void {
-    const item = this.sheets.items.find((one) => one.key === key);
-    if (item) this.choose(item);
+  private chooseAll(items: Item[]): void {
+    this.selection.all(items);
+    this.selected();
+  }
+
+  /** Chooses elements that are new. */
+  private chooseMade(keys: string[]): void {
+    const items = this.sheets.items.filter(({ key }) => keys.includes(key));
+    const [first] = items;
+    if (!first) return;
+    this.choose(first);
+    this.chooseAll(items);
   }
 }

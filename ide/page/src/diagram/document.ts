@@ -84,14 +84,14 @@ export class DiagramDocument {
     }
   }
 
-  /** One change, as one of the text; gives the element that is new. Fails with a [`Refusal`]. */
-  edit(diagram: number, edit: DiagramEdit): Promise<string | null> {
+  /** One change, as one of the text; gives the elements that are new. Fails with a [`Refusal`]. */
+  edit(diagram: number, edit: DiagramEdit): Promise<string[]> {
     const turn = this.turn.then(() => this.carryOut(diagram, edit));
-    this.turn = turn.catch(() => null);
+    this.turn = turn.catch(() => {});
     return turn;
   }
 
-  private async carryOut(diagram: number, edit: DiagramEdit): Promise<string | null> {
+  private async carryOut(diagram: number, edit: DiagramEdit): Promise<string[]> {
     const wish = this.wish();
     if (!wish) throw new Refusal(t("diagramNothing"));
     const answer = await this.module.ask({ do: "editDiagram", ...wish, diagram, edit });
@@ -102,6 +102,13 @@ export class DiagramDocument {
     await new Promise((done) => setTimeout(done));
     this.take(wish.name, answer.diagrams);
     return answer.new;
+  }
+
+  /** Elements as a text that can be pasted. */
+  async copy(diagram: number, elements: string[]): Promise<string> {
+    const wish = this.wish();
+    if (!wish) throw new Refusal(t("diagramNothing"));
+    return this.module.ask({ do: "copyDiagram", ...wish, diagram, elements });
   }
 
   /** The blocks that there are. */

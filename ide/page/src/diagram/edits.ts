@@ -15,15 +15,15 @@ const ROOM = { before: 100, width: 140, height: 110 };
 export class Edits {
   constructor(
     private document: DiagramDocument,
-    /** Is told the key of an element that is new. */
-    private made: (key: string) => void,
+    /** Is told the keys of elements that are new. */
+    private made: (keys: string[]) => void,
   ) {}
 
   /** Whether it could be done. */
   async perform(sheet: number, edit: DiagramEdit): Promise<boolean> {
     try {
       const made = await this.document.edit(sheet, edit);
-      if (made !== null) this.made(`${sheet}:${made}`);
+      if (made.length > 0) this.made(made.map((id) => `${sheet}:${id}`));
       return true;
     } catch (error) {
       if (error instanceof Refusal) notice(error.message, true);
@@ -32,12 +32,20 @@ export class Edits {
     }
   }
 
-  move({ sheet, element }: Item, by: Point): Promise<boolean> {
-    return this.perform(sheet, { move: { elements: [element.id], by } });
+  /** Moves elements of one diagram. */
+  async move(items: Item[], by: Point): Promise<void> {
+    const [first] = items;
+    if (first) await this.perform(first.sheet, { move: { elements: idsOf(items), by } });
   }
 
-  remove({ sheet, element }: Item): Promise<boolean> {
-    return this.perform(sheet, { remove: { elements: [element.id] } });
+  /** Takes elements of one diagram out. */
+  async remove(items: Item[]): Promise<void> {
+    const [first] = items;
+    if (first) await this.perform(first.sheet, { remove: { elements: idsOf(items) } });
+  }
+
+  paste(sheet: number, text: string): Promise<boolean> {
+    return this.perform(sheet, { paste: { text, by: [2 * GRID, 2 * GRID] } });
   }
 
   /** Gives an input a value; none where it is empty. */
@@ -48,6 +56,10 @@ export class Edits {
   set({ sheet, element }: Item, parameter: string, value: string): Promise<boolean> {
     return this.perform(sheet, { set: { element: element.id, parameter, value } });
   }
+}
+
+export function idsOf(items: Item[]): string[] {
+  return items.map(({ element }) => element.id);
 }
 
 /** A distance in steps. */

@@ -13,9 +13,11 @@ const ARROWS: Record<string, Point> = {
 
 /** What keys do. */
 export interface Acts {
-  choose(item: Item | undefined): void;
+  /** `isMore`: beside what is chosen. */
+  choose(item: Item | undefined, isMore?: boolean): void;
+  chooseAll(): void;
   goToText(item: Item): void;
-  move(item: Item, by: Point): void;
+  move(by: Point): void;
   remove(): void;
   goBack(isUndo: boolean): void;
   addBlock(): void;
@@ -32,7 +34,7 @@ export function pressed(
   if (event.altKey) return false;
   if (isHeld) return withControl(event, focus, acts);
   const next = neighbour(event.key, items, focus);
-  if (next) acts.choose(next);
+  if (next) acts.choose(next, event.shiftKey);
   else if (event.key === "Enter" || event.key === " ") acts.choose(focus);
   else if (event.key === "Escape") acts.choose(undefined);
   else if (event.key === "Insert") acts.addBlock();
@@ -45,7 +47,9 @@ export function pressed(
 function withControl(event: KeyboardEvent, focus: Item | undefined, acts: Acts): boolean {
   const by = ARROWS[event.key];
   const key = event.key.toLowerCase();
-  if (by && focus) acts.move(focus, by);
+  if (by) acts.move(by);
+  else if (key === "a") acts.chooseAll();
+  else if (key === " ") acts.choose(focus, true);
   else if (key === "z") acts.goBack(!event.shiftKey);
   else if (key === "y") acts.goBack(false);
   else return false;

@@ -2,6 +2,7 @@
 import { s } from "../page/dom";
 import type { Point } from "../page/ground";
 import { nameOf, snapped, type Edits } from "./edits";
+import type { Selection } from "./selection";
 import type { Item, Sheets } from "./sheets";
 
 /** A drag is farther than this, in pixels. */
@@ -18,6 +19,7 @@ export class Pointer {
   constructor(
     private sheets: Sheets,
     private edits: Edits,
+    private selection: Selection,
   ) {
     sheets.element.addEventListener("pointerdown", (event) => this.down(event));
   }
@@ -80,18 +82,23 @@ export class Pointer {
   }
 
   private carry(down: PointerEvent, item: Item): void {
-    const shape = this.sheets.shape(item);
+    // What is chosen moves together.
+    const items = this.selection.has(item) ? this.selection.chosen : [item];
+    const groups = items.flatMap((one) => this.sheets.shape(one)?.group ?? []);
     const start = this.sheets.point(down);
     const by = (event: PointerEvent): Point => {
       const [x, y] = this.sheets.point(event);
       return snapped([x - start[0], y - start[1]]);
     };
     track(down, {
-      move: (event) => shape?.group.setAttribute("transform", `translate(${by(event).join(" ")})`),
+      move: (event) => {
+        const to = `translate(${by(event).join(" ")})`;
+        for (const group of groups) group.setAttribute("transform", to);
+      },
       end: (event, isDrag) => {
-        shape?.group.removeAttribute("transform");
+        for (const group of groups) group.removeAttribute("transform");
         const far = by(event);
-        if (isDrag && far.some((one) => one !== 0)) void this.edits.move(item, far);
+        if (isDrag && far.some((one) => one !== 0)) void this.edits.move(items, far);
       },
     });
   }

@@ -86,6 +86,7 @@ export type DiagramEdit =
   | { write: { statement: string; at: Point } }
   | { give: { element: string; input: string; value: string } }
   | { set: { element: string; parameter: string; value: string } }
+  | { paste: { text: string; by: Point } }
   | { remove: { elements: string[] } };
 
 /** A block that a diagram can have. */
@@ -107,10 +108,12 @@ export interface Wish {
 
 export interface Questions {
   diagrams: { wish: Wish; answer: Diagrams };
-  /** `new`: the element that is new. */
+  /** `new`: the elements that are new. */
   editDiagram: {
     wish: Wish & { diagram: number; edit: DiagramEdit };
-    answer: { text: string; diagrams: Diagrams; new: string | null };
+    answer: { text: string; diagrams: Diagrams; new: string[] };
   };
+  /** The text of elements, which can be pasted. */
+  copyDiagram: { wish: Wish & { diagram: number; elements: string[] }; answer: string };
   blocks: { wish: Wish; answer: Block[] };
 }

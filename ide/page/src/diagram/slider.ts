@@ -45,6 +45,6 @@ export class Slider {
 }
 
 /** A number as a REAL is written. */
-function real(text: string): string {
+export function real(text: string): string {
   return text.includes(".") || text.includes("e") ? text : `${text}.0`;
 }

@@ -54,5 +54,11 @@ export const DIAGRAM_WORDS = {
   diagramParameters: ["Parameters", "Parameter", "Parámetros"],
   diagramPlot: ["Plot", "Zeichnen", "Trazar"],
   diagramPlotOf: ["Plot {0}", "{0} zeichnen", "Trazar {0}"],
+  diagramKeep: ["Keep", "Behalten", "Conservar"],
+  diagramKeepOf: [
+    "Keep the value of {0} in the text",
+    "Den Wert von {0} im Text behalten",
+    "Conservar el valor de {0} en el texto",
+  ],
   diagramSlider: ["Slider for {0}", "Schieber für {0}", "Deslizador de {0}"],
 } as const satisfies Record<string, Words>;

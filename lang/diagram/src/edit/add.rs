@@ -5,6 +5,7 @@ use picture::Point;
 use st::lexer::{Kind, cut};
 use st::tree::{Section, SectionKind};
 
+use super::clipboard::target;
 use super::moves::pragma;
 use super::text::{self, Changes, insert_after};
 use super::{Edited, Editing, Refusal, refused};
@@ -18,19 +19,20 @@ impl Editing<'_> {
         let Some(interface) = self.opened.interfaces.find(block) else {
             return refused(format!("there is no block {block}"));
         };
-        let name = self.free_name(&interface.name);
+        let mut stem = interface.name.to_lowercase();
+        stem.get_mut(..1).into_iter().for_each(str::make_ascii_uppercase);
+        let name = self.free_name(&stem, &[]);
         let mut changes = Changes::default();
-        self.declare(&format!("{name} : {};", interface.name), &mut changes);
+        self.declare(&[format!("{name} : {};", interface.name)], &mut changes);
         self.add(&format!("{name}()"), at, &mut changes);
-        Ok(Edited { new: Some(name), ..self.done(changes)? })
+        Ok(Edited { new: vec![name], ..self.done(changes)? })
     }
 
     pub(super) fn written(&self, statement: &str, at: Point) -> Result<Edited, Refusal> {
         let statement = statement.trim().trim_end_matches(';').trim_end();
-        let target = statement.split([':', '(']).next().unwrap_or_default().trim();
         let mut changes = Changes::default();
         self.add(statement, at, &mut changes);
-        let edited = Edited { new: Some(target.to_owned()), ..self.done(changes)? };
+        let edited = Edited { new: vec![target(statement).to_owned()], ..self.done(changes)? };
         self.one_more(&edited.text)?;
         Ok(edited)
     }
@@ -51,27 +53,33 @@ impl Editing<'_> {
         }
     }
 
-    /// A name for an instance of a block that the text does not have: `Pid1`.
-    fn free_name(&self, block: &str) -> String {
-        let mut stem = block.to_lowercase();
-        stem.get_mut(..1).into_iter().for_each(str::make_ascii_uppercase);
-        let tokens = cut(self.text()).tokens;
-        let words = tokens.iter().filter(|one| one.kind == Kind::Word);
-        let taken: Vec<String> =
-            words.map(|one| one.span.text(self.text()).to_lowercase()).collect();
+    /// A name with a number that neither the text nor the others have: `Pid1`.
+    pub(super) fn free_name(&self, stem: &str, others: &[&str]) -> String {
+        let is_free = |name: &String| {
+            !self.is_taken(name) && !others.iter().any(|one| one.eq_ignore_ascii_case(name))
+        };
         let mut names = (1..).map(|number| format!("{stem}{number}"));
-        let is_free = |name: &String| !taken.contains(&name.to_lowercase());
-        names.find(is_free).unwrap_or(stem.clone())
+        names.find(is_free).unwrap_or_else(|| stem.to_owned())
+    }
+
+    /// Whether the text has such a word.
+    pub(super) fn is_taken(&self, name: &str) -> bool {
+        let tokens = cut(self.text()).tokens;
+        let mut words = tokens.iter().filter(|one| one.kind == Kind::Word);
+        words.any(|one| one.span.text(self.text()).eq_ignore_ascii_case(name))
+    }
+
+    fn add(&self, statement: &str, at: Point, changes: &mut Changes) {
+        self.append(&format!("{} {statement};", pragma(self.place_of(at))), changes);
     }
 
     /// Puts a statement after the last one.
-    fn add(&self, statement: &str, at: Point, changes: &mut Changes) {
+    pub(super) fn append(&self, new: &str, changes: &mut Changes) {
         let text = self.text();
-        let new = format!("{} {statement};", pragma(self.place_of(at)));
         match self.unit.body.last() {
             Some(last) => {
                 let start = text::begin(text, last.span.start);
-                insert_after(changes, text, Span { start, end: last.span.end }, &new);
+                insert_after(changes, text, Span { start, end: last.span.end }, new);
             }
             None => changes.insert(self.end_of_unit(), format!("{new}\n")),
         }
@@ -98,8 +106,8 @@ impl Editing<'_> {
         Point::new(on_grid(x), on_grid(y))
     }
 
-    /// Declares an instance after the last variable of its section.
-    fn declare(&self, declaration: &str, changes: &mut Changes) {
+    /// Declares variables after the last one of their section.
+    pub(super) fn declare(&self, declarations: &[String], changes: &mut Changes) {
         let text = self.text();
         let is_plain = |one: &&Section| one.kind == SectionKind::Var && !one.is_constant;
         let sections = self.unit.sections.iter().filter(is_plain);
@@ -108,10 +116,16 @@ impl Editing<'_> {
                 let start =
                     last.names.first().map_or(last.of_type.span.start, |one| one.span.start);
                 let end = last.initial.as_ref().map_or(last.of_type.span.end, |one| one.span.end);
-                insert_after(changes, text, Span { start, end }, declaration);
+                for declaration in declarations {
+                    insert_after(changes, text, Span { start, end }, declaration);
+                }
             }
-            None => changes
-                .insert(self.unit.name.span.end, format!("\nVAR\n    {declaration}\nEND_VAR")),
+            None if declarations.is_empty() => {}
+            None => {
+                let lines = declarations.join("\n    ");
+                let section = format!("\nVAR\n    {lines}\nEND_VAR");
+                changes.insert(self.unit.name.span.end, section);
+            }
         }
     }
 }

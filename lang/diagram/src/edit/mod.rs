@@ -2,6 +2,7 @@
 //! touched stays as it is written. A change that would leave a text that cannot be read is refused.
 
 mod add;
+mod clipboard;
 mod inputs;
 mod moves;
 mod remove;
@@ -61,6 +62,13 @@ pub enum Edit {
         /// As written; empty: that of the block.
         value: String,
     },
+    /// Elements of a text that [`copy`] has made, by other names where theirs are taken.
+    Paste {
+        /// Declarations and statements.
+        text: String,
+        /// How far from the places in the text.
+        by: Point,
+    },
     /// Elements are taken out, with their links and with declarations that nothing needs any more.
     Remove {
         /// Which ones.
@@ -73,8 +81,8 @@ pub enum Edit {
 pub struct Edited {
     /// The text.
     pub text: String,
-    /// The element that is new, if there is one.
-    pub new: Option<String>,
+    /// The elements that are new.
+    pub new: Vec<String>,
 }
 
 /// Why a change is not possible.
@@ -110,27 +118,57 @@ pub fn edit(
     change: &Edit,
     interfaces: &Interfaces,
 ) -> Result<Edited, Refusal> {
-    let crate::Read { file, of_st, .. } = crate::read(source);
-    if let Some(first) = of_st.iter().find(|one| one.severity() == Severity::Error) {
-        let (line, _) = source.position(first.span.start as usize);
-        return refused(format!("line {line} has to be right first: {}", first.message));
-    }
-    let all = interfaces.and_of(&source.text, &file);
-    let Some(unit) = crate::diagrams(&file).nth(number) else {
+    let file = right(source)?;
+    if crate::diagrams(&file).nth(number).is_none() {
         return begun(source, number, change, interfaces);
-    };
-    let opened = Opened::of(source, &file, unit, &all);
-    let editing = Editing { source, file: &file, number, unit, opened: &opened, interfaces };
-    let edited = match change {
+    }
+    let edited = opened(source, &file, (number, interfaces), |editing| match change {
         Edit::Move { elements, by } => editing.moved(elements, *by),
         Edit::Call { block, at } => editing.called(block, *at),
         Edit::Write { statement, at } => editing.written(statement, *at),
         Edit::Give { element, input, value } => editing.given(element, input, value),
         Edit::Set { element, parameter, value } => editing.set(element, parameter, value),
+        Edit::Paste { text, by } => editing.pasted(text, *by),
         Edit::Remove { elements } => editing.removed(elements),
-    }?;
+    })?;
     readable(&edited.text)?;
     Ok(edited)
+}
+
+/// Elements of a diagram as a text that can be pasted.
+pub fn copy(
+    source: &Source,
+    number: usize,
+    elements: &[String],
+    interfaces: &Interfaces,
+) -> Result<String, Refusal> {
+    let file = right(source)?;
+    opened(source, &file, (number, interfaces), |editing| editing.copied(elements))
+}
+
+/// A text that can be read.
+fn right(source: &Source) -> Result<File, Refusal> {
+    let crate::Read { file, of_st, .. } = crate::read(source);
+    let Some(first) = of_st.iter().find(|one| one.severity() == Severity::Error) else {
+        return Ok(file);
+    };
+    let (line, _) = source.position(first.span.start as usize);
+    refused(format!("line {line} has to be right first: {}", first.message))
+}
+
+/// Does something with a diagram, by its number in the text.
+fn opened<T>(
+    source: &Source,
+    file: &File,
+    (number, interfaces): (usize, &Interfaces),
+    act: impl FnOnce(&Editing) -> Result<T, Refusal>,
+) -> Result<T, Refusal> {
+    let all = interfaces.and_of(&source.text, file);
+    let Some(unit) = crate::diagrams(file).nth(number) else {
+        return refused("there is no such diagram");
+    };
+    let opened = Opened::of(source, file, unit, &all);
+    act(&Editing { source, file, number, unit, opened: &opened, interfaces })
 }
 
 /// Adds the first element of a text that has no diagram.
@@ -140,7 +178,8 @@ fn begun(
     change: &Edit,
     interfaces: &Interfaces,
 ) -> Result<Edited, Refusal> {
-    if number > 0 || !matches!(change, Edit::Call { .. } | Edit::Write { .. }) {
+    if number > 0 || !matches!(change, Edit::Call { .. } | Edit::Write { .. } | Edit::Paste { .. })
+    {
         return refused("there is no such diagram");
     }
     let line_end = if source.text.is_empty() || source.text.ends_with('\n') { "" } else { "\n" };
@@ -175,6 +214,6 @@ impl Editing<'_> {
     }
 
     fn done(&self, changes: Changes) -> Result<Edited, Refusal> {
-        Ok(Edited { text: changes.carry_out(self.text()), new: None })
+        Ok(Edited { text: changes.carry_out(self.text()), new: Vec::new() })
     }
 }

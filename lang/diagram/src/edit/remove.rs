@@ -38,7 +38,7 @@ impl Editing<'_> {
     }
 
     /// From its pragmas to its semicolon.
-    fn of_statement(&self, element: &Element) -> Span {
+    pub(super) fn of_statement(&self, element: &Element) -> Span {
         let Span { start, end } = element.statement.span;
         Span { start: text::begin(self.text(), start), end: text::end(self.text(), end) }
     }
