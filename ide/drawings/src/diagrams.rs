@@ -4,7 +4,6 @@
 use diagnostics::{Code, Diagnostic, Severity, Source};
 use diagram::drawing::shapes::{self, End};
 use diagram::drawing::{self, Drawing};
-
 use diagram::edit::{self, Edit, Edited};
 use diagram::interfaces::{Interface, Interfaces, Origin, Variable, of_text};
 use picture::{Point, Rect};
@@ -107,8 +106,7 @@ fn drawing_of(source: &Source, interfaces: &Interfaces) -> Result<Diagrams, Stri
 /// The first error.
 fn mistake_in<C: Code>(source: &Source, found: &[Diagnostic<C>]) -> Option<Mistake> {
     let error = found.iter().find(|one| one.severity() == Severity::Error)?;
-    let (line, _) = source.position(error.span.start as usize);
-    Some(Mistake { line: line as u32, message: error.message.clone() })
+    Some(Mistake::of(source, error))
 }
 
 fn drawn(drawing: &Drawing, mistake: Option<Mistake>) -> Diagrams {

@@ -33,10 +33,7 @@ impl Opened {
     pub fn of(text: String, name: String) -> Result<Opened, String> {
         let source = source(&name, text)?;
         let Reading { document, diagnostics, .. } = read(&source);
-        let mistake = diagnostics.first().map(|error| {
-            let (line, _) = source.position(error.span.start as usize);
-            Mistake { line: line as u32, message: error.message.clone() }
-        });
+        let mistake = diagnostics.first().map(|error| Mistake::of(&source, error));
         let content = match mistake {
             Some(mistake) => Content::Broken(document, mistake),
             None => match Editing::of(document.clone(), &name) {

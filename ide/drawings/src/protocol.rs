@@ -8,6 +8,7 @@ use std::fmt;
 
 use chart::edit::Element;
 use chart::model::{StepId, TransitionId};
+use diagnostics::{Code, Diagnostic, Source};
 use diagrams::{Block, DiagramEdit, Diagrams};
 use serde::{Deserialize, Serialize};
 
@@ -360,6 +361,14 @@ pub struct Mistake {
     pub line: u32,
     /// What it is.
     pub message: String,
+}
+
+impl Mistake {
+    /// What a reader of a text has found wrong.
+    pub fn of<C: Code>(source: &Source, error: &Diagnostic<C>) -> Mistake {
+        let (line, _) = source.position(error.span.start as usize);
+        Mistake { line: line as u32, message: error.message.clone() }
+    }
 }
 
 /// A chart.

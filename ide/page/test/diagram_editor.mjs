@@ -5,7 +5,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { controls, open } from "./browser.mjs";
-import { file, listen, loadIn, longTasks } from "./drawing_page.mjs";
+import { file, listen, loadIn, longTasks, output } from "./drawing_page.mjs";
 
 /** Blocks of a large diagram, and how often it is changed. */
 const LARGE = 500;
@@ -112,28 +112,15 @@ assert.equal(await diagram.locator(".link").count(), 3);
 assert.equal(await diagram.getByRole("status").isHidden(), true, "nothing is wrong");
 console.log(await text());
 
-/** Waits until the name of an element tells an output in a range. */
-async function output(name, pin, least, most) {
-  await page.waitForFunction(
-    ({ name, pin, least, most }) => {
-      const all = [...document.querySelectorAll(".diagram .element [role=button]")];
-      const said = all.map((one) => one.getAttribute("aria-label")).find((one) => name.test(one));
-      const [, value] = new RegExp(`, ${pin} (\\S+?)(,|$)`).exec(said ?? "") ?? [];
-      return value !== undefined && Number(value) >= least && Number(value) <= most;
-    },
-    { name, pin, least, most },
-  );
-}
-
 // Simulated, tuned with sliders, on the virtual Uno too, and recorded there.
 for (const target of ["Simulator", "Virtual Uno"]) {
   await page.getByRole("combobox", { name: "Target" }).selectOption({ label: target });
   await button("Run").click();
   await mode("RUN");
   await element(/: Pid1/).click();
-  await output(/: Lag1/, "Y", 0.98, 1.02);
+  await output(page, /: Lag1/, "Y", 0.98, 1.02);
   await details.getByRole("slider", { name: "Slider for HIGH" }).fill("0.5");
-  await output(/: Lag1/, "Y", 0.48, 0.52);
+  await output(page, /: Lag1/, "Y", 0.48, 0.52);
   assert((await text()).includes("HIGH := 5.0"), "a slider changes no text");
   if (target === "Virtual Uno") {
     // What was found by a slider becomes what is declared.

@@ -3,6 +3,7 @@
 // `node test/diagrams.mjs ADDRESS`.
 import assert from "node:assert/strict";
 import { controls, open } from "./browser.mjs";
+import { output } from "./drawing_page.mjs";
 
 const [, , given] = process.argv;
 const { browser, page, errors } = await open({ patience: 120_000 });
@@ -57,19 +58,6 @@ await diagram.getByRole("button", { name: "Fit", exact: true }).click();
 const room = await diagram.locator(".sheets").evaluate((place) => place.clientWidth);
 assert((await width()) <= room + 1, "all of it can be seen");
 
-/** Waits until the name of an element tells an output in a range. */
-async function output(name, pin, least, most) {
-  await page.waitForFunction(
-    ({ name, pin, least, most }) => {
-      const all = [...document.querySelectorAll(".diagram .element [role=button]")];
-      const said = all.map((one) => one.getAttribute("aria-label")).find((one) => name.test(one));
-      const [, value] = new RegExp(`, ${pin} (\\S+?)(,|$)`).exec(said ?? "") ?? [];
-      return value !== undefined && Number(value) >= least && Number(value) <= most;
-    },
-    { name, pin, least, most },
-  );
-}
-
 for (const target of ["Simulator", "Virtual Uno"]) {
   await page.getByRole("combobox", { name: "Target" }).selectOption({ label: target });
   await button("Run").click();
@@ -78,16 +66,16 @@ for (const target of ["Simulator", "Virtual Uno"]) {
   // The set value is a variable that the diagram reads alone; what others give has no slider.
   await details.getByRole("slider", { name: "Slider for SP" }).fill("1");
   assert.equal(await details.getByRole("slider", { name: "Slider for PV" }).count(), 0);
-  await output(/^3: Capacitor/, "Y", 0.99, 1.01);
-  await output(/^2: Loop/, "U", 0.99, 1.01);
+  await output(page, /^3: Capacitor/, "Y", 0.99, 1.01);
+  await output(page, /^2: Loop/, "U", 0.99, 1.01);
   // A parameter, while it runs.
   await details.getByRole("slider", { name: "Slider for HIGH" }).fill("0.5");
-  await output(/^3: Capacitor/, "Y", 0.49, 0.51);
+  await output(page, /^3: Capacitor/, "Y", 0.49, 0.51);
   await details.getByRole("button", { name: "Main.Loop.HIGH = 0.5" }).click();
   await page.getByRole("menuitem", { name: "Set Main.Loop.HIGH" }).click();
   await page.getByRole("dialog").getByRole("textbox").fill("5.0");
   await page.keyboard.press("Enter");
-  await output(/^3: Capacitor/, "Y", 0.99, 1.01);
+  await output(page, /^3: Capacitor/, "Y", 0.99, 1.01);
   await button("Stop").click();
   await mode("STOP");
   await button("Reset").click();
@@ -110,7 +98,7 @@ await page.getByLabel("New value of Main.Setpoint").fill("2.0");
 await page.getByRole("button", { name: "Set Main.Setpoint", exact: true }).click();
 await panel("Watch").getByRole("cell", { name: "2.0", exact: true }).waitFor();
 await tab("Diagram");
-await output(/^3: Capacitor/, "Y", 1.98, 2.02);
+await output(page, /^3: Capacitor/, "Y", 1.98, 2.02);
 await button("Stop").click();
 await mode("STOP");
 

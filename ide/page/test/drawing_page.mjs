@@ -51,6 +51,19 @@ export async function listen(page) {
   });
 }
 
+/** Waits until an output of an element of a diagram has a value within bounds. */
+export async function output(page, name, pin, least, most) {
+  await page.waitForFunction(
+    ({ name, pin, least, most }) => {
+      const all = [...document.querySelectorAll(".diagram .element [role=button]")];
+      const said = all.map((one) => one.getAttribute("aria-label")).find((one) => name.test(one));
+      const [, value] = new RegExp(`, ${pin} (\\S+?)(,|$)`).exec(said ?? "") ?? [];
+      return value !== undefined && Number(value) >= least && Number(value) <= most;
+    },
+    { name, pin, least, most },
+  );
+}
+
 /** The middle of what is drawn. */
 export async function middle(node) {
   const { x, y, width, height } = await node.boundingBox();

@@ -135,8 +135,10 @@ fn variables(one: &Declaration, text: &str, kind: SectionKind) -> Vec<Variable> 
 
 /// What is after a declaration in its line.
 fn comment_after(text: &str, one: &Declaration) -> String {
-    let end = one.initial.as_ref().map_or(one.of_type.span, |value| value.span).end as usize;
-    let rest = text.get(end..).and_then(|rest| rest.lines().next()).unwrap_or_default();
+    let rest = text
+        .get(one.span().end as usize..)
+        .and_then(|rest| rest.lines().next())
+        .unwrap_or_default();
     let comment = rest.trim_start().strip_prefix(';').map(str::trim_start);
     comment.and_then(|rest| rest.strip_prefix("//")).map(str::trim).unwrap_or_default().to_owned()
 }

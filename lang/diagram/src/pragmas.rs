@@ -75,10 +75,7 @@ pub(crate) fn of_statements(text: &str, pragmas: &[Span], unit: &Unit) -> Vec<Sa
 
 fn end_of_declarations(unit: &Unit) -> u32 {
     let declarations = unit.sections.iter().flat_map(|one| &one.declarations);
-    let last = declarations.map(|one| match &one.initial {
-        Some(value) => value.span.end,
-        None => one.of_type.span.end,
-    });
+    let last = declarations.map(|one| one.span().end);
     last.max().unwrap_or(0).max(unit.name.span.end)
 }
 

@@ -207,6 +207,11 @@ fn elements_are_taken_out_with_what_is_theirs() {
     let refusal = changed(text, &remove(&["A"])).expect_err("X needs it");
     assert_eq!(refusal, "X needs A.Q: change that first");
     text_after(text, &remove(&["A", "X"]));
+    let after = text_after(text, &remove(&["A", "B", "X"]));
+    assert!(!after.contains("BLINK") && after.contains("X : BOOL;"), "{after}");
+    let text = "PROGRAM Main VAR A, B, C : BLINK; END_VAR\nA(); B(); C();\nEND_PROGRAM";
+    assert!(text_after(text, &remove(&["A", "B"])).contains("VAR C : BLINK;"));
+    assert!(text_after(text, &remove(&["B", "C"])).contains("VAR A : BLINK;"));
 }
 
 fn copied(text: &str, elements: &[&str]) -> String {

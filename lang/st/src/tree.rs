@@ -99,6 +99,15 @@ pub struct Declaration {
     pub coarse: Option<Span>,
 }
 
+impl Declaration {
+    /// From its first name to the end of its value, or of its type.
+    pub fn span(&self) -> Span {
+        let start = self.names.first().map_or(self.of_type.span.start, |name| name.span.start);
+        let last = self.initial.as_ref().map_or(self.of_type.span, |value| value.span);
+        Span { start, end: last.end }
+    }
+}
+
 /// `Name : type := value` in TYPE.
 #[derive(Debug, Clone)]
 pub struct TypeDeclaration {

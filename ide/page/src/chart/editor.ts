@@ -1,6 +1,6 @@
 // The editor of charts: its parts, and what all of them do with the drawing. The text stays the
 // file; there is nothing of a chart here but what is selected and how it is looked at.
-import { Refusal, type Core } from "../core/core";
+import type { Core } from "../core/core";
 import type { Editors } from "../editor/editors";
 import { button, h } from "../page/dom";
 import type { Header } from "../page/header";
@@ -10,7 +10,7 @@ import type { Operands } from "../panels/operands";
 import { CHART_WORDS } from "../text/chart_words";
 import { addWords, onLanguage, t } from "../text/language";
 import { Canvas } from "./canvas";
-import { DrawingsModule, Overtaken } from "../drawings/module";
+import { DrawingsModule, tellRefusal } from "../drawings/module";
 import { Commands } from "./commands";
 import { ChartDocument, type Same } from "./document";
 import { barFrame, type Drawn, type Item } from "./drawn";
@@ -239,9 +239,8 @@ export class ChartEditor {
   /** Marks the element with the text's cursor, and scrolls to it unless somebody works here. */
   private followCursor(): void {
     const { drawn, file } = this.document;
-    if (!this.isShown || file === null || file !== this.editors.current) return;
-    const { state } = this.editors.view;
-    const line = state.doc.lineAt(state.selection.main.head).number;
+    const line = file === null ? null : this.editors.cursorLine(file);
+    if (!this.isShown || line === null) return;
     const current = drawn?.atLine(line);
     if (current === this.current) return;
     this.current = current;
@@ -251,10 +250,7 @@ export class ChartEditor {
 
   /** Does things one after the other; what is refused is told. */
   perform(act: () => void | Promise<void>): Promise<void> {
-    this.queue = this.queue.then(act).catch((error: unknown) => {
-      if (error instanceof Refusal) this.tell(error.message);
-      else if (!(error instanceof Overtaken)) throw error;
-    });
+    this.queue = this.queue.then(act).catch(tellRefusal);
     return this.queue;
   }
 

@@ -53,11 +53,7 @@ export class DiagramView {
   ) {
     this.document = new DiagramDocument(editors, project);
     this.live = new Live(watching, operands, () => this.showValues());
-    this.sheets = new Sheets(
-      this.live,
-      () => this.selection.focus,
-      () => this.refreshed(),
-    );
+    this.sheets = new Sheets(this.live, this.selection, () => this.refreshed());
     this.edits = new Edits(this.document, (keys) => this.chooseMade(keys));
     this.clipboard = new Clipboard({
       isHere: () => this.stage.contains(document.activeElement),
@@ -126,10 +122,9 @@ export class DiagramView {
     this.obstacle.hidden = !drawn?.obstacle && !drawn?.mistake;
     this.showObstacle();
     this.sheets.draw(drawn);
-    const { items } = this.sheets;
-    this.details.offer(items);
-    this.selection.take(items);
-    this.selected();
+    this.details.offer(this.sheets.items);
+    this.showChosen();
+    this.want();
     const { focus } = this.selection;
     if (hadFocus && focus) this.sheets.shape(focus)?.button.focus();
   }
@@ -163,12 +158,16 @@ export class DiagramView {
     this.details.showValues();
   }
 
-  /** Other elements are chosen: details are those of the one that keys go to. */
+  /** Other elements are chosen. */
   private selected(): void {
-    const { focus, chosen } = this.selection;
+    this.showChosen();
     this.sheets.refresh();
+  }
+
+  /** Details are those of the element that keys go to; what is chosen can be copied. */
+  private showChosen(): void {
+    const { focus, chosen } = this.selection;
     this.details.show((focus && this.selection.has(focus) && focus) || null);
-    this.want();
     const [first] = chosen;
     const text = first ? this.document.copy(first.sheet, idsOf(chosen)) : Promise.resolve("");
     void this.clipboard.prepare(text);
@@ -188,9 +187,8 @@ export class DiagramView {
   /** Marks the element with the text's cursor, and scrolls to it unless somebody works here. */
   private followCursor(): void {
     const { file } = this.document;
-    if (!this.isShown || file === null || file !== this.editors.current) return;
-    const { state } = this.editors.view;
-    const line = state.doc.lineAt(state.selection.main.head).number;
+    const line = file === null ? null : this.editors.cursorLine(file);
+    if (!this.isShown || line === null) return;
     const current = this.sheets.items.find(({ element }) => element.line === line);
     if (current === this.current) return;
     this.current = current;

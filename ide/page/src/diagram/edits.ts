@@ -1,8 +1,6 @@
 // What can be done with a diagram, each as one change of its text. What is refused is told.
-import { Refusal } from "../core/core";
-import { Overtaken } from "../drawings/module";
+import { tellRefusal } from "../drawings/module";
 import { meet, type Frame, type Point } from "../page/ground";
-import { notice } from "../page/notices";
 import type { DiagramDocument } from "./document";
 import type { DiagramEdit } from "./protocol";
 import type { Item } from "./sheets";
@@ -26,8 +24,7 @@ export class Edits {
       if (made.length > 0) this.made(made.map((id) => `${sheet}:${id}`));
       return true;
     } catch (error) {
-      if (error instanceof Refusal) notice(error.message, true);
-      else if (!(error instanceof Overtaken)) throw error;
+      tellRefusal(error);
       return false;
     }
   }

@@ -1,5 +1,6 @@
 // Keys in a diagram: along the order of execution, and what is done with an element.
 import type { Point } from "../page/ground";
+import { goalOf } from "../page/walk";
 import type { Item } from "./sheets";
 
 /** So far a key moves an element. */
@@ -62,14 +63,6 @@ function neighbour(key: string, items: Item[], focus: Item | undefined): Item | 
     (one, other) => one.sheet - other.sheet || one.element.order - other.element.order,
   );
   const at = inOrder.findIndex((item) => item === focus);
-  const goals: Record<string, number> = {
-    ArrowRight: at + 1,
-    ArrowDown: at + 1,
-    ArrowLeft: at - 1,
-    ArrowUp: at - 1,
-    Home: 0,
-    End: inOrder.length - 1,
-  };
-  const goal = goals[key];
+  const goal = goalOf(key, at, inOrder.length);
   return goal === undefined ? undefined : (inOrder[goal] ?? focus);
 }

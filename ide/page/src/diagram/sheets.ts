@@ -4,6 +4,7 @@ import { s } from "../page/dom";
 import { Ground, meet, type Frame, type Point } from "../page/ground";
 import { t } from "../text/language";
 import type { DiagramElement, DiagramLink, Diagrams, DiagramSheet, Pin } from "./protocol";
+import type { Selection } from "./selection";
 import { ElementShape, ground, LinkShape } from "./shape";
 import type { Live } from "./live";
 
@@ -43,8 +44,8 @@ export class Sheets extends Ground {
 
   constructor(
     private live: Live,
-    /** The element that keeps its nodes and can have the focus. */
-    private focused: () => Item | undefined,
+    /** Its focus keeps its nodes. */
+    private selection: Selection,
     private refreshed: () => void,
   ) {
     super();
@@ -57,6 +58,7 @@ export class Sheets extends Ground {
     this.elements.clear();
     const sheets = drawn?.sheets ?? [];
     this.items = sheets.flatMap(itemsOf);
+    this.selection.take(this.items);
     this.layers = sheets.map((sheet) => {
       const [links, elements] = [s("g"), s("g")];
       const label = t("diagramOf", sheet.name);
@@ -80,7 +82,7 @@ export class Sheets extends Ground {
   /** Gives nodes to what can be seen, and takes them from the rest. */
   refresh(): void {
     const view = this.view(AHEAD);
-    const kept = this.focused();
+    const kept = this.selection.focus;
     for (const part of this.parts) {
       const isSeen = meet(part.box, view) || (part.item !== null && part.item === kept);
       const shape = this.shapes.get(part);

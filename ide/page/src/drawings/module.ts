@@ -3,6 +3,7 @@
 import { Refusal } from "../core/core";
 import { OpenQuestions } from "../core/questions";
 import { addressOf } from "../offline/address";
+import { notice } from "../page/notices";
 
 /** What can be asked: a wish and its answer for each question. */
 type Asked<Q> = { [K in keyof Q]: { wish: object; answer: unknown } };
@@ -10,6 +11,12 @@ type Answer = { id: number } & ({ answer: unknown } | { refused: string });
 
 /** A question whose answer nobody waits for any more. */
 export class Overtaken extends Error {}
+
+/** Tells why something could not be done; what is overtaken nobody waits for. */
+export function tellRefusal(error: unknown): void {
+  if (error instanceof Refusal) notice(error.message, true);
+  else if (!(error instanceof Overtaken)) throw error;
+}
 
 export class DrawingsModule<Q extends Asked<Q>> {
   private worker: Worker | undefined;

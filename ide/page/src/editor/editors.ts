@@ -93,6 +93,13 @@ export class Editors {
     return this.active.view;
   }
 
+  /** The line of the cursor in the file that is being worked in, from 1; null for another file. */
+  cursorLine(file: string): number | null {
+    if (file !== this.current) return null;
+    const { state } = this.view;
+    return state.doc.lineAt(state.selection.main.head).number;
+  }
+
   private choose(pane: Pane): void {
     this.active = pane;
     this.changed();

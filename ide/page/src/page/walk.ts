@@ -9,6 +9,19 @@ export interface Part {
   readonly button: SVGGElement;
 }
 
+/** Where a key leads from a place in a row; not where it is no key for that. */
+export function goalOf(key: string, at: number, count: number): number | undefined {
+  const goals: Record<string, number> = {
+    ArrowRight: at + 1,
+    ArrowDown: at + 1,
+    ArrowLeft: at - 1,
+    ArrowUp: at - 1,
+    Home: 0,
+    End: count - 1,
+  };
+  return goals[key];
+}
+
 export class Walk<P extends Part> {
   constructor(
     private within: HTMLElement,
@@ -43,16 +56,7 @@ export class Walk<P extends Part> {
     const part = this.at(event.target);
     if (!part || event.altKey || event.ctrlKey || event.metaKey) return;
     const parts = this.parts();
-    const at = parts.indexOf(part);
-    const goals: Record<string, number> = {
-      ArrowRight: at + 1,
-      ArrowDown: at + 1,
-      ArrowLeft: at - 1,
-      ArrowUp: at - 1,
-      Home: 0,
-      End: parts.length - 1,
-    };
-    const goal = goals[event.key];
+    const goal = goalOf(event.key, parts.indexOf(part), parts.length);
     if (goal !== undefined) {
       const next = parts[goal];
       if (next) this.focus(next);

@@ -68,8 +68,9 @@ pub(crate) struct Opened<'u> {
     pub(crate) shapes: Vec<ElementShape>,
     pub(crate) interfaces: &'u Interfaces,
     /// Of each element its arguments: what they are given to, and whether that is an output.
-    given: Vec<Vec<(String, bool)>>,
-    corners: Vec<Point>,
+    pub(crate) given: Vec<Vec<(String, bool)>>,
+    /// The upper left corner of each element, as a text says it.
+    pub(crate) corners: Vec<Point>,
 }
 
 impl<'u> Opened<'u> {
@@ -94,17 +95,6 @@ impl<'u> Opened<'u> {
         let given = unwired.elements.iter().map(|one| unwired.names_given(one)).collect();
         let Unwired { elements, said, .. } = unwired;
         Opened { elements, said, shapes, interfaces, given, corners }
-    }
-
-    /// The upper left corner of each element, as a text says it.
-    pub(crate) fn corners(&self) -> Vec<Point> {
-        self.corners.clone()
-    }
-
-    /// What the arguments of an element are given to, in their order, and whether each is an
-    /// output.
-    pub(crate) fn given_to(&self, at: usize) -> &[(String, bool)] {
-        self.given.get(at).map_or(&[], |one| &one[..])
     }
 }
 

@@ -1,14 +1,17 @@
 //! New elements.
 
+use std::collections::HashSet;
+
 use diagnostics::Span;
 use picture::Point;
-use st::lexer::{Kind, cut};
+use st::lexer::cut;
 use st::tree::{Section, SectionKind};
 
 use super::clipboard::target;
 use super::moves::pragma;
 use super::text::{self, Changes, insert_after};
 use super::{Edited, Editing, Refusal, refused};
+use crate::diagnostic::Code;
 use crate::drawing;
 
 /// New elements are at multiples of so much.
@@ -21,52 +24,29 @@ impl Editing<'_> {
         };
         let mut stem = interface.name.to_lowercase();
         stem.get_mut(..1).into_iter().for_each(str::make_ascii_uppercase);
-        let name = self.free_name(&stem, &[]);
+        let name = free_name(&stem, &self.taken());
         let mut changes = Changes::default();
         self.declare(&[format!("{name} : {};", interface.name)], &mut changes);
         self.add(&format!("{name}()"), at, &mut changes);
-        Ok(Edited { new: vec![name], ..self.done(changes)? })
+        self.done(changes, vec![name])
     }
 
     pub(super) fn written(&self, statement: &str, at: Point) -> Result<Edited, Refusal> {
         let statement = statement.trim().trim_end_matches(';').trim_end();
         let mut changes = Changes::default();
         self.add(statement, at, &mut changes);
-        let edited = Edited { new: vec![target(statement).to_owned()], ..self.done(changes)? };
-        self.one_more(&edited.text)?;
-        Ok(edited)
-    }
-
-    /// Refuses what is not one element.
-    fn one_more(&self, text: &str) -> Result<(), Refusal> {
-        super::readable(text)?;
-        let source = diagnostics::Source::new("changed.fbd", text);
-        let read = source.map(|source| crate::read(&source));
-        let units = read.as_ref().map(|read| crate::diagrams(&read.file).collect::<Vec<_>>());
-        let count = units.ok().and_then(|all| Some(all.get(self.number)?.body.len()));
-        let no_element =
-            |code| read.iter().flat_map(|read| &read.diagnostics).any(|one| one.code == code);
-        let is_one = count == Some(self.unit.body.len() + 1);
-        match is_one && !no_element(crate::Code::NoElement) {
-            true => Ok(()),
-            false => refused("write one call or one assignment, such as `%Q0.0 := Loop.Q`"),
+        let (text, read) = self.carried_out(changes)?;
+        let unit = crate::diagrams(&read.file).nth(self.number);
+        let is_one = unit.is_some_and(|unit| unit.body.len() == self.unit.body.len() + 1);
+        if !is_one || read.diagnostics.iter().any(|one| one.code == Code::NoElement) {
+            return refused("write one call or one assignment, such as `%Q0.0 := Loop.Q`");
         }
+        Ok(Edited { text, new: vec![target(statement).to_owned()] })
     }
 
-    /// A name with a number that neither the text nor the others have: `Pid1`.
-    pub(super) fn free_name(&self, stem: &str, others: &[&str]) -> String {
-        let is_free = |name: &String| {
-            !self.is_taken(name) && !others.iter().any(|one| one.eq_ignore_ascii_case(name))
-        };
-        let mut names = (1..).map(|number| format!("{stem}{number}"));
-        names.find(is_free).unwrap_or_else(|| stem.to_owned())
-    }
-
-    /// Whether the text has such a word.
-    pub(super) fn is_taken(&self, name: &str) -> bool {
-        let tokens = cut(self.text()).tokens;
-        let mut words = tokens.iter().filter(|one| one.kind == Kind::Word);
-        words.any(|one| one.span.text(self.text()).eq_ignore_ascii_case(name))
+    /// The words of the text, in upper case: nothing new is called so.
+    pub(super) fn taken(&self) -> HashSet<String> {
+        self.words().iter().map(|at| at.text(self.text()).to_uppercase()).collect()
     }
 
     fn add(&self, statement: &str, at: Point, changes: &mut Changes) {
@@ -95,10 +75,10 @@ impl Editing<'_> {
 
     /// A point of the drawing as a place of this diagram.
     fn place_of(&self, at: Point) -> Point {
-        let drawing = drawing::draw(self.source, self.file, self.interfaces).ok();
+        let drawing = drawing::draw(self.source, &self.read.file, self.interfaces).ok();
         let sheet = drawing.as_ref().and_then(|drawing| drawing.sheets.get(self.number));
         let first = sheet.and_then(|sheet| sheet.elements.first());
-        let corner = self.opened.corners().first().copied();
+        let corner = self.opened.corners.first();
         let by = first.zip(corner).map_or(Point::default(), |(first, corner)| {
             Point::new(corner.x - first.frame.x, corner.y - first.frame.y)
         });
@@ -113,11 +93,8 @@ impl Editing<'_> {
         let sections = self.unit.sections.iter().filter(is_plain);
         match sections.filter_map(|one| one.declarations.last()).next_back() {
             Some(last) => {
-                let start =
-                    last.names.first().map_or(last.of_type.span.start, |one| one.span.start);
-                let end = last.initial.as_ref().map_or(last.of_type.span.end, |one| one.span.end);
                 for declaration in declarations {
-                    insert_after(changes, text, Span { start, end }, declaration);
+                    insert_after(changes, text, last.span(), declaration);
                 }
             }
             None if declarations.is_empty() => {}
@@ -128,6 +105,13 @@ impl Editing<'_> {
             }
         }
     }
+}
+
+/// A name with a number that is not taken: `Pid1`.
+pub(super) fn free_name(stem: &str, taken: &HashSet<String>) -> String {
+    let mut names = (1..).map(|number| format!("{stem}{number}"));
+    let is_free = |name: &String| !taken.contains(&name.to_uppercase());
+    names.find(is_free).unwrap_or_else(|| stem.to_owned())
 }
 
 fn on_grid(one: i32) -> i32 {

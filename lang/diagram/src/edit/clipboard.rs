@@ -1,13 +1,17 @@
 //! Elements as a text that can be pasted: their declarations and statements as they are written.
 
-use diagnostics::{Source, Span};
+use std::collections::HashMap;
+
+use diagnostics::Span;
 use picture::Point;
 use st::lexer::{Kind, Token, cut};
-use st::tree::{Declaration, Unit};
+use st::tree::{Declaration, Name, Statement, Unit};
 
+use super::add::free_name;
 use super::moves::pragma;
 use super::text::{self, Changes};
-use super::{Edited, Editing, Refusal, readable, refused};
+use super::{Edited, Editing, Refusal, refused, reread};
+use crate::Read;
 use crate::pragmas::{self, Pragma};
 
 /// What a text to be pasted is in while it is read.
@@ -28,64 +32,56 @@ impl Editing<'_> {
             true => String::new(),
             false => format!("VAR\n{declared}END_VAR\n"),
         };
-        let statements =
-            elements().map(|one| format!("{}\n", self.of_statement(one).text(self.text())));
+        let statements = elements().map(|one| {
+            format!("{}\n", text::statement(self.text(), one.statement.span).text(self.text()))
+        });
         Ok(section + &statements.collect::<String>())
     }
 
     /// Elements of a text, by other names where theirs are taken, and moved by so much.
     pub(super) fn pasted(&self, clipboard: &str, by: Point) -> Result<Edited, Refusal> {
         let whole = format!("{HEAD}{clipboard}\nEND_PROGRAM\n");
-        let (read, source) = read(&whole)?;
-        let units: Vec<&Unit> = crate::diagrams(&read.file).collect();
-        let unit = match units[..] {
-            [unit] if readable(&whole).is_ok() && !unit.body.is_empty() => unit,
+        let read = reread(&whole).ok();
+        let units = read.iter().flat_map(|read| crate::diagrams(&read.file));
+        let unit = match units.collect::<Vec<&Unit>>()[..] {
+            [unit] if !unit.body.is_empty() => unit,
             _ => return refused("this is no part of a diagram"),
         };
-        let declared = unit.sections.iter().flat_map(|one| &one.declarations);
-        let names: Vec<String> =
-            declared.flat_map(|one| &one.names).map(|one| one.text.clone()).collect();
-        let renamed = self.renamed(&names);
-        let fresh = replaced(&source.text, &renamed, by);
-        self.insert_unit(&fresh)
+        self.insert_unit(&replaced(&whole, &self.renamed(unit), by))
     }
 
-    /// A name for each that the text does not have.
-    fn renamed(&self, names: &[String]) -> Vec<(String, String)> {
-        let mut given: Vec<(String, String)> = Vec::new();
-        for name in names {
-            let stem = name.trim_end_matches(|one: char| one.is_ascii_digit());
-            let others: Vec<&str> = given.iter().map(|(_, new)| new.as_str()).collect();
-            let new = match self.is_taken(name) {
-                true => self.free_name(stem, &others),
+    /// What is declared in a unit by its name, with one that the text does not have.
+    fn renamed(&self, unit: &Unit) -> HashMap<String, String> {
+        let declared = unit.sections.iter().flat_map(|one| &one.declarations);
+        let mut taken = self.taken();
+        let renamed = declared.flat_map(|one| &one.names).map(|Name { text: name, .. }| {
+            let new = match taken.contains(&name.to_uppercase()) {
+                true => free_name(name.trim_end_matches(|one: char| one.is_ascii_digit()), &taken),
                 false => name.clone(),
             };
-            given.push((name.clone(), new));
-        }
-        given
+            taken.insert(new.to_uppercase());
+            (name.to_uppercase(), new)
+        });
+        renamed.collect()
     }
 
     /// Puts what is in another text's unit into this one.
     fn insert_unit(&self, whole: &str) -> Result<Edited, Refusal> {
-        let (read, source) = read(whole)?;
-        let text = &source.text;
-        let mut changes = Changes::default();
-        let mut new = Vec::new();
-        let units: Vec<&Unit> = crate::diagrams(&read.file).collect();
-        let units = || units.iter();
+        let Read { file, .. } = reread(whole)?;
+        let units = || crate::diagrams(&file);
         let declared = units().flat_map(|one| &one.sections).flat_map(|one| &one.declarations);
         let declared: Vec<String> = declared
             .flat_map(|one| one.names.iter().map(move |name| (one, name)))
-            .map(|(one, name)| format!("{};", declaration_text(text, &name.text, one)))
+            .map(|(one, name)| format!("{};", declaration_text(whole, &name.text, one)))
             .collect();
+        let mut changes = Changes::default();
         self.declare(&declared, &mut changes);
-        for statement in units().flat_map(|one| &one.body) {
-            let start = text::begin(text, statement.span.start);
-            let span = Span { start, end: text::end(text, statement.span.end) };
-            new.push(target(statement.span.text(text)).to_owned());
-            self.append(span.text(text), &mut changes);
+        let mut new = Vec::new();
+        for Statement { span, .. } in units().flat_map(|one| &one.body) {
+            new.push(target(span.text(whole)).to_owned());
+            self.append(text::statement(whole, *span).text(whole), &mut changes);
         }
-        Ok(Edited { new, ..self.done(changes)? })
+        self.done(changes, new)
     }
 }
 
@@ -94,20 +90,14 @@ pub(super) fn target(statement: &str) -> &str {
     statement.split([':', '(']).next().unwrap_or_default().trim()
 }
 
-fn read(text: &str) -> Result<(crate::Read, Source), Refusal> {
-    let source = Source::new("clipboard.fbd", text).map_err(|error| Refusal(error.to_string()))?;
-    Ok((crate::read(&source), source))
-}
-
 /// The declaration of one of its names alone, without its semicolon.
 fn declaration_text(text: &str, name: &str, one: &Declaration) -> String {
-    let end = one.initial.as_ref().map_or(one.of_type.span.end, |value| value.span.end);
-    let of_type = Span { start: one.of_type.span.start, end };
+    let of_type = Span { start: one.of_type.span.start, end: one.span().end };
     format!("{name} : {}", of_type.text(text))
 }
 
 /// A text with other names for variables, and other places for elements.
-fn replaced(text: &str, renamed: &[(String, String)], by: Point) -> String {
+fn replaced(text: &str, renamed: &HashMap<String, String>, by: Point) -> String {
     let mut changes = Changes::default();
     let cut = cut(text);
     let mut depth = 0u32;
@@ -124,9 +114,8 @@ fn replaced(text: &str, renamed: &[(String, String)], by: Point) -> String {
                 // Fields and the names of parameters are those of blocks.
                 let is_field = sign(at.checked_sub(1)) == ".";
                 let is_parameter = depth > 0 && matches!(sign(Some(at + 1)), ":=" | "=>");
-                let word = span.text(text);
-                let new = renamed.iter().find(|(name, _)| name.eq_ignore_ascii_case(word));
-                if let Some((_, new)) = new.filter(|_| !is_field && !is_parameter) {
+                let new = renamed.get(&span.text(text).to_uppercase());
+                if let Some(new) = new.filter(|_| !is_field && !is_parameter) {
                     changes.replace(*span, new.as_str());
                 }
             }

@@ -9,14 +9,15 @@ use super::{Edited, Editing, Refusal, loops, refused};
 impl Editing<'_> {
     pub(super) fn given(&self, element: &str, input: &str, value: &str) -> Result<Edited, Refusal> {
         let value = value.trim();
-        let edited = self.done(self.changed(element, input, value)?)?;
-        if value.is_empty() || loops(&edited.text) <= loops(self.text()) {
+        let (text, read) = self.carried_out(self.changed(element, input, value)?)?;
+        let edited = Edited { text, new: Vec::new() };
+        if value.is_empty() || loops(&read) <= loops(self.read) {
             return Ok(edited);
         }
         // The value closes a loop: it is that of the scan before.
         let before = format!("{{feedback}} {value}");
-        let opened = self.done(self.changed(element, input, &before)?)?;
-        Ok(if loops(&opened.text) < loops(&edited.text) { opened } else { edited })
+        let (text, opened) = self.carried_out(self.changed(element, input, &before)?)?;
+        Ok(if loops(&opened) < loops(&read) { Edited { text, ..edited } } else { edited })
     }
 
     fn changed(&self, element: &str, input: &str, value: &str) -> Result<Changes, Refusal> {
@@ -46,13 +47,14 @@ impl Editing<'_> {
         value: &str,
         changes: &mut Changes,
     ) {
-        let known = self.opened.given_to(at);
-        let is_it = |one: &&(String, bool)| one.0.eq_ignore_ascii_case(input) && !one.1;
-        let number = known.iter().position(|one| is_it(&one));
-        let old = number.and_then(|number| arguments.get(number));
+        let known = self.opened.given.get(at).map_or(&[][..], |known| known);
+        let mut known = arguments.iter().zip(known);
+        let is_it =
+            |(name, is_output): &(String, bool)| name.eq_ignore_ascii_case(input) && !is_output;
+        let old = known.find(|(_, known)| is_it(known)).map(|(argument, _)| argument);
         match (old, value.is_empty()) {
             (Some(old), false) => changes.replace(self.whole(&old.value), value),
-            (Some(old), true) => self.take_out(arguments, old, changes),
+            (Some(old), true) => self.take_out(arguments, &[old], changes),
             (None, true) => {}
             (None, false) => {
                 let new = format!("{input} := {value}");
@@ -71,19 +73,15 @@ impl Editing<'_> {
         end + rest.find('(').map_or(0, |at| at as u32 + 1)
     }
 
-    /// An argument is taken out, with a comma.
-    pub(super) fn take_out(&self, all: &[Argument], one: &Argument, changes: &mut Changes) {
-        let at = all.iter().position(|other| other.value.span == one.value.span).unwrap_or(0);
-        let start = self.begin_of(one);
-        let span = match (at.checked_sub(1).and_then(|at| all.get(at)), all.get(at + 1)) {
-            (Some(before), _) => Span { start: before.value.span.end, end: one.value.span.end },
-            (None, Some(next)) => Span { start, end: self.begin_of(next) },
-            (None, None) => Span { start, end: one.value.span.end },
-        };
-        changes.replace(span, "");
+    /// Arguments are taken out, with their commas.
+    pub(super) fn take_out(&self, all: &[Argument], gone: &[&Argument], changes: &mut Changes) {
+        let goes = |one: &Argument| gone.iter().any(|other| other.value.span == one.value.span);
+        let span = |one: &Argument| Span { start: self.begin_of(one), end: one.value.span.end };
+        let items: Vec<_> = all.iter().map(|one| (span(one), goes(one))).collect();
+        changes.remove_all(text::taken_out(&items));
     }
 
-    pub(super) fn begin_of(&self, argument: &Argument) -> u32 {
+    fn begin_of(&self, argument: &Argument) -> u32 {
         let name = argument.name.as_ref().map(|name| name.span.start);
         name.unwrap_or_else(|| text::begin(self.text(), argument.value.span.start))
     }
@@ -109,7 +107,7 @@ impl Editing<'_> {
         }
         let mut changes = Changes::default();
         self.member(declaration, parameter, value.trim(), &mut changes);
-        self.done(changes)
+        self.done(changes, Vec::new())
     }
 
     fn member(&self, declaration: &Declaration, name: &str, value: &str, changes: &mut Changes) {
@@ -124,8 +122,7 @@ impl Editing<'_> {
             return;
         };
         let is_it = |(known, _): &(Name, Expression)| known.text.eq_ignore_ascii_case(name);
-        let at = members.iter().position(is_it);
-        match (at.and_then(|at| members.get(at)), value.is_empty()) {
+        match (members.iter().find(|one| is_it(one)), value.is_empty()) {
             (Some((_, old)), false) => changes.replace(old.span, value),
             (None, false) => {
                 let end = members.last().map_or(span.start + 1, |(_, last)| last.span.end);
@@ -135,23 +132,16 @@ impl Editing<'_> {
             (Some(_), true) if members.len() == 1 => {
                 changes.replace(Span { start: declaration.of_type.span.end, end: span.end }, "");
             }
-            (Some((known, old)), true) => {
-                let before = at.and_then(|at| members.get(at.checked_sub(1)?));
-                let after = at.and_then(|at| members.get(at + 1));
-                let start = before.map_or(known.span.start, |(_, one)| one.span.end);
-                let end = match before {
-                    Some(_) => old.span.end,
-                    None => after.map_or(old.span.end, |(next, _)| next.span.start),
-                };
-                changes.replace(Span { start, end }, "");
+            (Some(_), true) => {
+                let items: Vec<_> = members
+                    .iter()
+                    .map(|one @ (name, value)| {
+                        (Span { start: name.span.start, end: value.span.end }, is_it(one))
+                    })
+                    .collect();
+                changes.remove_all(text::taken_out(&items));
             }
             (None, true) => {}
         }
-    }
-
-    pub(super) fn declaration(&self, name: &str) -> Option<&Declaration> {
-        let all = self.unit.sections.iter().flat_map(|one| &one.declarations);
-        let is_it = |one: &Name| one.text.eq_ignore_ascii_case(name);
-        all.into_iter().find(|one| one.names.iter().any(is_it))
     }
 }

@@ -10,10 +10,12 @@ mod text;
 
 use std::fmt;
 
-use diagnostics::{Severity, Source};
+use diagnostics::{Severity, Source, Span};
 use picture::Point;
-use st::tree::{File, Unit};
+use st::lexer::{Kind, cut};
+use st::tree::{Declaration, Name, Unit};
 
+use crate::Read;
 use crate::diagnostic::Code;
 use crate::drawing::Opened;
 use crate::interfaces::Interfaces;
@@ -102,7 +104,7 @@ fn refused<T>(why: impl Into<String>) -> Result<T, Refusal> {
 /// What a change needs of a diagram.
 struct Editing<'e> {
     source: &'e Source,
-    file: &'e File,
+    read: &'e Read,
     /// The number of the diagram among those of the text.
     number: usize,
     unit: &'e Unit,
@@ -118,11 +120,11 @@ pub fn edit(
     change: &Edit,
     interfaces: &Interfaces,
 ) -> Result<Edited, Refusal> {
-    let file = right(source)?;
-    if crate::diagrams(&file).nth(number).is_none() {
+    let read = right(source)?;
+    if crate::diagrams(&read.file).nth(number).is_none() {
         return begun(source, number, change, interfaces);
     }
-    let edited = opened(source, &file, (number, interfaces), |editing| match change {
+    opened(source, &read, (number, interfaces), |editing| match change {
         Edit::Move { elements, by } => editing.moved(elements, *by),
         Edit::Call { block, at } => editing.called(block, *at),
         Edit::Write { statement, at } => editing.written(statement, *at),
@@ -130,9 +132,7 @@ pub fn edit(
         Edit::Set { element, parameter, value } => editing.set(element, parameter, value),
         Edit::Paste { text, by } => editing.pasted(text, *by),
         Edit::Remove { elements } => editing.removed(elements),
-    })?;
-    readable(&edited.text)?;
-    Ok(edited)
+    })
 }
 
 /// Elements of a diagram as a text that can be pasted.
@@ -142,16 +142,14 @@ pub fn copy(
     elements: &[String],
     interfaces: &Interfaces,
 ) -> Result<String, Refusal> {
-    let file = right(source)?;
-    opened(source, &file, (number, interfaces), |editing| editing.copied(elements))
+    let read = right(source)?;
+    opened(source, &read, (number, interfaces), |editing| editing.copied(elements))
 }
 
 /// A text that can be read.
-fn right(source: &Source) -> Result<File, Refusal> {
-    let crate::Read { file, of_st, .. } = crate::read(source);
-    let Some(first) = of_st.iter().find(|one| one.severity() == Severity::Error) else {
-        return Ok(file);
-    };
+fn right(source: &Source) -> Result<Read, Refusal> {
+    let read = crate::read(source);
+    let Some(first) = mistake(&read) else { return Ok(read) };
     let (line, _) = source.position(first.span.start as usize);
     refused(format!("line {line} has to be right first: {}", first.message))
 }
@@ -159,16 +157,16 @@ fn right(source: &Source) -> Result<File, Refusal> {
 /// Does something with a diagram, by its number in the text.
 fn opened<T>(
     source: &Source,
-    file: &File,
+    read: &Read,
     (number, interfaces): (usize, &Interfaces),
     act: impl FnOnce(&Editing) -> Result<T, Refusal>,
 ) -> Result<T, Refusal> {
-    let all = interfaces.and_of(&source.text, file);
-    let Some(unit) = crate::diagrams(file).nth(number) else {
+    let all = interfaces.and_of(&source.text, &read.file);
+    let Some(unit) = crate::diagrams(&read.file).nth(number) else {
         return refused("there is no such diagram");
     };
-    let opened = Opened::of(source, file, unit, &all);
-    act(&Editing { source, file, number, unit, opened: &opened, interfaces })
+    let opened = Opened::of(source, &read.file, unit, &all);
+    act(&Editing { source, read, number, unit, opened: &opened, interfaces })
 }
 
 /// Adds the first element of a text that has no diagram.
@@ -188,18 +186,24 @@ fn begun(
     edit(&begun.map_err(|error| Refusal(error.to_string()))?, 0, change, interfaces)
 }
 
-/// Refuses a text that cannot be read, such as one with a wrong value.
-fn readable(text: &str) -> Result<(), Refusal> {
+/// What keeps a text from being read, such as a wrong value.
+fn mistake(read: &Read) -> Option<&st::Diagnostic> {
+    read.of_st.iter().find(|one| one.severity() == Severity::Error)
+}
+
+/// Reads a text that a change has made; one that cannot be read is refused.
+fn reread(text: &str) -> Result<Read, Refusal> {
     let source = Source::new("changed.fbd", text).map_err(|error| Refusal(error.to_string()))?;
     let read = crate::read(&source);
-    let first = read.of_st.iter().find(|one| one.severity() == Severity::Error);
-    first.map_or(Ok(()), |one| refused(one.message.clone()))
+    match mistake(&read) {
+        Some(first) => refused(first.message.clone()),
+        None => Ok(read),
+    }
 }
 
 /// How many loops a text has that nothing opens.
-fn loops(text: &str) -> usize {
-    let read = Source::new("changed.fbd", text).map(|source| crate::read(&source));
-    read.map_or(0, |read| read.diagnostics.iter().filter(|one| one.code == Code::Loop).count())
+fn loops(read: &Read) -> usize {
+    read.diagnostics.iter().filter(|one| one.code == Code::Loop).count()
 }
 
 impl Editing<'_> {
@@ -213,7 +217,27 @@ impl Editing<'_> {
         found.map_or_else(|| refused(format!("{id} is not in the diagram any more")), Ok)
     }
 
-    fn done(&self, changes: Changes) -> Result<Edited, Refusal> {
-        Ok(Edited { text: changes.carry_out(self.text()), new: Vec::new() })
+    /// The declaration of a variable.
+    fn declaration(&self, name: &str) -> Option<&Declaration> {
+        let all = self.unit.sections.iter().flat_map(|one| &one.declarations);
+        let is_it = |one: &Name| one.text.eq_ignore_ascii_case(name);
+        all.into_iter().find(|one| one.names.iter().any(is_it))
+    }
+
+    /// Where the words of the text are.
+    fn words(&self) -> Vec<Span> {
+        let words = cut(self.text()).tokens.into_iter().filter(|one| one.kind == Kind::Word);
+        words.map(|one| one.span).collect()
+    }
+
+    /// The text with changes, and how it is read.
+    fn carried_out(&self, changes: Changes) -> Result<(String, Read), Refusal> {
+        let text = changes.carry_out(self.text());
+        let read = reread(&text)?;
+        Ok((text, read))
+    }
+
+    fn done(&self, changes: Changes, new: Vec<String>) -> Result<Edited, Refusal> {
+        Ok(Edited { text: self.carried_out(changes)?.0, new })
     }
 }

@@ -9,11 +9,11 @@ impl Editing<'_> {
     pub(super) fn moved(&self, elements: &[String], by: Point) -> Result<Edited, Refusal> {
         let moved = elements.iter().map(|id| self.at(id)).collect::<Result<Vec<_>, _>>()?;
         let mut changes = Changes::default();
-        for (at, corner) in self.opened.corners().into_iter().enumerate() {
-            let corner = if moved.contains(&at) { corner.moved(by) } else { corner };
+        for (at, corner) in self.opened.corners.iter().enumerate() {
+            let corner = if moved.contains(&at) { corner.moved(by) } else { *corner };
             self.place(at, corner, &mut changes);
         }
-        self.done(changes)
+        self.done(changes, Vec::new())
     }
 
     fn place(&self, at: usize, corner: Point, changes: &mut Changes) {

@@ -3,8 +3,7 @@
 use std::collections::HashSet;
 
 use diagnostics::Span;
-use st::lexer::{Kind, cut};
-use st::tree::{Argument, Declaration, StatementKind};
+use st::tree::{Argument, Name, StatementKind};
 
 use super::text::{self, Changes};
 use super::{Edited, Editing, Refusal, refused};
@@ -24,23 +23,17 @@ impl Editing<'_> {
             .filter_map(|(_, one)| Some(one.writes.first()?.name.as_str()))
             .collect();
         for (_, element) in &taken {
-            let span = self.of_statement(element);
+            let span = text::statement(self.text(), element.statement.span);
             gone.push(span);
             changes.remove(self.text(), span);
         }
         for (_, element) in &left {
             self.disconnect(element, &instances, &mut gone, &mut changes)?;
         }
-        for (_, element) in taken.iter().filter(|(_, one)| one.is_call) {
-            self.forget(&element.name, &gone, &mut changes);
-        }
-        self.done(changes)
-    }
-
-    /// From its pragmas to its semicolon.
-    pub(super) fn of_statement(&self, element: &Element) -> Span {
-        let Span { start, end } = element.statement.span;
-        Span { start: text::begin(self.text(), start), end: text::end(self.text(), end) }
+        let calls: Vec<&str> =
+            taken.iter().filter(|(_, one)| one.is_call).map(|(_, one)| one.name.as_str()).collect();
+        self.forget(&calls, &gone, &mut changes);
+        self.done(changes, Vec::new())
     }
 
     /// Takes away what an element gets from instances that are taken out.
@@ -66,67 +59,38 @@ impl Editing<'_> {
             ended.push(argument);
         }
         if let StatementKind::Call(_, arguments) = &element.statement.kind {
-            self.take_all_out(arguments, &ended, changes);
+            self.take_out(arguments, &ended, changes);
         }
         Ok(())
     }
 
-    /// Arguments are taken out, and those that are left keep a comma between them.
-    fn take_all_out(&self, all: &[Argument], ended: &[&Argument], changes: &mut Changes) {
-        let is_ended =
-            |one: &Argument| ended.iter().any(|other| other.value.span == one.value.span);
-        let Some((first, last)) = all.first().zip(all.last()) else { return };
-        match ended {
-            [] => {}
-            [only] => self.take_out(all, only, changes),
-            _ => {
-                let kept = all.iter().filter(|one| !is_ended(one));
-                let text = |one: &Argument| {
-                    Span { start: self.begin_of(one), end: one.value.span.end }.text(self.text())
-                };
-                let kept: Vec<&str> = kept.map(text).collect();
-                let span = Span { start: self.begin_of(first), end: last.value.span.end };
-                changes.replace(span, kept.join(", "));
-            }
-        }
-    }
-
-    /// Takes a declaration out that nothing else in the text needs.
-    fn forget(&self, name: &str, gone: &[Span], changes: &mut Changes) {
-        let Some(declaration) = self.declaration(name) else { return };
-        let own: Vec<Span> = declaration.names.iter().map(|one| one.span).collect();
+    /// Takes the names of instances out of their declarations that nothing else in the unit needs.
+    fn forget(&self, instances: &[&str], gone: &[Span], changes: &mut Changes) {
+        let declarations = || self.unit.sections.iter().flat_map(|one| &one.declarations);
+        let declared: HashSet<Span> =
+            declarations().flat_map(|one| &one.names).map(|one| one.span).collect();
         let is_gone = |at: Span| gone.iter().any(|one| one.start <= at.start && at.end <= one.end);
-        let is_it = |at: Span| at.text(self.text()).eq_ignore_ascii_case(name);
-        let words = cut(self.text()).tokens;
-        let mut words = words.iter().filter(|one| one.kind == Kind::Word).map(|one| one.span);
-        let is_needed =
-            |at: Span| self.is_in_unit(at) && is_it(at) && !own.contains(&at) && !is_gone(at);
-        if words.any(is_needed) {
-            return;
-        }
-        match &declaration.names[..] {
-            [_] => changes.remove(self.text(), self.of_declaration(declaration)),
-            names => {
-                let Some(at) = names.iter().position(|one| is_it(one.span)) else { return };
-                let (before, after) = (at.checked_sub(1), names.get(at + 1));
-                let Some(one) = names.get(at) else { return };
-                let span = match (before.and_then(|at| names.get(at)), after) {
-                    (Some(before), _) => Span { start: before.span.end, end: one.span.end },
-                    (None, Some(after)) => Span { start: one.span.start, end: after.span.start },
-                    (None, None) => one.span,
-                };
-                changes.replace(span, "");
+        let words = self.words().into_iter();
+        let left = words.filter(|at| self.is_in_unit(*at) && !declared.contains(at));
+        let needed: HashSet<String> =
+            left.filter(|at| !is_gone(*at)).map(|at| at.text(self.text()).to_uppercase()).collect();
+        let goes = |name: &Name| {
+            instances.iter().any(|one| one.eq_ignore_ascii_case(&name.text))
+                && !needed.contains(&name.text.to_uppercase())
+        };
+        for declaration in declarations() {
+            let names: Vec<_> = declaration.names.iter().map(|one| (one.span, goes(one))).collect();
+            if names.iter().all(|(_, goes)| *goes) {
+                let Span { start, end } = declaration.span();
+                let end = text::end(self.text(), end);
+                changes.remove(self.text(), Span { start, end });
+            } else {
+                changes.remove_all(text::taken_out(&names));
             }
         }
     }
 
     fn is_in_unit(&self, at: Span) -> bool {
         self.unit.span.start <= at.start && at.end <= self.unit.span.end
-    }
-
-    fn of_declaration(&self, one: &Declaration) -> Span {
-        let start = one.names.first().map_or(one.of_type.span.start, |name| name.span.start);
-        let end = one.initial.as_ref().map_or(one.of_type.span.end, |value| value.span.end);
-        Span { start, end: text::end(self.text(), end) }
     }
 }

@@ -15,6 +15,10 @@ impl Changes {
         self.replace(Span { start: at, end: at }, text);
     }
 
+    pub(super) fn remove_all(&mut self, spans: Vec<Span>) {
+        self.0.extend(spans.into_iter().map(|span| (span, String::new())));
+    }
+
     /// Takes something out, and its line if nothing else is there.
     pub(super) fn remove(&mut self, text: &str, span: Span) {
         let before = text.get(..span.start as usize).unwrap_or_default();
@@ -45,6 +49,24 @@ impl Changes {
     }
 }
 
+/// What is taken out of a list with commas, so that they are between those that are left: of each
+/// item where it is, and whether it goes.
+pub(super) fn taken_out(items: &[(Span, bool)]) -> Vec<Span> {
+    let mut has_left = false;
+    let mut end_before = 0;
+    let mut found = Vec::new();
+    for (at, (span, goes)) in items.iter().enumerate() {
+        let next = items.get(at + 1).map_or(span.end, |(next, _)| next.start);
+        match (goes, has_left) {
+            (false, _) => has_left = true,
+            (true, true) => found.push(Span { start: end_before, end: span.end }),
+            (true, false) => found.push(Span { start: span.start, end: next }),
+        }
+        end_before = span.end;
+    }
+    found
+}
+
 /// Where something begins with the pragmas that are before it.
 pub(super) fn begin(text: &str, start: u32) -> u32 {
     let mut from = start as usize;
@@ -65,6 +87,11 @@ pub(super) fn end(text: &str, end: u32) -> u32 {
         true => end + blanks as u32 + 1,
         false => end,
     }
+}
+
+/// A statement from its pragmas to its semicolon.
+pub(super) fn statement(text: &str, Span { start, end: last }: Span) -> Span {
+    Span { start: begin(text, start), end: end(text, last) }
 }
 
 /// Puts something into a line of its own after what ends at `end`, indented as that; in the same
