@@ -2,7 +2,7 @@
 #![cfg(feature = "simavr")]
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use awl_asm::assemble::assemble;
 use awl_asm::disassemble::instructions;
@@ -10,11 +10,11 @@ use awl_asm::source::Source;
 use awl_sim::action::Action;
 use awl_sim::machine::uno::{Clock, Code, Firmware, Uno};
 use awl_sim::machine::{Machine, Mode};
-use awl_sim::open::{Opened, Target, open_machine};
+use awl_sim::open::{Opened, ProgramFiles, Target};
 use awl_sim::operand::Operand;
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
-use awl_sim::suite::plant_for;
+use awl_sim::suite::{plant_for, program_for};
 use plc_isa::{NATIVE_INTERFACE, Op, SLOT_START, verify};
 use plc_vm::Fault;
 use simavr::Pin;
@@ -340,45 +340,55 @@ fn the_stack_is_measured() {
     assert_eq!(uno.unused_stack(), 0);
 }
 
-/// Runs the examples.
+fn examples() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples")
+}
+
+/// Runs the examples in AWL.
 fn assert_examples_do_what_they_shall(target: Target) {
-    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
     let mut count = 0;
-    for path in fs::read_dir(examples).unwrap().map(|entry| entry.unwrap().path()) {
-        let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
-        if path.extension().is_none_or(|extension| extension != "awl") {
-            continue;
+    for path in fs::read_dir(examples()).unwrap().map(|entry| entry.unwrap().path()) {
+        if path.extension().is_some_and(|extension| extension == "awl") {
+            count += 1;
+            assert_example_does_what_it_shall(&path.with_extension("scn"), target);
         }
-        count += 1;
-        let opened =
-            open_machine(&path, &[], target).unwrap_or_else(|error| panic!("{stem}: {error}"));
-        let Opened { mut machine, symbols, scan_ms, .. } = opened;
-        let beside = path.with_extension("scn");
-        let text = fs::read_to_string(&beside).unwrap();
-        let plant = plant_for(&beside, &stem, &text).unwrap_or_else(|error| panic!("{error}"));
-        let plant = plant.as_ref();
-        let mut has_operand = |operand| machine.read(operand).map(|_| ());
-        let context = Context { symbols: &symbols, plant, has_operand: &mut has_operand };
-        let scenario =
-            Scenario::parse(&stem, &text, context).unwrap_or_else(|problems| panic!("{problems}"));
-        let plant = scenario.plant.as_ref().map(|spec| spec.build().unwrap());
-        // Of the tank, which runs for ten minutes, only the beginning.
-        let length = Length::For(scenario.run_ms.map_or(10_000, |ms| ms.min(40_000)));
-        let scan_ms = scenario.scan_ms.or(scan_ms).unwrap_or(1);
-        let outcome = run(
-            &mut *machine,
-            &scenario,
-            Job { scan_ms, length, signals: Vec::new(), plant, progress: None },
-        )
-        .unwrap();
-        assert!(
-            outcome.failures.is_empty() && outcome.fault.is_none(),
-            "{stem}: {:#?}",
-            outcome.failures
-        );
-        assert!(outcome.met >= 2, "{stem}: {}", outcome.met);
     }
     assert_eq!(count, 15);
+}
+
+fn assert_example_does_what_it_shall(path: &Path, target: Target) {
+    let origin = path.display().to_string();
+    let text = fs::read_to_string(path).unwrap();
+    let program = program_for(path, &text).unwrap();
+    let files = ProgramFiles { program: &program, symbols: &[], data: None };
+    let opened = files.open(target).unwrap_or_else(|error| panic!("{origin}: {error}"));
+    let Opened { mut machine, symbols, scan_ms, .. } = opened;
+    let plant = plant_for(path, &origin, &text).unwrap_or_else(|error| panic!("{error}"));
+    let plant = plant.as_ref();
+    let mut has_operand = |operand| machine.read(operand).map(|_| ());
+    let context = Context { symbols: &symbols, plant, has_operand: &mut has_operand };
+    let scenario =
+        Scenario::parse(&origin, &text, context).unwrap_or_else(|problems| panic!("{problems}"));
+    let plant = scenario.plant.as_ref().map(|spec| spec.build().unwrap());
+    // Of the tank, which runs for ten minutes, only the beginning.
+    let length = Length::For(scenario.run_ms.map_or(10_000, |ms| ms.min(40_000)));
+    let scan_ms = scenario.scan_ms.or(scan_ms).unwrap_or(1);
+    let job = Job { scan_ms, length, signals: Vec::new(), plant, progress: None };
+    let outcome = run(&mut *machine, &scenario, job).unwrap();
+    let Outcome { failures, fault, met, .. } = outcome;
+    assert!(failures.is_empty() && fault.is_none(), "{origin}: {failures:#?}");
+    assert!(met >= 2, "{origin}: {met}");
+}
+
+/// The loops of the diagrams settle at pins that are modulated, with the converter and the counter
+/// of the board.
+#[test]
+fn loops_settle_on_a_board() {
+    let of = |name: &str| examples().join("fbd").join(name).with_extension("scn");
+    assert_example_does_what_it_shall(&of("rc_circuit"), Target::Uno);
+    assert_example_does_what_it_shall(&of("rc_circuit"), Target::UnoNative);
+    // Translated it is too large.
+    assert_example_does_what_it_shall(&of("motor_speed"), Target::Uno);
 }
 
 #[test]

@@ -9,6 +9,7 @@ use awl_sim::machine::host::Host;
 use awl_sim::machine::uno::{Clock, Code, Uno};
 use awl_sim::machine::{Machine, MachineError, Mode};
 use awl_sim::operand::Operand;
+use awl_sim::plant::Outputs;
 use plc_isa::{
     ARENA_START, Area, DATA_END, DATA_START, DIGITAL_OUTPUTS, ENO, EVENTS_SEEN, Header, Op,
     Program, ProgramMemory, SLOT_END, SLOT_START, verify,
@@ -196,6 +197,10 @@ impl Machine for Pair<'_> {
 
     fn pin_levels(&mut self) -> u8 {
         self.host.pin_levels()
+    }
+
+    fn output_pins(&mut self) -> Outputs {
+        self.host.output_pins()
     }
 
     fn drive_pin(&mut self, input: u8, high: bool) {

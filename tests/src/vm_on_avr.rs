@@ -7,6 +7,7 @@ use awl_asm::Address;
 use awl_sim::machine::host::Host;
 use awl_sim::machine::{Machine, MachineError, Mode};
 use awl_sim::operand::Operand;
+use awl_sim::plant::Outputs;
 use plc_isa::{Area, DATA_LEN, DATA_START, I_START};
 use plc_vm::{Fault, Memory, Plc};
 use simavr::{Avr, Elf, Reset, Stopped};
@@ -232,6 +233,10 @@ impl Machine for Pair<'_> {
 
     fn pin_levels(&mut self) -> u8 {
         self.host.pin_levels()
+    }
+
+    fn output_pins(&mut self) -> Outputs {
+        self.host.output_pins()
     }
 
     fn drive_pin(&mut self, input: u8, high: bool) {

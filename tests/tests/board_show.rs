@@ -115,7 +115,7 @@ impl Station {
     /// A scan from its start to its end.
     fn scan(&mut self) {
         let pins = self.board.output_levels(self.invert_outputs);
-        self.plant.step(self.passed_ms(), pins, &mut self.signals);
+        self.plant.step(self.passed_ms(), pins.into(), &mut self.signals);
         let levels = (0..DIGITAL_INPUTS)
             .fold(0, |bits, input| bits | u8::from(self.signals.digital(input)) << input);
         self.board.drive_inputs(levels);

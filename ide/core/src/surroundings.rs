@@ -5,7 +5,7 @@
 use awl_asm::Address;
 use awl_sim::machine::pins::{OUTPUT_PINS, duty, output_levels};
 use awl_sim::operand::Operand;
-use awl_sim::plant::{Inputs, Plant};
+use awl_sim::plant::{Inputs, Outputs, Plant};
 use plc_isa::{AnalogInput, Area, DIGITAL_INPUTS, Settings};
 
 use crate::pace::Pace;
@@ -59,7 +59,7 @@ impl Surroundings {
             chip.drive(operand, value)?;
         }
         if let Some(plant) = &mut chip.plant {
-            plant.step(0, chip.settings.invert_outputs, &mut chip.wired);
+            plant.step(0, chip.settings.invert_outputs.into(), &mut chip.wired);
         }
         Ok(chip)
     }
@@ -106,9 +106,11 @@ impl Surroundings {
         let off = self.settings.invert_outputs;
         let levels = output_levels(data, register(LEVELS), register(DRIVEN), off) & OUTPUT_PINS;
         self.outputs = levels ^ off & OUTPUT_PINS;
-        self.pwm = MODULATED.iter().filter_map(|&output| duty(data, output)).collect();
+        let duties = MODULATED.map(|output| (output, duty(data, output)));
+        self.pwm = duties.iter().filter_map(|(_, duty)| *duty).collect();
         if let Some(plant) = &mut self.plant {
-            plant.step(self.now_ms, levels, &mut self.wired);
+            let outputs = Outputs::from(levels).with_duties(duties);
+            plant.step(self.now_ms, outputs, &mut self.wired);
         }
         self.levels()
     }

@@ -12,6 +12,7 @@ use super::pins::{OUTPUT_PINS, duty, output_levels};
 use super::points::{self, Points, input_byte, output_byte, replaced};
 use super::{Machine, MachineError, Mode};
 use crate::operand::Operand;
+use crate::plant::Outputs;
 
 /// Cycles in a millisecond.
 const MS: u32 = 16_000;
@@ -248,6 +249,11 @@ impl<C: Chip> Machine for Emulated<C> {
     fn pin_levels(&mut self) -> u8 {
         let off = self.settings().invert_outputs;
         output_levels(&self.data, self.at(LEVELS), self.at(DRIVEN), off) & OUTPUT_PINS
+    }
+
+    fn output_pins(&mut self) -> Outputs {
+        let levels = self.pin_levels();
+        points::output_pins(self, levels)
     }
 
     fn drive_pin(&mut self, input: u8, high: bool) {

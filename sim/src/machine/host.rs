@@ -13,6 +13,7 @@ use super::points::{self, Points, input_byte, output_byte, replaced};
 use super::{Machine, MachineError, Mode, PlaceOf, fault};
 use crate::action::Action;
 use crate::operand::Operand;
+use crate::plant::Outputs;
 use crate::pulse::{Edge, NS_PER_MS, Pulses};
 use link::Line;
 
@@ -319,6 +320,11 @@ impl Machine for Host {
     fn pin_levels(&mut self) -> u8 {
         let inverted = self.plan().map_or(0, |plan| plan.header.settings.invert_outputs);
         self.plc.outputs(&self.memory, 0) ^ inverted
+    }
+
+    fn output_pins(&mut self) -> Outputs {
+        let levels = self.pin_levels();
+        points::output_pins(self, levels)
     }
 
     fn drive_pin(&mut self, input: u8, high: bool) {

@@ -5,6 +5,7 @@ use std::fmt;
 
 use crate::action::Action;
 use crate::operand::Operand;
+use crate::plant::Outputs;
 
 pub mod emulated;
 #[cfg(test)]
@@ -101,6 +102,12 @@ pub trait Machine {
     /// The electrical levels of the output pins D8 to D13: bit n is the pin of Q0.n, inversion
     /// applied. 1 is high.
     fn pin_levels(&mut self) -> u8;
+
+    /// The output pins as a plant sees them: the same levels, and for how much of the time those
+    /// are high that are modulated.
+    fn output_pins(&mut self) -> Outputs {
+        self.pin_levels().into()
+    }
 
     /// Drives the pin of input I0.`input` (0..=5) electrically: `true` is high. It stays until
     /// changed.

@@ -9,6 +9,7 @@ use plc_vm::Inputs;
 
 use super::MachineError;
 use crate::operand::{DUTY_MAX, Operand};
+use crate::plant::Outputs;
 
 /// A machine's side: its bytes, by data address.
 pub(super) trait Points {
@@ -146,6 +147,11 @@ pub(super) fn write(
             .zip(value.to_be_bytes())
             .try_for_each(|(address, byte)| points.set(address, 0xFF, byte)),
     }
+}
+
+/// The output pins, of which these levels are known.
+pub(super) fn output_pins(points: &impl Points, levels: u8) -> Outputs {
+    Outputs::from(levels).with_duties((0..8).map(|output| (output, points.duty(output))))
 }
 
 /// Drives the pin of an input: the program sees the other level where it inverts it.

@@ -2,7 +2,7 @@
 //! actuator that follows its output late. They are between the plant and its wires.
 
 use super::control::{Control, ControlKind, Effect, Fault};
-use super::{Inputs, Plant, Report, Signals};
+use super::{Inputs, Outputs, Plant, Report, Signals};
 
 /// A plant with faults that can be switched.
 pub(super) struct WithFaults {
@@ -64,9 +64,9 @@ impl Plant for WithFaults {
         self.plant.signals()
     }
 
-    fn step(&mut self, now_ms: u64, outputs: u8, inputs: &mut Inputs) {
-        let seen = self.seen(now_ms, outputs);
-        self.plant.step(now_ms, seen, &mut self.sound);
+    fn step(&mut self, now_ms: u64, outputs: Outputs, inputs: &mut Inputs) {
+        let levels = self.seen(now_ms, outputs.levels);
+        self.plant.step(now_ms, Outputs { levels, ..outputs }, &mut self.sound);
         let before = std::mem::replace(inputs, self.sound);
         for effect in self.effects() {
             match effect {
@@ -127,9 +127,9 @@ mod tests {
             Signals { digital: 1, analog: 1 }
         }
 
-        fn step(&mut self, _: u64, outputs: u8, inputs: &mut Inputs) {
-            inputs.set_digital(0, outputs & 1 != 0);
-            inputs.set_analog(0, i32::from(outputs & 1) * 500);
+        fn step(&mut self, _: u64, outputs: Outputs, inputs: &mut Inputs) {
+            inputs.set_digital(0, outputs.is_high(0));
+            inputs.set_analog(0, i32::from(outputs.is_high(0)) * 500);
         }
 
         fn report(&self) -> Report {
@@ -153,13 +153,13 @@ mod tests {
             [(Effect::Stuck(0), true, 0), (Effect::StuckAnalog(0), false, 500)]
         {
             let mut plant = wire(effect);
-            plant.step(0, 1, &mut inputs);
+            plant.step(0, 1_u8.into(), &mut inputs);
             assert_eq!((inputs.digital(0), inputs.analog(0)), (true, 500));
             assert!(plant.set("broken", 1));
-            plant.step(1, 0, &mut inputs);
+            plant.step(1, 0_u8.into(), &mut inputs);
             assert_eq!((inputs.digital(0), inputs.analog(0)), (digital, analog), "{effect:?}");
             plant.set("broken", 0);
-            plant.step(2, 0, &mut inputs);
+            plant.step(2, 0_u8.into(), &mut inputs);
             assert_eq!((inputs.digital(0), inputs.analog(0)), (false, 0));
         }
     }
@@ -174,7 +174,7 @@ mod tests {
             // A pulse of 50 ms, and a long one from 200 ms on.
             let outputs = u8::from((10..60).contains(&now_ms) || now_ms >= 200);
             let before = inputs.digital(0);
-            plant.step(now_ms, outputs, &mut inputs);
+            plant.step(now_ms, outputs.into(), &mut inputs);
             if inputs.digital(0) && !before {
                 rises.push(now_ms);
             }

@@ -4,7 +4,7 @@
 //! A new plant is a type that implements [`Plant`], and a row in [`PLANTS`]:
 //!
 //! ```
-//! use awl_sim::plant::{Inputs, Plant, Report, Signals};
+//! use awl_sim::plant::{Inputs, Outputs, Plant, Report, Signals};
 //!
 //! /// A lamp at Q0.0 with a light sensor at I0.0.
 //! struct Lamp {
@@ -16,8 +16,8 @@
 //!         Signals { digital: 0b1, analog: 0 }
 //!     }
 //!
-//!     fn step(&mut self, now_ms: u64, outputs: u8, inputs: &mut Inputs) {
-//!         let is_lit = outputs & 0b1 != 0;
+//!     fn step(&mut self, now_ms: u64, outputs: Outputs, inputs: &mut Inputs) {
+//!         let is_lit = outputs.is_high(0);
 //!         if is_lit != inputs.digital(0) {
 //!             self.report.event(now_ms, if is_lit { "lit" } else { "dark" });
 //!         }
@@ -38,6 +38,7 @@ mod control;
 mod faults;
 pub mod file;
 mod options;
+mod outputs;
 mod report;
 mod spec;
 pub mod station1;
@@ -50,6 +51,7 @@ use crate::operand::Operand;
 pub use control::{Control, ControlKind, Effect, Fault, Words};
 pub(crate) use file::words_of;
 pub use options::{OptionError, Options};
+pub use outputs::Outputs;
 pub use report::{EVENTS_MAX, Event, Report};
 pub(crate) use spec::file_of;
 pub use spec::{PlantSpec, SpecErrors, parse_spec, parse_spec_with};
@@ -66,10 +68,9 @@ pub trait Plant: Send {
 
     /// Goes on to `now_ms`.
     ///
-    /// `outputs`: electrical levels of the pins D8 to D13, bit n is the pin of Q0.n, 1 is high. A
-    /// plant after an inverting relay board reacts to low pins. `inputs` keeps what was set in
-    /// earlier calls.
-    fn step(&mut self, now_ms: u64, outputs: u8, inputs: &mut Inputs);
+    /// `outputs`: the pins D8 to D13. A plant after an inverting relay board reacts to low pins.
+    /// `inputs` keeps what was set in earlier calls.
+    fn step(&mut self, now_ms: u64, outputs: Outputs, inputs: &mut Inputs);
 
     /// What has happened so far.
     fn report(&self) -> Report;

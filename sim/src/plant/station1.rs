@@ -7,7 +7,7 @@
 
 use super::control::{Effect, SLOW_MS};
 use super::options::{OptionError, Options};
-use super::{Inputs, Plant, PlantKind, Report, Signals, named};
+use super::{Inputs, Outputs, Plant, PlantKind, Report, Signals, named};
 
 /// The row for the table of plants.
 pub const KIND: PlantKind = PlantKind {
@@ -336,10 +336,10 @@ impl Plant for Station1 {
         Signals { digital: if self.is_button_auto { 0b11_1111 } else { 0b01_1111 }, analog: 0b1 }
     }
 
-    fn step(&mut self, now_ms: u64, outputs: u8, inputs: &mut Inputs) {
+    fn step(&mut self, now_ms: u64, outputs: Outputs, inputs: &mut Inputs) {
         let dt_ms = now_ms - self.last_ms;
         self.last_ms = now_ms;
-        self.move_actuators(now_ms, dt_ms, &Relays::of_pins(outputs));
+        self.move_actuators(now_ms, dt_ms, &Relays::of_pins(outputs.levels));
         self.slide(now_ms, dt_ms);
         self.push(now_ms);
         self.feed(now_ms);

@@ -1,6 +1,6 @@
 //! Physics of the measuring station, at the pins and without a PLC.
 
-use crate::plant::{Inputs, Plant, PlantSpec, Report, parse_spec};
+use crate::plant::{Inputs, Outputs, Plant, PlantSpec, Report, parse_spec};
 
 const LOWER: u8 = 1 << 0;
 const RAISE: u8 = 1 << 1;
@@ -25,7 +25,7 @@ impl Bench {
             now_ms: 0,
             step_ms: 1,
         };
-        bench.plant.step(0, 0xFF, &mut bench.inputs);
+        bench.plant.step(0, Outputs::from(0xFF), &mut bench.inputs);
         bench
     }
 
@@ -33,7 +33,7 @@ impl Bench {
         let end = self.now_ms + for_ms;
         while self.now_ms < end {
             self.now_ms += self.step_ms;
-            self.plant.step(self.now_ms, !relays, &mut self.inputs);
+            self.plant.step(self.now_ms, Outputs::from(!relays), &mut self.inputs);
         }
     }
 

@@ -6,7 +6,7 @@
 
 use super::control::{Effect, SLOW_MS};
 use super::options::{OptionError, Options};
-use super::{Inputs, Plant, PlantKind, Report, Signals, named};
+use super::{Inputs, Outputs, Plant, PlantKind, Report, Signals, named};
 
 /// The row for the table of plants.
 pub const KIND: PlantKind = PlantKind {
@@ -172,11 +172,11 @@ impl Plant for Tank {
         Signals { digital: 0b1, analog: 0b1 }
     }
 
-    fn step(&mut self, now_ms: u64, outputs: u8, inputs: &mut Inputs) {
+    fn step(&mut self, now_ms: u64, outputs: Outputs, inputs: &mut Inputs) {
         let dt_ms = now_ms - self.last_ms;
         self.last_ms = now_ms;
-        let is_pumping = outputs & 0b01 != 0;
-        self.is_outlet_open = !self.has_valve || outputs & 0b10 != 0;
+        let is_pumping = outputs.is_high(0);
+        self.is_outlet_open = !self.has_valve || outputs.is_high(1);
         self.flow(dt_ms, is_pumping);
         self.change_demand(now_ms);
         self.watch_pump(now_ms, is_pumping);
@@ -218,9 +218,9 @@ mod tests {
         let mut plant =
             parse_spec(&format!("tank variation=0 {options}")).unwrap().build().unwrap();
         let mut inputs = Inputs::default();
-        plant.step(0, 0, &mut inputs);
+        plant.step(0, Outputs::from(0), &mut inputs);
         for &(now_ms, outputs) in steps {
-            plant.step(now_ms, outputs, &mut inputs);
+            plant.step(now_ms, Outputs::from(outputs), &mut inputs);
         }
         (plant, inputs)
     }
@@ -271,7 +271,7 @@ mod tests {
         let mut drops = Vec::new();
         let mut last = 0;
         for second in 0..=8u64 {
-            plant.step(second * 5000, 0, &mut inputs);
+            plant.step(second * 5000, Outputs::from(0), &mut inputs);
             let counts = i32::from(inputs.analog(0));
             if second > 0 {
                 drops.push(last - counts);

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::machine::fake::{Fake, operand};
-use crate::plant::{Inputs, Report, Signals};
+use crate::plant::{Inputs, Outputs, Report, Signals};
 use crate::scenario::{Context, Tolerance};
 
 fn scenario(text: &str) -> Scenario {
@@ -322,10 +322,10 @@ impl Plant for Mirror {
         Signals { digital: 0b10, analog: 0b100 }
     }
 
-    fn step(&mut self, now_ms: u64, outputs: u8, inputs: &mut Inputs) {
-        self.0.event(now_ms, format!("{outputs:06b}"));
+    fn step(&mut self, now_ms: u64, outputs: Outputs, inputs: &mut Inputs) {
+        self.0.event(now_ms, format!("{:06b}", outputs.levels));
         inputs.set_digital(0, true);
-        inputs.set_digital(1, outputs & 1 == 1);
+        inputs.set_digital(1, outputs.is_high(0));
         inputs.set_analog(2, 5000);
     }
 

@@ -26,7 +26,7 @@ impl Wiring {
         machine: &mut (impl Machine + ?Sized),
     ) -> Result<(), MachineError> {
         machine.catch_up(now_ms);
-        self.plant.step(now_ms, machine.pin_levels(), &mut self.inputs);
+        self.plant.step(now_ms, machine.output_pins(), &mut self.inputs);
         if self.given == Some(self.inputs) {
             return Ok(());
         }

@@ -177,7 +177,7 @@ impl Bench {
         let outputs = self.plc.outputs(&self.memory, 0) ^ self.invert_outputs;
         match &mut self.feeder {
             Feeder::Plant(plant) => {
-                plant.step(self.now_ms.into(), outputs, &mut self.plant_inputs);
+                plant.step(self.now_ms.into(), outputs.into(), &mut self.plant_inputs);
                 self.inputs.digital[0] =
                     (0..6).map(|n| u8::from(self.plant_inputs.digital(n)) << n).sum();
                 for channel in 0..6 {

@@ -21,6 +21,7 @@ use super::points::{self, Points, input_byte, output_byte, replaced};
 use super::{Machine, MachineError, Mode, PlaceOf, fault};
 use crate::action::Action;
 use crate::operand::Operand;
+use crate::plant::Outputs;
 pub use board::{Board, Broken, MS, Mark, SRAM};
 pub use firmware::Firmware;
 
@@ -397,6 +398,11 @@ impl Machine for Uno {
 
     fn pin_levels(&mut self) -> u8 {
         self.board.output_levels(self.off_levels())
+    }
+
+    fn output_pins(&mut self) -> Outputs {
+        let levels = self.pin_levels();
+        points::output_pins(self, levels)
     }
 
     fn drive_pin(&mut self, input: u8, high: bool) {

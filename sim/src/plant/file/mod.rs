@@ -4,16 +4,16 @@
 //!
 //! ```
 //! use awl_sim::plant::file::PlantFile;
-//! use awl_sim::plant::Inputs;
+//! use awl_sim::plant::{Inputs, Outputs};
 //!
 //! let text = "part Door 0..100\nmove Door +50/s if Q0.0\ninput I0.1 if Door = 100\n";
 //! let file = PlantFile::read("door.plant", text).unwrap();
 //! let mut plant = file.build();
 //! let mut inputs = Inputs::default();
-//! plant.step(0, 0b1, &mut inputs);
-//! plant.step(1999, 0b1, &mut inputs);
+//! plant.step(0, Outputs::from(0b1), &mut inputs);
+//! plant.step(1999, Outputs::from(0b1), &mut inputs);
 //! assert!(!inputs.digital(1));
-//! plant.step(2000, 0b1, &mut inputs);
+//! plant.step(2000, Outputs::from(0b1), &mut inputs);
 //! assert!(inputs.digital(1));
 //! ```
 

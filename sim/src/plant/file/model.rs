@@ -34,10 +34,20 @@ pub struct Description {
     pub motions: Vec<Motion>,
     /// What the PLC's digital inputs see.
     pub inputs: Vec<(u8, Condition)>,
+    /// What gives pulses to digital inputs.
+    pub encoders: Vec<Encoder>,
     /// What its analog inputs see.
     pub analogs: Vec<Analog>,
     /// What is drawn, the last on top.
     pub shapes: Vec<Shape>,
+}
+
+impl Description {
+    /// The digital inputs that it drives.
+    pub fn digital(&self) -> impl Iterator<Item = u8> {
+        let tracks = self.encoders.iter().flat_map(|encoder| encoder.tracks);
+        self.inputs.iter().map(|(input, _)| *input).chain(tracks)
+    }
 }
 
 /// A number between limits that moves.
@@ -91,8 +101,14 @@ pub struct Motion {
 pub enum MotionKind {
     /// A part moves so many thousandths of a unit in a second.
     Move(usize, i64),
+    /// A part moves so many of its units in a second as the value of something is; down if it is to
+    /// be negated.
+    MoveBy(usize, Subject, bool),
     /// A part comes closer to a value, with a time constant in milliseconds.
     Approach(usize, i64, i64),
+    /// A part comes closer to where it is between its limits what an output is between off and on
+    /// in its time, with a time constant in milliseconds.
+    Follow(usize, u8, i64),
     /// The pieces of a belt move so many thousandths of a unit in a second.
     Carry(usize, i64),
     /// A piece comes on a belt after each such time in milliseconds.
@@ -103,6 +119,15 @@ pub enum MotionKind {
     Hold(usize, i64),
     /// Pieces that reach this range are taken off a belt.
     Take(usize, (i64, i64)),
+}
+
+/// Two digital inputs that see the tracks of an encoder: each unit of a part is an edge.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Encoder {
+    /// The inputs; upward the first one is a quarter of a period ahead.
+    pub tracks: [u8; 2],
+    /// The part.
+    pub part: usize,
 }
 
 /// An analog input: a number of the plant as counts.

@@ -9,7 +9,7 @@ use super::cursor::{Cursor, NUMBER_MAX, Read, wrong};
 use super::diagnostic::{Code, Diagnostic};
 use super::drawing::shape;
 use super::model::{
-    Analog, Belt, Condition, Count, Description, Motion, MotionKind, Part, Subject,
+    Analog, Belt, Condition, Count, Description, Encoder, Motion, MotionKind, Part, Subject,
 };
 use super::names::point_of;
 use super::words::{STATEMENTS, form};
@@ -234,7 +234,7 @@ fn define(plant: &mut Description, line: &Line<'_>) -> Read<()> {
                 count.when = when;
             }
         }
-        "move" | "approach" | "feed" | "hold" | "take" => {
+        "move" | "approach" | "follow" | "feed" | "hold" | "take" => {
             let motion = motion(plant, line.word, rest)?;
             plant.motions.push(motion);
         }
@@ -248,13 +248,23 @@ fn define(plant: &mut Description, line: &Line<'_>) -> Read<()> {
         "input" => {
             let word = rest.word();
             let input = point_of(word, "I0.")?;
-            if plant.inputs.iter().any(|(known, _)| *known == input) {
-                let help = "join what switches it by or, in one line";
-                return Err(driven(word).help(help).help("or another input is meant here"));
-            }
+            is_free(plant, input, word)?;
             rest.needs("if")?;
             let when = condition(plant, rest.rest)?;
             plant.inputs.push((input, when));
+        }
+        "encoder" => {
+            let words = [rest.word(), rest.word()];
+            let tracks = [point_of(words[0], "I0.")?, point_of(words[1], "I0.")?];
+            for (track, word) in tracks.into_iter().zip(words) {
+                is_free(plant, track, word)?;
+            }
+            if tracks[0] == tracks[1] {
+                return Err(driven(words[1]).help("the tracks of an encoder are at two inputs"));
+            }
+            let part = plant.part(rest.word())?;
+            rest.end()?;
+            plant.encoders.push(Encoder { tracks, part });
         }
         "analog" => {
             let analog = analog(plant, rest)?;
@@ -267,6 +277,17 @@ fn define(plant: &mut Description, line: &Line<'_>) -> Read<()> {
         _ => {}
     }
     Ok(())
+}
+
+/// An input that nothing else drives.
+fn is_free(plant: &Description, input: u8, word: Piece<'_>) -> Read<()> {
+    match plant.digital().any(|known| known == input) {
+        false => Ok(()),
+        true => {
+            let help = "join what switches it by or, in one line";
+            Err(driven(word).help(help).help("or another input is meant here"))
+        }
+    }
 }
 
 fn driven(word: Piece<'_>) -> Diagnostic {
@@ -283,6 +304,12 @@ fn motion(plant: &Description, word: &str, mut rest: Cursor<'_>) -> Read<Motion>
         "move" => {
             let subject = plant.subject(name)?;
             let at = rest.rest;
+            if let Subject::Part(part) = subject
+                && let Some((by, is_down)) = speed_of(plant, &mut rest)?
+            {
+                let kind = MotionKind::MoveBy(part, by, is_down);
+                return Ok(Motion { kind, when: ending(plant, rest)? });
+            }
             let speed = rest.speed()?;
             match subject {
                 Subject::Part(part) => MotionKind::Move(part, speed),
@@ -304,6 +331,12 @@ fn motion(plant: &Description, word: &str, mut rest: Cursor<'_>) -> Read<Motion>
             rest.needs("in")?;
             MotionKind::Approach(part, target, rest.time()? as i64)
         }
+        "follow" => {
+            let part = plant.part(name)?;
+            let output = point_of(rest.word(), "Q0.")?;
+            rest.needs("in")?;
+            MotionKind::Follow(part, output, rest.time()? as i64)
+        }
         "feed" => {
             let belt = plant.belt(name)?;
             if rest.takes("when") {
@@ -321,6 +354,29 @@ fn motion(plant: &Description, word: &str, mut rest: Cursor<'_>) -> Read<Motion>
         _ => MotionKind::Take(plant.belt(name)?, rest.range()?),
     };
     Ok(Motion { kind, when: ending(plant, rest)? })
+}
+
+/// `+Speed/s`: the speed is the value of a part or a slider; nothing where a number is written.
+fn speed_of(plant: &Description, rest: &mut Cursor<'_>) -> Read<Option<(Subject, bool)>> {
+    let mut after = *rest;
+    let word = after.word();
+    let sign = if word.text.starts_with(['+', '-']) { 1 } else { 0 };
+    let Some(len) = word.text.strip_suffix("/s").map(str::len).filter(|len| *len > sign) else {
+        return Ok(None);
+    };
+    let name = word.part(sign..len);
+    if !name.text.starts_with(|one: char| one.is_ascii_alphabetic()) {
+        return Ok(None);
+    }
+    *rest = after;
+    match plant.subject(name)? {
+        by @ (Subject::Part(_) | Subject::Control(_)) => Ok(Some((by, word.text.starts_with('-')))),
+        _ => Err(no_number(name)),
+    }
+}
+
+fn no_number(name: Piece<'_>) -> Diagnostic {
+    wrong(Code::UnknownName, name, format!("{} is no part and no slider", name.text))
 }
 
 /// `if CONDITION`, or nothing: always.
@@ -343,10 +399,7 @@ fn analog(plant: &Description, mut rest: Cursor<'_>) -> Read<Analog> {
     let range = match subject {
         Subject::Part(part) => plant.parts[part].range,
         Subject::Control(control) => plant.controls[control].range,
-        _ => {
-            let message = format!("{} is no part and no slider", name.text);
-            return Err(wrong(Code::UnknownName, name, message));
-        }
+        _ => return Err(no_number(name)),
     };
     let mut counts = (0, COUNTS_MAX);
     if !rest.rest.text.is_empty() {

@@ -4,8 +4,10 @@
 use std::sync::Arc;
 
 use super::belts::Pieces;
-use super::model::{Condition, Description, MotionKind, Shape, ShapeKind, Subject, Term, UNIT};
-use crate::plant::{Control, Inputs, Plant, Report, Signals};
+use super::model::{
+    Condition, Description, Encoder, MotionKind, Shape, ShapeKind, Subject, Term, UNIT,
+};
+use crate::plant::{Control, Inputs, Outputs, Plant, Report, Signals};
 use crate::scenario::condition::is_related;
 
 const PERMILLE: i64 = 1000;
@@ -15,7 +17,7 @@ pub(super) struct Described {
     file: Arc<Description>,
     last_ms: u64,
     /// Which outputs are on.
-    outputs: u8,
+    outputs: Outputs,
     /// Values of the parts, in millionths.
     parts: Vec<i64>,
     belts: Vec<Pieces>,
@@ -36,7 +38,7 @@ impl Described {
         }
         Described {
             last_ms: 0,
-            outputs: 0,
+            outputs: Outputs::default(),
             parts: file.parts.iter().map(|part| part.start * UNIT).collect(),
             belts,
             controls: file.controls.iter().map(|control| control.start).collect(),
@@ -70,7 +72,7 @@ impl Described {
     /// A value in millionths.
     fn value(&self, subject: Subject) -> i64 {
         match subject {
-            Subject::Output(output) => i64::from(self.outputs >> output & 1) * UNIT,
+            Subject::Output(output) => i64::from(self.outputs.is_high(output)) * UNIT,
             Subject::Part(part) => self.parts[part],
             Subject::Belt(belt) => self.belts[belt].fronts.len() as i64 * UNIT,
             Subject::Out(belt) => self.belts[belt].out * UNIT,
@@ -95,9 +97,21 @@ impl Described {
                 _ if !holds_now => {}
                 MotionKind::FeedWhen(_) => {}
                 MotionKind::Move(part, speed) => self.set_part(part, self.parts[part] + speed),
+                MotionKind::MoveBy(part, subject, is_down) => {
+                    let speed = self.value(subject) / PERMILLE;
+                    self.set_part(part, self.parts[part] + if is_down { -speed } else { speed });
+                }
                 MotionKind::Approach(part, target, in_ms) => {
-                    let value = self.parts[part];
-                    self.set_part(part, value + (target * UNIT - value) / in_ms);
+                    self.approach(part, target * UNIT, in_ms);
+                }
+                MotionKind::Follow(part, output, in_ms) => {
+                    let (low, high) = file.parts[part].range;
+                    let duty = i64::from(self.outputs.duty(output));
+                    self.approach(
+                        part,
+                        low * UNIT + duty * (high - low) * (UNIT / PERMILLE),
+                        in_ms,
+                    );
                 }
                 MotionKind::Carry(belt, speed) => carried[belt] += speed,
                 MotionKind::FeedEvery(belt, every_ms) => {
@@ -122,6 +136,12 @@ impl Described {
                 self.report.event(now_ms, &count.words.en);
             }
         }
+    }
+
+    /// In a millisecond a part comes closer to a value in millionths.
+    fn approach(&mut self, part: usize, target: i64, in_ms: i64) {
+        let value = self.parts[part];
+        self.set_part(part, value + (target - value) / in_ms);
     }
 
     fn set_part(&mut self, part: usize, value: i64) {
@@ -168,19 +188,24 @@ impl Plant for Described {
     fn signals(&self) -> Signals {
         let mask = |inputs: &mut dyn Iterator<Item = u8>| inputs.fold(0, |bits, n| bits | 1 << n);
         Signals {
-            digital: mask(&mut self.file.inputs.iter().map(|(input, _)| *input)),
+            digital: mask(&mut self.file.digital()),
             analog: mask(&mut self.file.analogs.iter().map(|analog| analog.channel)),
         }
     }
 
-    fn step(&mut self, now_ms: u64, outputs: u8, inputs: &mut Inputs) {
-        self.outputs = if self.file.is_inverted { !outputs } else { outputs };
+    fn step(&mut self, now_ms: u64, outputs: Outputs, inputs: &mut Inputs) {
+        self.outputs = if self.file.is_inverted { outputs.inverted() } else { outputs };
         for at_ms in self.last_ms..now_ms {
             self.pass(at_ms + 1);
         }
         self.last_ms = now_ms;
         for (input, when) in &self.file.inputs {
             inputs.set_digital(*input, self.holds(when));
+        }
+        for Encoder { tracks: [first, second], part } in &self.file.encoders {
+            let quarter = whole(self.parts[*part]).rem_euclid(4);
+            inputs.set_digital(*first, matches!(quarter, 1 | 2));
+            inputs.set_digital(*second, matches!(quarter, 2 | 3));
         }
         for analog in &self.file.analogs {
             let (low, high) = analog.counts;

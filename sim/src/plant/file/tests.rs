@@ -1,7 +1,7 @@
 //! What plant files do, and what is said about wrong ones.
 
 use super::*;
-use crate::plant::Inputs;
+use crate::plant::{Inputs, Outputs};
 
 fn plant(text: &str) -> Box<dyn Plant> {
     PlantFile::read("t.plant", text).unwrap_or_else(|errors| panic!("{errors}")).build()
@@ -15,7 +15,7 @@ fn value(plant: &dyn Plant, name: &str) -> f64 {
 /// Runs to this time with these outputs, in steps of so many milliseconds.
 fn run(plant: &mut dyn Plant, inputs: &mut Inputs, to_ms: u64, outputs: u8, step_ms: u64) {
     for now_ms in (0..=to_ms).step_by(step_ms as usize) {
-        plant.step(now_ms, outputs, inputs);
+        plant.step(now_ms, Outputs::from(outputs), inputs);
     }
 }
 
@@ -59,7 +59,7 @@ fn pieces_queue_and_leave_and_are_taken() {
     assert_eq!((value(&*belt, "Line"), value(&*belt, "Line.out")), (3.0, 0.0));
     assert!(inputs.digital(0));
     for now_ms in 10_001..=13_000 {
-        belt.step(now_ms, 0b1, &mut inputs);
+        belt.step(now_ms, Outputs::from(0b1), &mut inputs);
     }
     assert!(value(&*belt, "Line.out") >= 2.0);
     let mut belt = plant(&format!("{text}take Line 300..310\n"));
@@ -75,17 +75,17 @@ fn what_people_set_is_seen_and_counted() {
          input I0.0 if Call or Key and Load > 40\nanalog Ain0 Load 100..600\n",
     );
     let mut inputs = Inputs::default();
-    lift.step(0, 0, &mut inputs);
+    lift.step(0, Outputs::from(0), &mut inputs);
     assert_eq!((inputs.digital(0), inputs.analog(0)), (false, 200));
     assert!(lift.set("call", 1) && lift.set("LOAD", 50) && !lift.set("other", 1));
-    lift.step(1, 0, &mut inputs);
+    lift.step(1, Outputs::from(0), &mut inputs);
     assert_eq!((inputs.digital(0), inputs.analog(0)), (true, 600));
     lift.set("Call", 0);
-    lift.step(2, 0, &mut inputs);
+    lift.step(2, Outputs::from(0), &mut inputs);
     assert!(inputs.digital(0), "the key is on");
     lift.set("Jam", 1);
     lift.set("Call", 1);
-    lift.step(3, 0, &mut inputs);
+    lift.step(3, Outputs::from(0), &mut inputs);
     assert_eq!(lift.report().count("Calls"), Some(1));
     assert_eq!(lift.report().events[0].text, "called");
     assert_eq!(lift.controls().len(), 4);
@@ -98,16 +98,67 @@ fn inverted_outputs_and_faults() {
          draw lamp 10 10 5 if Q0.5\ndraw box 0 0 1 1 if not Q0.5\n",
     );
     let mut inputs = Inputs::default();
-    plant.step(0, 0xFF, &mut inputs);
+    plant.step(0, Outputs::from(0xFF), &mut inputs);
     assert!(!inputs.digital(4));
     assert_eq!(plant.places(), [vec![0.0, 0.0], vec![0.0]]);
     plant.set("Broken", 1);
-    plant.step(1, 0, &mut inputs);
+    plant.step(1, Outputs::from(0), &mut inputs);
     assert!(!inputs.digital(4));
     assert_eq!(plant.places(), [vec![0.0, 1.0], vec![]]);
     plant.set("Broken", 0);
-    plant.step(2, 0, &mut inputs);
+    plant.step(2, Outputs::from(0), &mut inputs);
     assert!(inputs.digital(4));
+}
+
+#[test]
+fn a_part_follows_a_modulated_output() {
+    for (text, is_low) in [("", false), ("outputs inverted\n", true)] {
+        let text = format!("{text}part Voltage 0..5000\nfollow Voltage Q0.1 in 1s\n");
+        let mut circuit = plant(&text);
+        let mut inputs = Inputs::default();
+        // High for 3/4 of the time, whatever the level is.
+        let duty = if is_low { 250 } else { 750 };
+        let outputs = Outputs::from(0b01).with_duties([(1, Some(duty)), (2, None)]);
+        let mut at = |ms: u64| {
+            circuit.step(ms, outputs, &mut inputs);
+            value(&*circuit, "Voltage")
+        };
+        // 3750 (1 - exp(-1)) and 3750 (1 - exp(-10)).
+        assert!((2369.0..2374.0).contains(&at(1000)), "{}", at(1000));
+        assert!((3749.0..=3750.0).contains(&at(10_000)), "{}", at(10_000));
+    }
+    let mut steady = plant("part Voltage 0..5000\nfollow Voltage Q0.1 in 1ms\n");
+    run(&mut *steady, &mut Inputs::default(), 2, 0b10, 1);
+    assert_eq!(value(&*steady, "Voltage"), 5000.0, "an output that is simply on");
+}
+
+#[test]
+fn a_part_moves_as_fast_as_another_one_says() {
+    let text = "part Speed -20..20 start 20\nslider Drain \"Drain\" 0..50 start 30\n\
+                part Way 0..1000\nmove Way +Speed/s\npart Level 0..100 start 100\n\
+                move Level -Drain/s if Q0.0\n";
+    let mut plant = plant(text);
+    plant.step(2000, Outputs::from(0b1), &mut Inputs::default());
+    assert_eq!((value(&*plant, "Way"), value(&*plant, "Level")), (40.0, 40.0));
+}
+
+#[test]
+fn an_encoder_gives_an_edge_for_each_unit() {
+    let mut plant = plant(
+        "part Angle 0..100\nencoder I0.0 I0.2 Angle\nmove Angle +1000/s if Q0.0\n\
+         move Angle -1000/s if Q0.1\n",
+    );
+    assert_eq!(plant.signals().digital, 0b101);
+    let mut inputs = Inputs::default();
+    let mut tracks = |now_ms, outputs: u8| {
+        plant.step(now_ms, Outputs::from(outputs), &mut inputs);
+        [inputs.digital(0), inputs.digital(2)]
+    };
+    let forward = (0..=4).map(|ms| tracks(ms, 0b1)).collect::<Vec<_>>();
+    let expected = [[false, false], [true, false], [true, true], [false, true], [false, false]];
+    assert_eq!(forward, expected, "the first track is ahead");
+    let backward = (5..=8).map(|ms| tracks(ms, 0b10)).collect::<Vec<_>>();
+    assert_eq!(backward, [[false, true], [true, true], [true, false], [false, false]]);
 }
 
 /// Codes with line and column.
@@ -140,6 +191,13 @@ draw box 1 2 3 4 gren
 feed Lift every 1s
 fault F \"x\" stuck Q0.1
 analog Ain0 Lift 0..2000
+encoder I0.2 I0.3 Lift
+encoder I0.3 I0.3 Lift
+encoder I0.4 I0.5 Lfit
+follow Lift Q0.6 in 1s
+follow Lift Q0.1 1s
+move Lift +Q0.0/s
+move Lift +Lft/s
 move Door +1/s
 ";
     let expected = [
@@ -158,6 +216,13 @@ move Door +1/s
         "E0601:15:6",
         "E0604:16:19",
         "E0603:17:18",
+        "E0602:18:9",
+        "E0602:19:14",
+        "E0601:20:19",
+        "E0604:21:13",
+        "E0600:22:18",
+        "E0601:23:12",
+        "E0601:24:12",
     ];
     // The last line says nothing: what is wrong with Door is told where it is made.
     assert_eq!(errors(text), expected);
@@ -281,16 +346,18 @@ fn the_manual_has_every_statement_and_every_shape() {
 /// is good runs.
 #[test]
 fn random_and_mutated_texts_never_panic() {
-    const TEXTS: [&str; 3] = [
+    const TEXTS: [&str; 5] = [
         include_str!("../../../../examples/traffic_light.plant"),
         include_str!("../../../../examples/conveyor.plant"),
         include_str!("../../../../examples/garage_door.plant"),
+        include_str!("../../../../examples/fbd/motor_speed.plant"),
+        include_str!("../../../../examples/fbd/rc_circuit.plant"),
     ];
     let words: Vec<&str> = TEXTS.iter().flat_map(|text| text.split_whitespace()).collect();
     let mut random = fastrand::Rng::with_seed(8);
     let mut good = 0;
     for round in 0..3000 {
-        let text = TEXTS[round % 3];
+        let text = TEXTS[round % TEXTS.len()];
         let mut bytes = text.as_bytes().to_vec();
         let text = match round % 4 {
             // Words in any order.
@@ -326,7 +393,7 @@ fn random_and_mutated_texts_never_panic() {
                 plant.set(&control.name, random.i64(..));
             }
             for step in 0..20 {
-                plant.step(step * 100, random.u8(..), &mut inputs);
+                plant.step(step * 100, Outputs::from(random.u8(..)), &mut inputs);
             }
             plant.view();
             assert_eq!(plant.places().len(), file.description.shapes.len());

@@ -17,7 +17,7 @@ const fn row(word: &'static str, form: &'static str, doc: &'static str) -> State
 }
 
 /// What a line begins with (docs/simulator.md has the same table).
-pub const STATEMENTS: [Statement; 18] = [
+pub const STATEMENTS: [Statement; 20] = [
     row("plant", "plant \"TITLE\"", "What the plant is called."),
     row(
         "outputs",
@@ -52,12 +52,19 @@ pub const STATEMENTS: [Statement; 18] = [
     row(
         "move",
         "move NAME +N/s [if CONDITION]",
-        "A part goes up or down, the pieces of a belt go on, so much in a second.",
+        "A part goes up or down, the pieces of a belt go on, so much in a second; `+SPEED/s`: as \
+         much as another part or a slider says.",
     ),
     row(
         "approach",
         "approach NAME N in TIME [if CONDITION]",
         "A part comes closer to a value, two thirds of the way in this time (the time constant).",
+    ),
+    row(
+        "follow",
+        "follow PART Q0.1 in TIME [if CONDITION]",
+        "A part comes closer to where an output is between off (lowest value) and on (highest), as \
+         far as that is on in its time, two thirds of the way in this time.",
     ),
     row(
         "feed",
@@ -71,6 +78,11 @@ pub const STATEMENTS: [Statement; 18] = [
         "Pieces whose front is in this range are taken off the belt.",
     ),
     row("input", "input I0.0 if CONDITION", "When a digital input of the PLC is on."),
+    row(
+        "encoder",
+        "encoder I0.0 I0.1 PART",
+        "Two digital inputs see the tracks of an encoder: an edge for each unit of a part.",
+    ),
     row(
         "analog",
         "analog Ain0 NAME [A..B]",
