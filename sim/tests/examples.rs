@@ -1,5 +1,7 @@
 //! Every example with its scenario, and the plants of the examples under other conditions.
 
+mod scenario_file;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -7,7 +9,8 @@ use awl_sim::open::{Opened, ProgramFiles, Target};
 use awl_sim::plant::{Report, parse_spec};
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
-use awl_sim::suite::{plant_for, program_for};
+use awl_sim::suite::program_for;
+use scenario_file::run_file;
 
 fn examples() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples")
@@ -27,20 +30,7 @@ fn open(stem: &str) -> Opened {
 }
 
 fn run_scenario(stem: &str, scan_ms: Option<u64>) -> Outcome {
-    let Opened { mut machine, symbols, scan_ms: period_ms, .. } = open(stem);
-    let path = scenario_of(stem);
-    let text = fs::read_to_string(&path).unwrap();
-    let mut has_operand = |operand| machine.read(operand).map(|_| ());
-    let origin = path.display().to_string();
-    let plant = plant_for(&path, &origin, &text).unwrap_or_else(|error| panic!("{error}"));
-    let plant = plant.as_ref();
-    let context = Context { symbols: &symbols, plant, has_operand: &mut has_operand };
-    let scenario =
-        Scenario::parse(&origin, &text, context).unwrap_or_else(|error| panic!("{error}"));
-    let plant = scenario.plant.as_ref().map(|spec| spec.build().unwrap());
-    let scan_ms = scan_ms.or(scenario.scan_ms).or(period_ms).unwrap_or(1);
-    let job = Job { scan_ms, length: Length::Scenario, signals: Vec::new(), plant, progress: None };
-    run(&mut *machine, &scenario, job).unwrap()
+    run_file(&scenario_of(stem), open(stem), scan_ms, |_| Length::Scenario).1
 }
 
 fn run_plant(stem: &str, plant: &str, length_ms: u64, scan_ms: u64) -> Report {

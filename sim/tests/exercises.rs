@@ -1,14 +1,15 @@
 //! The exercises: every solution does what its hidden scenarios want, no start program does, and
 //! each has its texts.
 
+mod scenario_file;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use awl_sim::open::{Opened, Target, open_machine};
-use awl_sim::plant::PlantSpec;
-use awl_sim::run::{Job, Length, Outcome, run};
-use awl_sim::scenario::{Context, Scenario};
-use awl_sim::suite::plant_for;
+use awl_sim::open::{Target, open_machine};
+use awl_sim::run::{Length, Outcome};
+use awl_sim::scenario::Scenario;
+use scenario_file::run_file;
 
 /// The files of a folder, by name.
 fn entries(folder: &Path) -> Vec<PathBuf> {
@@ -32,35 +33,19 @@ fn outcome(exercise: &Path, program: &str, scenario: &Path) -> (Scenario, Outcom
     let file = ["awl", "sfc"].map(|ending| exercise.join(program).with_extension(ending));
     let file = file.iter().find(|file| file.is_file()).expect("a program");
     let opened = open_machine(file, &[], Target::Host);
-    let Opened { mut machine, symbols, scan_ms, warnings, .. } =
-        opened.unwrap_or_else(|error| panic!("{}/{program}: {error}", exercise.display()));
+    let opened = opened.unwrap_or_else(|error| panic!("{}/{program}: {error}", exercise.display()));
     // What a start program does not yet use is warned of.
     let is_whole = program == "solution";
+    let warnings = &opened.warnings;
     assert!(!is_whole || warnings.is_empty(), "{}: {warnings:?}", exercise.display());
-    let origin = scenario.display().to_string();
-    let text = fs::read_to_string(scenario).unwrap();
-    let plant = plant_for(scenario, &origin, &text).unwrap_or_else(|error| panic!("{error}"));
-    let mut has_operand = |operand| machine.read(operand).map(drop);
-    let plant = plant.as_ref();
-    let context = Context { symbols: &symbols, plant, has_operand: &mut has_operand };
-    let scenario =
-        Scenario::parse(&origin, &text, context).unwrap_or_else(|error| panic!("{error}"));
-    let plant = scenario.plant.as_ref().map(PlantSpec::build).transpose();
-    let job = Job {
-        scan_ms: scenario.scan_ms.or(scan_ms).unwrap_or(1),
-        length: Length::Scenario,
-        signals: Vec::new(),
-        plant: plant.unwrap_or_else(|error| panic!("{origin}: {}", error.message)),
-        progress: None,
-    };
-    let outcome = run(&mut *machine, &scenario, job).unwrap();
-    (scenario, outcome)
+    run_file(scenario, opened, None, |_| Length::Scenario)
 }
 
 /// Programs that docs/benchmarks.md compares with the charts that solve exercises.
 #[test]
 fn programs_by_hand_do_what_the_scenarios_expect() {
     let by_hand = entries(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/by_hand"));
+    let by_hand: Vec<_> = by_hand.into_iter().filter(|path| path.is_file()).collect();
     assert!(!by_hand.is_empty());
     for program in by_hand {
         let name = program.file_stem().unwrap();

@@ -1,6 +1,8 @@
 //! The virtual Uno: pins, its own clock, the held clock, faults, the stack. Needs the firmware.
 #![cfg(feature = "simavr")]
 
+mod scenario_file;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -10,13 +12,14 @@ use awl_asm::source::Source;
 use awl_sim::action::Action;
 use awl_sim::machine::uno::{Clock, Code, Firmware, Uno};
 use awl_sim::machine::{Machine, Mode};
-use awl_sim::open::{Opened, ProgramFiles, Target};
+use awl_sim::open::{ProgramFiles, Target};
 use awl_sim::operand::Operand;
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
-use awl_sim::suite::{plant_for, program_for};
+use awl_sim::suite::program_for;
 use plc_isa::{NATIVE_INTERFACE, Op, SLOT_START, verify};
 use plc_vm::Fault;
+use scenario_file::run_file;
 use simavr::Pin;
 
 /// The pin of I0.0 and that of Q0.0.
@@ -362,19 +365,10 @@ fn assert_example_does_what_it_shall(path: &Path, target: Target) {
     let program = program_for(path, &text).unwrap();
     let files = ProgramFiles { program: &program, symbols: &[], data: None };
     let opened = files.open(target).unwrap_or_else(|error| panic!("{origin}: {error}"));
-    let Opened { mut machine, symbols, scan_ms, .. } = opened;
-    let plant = plant_for(path, &origin, &text).unwrap_or_else(|error| panic!("{error}"));
-    let plant = plant.as_ref();
-    let mut has_operand = |operand| machine.read(operand).map(|_| ());
-    let context = Context { symbols: &symbols, plant, has_operand: &mut has_operand };
-    let scenario =
-        Scenario::parse(&origin, &text, context).unwrap_or_else(|problems| panic!("{problems}"));
-    let plant = scenario.plant.as_ref().map(|spec| spec.build().unwrap());
     // Of the tank, which runs for ten minutes, only the beginning.
-    let length = Length::For(scenario.run_ms.map_or(10_000, |ms| ms.min(40_000)));
-    let scan_ms = scenario.scan_ms.or(scan_ms).unwrap_or(1);
-    let job = Job { scan_ms, length, signals: Vec::new(), plant, progress: None };
-    let outcome = run(&mut *machine, &scenario, job).unwrap();
+    let length =
+        |scenario: &Scenario| Length::For(scenario.run_ms.map_or(10_000, |ms| ms.min(40_000)));
+    let (_, outcome) = run_file(path, opened, None, length);
     let Outcome { failures, fault, met, .. } = outcome;
     assert!(failures.is_empty() && fault.is_none(), "{origin}: {failures:#?}");
     assert!(met >= 2, "{origin}: {met}");

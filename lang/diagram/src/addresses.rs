@@ -9,8 +9,8 @@ pub(crate) struct Addresses(HashMap<String, String>);
 
 impl Addresses {
     pub(crate) fn of(unit: &Unit) -> Addresses {
-        let declarations = unit.sections.iter().flat_map(|section| &section.declarations);
-        let with_address = declarations.filter_map(|one| Some((one.at.as_ref()?, &one.names)));
+        let with_address =
+            unit.declarations().filter_map(|one| Some((one.at.as_ref()?, &one.names)));
         let of_names = with_address.flat_map(|(at, names)| {
             let address = written(&at.text);
             names.iter().map(move |name| (name.text.to_uppercase(), address.clone()))

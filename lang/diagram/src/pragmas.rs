@@ -74,9 +74,8 @@ pub(crate) fn of_statements(text: &str, pragmas: &[Span], unit: &Unit) -> Vec<Sa
 }
 
 fn end_of_declarations(unit: &Unit) -> u32 {
-    let declarations = unit.sections.iter().flat_map(|one| &one.declarations);
-    let last = declarations.map(|one| one.span().end);
-    last.max().unwrap_or(0).max(unit.name.span.end)
+    let last = unit.declarations().map(|one| one.span().end).max();
+    last.unwrap_or(0).max(unit.name.span.end)
 }
 
 /// What is said about pragmas of drawings that say nothing of an element.

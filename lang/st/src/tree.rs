@@ -52,6 +52,19 @@ pub struct Unit {
     pub body: Vec<Statement>,
 }
 
+impl Unit {
+    /// Its declarations, of all sections.
+    pub fn declarations(&self) -> impl Iterator<Item = &Declaration> {
+        self.sections.iter().flat_map(|section| &section.declarations)
+    }
+
+    /// The declaration of a variable, by its name in any letter case.
+    pub fn declaration(&self, name: &str) -> Option<&Declaration> {
+        let is_it = |one: &Name| one.text.eq_ignore_ascii_case(name);
+        self.declarations().find(|one| one.names.iter().any(is_it))
+    }
+}
+
 /// The word that begins a section of variables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SectionKind {

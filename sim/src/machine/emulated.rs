@@ -252,8 +252,7 @@ impl<C: Chip> Machine for Emulated<C> {
     }
 
     fn output_pins(&mut self) -> Outputs {
-        let levels = self.pin_levels();
-        points::output_pins(self, levels)
+        points::output_pins(self)
     }
 
     fn drive_pin(&mut self, input: u8, high: bool) {

@@ -323,8 +323,7 @@ impl Machine for Host {
     }
 
     fn output_pins(&mut self) -> Outputs {
-        let levels = self.pin_levels();
-        points::output_pins(self, levels)
+        points::output_pins(self)
     }
 
     fn drive_pin(&mut self, input: u8, high: bool) {

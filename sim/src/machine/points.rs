@@ -7,7 +7,7 @@ use plc_isa::{
 };
 use plc_vm::Inputs;
 
-use super::MachineError;
+use super::{Machine, MachineError};
 use crate::operand::{DUTY_MAX, Operand};
 use crate::plant::Outputs;
 
@@ -149,9 +149,10 @@ pub(super) fn write(
     }
 }
 
-/// The output pins, of which these levels are known.
-pub(super) fn output_pins(points: &impl Points, levels: u8) -> Outputs {
-    Outputs::from(levels).with_duties((0..8).map(|output| (output, points.duty(output))))
+/// The output pins, with what modulates them.
+pub(super) fn output_pins(machine: &mut (impl Points + Machine)) -> Outputs {
+    let levels = machine.pin_levels();
+    Outputs::from(levels).with_duties((0..8).map(|output| (output, machine.duty(output))))
 }
 
 /// Drives the pin of an input: the program sees the other level where it inverts it.

@@ -167,7 +167,7 @@ impl Language {
 
     fn pairs(&self) -> Result<Vec<Pair>> {
         let mut pairs = Vec::new();
-        for (folder_awl, folder) in self.folders.iter().copied() {
+        for &(folder_awl, folder) in self.folders {
             for path in texts(&root().join(folder), self.ending)? {
                 let by_hand = root().join(folder_awl).join(stem(&path)).with_extension("awl");
                 if by_hand.is_file() {

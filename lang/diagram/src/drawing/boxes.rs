@@ -59,7 +59,7 @@ impl Unwired<'_> {
         let text = cut(&in_box(written), ASSIGNED_MAX);
         let input = Pin { text, written: Some(written.to_owned()), ..Pin::default() };
         let output = Pin { names: self.names_of(&element.name), ..Pin::default() };
-        let of_type = self.declaration(&element.name).map(|one| self.type_name(&one.of_type));
+        let of_type = self.unit.declaration(&element.name).map(|one| self.type_name(&one.of_type));
         let of_type = of_type.unwrap_or_default();
         let output = Pin { of_type: of_type.clone(), ..output };
         let input = Pin { of_type, names: self.source_of(value), ..input };
@@ -131,7 +131,7 @@ impl Unwired<'_> {
 
     fn declaration_of(&self, instance: &Expression) -> Option<&Declaration> {
         match &instance.kind {
-            ExpressionKind::Variable(name, _) => self.declaration(&name.text),
+            ExpressionKind::Variable(name, _) => self.unit.declaration(&name.text),
             _ => None,
         }
     }
@@ -194,12 +194,6 @@ impl Unwired<'_> {
             UnitKind::Program => vec![format!("{}.{name}", self.unit.name.text), name.to_owned()],
             _ => Vec::new(),
         }
-    }
-
-    /// The declaration of a variable of the unit.
-    fn declaration(&self, name: &str) -> Option<&Declaration> {
-        let all = self.unit.sections.iter().flat_map(|one| &one.declarations);
-        all.into_iter().find(|one| one.names.iter().any(|known| is(&known.text, name)))
     }
 
     /// The name of a type; of an array that of its elements.

@@ -25,7 +25,7 @@ impl Editing<'_> {
         let elements = || chosen.iter().filter_map(|at| self.opened.elements.get(*at));
         let instances = elements().filter(|one| one.is_call);
         let declared: String = instances
-            .filter_map(|one| Some((&one.name, self.declaration(&one.name)?)))
+            .filter_map(|one| Some((&one.name, self.unit.declaration(&one.name)?)))
             .map(|(name, one)| format!("    {};\n", declaration_text(self.text(), name, one)))
             .collect();
         let section = match declared.is_empty() {
@@ -52,7 +52,7 @@ impl Editing<'_> {
 
     /// What is declared in a unit by its name, with one that the text does not have.
     fn renamed(&self, unit: &Unit) -> HashMap<String, String> {
-        let declared = unit.sections.iter().flat_map(|one| &one.declarations);
+        let declared = unit.declarations();
         let mut taken = self.taken();
         let renamed = declared.flat_map(|one| &one.names).map(|Name { text: name, .. }| {
             let new = match taken.contains(&name.to_uppercase()) {
@@ -69,7 +69,7 @@ impl Editing<'_> {
     fn insert_unit(&self, whole: &str) -> Result<Edited, Refusal> {
         let Read { file, .. } = reread(whole)?;
         let units = || crate::diagrams(&file);
-        let declared = units().flat_map(|one| &one.sections).flat_map(|one| &one.declarations);
+        let declared = units().flat_map(Unit::declarations);
         let declared: Vec<String> = declared
             .flat_map(|one| one.names.iter().map(move |name| (one, name)))
             .map(|(one, name)| format!("{};", declaration_text(whole, &name.text, one)))

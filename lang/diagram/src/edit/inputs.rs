@@ -99,7 +99,7 @@ impl Editing<'_> {
     ) -> Result<Edited, Refusal> {
         let at = self.at(element)?;
         let name = self.opened.elements.get(at).map_or("", |one| &one.name);
-        let Some(declaration) = self.declaration(name) else {
+        let Some(declaration) = self.unit.declaration(name) else {
             return refused(format!("{name} is not declared in this diagram"));
         };
         if declaration.names.len() > 1 {

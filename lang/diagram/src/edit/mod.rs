@@ -13,7 +13,7 @@ use std::fmt;
 use diagnostics::{Severity, Source, Span};
 use picture::Point;
 use st::lexer::{Kind, cut};
-use st::tree::{Declaration, Name, Unit};
+use st::tree::Unit;
 
 use crate::Read;
 use crate::diagnostic::Code;
@@ -215,13 +215,6 @@ impl Editing<'_> {
     fn at(&self, id: &str) -> Result<usize, Refusal> {
         let found = self.opened.shapes.iter().position(|one| one.id.eq_ignore_ascii_case(id));
         found.map_or_else(|| refused(format!("{id} is not in the diagram any more")), Ok)
-    }
-
-    /// The declaration of a variable.
-    fn declaration(&self, name: &str) -> Option<&Declaration> {
-        let all = self.unit.sections.iter().flat_map(|one| &one.declarations);
-        let is_it = |one: &Name| one.text.eq_ignore_ascii_case(name);
-        all.into_iter().find(|one| one.names.iter().any(is_it))
     }
 
     /// Where the words of the text are.

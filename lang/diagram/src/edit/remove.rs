@@ -66,7 +66,7 @@ impl Editing<'_> {
 
     /// Takes the names of instances out of their declarations that nothing else in the unit needs.
     fn forget(&self, instances: &[&str], gone: &[Span], changes: &mut Changes) {
-        let declarations = || self.unit.sections.iter().flat_map(|one| &one.declarations);
+        let declarations = || self.unit.declarations();
         let declared: HashSet<Span> =
             declarations().flat_map(|one| &one.names).map(|one| one.span).collect();
         let is_gone = |at: Span| gone.iter().any(|one| one.start <= at.start && at.end <= one.end);

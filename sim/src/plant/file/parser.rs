@@ -301,29 +301,7 @@ fn motion(plant: &Description, word: &str, mut rest: Cursor<'_>) -> Read<Motion>
         return Err(rest.expected(name, "a name"));
     }
     let kind = match word {
-        "move" => {
-            let subject = plant.subject(name)?;
-            let at = rest.rest;
-            if let Subject::Part(part) = subject
-                && let Some((by, is_down)) = speed_of(plant, &mut rest)?
-            {
-                let kind = MotionKind::MoveBy(part, by, is_down);
-                return Ok(Motion { kind, when: ending(plant, rest)? });
-            }
-            let speed = rest.speed()?;
-            match subject {
-                Subject::Part(part) => MotionKind::Move(part, speed),
-                Subject::Belt(_) if speed < 0 => {
-                    let message = "pieces go forward only: a belt has no speed below 0";
-                    return Err(wrong(Code::Number, at.split_word().0, message));
-                }
-                Subject::Belt(belt) => MotionKind::Carry(belt, speed),
-                _ => {
-                    let message = format!("{} is no part and no belt", name.text);
-                    return Err(wrong(Code::UnknownName, name, message));
-                }
-            }
-        }
+        "move" => movement(plant, name, &mut rest)?,
         "approach" => {
             let part = plant.part(name)?;
             let (low, high) = plant.parts[part].range;
@@ -354,6 +332,30 @@ fn motion(plant: &Description, word: &str, mut rest: Cursor<'_>) -> Read<Motion>
         _ => MotionKind::Take(plant.belt(name)?, rest.range()?),
     };
     Ok(Motion { kind, when: ending(plant, rest)? })
+}
+
+/// What moves so fast: a part, or the pieces of a belt.
+fn movement(plant: &Description, name: Piece<'_>, rest: &mut Cursor<'_>) -> Read<MotionKind> {
+    let subject = plant.subject(name)?;
+    if let Subject::Part(part) = subject
+        && let Some((by, is_down)) = speed_of(plant, rest)?
+    {
+        return Ok(MotionKind::MoveBy(part, by, is_down));
+    }
+    let at = rest.rest;
+    let speed = rest.speed()?;
+    match subject {
+        Subject::Part(part) => Ok(MotionKind::Move(part, speed)),
+        Subject::Belt(_) if speed < 0 => {
+            let message = "pieces go forward only: a belt has no speed below 0";
+            Err(wrong(Code::Number, at.split_word().0, message))
+        }
+        Subject::Belt(belt) => Ok(MotionKind::Carry(belt, speed)),
+        _ => {
+            let message = format!("{} is no part and no belt", name.text);
+            Err(wrong(Code::UnknownName, name, message))
+        }
+    }
 }
 
 /// `+Speed/s`: the speed is the value of a part or a slider; nothing where a number is written.
