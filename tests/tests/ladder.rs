@@ -365,9 +365,11 @@ fn joins(picture: &Picture, last: usize, net: usize) -> bool {
         }
 }
 
-/// Whether a file is a program by itself: `telegram.line.awl` is a part of `telegram.st`.
+/// Whether a file is a program by itself: `telegram.line.awl` is a part of `telegram.st`, and
+/// `motor_speed.counter.awl` one of `motor_speed.fbd`.
 fn is_whole(path: &Path) -> bool {
-    !path.with_extension("").with_extension("st").is_file() || path.with_extension("scn").is_file()
+    let is_part = |language| path.with_extension("").with_extension(language).is_file();
+    !["st", "fbd"].into_iter().any(is_part) || path.with_extension("scn").is_file()
 }
 
 fn program_files(folder: &str) -> Vec<PathBuf> {
