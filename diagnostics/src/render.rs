@@ -34,7 +34,7 @@ pub fn human<C: Code>(source: &Source, diagnostic: &Diagnostic<C>, styled: bool)
         group = group.element(Level::HELP.message(help));
     }
     if let Some(suggestion) = &diagnostic.suggestion {
-        group = group.element(Level::HELP.message(format!("did you mean `{suggestion}`?")));
+        group = group.element(Level::HELP.message(asked(suggestion)));
     }
     let renderer = if styled { STYLED } else { PLAIN };
     let mut text = renderer.render(&[group]);
@@ -151,6 +151,23 @@ pub fn short<C: Code>(source: &Source, diagnostic: &Diagnostic<C>) -> String {
     };
     let code = diagnostic.code.text().map_or_else(String::new, |code| format!("[{code}]"));
     format!("{place}: {}{code}: {}", diagnostic.severity().name(), diagnostic.message)
+}
+
+/// Diagnostics as plain text, with no picture of the source: each as [`short`] has it, and its help
+/// on lines of their own. Without a line end after the last.
+pub fn plain<C: Code>(source: &Source, diagnostics: &[Diagnostic<C>]) -> String {
+    let mut lines = Vec::new();
+    for diagnostic in diagnostics {
+        lines.push(short(source, diagnostic));
+        lines.extend(diagnostic.help.iter().map(|help| format!("  help: {help}")));
+        lines.extend(diagnostic.suggestion.iter().map(|meant| format!("  help: {}", asked(meant))));
+    }
+    lines.join("\n")
+}
+
+/// Asks whether this was meant.
+fn asked(suggestion: &str) -> String {
+    format!("did you mean `{suggestion}`?")
 }
 
 /// A stretch of a line.

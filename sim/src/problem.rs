@@ -91,9 +91,13 @@ impl Problems {
     }
 }
 
+/// In lines, for where [`Problems::render`]'s picture has no room.
 impl fmt::Display for Problems {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.render(false).trim_end())
+        match Source::new(&self.origin, &self.text) {
+            Ok(source) => f.write_str(&render::plain(&source, &self.diagnostics())),
+            Err(error) => error.fmt(f),
+        }
     }
 }
 
@@ -120,5 +124,7 @@ error: unknown word
   = help: did you mean `expect`?
 ";
         assert_eq!(problems.render(false), expected);
+        let lines = "a.scn:2:7: error: unknown word\n  help: did you mean `expect`?";
+        assert_eq!(problems.to_string(), lines);
     }
 }

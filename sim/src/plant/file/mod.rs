@@ -131,9 +131,13 @@ impl PlantErrors {
     }
 }
 
+/// In lines, for where [`PlantErrors::render`]'s picture has no room.
 impl fmt::Display for PlantErrors {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.render(false).trim_end())
+        match Source::new(&self.name, &self.text) {
+            Ok(source) => f.write_str(&render::plain(&source, &self.diagnostics)),
+            Err(error) => error.fmt(f),
+        }
     }
 }
 

@@ -245,6 +245,8 @@ error[E0601]: there is no Dor
   = help: did you mean `Door`?
 ";
     assert_eq!(shown.render(false), expected);
+    let lines = "t.plant:2:6: error[E0601]: there is no Dor\n  help: did you mean `Door`?";
+    assert_eq!(shown.to_string(), lines);
 }
 
 /// Texts, and the code, message and suggestion or help of the last problem.
