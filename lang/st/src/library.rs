@@ -1,6 +1,6 @@
-//! The library of signal blocks (`lang/st/blocks`): controllers, filters, generators in Structured
-//! Text, one file a block. A program that names one gets it; the other files are not parsed. The
-//! standard blocks, TON and its like, are elsewhere: every program knows them.
+//! The library of signal blocks (`lang/st/blocks`): controllers, filters, generators and models of
+//! plants in Structured Text, one file a block. A program that names one gets it; the other files
+//! are not parsed. The standard blocks, TON and its like, are elsewhere: every program knows them.
 
 use std::collections::HashSet;
 use std::sync::OnceLock;

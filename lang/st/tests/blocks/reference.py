@@ -7,7 +7,7 @@ point are REAL.
 """
 
 import numpy as np
-from scipy import signal
+from scipy import integrate, signal
 
 ROWS = 120
 STEP = np.concatenate([np.ones(50), np.zeros(10)])
@@ -41,6 +41,12 @@ def bessel(order, frequency, kind):
     return filtered(signal.bessel(order, frequency, kind, norm="mag", fs=FS, output="sos"))
 
 
+def held(numerator, denominator):
+    """What comes out at the end of a period through which X is held: z times the usual output."""
+    top, bottom, _ = signal.cont2discrete((numerator, denominator), 1 / FS)
+    return signal.lfilter(np.atleast_2d(top)[0][1:], bottom, X)
+
+
 def filters():
     for kind, name in (("low", "low_pass"), ("high", "high_pass")):
         for order in (2, 4):
@@ -57,10 +63,7 @@ def filters():
     write("transfer_1", {"x": X, "Filter.Y": signal.lfilter([0.5, 0.25], [1, -0.5], X)})
     second = signal.lfilter([0.5, 0.25, 0.125], [1, -0.5, 0.25], X)
     write("transfer_2", {"x": X, "Filter.Y": second})
-    # The value at the end of a period through which X is held: z times that of the usual one.
-    held, poles, _ = signal.cont2discrete(([2.0], [0.05, 1.0]), 1 / FS)
-    lag = signal.lfilter(held[0][1:], poles, X)
-    write("lag", {"x": X, "Filter.Y": lag, "Direct.Y": 2 * X})
+    write("lag", {"x": X, "Filter.Y": held([2.0], [0.05, 1.0]), "Direct.Y": 2 * X})
     shifted = lambda n: np.concatenate([np.zeros(n), X])[:ROWS]
     write("delay", {"x": X, "None.Y": X, "Five.Y": shifted(5), "Most.Y": shifted(32)})
 
@@ -103,7 +106,38 @@ def generators():
     write("noise", {"Hiss.Y": np.array(series)})
 
 
+def models():
+    write("rc_model", {"x": X, "Circuit.Y": held([1.0], [0.05, 1.0])})
+    late = np.concatenate([np.zeros(3), held([3.0], [0.05, 1.0])])[:ROWS]
+    write("oven_model", {"x": X, "Oven.TEMPERATURE": 20 + late})
+    turns = held([2.0], [0.05, 1.0, 0.0])
+    write("motor_model", {"x": X, "Motor.SPEED": held([2.0], [0.05, 1.0]), "Motor.TURNS": turns})
+    # Within half of the beam.
+    write("ball_model", {"x": 0.1 * X, "Ball.PLACE": 0.1 * held([7.0], [1.0, 0.0, 0.0]),
+                         "Ball.SPEED": 0.1 * held([7.0], [1.0, 0.0])})
+    tank()
+
+
+def tank():
+    """The block's steps, and how far they are from the solution of the differential equation."""
+    inflow = 1 + X
+    level, levels = 0.0, []
+    for flow in inflow:
+        level = max(0.0, level + (flow - np.sqrt(level)) / 0.5 / FS)
+        levels.append(level)
+    write("tank_model", {"x": inflow, "Tank.LEVEL": np.array(levels)})
+    exact, found = 0.0, []
+    for flow in inflow:
+        slope = lambda _, y: (flow - np.sqrt(np.maximum(y, 0))) / 0.5
+        exact = integrate.solve_ivp(slope, (0, 1 / FS), [exact], rtol=1e-10, atol=1e-12).y[0][-1]
+        found.append(exact)
+    off = np.max(np.abs(np.array(levels) - found)) / np.max(found)
+    assert off < 0.01, off
+    print(f"tank: off by {off:.2%} of the largest level at most")
+
+
 filters()
 notch()
+models()
 controllers()
 generators()
