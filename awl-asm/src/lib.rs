@@ -20,7 +20,7 @@ pub use diagnostics::{render, source};
 pub use host::{args, files, firmware, flash, report};
 pub use image::{encode, hex, tools};
 pub use meaning::{check, select, selected, units};
-pub use output::{cost, disassemble, for_tools, listing, longest_scan, manual, map, native};
+pub use output::{cost, disassemble, for_tools, listing, longest_scan, manual, map, native, reals};
 pub use plan::{demand, modules};
 pub use text::{
     address, ast, cursor, data_block, declared, directive_table, escapes, format, locals,

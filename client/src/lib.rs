@@ -12,7 +12,6 @@ pub mod image;
 pub mod line;
 pub mod operand;
 pub mod program;
-pub mod reals;
 pub mod reference;
 pub mod service;
 pub mod show;

@@ -146,9 +146,125 @@ pub struct TestArgs {
     pub coverage: bool,
 }
 
+const SWEEP_HELP: &str = "\
+A sine of each frequency is written to --excite before every scan until what comes out has settled.
+Gain and phase lead from --from to --to; phases below 0 are late.
+
+Examples:
+  awl-sim sweep lag.st --excite Main.Input --to Main.Lag.Y
+  awl-sim sweep loop.fbd --excite Main.Setpoint --offset 2 --to Main.Capacitor.Y -o loop.svg
+  awl-sim sweep loop.fbd --excite Main.Setpoint --from Main.Loop.E --to Main.Capacitor.Y
+The last measures the open loop in the closed one: of it are the margins.
+
+Exit codes: 0 good, 2 usage, file or program errors, and where nothing can be measured.";
+
+/// Measures the frequency response of a path through a running program, with the bandwidth and the
+/// margins of a loop.
+#[derive(Debug, Parser)]
+#[command(name = "awl-sim sweep", bin_name = "awl-sim sweep", version, after_help = SWEEP_HELP)]
+pub struct SweepArgs {
+    /// The program: text or an image of awl-asm. Several texts make one program
+    #[arg(value_name = "PROGRAM", required = true)]
+    pub program: Vec<PathBuf>,
+
+    /// What the sine is written to: a number that the program only reads
+    #[arg(long, value_name = "OPERAND")]
+    pub excite: String,
+
+    /// Where the path ends
+    #[arg(long, value_name = "OPERAND")]
+    pub to: String,
+
+    /// Where the path begins, if that is not what is excited
+    #[arg(long, value_name = "OPERAND")]
+    pub from: Option<String>,
+
+    /// Lowest and highest frequency [default: up to ten scans a period, two powers of ten]
+    #[arg(long, value_name = "0.1Hz..10Hz", value_parser = parse_band)]
+    pub band: Option<(f64, f64)>,
+
+    /// How many frequencies, each the same number of times the one before
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 25,
+        value_parser = clap::value_parser!(u16).range(2..=1000)
+    )]
+    pub points: u16,
+
+    /// The amplitude of the sine
+    #[arg(long, value_name = "NUMBER", default_value_t = 1.0, value_parser = parse_amplitude)]
+    pub amplitude: f64,
+
+    /// The value around which it swings
+    #[arg(
+        long,
+        value_name = "NUMBER",
+        default_value_t = 0.0,
+        allow_negative_numbers = true,
+        value_parser = parse_number
+    )]
+    pub offset: f64,
+
+    /// How long the program has the offset alone before the first sine [default: two periods of the
+    /// lowest frequency]
+    #[arg(long, value_name = "TIME", value_parser = parse_time)]
+    pub rest: Option<u64>,
+
+    /// What else is set before the first scan: "Start = 1, Ain0 = 200"
+    #[arg(long, value_name = "OPERAND = VALUE, ...")]
+    pub set: Option<String>,
+
+    /// What is wired to the PLC, with its options, or a file that describes it
+    #[arg(long, value_name = "PLANT")]
+    pub plant: Option<String>,
+
+    /// Time from scan to scan, 1ms to 60s; overrides the program's period [default: 1ms]
+    #[arg(long, value_name = "TIME", value_parser = parse_scan_time)]
+    pub scan_time: Option<u64>,
+
+    /// What runs the program
+    #[arg(long, value_name = "MACHINE", value_enum, default_value_t = On::Host)]
+    pub on: On,
+
+    /// A file with symbols of the program; can be given several times
+    #[arg(long, value_name = "F")]
+    pub symbols: Vec<PathBuf>,
+
+    /// A data block that is a file of its own
+    #[arg(long, value_name = "F")]
+    pub data: Option<PathBuf>,
+
+    /// How it is written; without it by the ending of the file, else as a table
+    #[arg(long, value_enum)]
+    pub format: Option<SweepFormat>,
+
+    /// File instead of standard output: .csv, .svg, or .txt for a table; with --format any that is
+    /// no source
+    #[arg(short, long, value_name = "F")]
+    pub output: Option<PathBuf>,
+
+    /// How messages are written
+    #[command(flatten)]
+    pub messages: Messages,
+}
+
+/// Formats of a frequency response.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SweepFormat {
+    /// Aligned columns, and the figures
+    Table,
+    /// Comma separated values
+    Csv,
+    /// Bode plot
+    Svg,
+}
+
 /// All of the command line, for manuals and completions.
 pub fn command() -> Command {
-    Args::command().subcommand(TestArgs::command().name("test").bin_name("awl-sim test"))
+    Args::command()
+        .subcommand(TestArgs::command().name("test").bin_name("awl-sim test"))
+        .subcommand(SweepArgs::command().name("sweep").bin_name("awl-sim sweep"))
 }
 
 /// Machines.
@@ -189,5 +305,50 @@ fn parse_scan_time(text: &str) -> Result<u64, String> {
     match parse_time(text)? {
         ms if SCAN_MS.contains(&ms) => Ok(ms),
         _ => Err("a scan takes 1ms to 60s".to_string()),
+    }
+}
+
+/// Frequencies of a sweep, in Hz.
+const HERTZ: std::ops::RangeInclusive<f64> = 1e-4..=500.0;
+
+fn parse_number(text: &str) -> Result<f64, String> {
+    // As it is in a REAL.
+    let number = text.parse().ok().filter(|number: &f64| (*number as f32).is_finite());
+    number.ok_or_else(|| format!("{text} is no number that a REAL can hold"))
+}
+
+fn parse_amplitude(text: &str) -> Result<f64, String> {
+    let number = parse_number(text)?;
+    if number > 0.0 { Ok(number) } else { Err("an amplitude is above 0".to_string()) }
+}
+
+fn parse_band(text: &str) -> Result<(f64, f64), String> {
+    let Some((low, high)) = text.split_once("..") else {
+        return Err("write lowest and highest frequency: 0.1Hz..10Hz".to_string());
+    };
+    let [low, high] = [low, high].map(parse_hertz);
+    let (low, high) = (low?, high?);
+    if low < high { Ok((low, high)) } else { Err("the lower frequency is first".to_string()) }
+}
+
+/// A frequency with its unit, or without one in Hz.
+fn parse_hertz(text: &str) -> Result<f64, String> {
+    let lower = text.trim().to_ascii_lowercase();
+    let (number, factor) = match lower.strip_suffix("hz") {
+        None => (lower.as_str(), 1.0),
+        Some(number) => match (number.strip_suffix('m'), number.strip_suffix('k')) {
+            (Some(number), _) => (number, 0.001),
+            (_, Some(number)) => (number, 1000.0),
+            _ => (number, 1.0),
+        },
+    };
+    let hertz = number.trim().parse::<f64>().ok().map(|number| number * factor);
+    let Some(hertz) = hertz else {
+        return Err(format!("{text} is no frequency: write 0.1Hz, 50mHz or 10"));
+    };
+    if HERTZ.contains(&hertz) {
+        Ok(hertz)
+    } else {
+        Err("a frequency is 0.1mHz to 500Hz".to_string())
     }
 }

@@ -25,6 +25,7 @@ pub mod scenario;
 pub mod serve;
 #[cfg(feature = "cli")]
 pub mod suite;
+pub mod sweep;
 pub mod time;
 pub mod trace;
 

@@ -91,6 +91,14 @@ impl Operand {
         }
     }
 
+    /// A value of this operand as a number.
+    pub fn number(self, value: i32) -> f64 {
+        match self.width() {
+            Width::Real => f64::from(real_of(value)),
+            _ => f64::from(value),
+        }
+    }
+
     /// The address, for a current value that of its timer or counter.
     pub fn address(self) -> Address {
         match self {

@@ -10,3 +10,4 @@ pub mod longest_scan;
 pub mod manual;
 pub mod map;
 pub mod native;
+pub mod reals;

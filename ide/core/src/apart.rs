@@ -17,7 +17,6 @@ use crate::build::Files;
 use crate::protocol::plant::words;
 use crate::protocol::{Recording, TestResult};
 use crate::recorder::{Column, figures};
-use crate::scope::number;
 use crate::simulator::built;
 
 /// A wish to simulate.
@@ -98,7 +97,7 @@ fn columns(trace: &Trace) -> (Vec<f64>, Vec<Column>) {
         for ((column, &value), signal) in
             columns.iter_mut().zip(steps.values()).zip(trace.signals())
         {
-            column.push(Some(number(signal.operand, value)));
+            column.push(Some(signal.operand.number(value)));
         }
     }
     times.push((trace.scans() * trace.scan_ms()) as f64);

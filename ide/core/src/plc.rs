@@ -69,7 +69,7 @@ impl Plc {
     /// A PLC that has not answered yet, and is not asked before `begin_ms`.
     pub fn new(framing: Framing, program: Program, place: &str, begin_ms: u64) -> Plc {
         Plc {
-            reals: client::reals::of(&program.image),
+            reals: awl_asm::reals::of(&program.image),
             sampler: Sampler::new(&framing),
             line: Line::new(framing.clone(), PATIENCE_MS),
             framing,
@@ -86,7 +86,7 @@ impl Plc {
     /// The program on the screen is another one. Whether it is the one in the PLC, its next answer
     /// tells.
     pub fn show(&mut self, program: Program) {
-        self.reals = client::reals::of(&program.image);
+        self.reals = awl_asm::reals::of(&program.image);
         let mut state = State::new(program, self.state.place.clone());
         (state.link, state.identity) = (self.state.link.clone(), self.state.identity.clone());
         self.state = state;

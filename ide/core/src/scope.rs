@@ -3,7 +3,7 @@
 
 use awl_asm::Address;
 use awl_sim::machine::Machine;
-use awl_sim::operand::{Operand, Width};
+use awl_sim::operand::Operand;
 use client::value::Form;
 
 use crate::plc::Plc;
@@ -64,9 +64,8 @@ impl Scope {
             return;
         }
         self.next_ms = now_ms + self.every_ms.max(1);
-        let read = |&signal: &Operand| {
-            machine.read(signal).map_or(f64::NAN, |value| number(signal, value))
-        };
+        let read =
+            |&signal: &Operand| machine.read(signal).map_or(f64::NAN, |value| signal.number(value));
         let values = self.signals.iter().map(read).collect();
         self.add(Sample { at_ms: now_ms, scan, values, is_late: false });
     }
@@ -119,14 +118,6 @@ pub fn signal(name: &str, plc: &Plc) -> Result<Operand, String> {
             (address, _) => Operand::At(address),
         }),
         Err(_) => Operand::parse(name, plc.state.program.symbols()).map_err(|e| e.to_string()),
-    }
-}
-
-/// A value as a number.
-pub fn number(operand: Operand, value: i32) -> f64 {
-    match operand.width() {
-        Width::Real => f64::from(f32::from_bits(value as u32)),
-        Width::Bit | Width::Byte | Width::Word | Width::Double => f64::from(value),
     }
 }
 

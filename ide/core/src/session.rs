@@ -234,7 +234,7 @@ impl Session {
             Wish::Look(wish) => self.look(wish).map(|()| None),
             Wish::Apart(ApartWish::Simulate { signals, for_ms, scan_ms, plant }) => {
                 let plant = plant.map(|spec| self.editor.plant(&spec)).transpose()?;
-                let reals = client::reals::of(&build::program(&self.editor)?.image);
+                let reals = awl_asm::reals::of(&build::program(&self.editor)?.image);
                 let plant = plant.as_ref();
                 let wanted = Wanted { signals: &signals, for_ms, scan_ms, plant, reals };
                 answer(apart::simulate(&build::files(&self.editor)?, &wanted)?)

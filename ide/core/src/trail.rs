@@ -4,8 +4,6 @@
 use awl_sim::machine::Machine;
 use awl_sim::operand::Operand;
 
-use crate::scope::number;
-
 /// Most situations that wait to be told, and most values in all of them.
 const WAITING_MAX: usize = 1000;
 const VALUES_MAX: usize = 50_000;
@@ -69,5 +67,5 @@ impl Trail {
 
 fn read(operand: Option<Operand>, machine: &mut impl Machine) -> Option<f64> {
     let operand = operand?;
-    machine.read(operand).ok().map(|value| number(operand, value))
+    machine.read(operand).ok().map(|value| operand.number(value))
 }

@@ -5,6 +5,7 @@ mod mistaken;
 mod output;
 mod report;
 mod serve;
+mod sweep;
 mod test;
 
 use std::ffi::OsString;
@@ -15,7 +16,8 @@ use std::time::{Duration, Instant};
 use anyhow::{Error, Result, ensure};
 use awl_asm::ast::Symbol;
 use awl_asm::files::ensure_distinct;
-use awl_sim::args::{Args, On, TestArgs};
+use awl_asm::report::Messages;
+use awl_sim::args::{Args, On, SweepArgs, TestArgs};
 use awl_sim::machine::{Machine, MachineError};
 use awl_sim::open::Opened;
 use awl_sim::operand::Operand;
@@ -36,16 +38,35 @@ const PATIENCE: Duration = Duration::from_secs(1);
 pub fn main() -> u8 {
     // A program with the name `test` is `./test`.
     let mut arguments = std::env::args_os();
-    if arguments.nth(1).is_some_and(|first| first == "test") {
-        let arguments = [OsString::from("test")].into_iter().chain(arguments);
-        return test::test(&TestArgs::parse_from(arguments)).unwrap_or_else(|error| {
-            anstream::eprint!("{}", told(&error));
-            CANNOT_RUN
-        });
+    match arguments.nth(1).as_ref().and_then(|first| first.to_str()) {
+        Some(name @ "test") => test(&TestArgs::parse_from(after(name, arguments))),
+        Some(name @ "sweep") => {
+            let args = SweepArgs::parse_from(after(name, arguments));
+            ended(sweep::run(&args).map(|()| 0), args.messages)
+        }
+        _ => {
+            let args = Args::parse();
+            ended(simulate(&args), args.messages)
+        }
     }
-    let args = Args::parse();
-    simulate(&args).unwrap_or_else(|error| {
-        errors::show_error(&error, args.messages);
+}
+
+/// What a command is given, with its name first.
+fn after(name: &str, rest: impl Iterator<Item = OsString>) -> impl Iterator<Item = OsString> {
+    [OsString::from(name)].into_iter().chain(rest)
+}
+
+/// The exit code; an error is shown.
+fn ended(result: Result<u8>, messages: Messages) -> u8 {
+    result.unwrap_or_else(|error| {
+        errors::show_error(&error, messages);
+        CANNOT_RUN
+    })
+}
+
+fn test(args: &TestArgs) -> u8 {
+    test::test(args).unwrap_or_else(|error| {
+        anstream::eprint!("{}", told(&error));
         CANNOT_RUN
     })
 }

@@ -54,7 +54,8 @@ pub fn format(args: &Args) -> Result<Format> {
     }
 }
 
-fn ending(path: &Path) -> String {
+/// The ending of a file, in small letters.
+pub fn ending(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 

@@ -62,7 +62,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    pub(super) fn new(scan_ms: u64, trace: Trace) -> Outcome {
+    pub(crate) fn new(scan_ms: u64, trace: Trace) -> Outcome {
         Outcome { scan_ms, trace, ..Outcome::default() }
     }
 

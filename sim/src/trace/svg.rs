@@ -5,12 +5,12 @@
 //! the trace is, the drawing stays small: what changes faster than the eye can follow is drawn as a
 //! shaded band.
 
-mod axis;
-mod colour;
+pub(crate) mod axis;
+pub(crate) mod colour;
 mod curve;
 mod layout;
 mod path;
-mod text;
+pub(crate) mod text;
 mod wave;
 
 use std::io::{self, Write};
@@ -24,6 +24,9 @@ use crate::time::format_time;
 use layout::{Layout, Row};
 use text::{Anchor, label};
 
+/// The font of all drawings: what is there of these.
+pub(crate) const FONT: &str = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
+
 /// Writes the trace. `title` is above the diagram, usually the name of the program.
 pub fn write(trace: &Trace, title: &str, out: &mut dyn Write) -> io::Result<()> {
     let layout = Layout::new(trace);
@@ -32,7 +35,7 @@ pub fn write(trace: &Trace, title: &str, out: &mut dyn Write) -> io::Result<()> 
         .set("viewBox", format!("0 0 {width} {height}"))
         .set("width", width)
         .set("height", height)
-        .set("font-family", "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif")
+        .set("font-family", FONT)
         .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", colour::PAPER))
         .add(heading(trace, title, &layout))
         .add(stripes(&layout))

@@ -21,10 +21,11 @@ mod watch;
 use std::path::PathBuf;
 
 use anyhow::Result;
+use awl_asm::reals;
 use awl_asm::report::ProgramErrors;
 use clap::Parser;
+use client::Program;
 use client::value::Base;
-use client::{Program, reals};
 use plc_isa::{LineSettings, Parity};
 use uno200::program::Files;
 use uno200::transport::{SerialSettings, Target};

@@ -85,8 +85,16 @@ fn simulate(
         let known = Known { symbols: &symbols, overwritten: &overwritten };
         return job(scan_ms, Vec::new()).run(&mut *machine, known, result);
     }
-    let Opened { mut machine, symbols, scan_ms, warnings, networks, default_signals, overwritten } =
-        files.open_host()?;
+    let Opened {
+        mut machine,
+        symbols,
+        scan_ms,
+        warnings,
+        networks,
+        default_signals,
+        overwritten,
+        ..
+    } = files.open_host()?;
     result.warnings = shown(&warnings);
     let known = Known { symbols: &symbols, overwritten: &overwritten };
     if !args.coverage {

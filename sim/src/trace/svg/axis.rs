@@ -129,7 +129,8 @@ pub(super) fn draw(layout: &Layout) -> Group {
     group
 }
 
-fn line(x1: f64, x2: f64, y1: f64, y2: f64, colour: &str) -> Line {
+pub(crate) fn line(x1: f64, x2: f64, y1: f64, y2: f64, colour: &str) -> Line {
+    let [x1, x2, y1, y2] = [x1, x2, y1, y2].map(round);
     Line::new().set("x1", x1).set("x2", x2).set("y1", y1).set("y2", y2).set("stroke", colour)
 }
 

@@ -6,12 +6,12 @@ use plc_isa::Area;
 
 use crate::operand::Operand;
 
-pub(super) const PAPER: &str = "#ffffff";
-pub(super) const INK: &str = "#1c2733";
-pub(super) const FAINT_INK: &str = "#5d6b7a";
+pub(crate) const PAPER: &str = "#ffffff";
+pub(crate) const INK: &str = "#1c2733";
+pub(crate) const FAINT_INK: &str = "#5d6b7a";
 pub(super) const STRIPE: &str = "#f4f6f9";
-pub(super) const GRID: &str = "#d9dfe6";
-pub(super) const AXIS: &str = "#8593a3";
+pub(crate) const GRID: &str = "#d9dfe6";
+pub(crate) const AXIS: &str = "#8593a3";
 
 /// The colour of an operand's wave.
 pub(super) fn of(operand: Operand) -> &'static str {

@@ -5,14 +5,14 @@ use svg::node::element::Text;
 
 /// Which end of the text is at its x.
 #[derive(Clone, Copy)]
-pub(super) enum Anchor {
+pub(crate) enum Anchor {
     Start,
     Middle,
     End,
 }
 
 /// A text at its baseline.
-pub(super) fn label(text: &str, x: f64, y: f64, size: f64, colour: &str, anchor: Anchor) -> Text {
+pub(crate) fn label(text: &str, x: f64, y: f64, size: f64, colour: &str, anchor: Anchor) -> Text {
     let anchor = match anchor {
         Anchor::Start => "start",
         Anchor::Middle => "middle",
@@ -27,7 +27,7 @@ pub(super) fn label(text: &str, x: f64, y: f64, size: f64, colour: &str, anchor:
 }
 
 /// Coordinates with one decimal: finer than any eye, and no digits of rounding errors.
-pub(super) fn round(value: f64) -> f64 {
+pub(crate) fn round(value: f64) -> f64 {
     (value * 10.0).round() / 10.0
 }
 

@@ -3,8 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use awl_asm::Address;
-use awl_asm::disassemble::instructions;
+use crate::address::Address;
+use crate::disassemble::instructions;
 use plc_isa::{Area, Op, Operand, Program, ProgramMemory, Referent, Region, Type, verify};
 
 /// The addresses that an image computes with as reals, and never as whole numbers. MOVD says
@@ -40,8 +40,8 @@ fn address<P: ProgramMemory>(program: &Program<P>, operand: Operand) -> Option<A
 #[cfg(test)]
 mod tests {
     use super::*;
-    use awl_asm::assemble::assemble;
-    use awl_asm::source::Source;
+    use crate::assemble::assemble;
+    use crate::source::Source;
 
     #[test]
     fn only_what_is_computed_with_as_real() {
