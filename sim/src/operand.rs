@@ -1,6 +1,7 @@
 //! What can be set, expected and traced: an address, the current value of a timer or counter, a
 //! real. No access to it.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::ops::RangeInclusive;
 
@@ -80,6 +81,11 @@ impl Operand {
             Operand::Real(_) => Some(self),
             _ => None,
         }
+    }
+
+    /// As a program uses it: as a real, where its double word is one of these.
+    pub fn as_used(self, reals: &BTreeSet<Address>) -> Operand {
+        self.as_real().filter(|_| reals.contains(&self.address())).unwrap_or(self)
     }
 
     /// A value of this operand as people write it.

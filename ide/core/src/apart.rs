@@ -1,9 +1,6 @@
 //! Runs apart from the target, as fast as possible: simulations with their recording, and scenarios
 //! as tests.
 
-use std::collections::BTreeSet;
-
-use awl_asm::Address;
 use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
 use awl_sim::open::{Opened, open_files};
@@ -11,13 +8,20 @@ use awl_sim::operand::Operand;
 use awl_sim::plant::PlantSpec;
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario};
+use awl_sim::sweep::{Crossing, Figures, Point, Sweep, spread, sweep as measure, table};
 use awl_sim::trace::{Signal, Trace, csv, vcd};
 
 use crate::build::Files;
 use crate::protocol::plant::words;
-use crate::protocol::{Recording, TestResult};
+use crate::protocol::{FrequencyResponse, Path, Recording, SweepFigures, TestResult};
 use crate::recorder::{Column, figures};
 use crate::simulator::built;
+
+/// So many frequencies are measured.
+const SWEEP_POINTS: usize = 25;
+
+/// A sweep that may take more scans takes too long for a page.
+const SWEEP_SCANS_MAX: f64 = 5e7;
 
 /// A wish to simulate.
 pub struct Wanted<'a> {
@@ -29,20 +33,15 @@ pub struct Wanted<'a> {
     pub scan_ms: u32,
     /// What is wired to the PLC.
     pub plant: Option<&'a PlantSpec>,
-    /// The double words that the program computes with as reals.
-    pub reals: BTreeSet<Address>,
 }
 
 /// Runs the program for some time.
 pub fn simulate(files: &Files, wanted: &Wanted<'_>) -> Result<Recording, String> {
-    let Opened { mut machine, symbols, scan_ms, .. } = opened(files)?;
-    let scan_ms = match wanted.scan_ms {
-        0 => scan_ms.unwrap_or(1),
-        scan_ms => u64::from(scan_ms),
-    };
+    let Opened { mut machine, symbols, scan_ms, reals, .. } = opened(files)?;
+    let scan_ms = scan_time(wanted.scan_ms, scan_ms);
     let parse = |name: &String| {
         let signal = Signal::parse(name, &symbols).map_err(|error| error.to_string())?;
-        Ok::<_, String>(in_program(signal, &wanted.reals))
+        Ok::<_, String>(Signal { operand: signal.operand.as_used(&reals), ..signal })
     };
     let signals = wanted.signals.iter().map(parse).collect::<Result<Vec<_>, _>>()?;
     let plant = wanted.plant.map(built).transpose()?;
@@ -53,13 +52,83 @@ pub fn simulate(files: &Files, wanted: &Wanted<'_>) -> Result<Recording, String>
     recording(&outcome)
 }
 
-/// As a real, if the program uses it as one.
-fn in_program(signal: Signal, reals: &BTreeSet<Address>) -> Signal {
-    match signal.operand {
-        Operand::At(address) if reals.contains(&address) => {
-            Signal { operand: Operand::Real(address), ..signal }
-        }
-        _ => signal,
+/// The time from scan start to scan start: what is wanted, or what the program says.
+fn scan_time(wanted_ms: u32, programs_ms: Option<u64>) -> u64 {
+    match wanted_ms {
+        0 => programs_ms.unwrap_or(1),
+        scan_ms => u64::from(scan_ms),
+    }
+}
+
+/// Measures the frequency response of a path through the program.
+pub fn sweep(
+    files: &Files,
+    path: &Path,
+    scan_ms: u32,
+    plant: Option<&PlantSpec>,
+) -> Result<FrequencyResponse, String> {
+    let Opened { mut machine, symbols, scan_ms: programs_ms, reals, .. } = opened(files)?;
+    let mut operand = |name: &str| {
+        let operand = Operand::parse(name, &symbols).map_err(|error| error.to_string())?;
+        machine.read(operand).map_err(|error| error.to_string())?;
+        Ok::<_, String>(operand.as_used(&reals))
+    };
+    let excite = operand(&path.excite)?;
+    let from = path.from.as_deref().map(&mut operand).transpose()?;
+    let wanted = Sweep {
+        excite,
+        from: from.unwrap_or(excite),
+        to: operand(&path.to)?,
+        frequencies: spread(path.low, path.high, SWEEP_POINTS),
+        amplitude: path.amplitude,
+        offset: path.offset,
+        rest_ms: None,
+        scan_ms: scan_time(scan_ms, programs_ms),
+    };
+    ensure_sensible(path, &wanted)?;
+    let plant = plant.map(built).transpose()?;
+    let points = measure(&mut *machine, &wanted, &Scenario::default(), plant, &mut |_| {});
+    let points = points.map_err(|error| error.to_string())?;
+    let mut csv = Vec::new();
+    table::write_csv(&points, &mut csv).map_err(|error| error.to_string())?;
+    let column = |value: fn(&Point) -> f64| points.iter().map(value).collect();
+    Ok(FrequencyResponse {
+        frequencies: column(|point| point.hertz),
+        gains: column(Point::decibels),
+        phases: points.iter().map(|point| point.phase).collect(),
+        distortions: column(|point| point.distortion),
+        settled: points.iter().map(|point| point.is_settled).collect(),
+        figures: figures_of(&points),
+        csv: String::from_utf8_lossy(&csv).into_owned(),
+    })
+}
+
+/// Numbers come as somebody has typed them.
+fn ensure_sensible(path: &Path, wanted: &Sweep) -> Result<(), String> {
+    let is_band = path.low > 0.0 && path.low < path.high && path.high.is_finite();
+    if !is_band {
+        return Err("the lowest frequency is above 0 Hz and below the highest".to_owned());
+    }
+    let is_real = |number: f64| (number as f32).is_finite();
+    if !(path.amplitude > 0.0 && is_real(path.amplitude) && is_real(path.offset)) {
+        return Err("the amplitude is above 0; a REAL can hold it and the offset".to_owned());
+    }
+    match wanted.scans_max() {
+        scans if scans > SWEEP_SCANS_MAX => Err(format!(
+            "this may take {scans:.0} scans, and {SWEEP_SCANS_MAX:.0} are the most here: choose a \
+                higher lowest frequency or a longer step"
+        )),
+        _ => Ok(()),
+    }
+}
+
+fn figures_of(points: &[Point]) -> SweepFigures {
+    let Figures { bandwidth, gain_crossover, phase_crossover } = Figures::of(points);
+    let pair = |crossing: Crossing| (crossing.hertz, crossing.margin);
+    SweepFigures {
+        bandwidth,
+        phase_margin: gain_crossover.map(pair),
+        gain_margin: phase_crossover.map(pair),
     }
 }
 

@@ -165,6 +165,8 @@ pub enum LookWish {
 pub enum ApartWish {
     /// Runs the program. `scan_ms` 0: as it says itself. Answer: [`Recording`].
     Simulate { signals: Vec<String>, for_ms: u32, scan_ms: u32, plant: Option<String> },
+    /// Measures a frequency response. `scan_ms` as above. Answer: [`FrequencyResponse`].
+    Sweep { path: Path, scan_ms: u32, plant: Option<String> },
     /// Runs a scenario of the project. Answer: [`TestResult`].
     Test { file: String },
     /// Runs one that is not in it with the program that is run, as the hidden ones of exercises.
@@ -492,6 +494,58 @@ pub struct Recording {
     pub plant: Option<String>,
     /// How often samples are missing.
     pub gaps: u32,
+}
+
+/// The path whose frequency response is measured.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Path {
+    /// What the sine is written to.
+    pub excite: String,
+    /// Where the path begins, if that is not what is excited.
+    pub from: Option<String>,
+    /// Where it ends.
+    pub to: String,
+    /// Lowest frequency in Hz, above 0.
+    pub low: f64,
+    /// Highest one, above the lowest.
+    pub high: f64,
+    /// The amplitude of the sine, above 0.
+    pub amplitude: f64,
+    /// Around which value it swings.
+    pub offset: f64,
+}
+
+/// A frequency response: a value for each frequency.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct FrequencyResponse {
+    /// In Hz, ascending.
+    pub frequencies: Vec<f64>,
+    /// In decibels; not finite where nothing comes out.
+    pub gains: Vec<f64>,
+    /// In degrees; `None` where nothing comes out.
+    pub phases: Vec<Option<f64>>,
+    /// What comes out besides the sine, for the sine.
+    pub distortions: Vec<f64>,
+    /// Whether it had settled.
+    pub settled: Vec<bool>,
+    /// Bandwidth and margins, where they are in the band.
+    pub figures: SweepFigures,
+    /// The file that awl-sim would write.
+    pub csv: String,
+}
+
+/// What is read off a frequency response.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct SweepFigures {
+    /// Where the gain has fallen by 3 dB, in Hz.
+    pub bandwidth: Option<f64>,
+    /// Where the gain is 0 dB, in Hz, and the phase margin in degrees.
+    pub phase_margin: Option<(f64, f64)>,
+    /// Where the phase is -180 degrees, in Hz, and the gain margin in dB.
+    pub gain_margin: Option<(f64, f64)>,
 }
 
 /// How a scenario went.

@@ -234,10 +234,14 @@ impl Session {
             Wish::Look(wish) => self.look(wish).map(|()| None),
             Wish::Apart(ApartWish::Simulate { signals, for_ms, scan_ms, plant }) => {
                 let plant = plant.map(|spec| self.editor.plant(&spec)).transpose()?;
-                let reals = awl_asm::reals::of(&build::program(&self.editor)?.image);
                 let plant = plant.as_ref();
-                let wanted = Wanted { signals: &signals, for_ms, scan_ms, plant, reals };
+                let wanted = Wanted { signals: &signals, for_ms, scan_ms, plant };
                 answer(apart::simulate(&build::files(&self.editor)?, &wanted)?)
+            }
+            Wish::Apart(ApartWish::Sweep { path, scan_ms, plant }) => {
+                let plant = plant.map(|spec| self.editor.plant(&spec)).transpose()?;
+                let files = build::files(&self.editor)?;
+                answer(apart::sweep(&files, &path, scan_ms, plant.as_ref())?)
             }
             Wish::Apart(ApartWish::Test { file }) => self.test(&file),
             Wish::Apart(ApartWish::Check { name, text, plants }) => {

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use ide_core::protocol::ladder::Ladder;
 use ide_core::protocol::{
-    ApartWish, Event, File, Line, LookWish, Problem, ProjectWish, Recording, Request, Status,
+    ApartWish, Event, File, FrequencyResponse, Line, LookWish, Path, Problem, ProjectWish, Recording, Request, Status,
     TargetWish, TestResult, TextWish, Value, Wish,
 };
 use recorded::Recorded;
@@ -282,6 +282,44 @@ fn a_simulated_real_is_a_number() {
     let wanted = ApartWish::Simulate { signals, for_ms: 3, scan_ms: 1, plant: None };
     let recording: Recording = page.answer(Wish::Apart(wanted));
     assert_eq!(recording.csv, "time_ms,scan,Main.Level\n0,1,0.5\n1,2,1.0\n2,3,1.5\n");
+}
+
+#[test]
+fn the_frequency_response_of_a_lag_is_measured() {
+    let text = "PROGRAM Main\nVAR\n    X : REAL;\n    L : LAG;\nEND_VAR\n\
+        L(X := X, T1 := T#200ms, TS := T#10ms);\nEND_PROGRAM\n";
+    let mut page = Page::with("a.st", text);
+    assert_eq!(page.problems(), []);
+    let path = Path {
+        excite: "Main.X".to_owned(),
+        from: None,
+        to: "Main.L.Y".to_owned(),
+        low: 0.1,
+        high: 10.0,
+        amplitude: 1.0,
+        offset: 0.5,
+    };
+    let wish = |path: &Path| {
+        Wish::Apart(ApartWish::Sweep { path: path.clone(), scan_ms: 10, plant: None })
+    };
+    let response: FrequencyResponse = page.answer(wish(&path));
+    let bandwidth = response.figures.bandwidth.unwrap_or_default();
+    assert!((bandwidth - 0.808).abs() < 0.002, "{bandwidth}");
+    assert_eq!((response.frequencies.len(), response.csv.lines().count()), (25, 26));
+    assert!(response.phases[0].is_some_and(|phase| (-8.0..-6.0).contains(&phase)));
+    assert!(response.settled.iter().all(|settled| *settled));
+    for (wrong, said) in [
+        (Path { to: "Main.L.Z".to_owned(), ..path.clone() }, "Main.L.Z"),
+        (Path { low: 0.0, ..path.clone() }, "above 0 Hz"),
+        (Path { low: 20.0, ..path.clone() }, "below the highest"),
+        (Path { low: 1e-9, ..path.clone() }, "scans"),
+        (Path { high: 60.0, ..path.clone() }, "less than 50.00 Hz"),
+        (Path { amplitude: 0.0, ..path.clone() }, "amplitude"),
+        (Path { excite: "Main.L.Y".to_owned(), ..path.clone() }, "writes"),
+    ] {
+        let message = page.refusal(wish(&wrong));
+        assert!(message.contains(said), "{said}: {message}");
+    }
 }
 
 #[test]

@@ -36,7 +36,7 @@ pub fn run(args: &SweepArgs) -> Result<()> {
     let machine = &mut *machine;
     let mut operand = |option: &str, text: &str| {
         let found = operand(option, text, &symbols, machine)?;
-        Ok::<_, Error>(if reals.contains(&found.address()) { as_real(found) } else { found })
+        Ok::<_, Error>(found.as_used(&reals))
     };
     let excite = operand("--excite", &args.excite)?;
     let from = args.from.as_deref().map(|text| operand("--from", text)).transpose()?;
@@ -80,10 +80,6 @@ fn operand(
     };
     let (origin, text) = (option.to_string(), text.to_string());
     Err(Problems { origin, text, list: vec![problem] }.into())
-}
-
-fn as_real(operand: Operand) -> Operand {
-    operand.as_real().unwrap_or(operand)
 }
 
 /// What `--set` says, as the scenario that it is a part of.

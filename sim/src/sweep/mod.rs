@@ -57,6 +57,21 @@ pub struct Sweep {
     pub scan_ms: u64,
 }
 
+impl Sweep {
+    /// How many scans it takes at most: where nothing settles.
+    pub fn scans_max(&self) -> f64 {
+        let windows = self.frequencies.iter().map(|&hertz| Window::of(hertz, self.scan_ms).scans);
+        let rest = self.rest_ms() as f64 / self.scan_ms as f64;
+        rest + windows.map(|scans| scans as f64 * MEASUREMENTS_MAX as f64).sum::<f64>()
+    }
+
+    /// How long the offset alone is there first.
+    fn rest_ms(&self) -> u64 {
+        let lowest = self.frequencies.first().copied().unwrap_or(f64::INFINITY);
+        self.rest_ms.unwrap_or((REST_PERIODS * 1000.0 / lowest) as u64)
+    }
+}
+
 /// What was measured at a frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
@@ -245,10 +260,7 @@ struct Bench<'a, M: ?Sized> {
 
 impl<M: Machine + ?Sized> Bench<'_, M> {
     fn rest(&mut self) -> Result<(), SweepError> {
-        let lowest = self.wanted.frequencies.first().copied().unwrap_or(f64::INFINITY);
-        let usual = || (REST_PERIODS * 1000.0 / lowest) as u64;
-        let rest_ms = self.wanted.rest_ms.unwrap_or_else(usual);
-        for _ in 0..rest_ms.div_ceil(self.wanted.scan_ms) {
+        for _ in 0..self.wanted.rest_ms().div_ceil(self.wanted.scan_ms) {
             self.scan(self.wanted.offset)?;
         }
         Ok(())

@@ -172,6 +172,33 @@ export interface Recording {
   gaps: number;
 }
 
+/** The path whose frequency response is measured; frequencies in Hz. */
+export interface Path {
+  excite: string;
+  from: string | null;
+  to: string;
+  low: number;
+  high: number;
+  amplitude: number;
+  offset: number;
+}
+
+/** A value for each frequency: gains in dB, phases in degrees, null where nothing comes out. */
+export interface FrequencyResponse {
+  frequencies: number[];
+  gains: (number | null)[];
+  phases: (number | null)[];
+  distortions: number[];
+  settled: boolean[];
+  figures: {
+    bandwidth: number | null;
+    /** Where, and how much. */
+    phaseMargin: [number, number] | null;
+    gainMargin: [number, number] | null;
+  };
+  csv: string;
+}
+
 /** Something in a plant that can be set. */
 export interface Control {
   name: string;
@@ -229,6 +256,10 @@ export interface Questions {
   simulate: {
     wish: { signals: string[]; forMs: number; scanMs: number; plant: string | null };
     answer: Recording;
+  };
+  sweep: {
+    wish: { path: Path; scanMs: number; plant: string | null };
+    answer: FrequencyResponse;
   };
   test: { wish: { file: string }; answer: TestResult };
   check: { wish: { name: string; text: string; plants: File[] }; answer: TestResult };

@@ -9,7 +9,7 @@ import { Plots } from "../plot/plots";
 import type { Chosen } from "../project/chosen";
 import { save } from "../project/files";
 import type { Project } from "../project/project";
-import { t } from "../text/language";
+import { t, type Key } from "../text/language";
 import { Lazy } from "./lazy";
 import type { Operands } from "./operands";
 import { labelled } from "./scope";
@@ -36,6 +36,11 @@ export class Capture {
     const { StepTable } = await import("./step_table");
     return new StepTable(element, () => this.recording, this.plots.cursors);
   });
+  private sweep = new Lazy("sweep", async (element) => {
+    const { Sweep } = await import("./sweep");
+    const stepMs = () => (this.stepMs.reportValidity() ? Number(this.stepMs.value) : null);
+    return new Sweep(element, this.core, this.project, this.operands, stepMs);
+  });
   private words = h("p", { class: "hint", attributes: { "aria-live": "polite" } });
   private recording: Recording | undefined;
   private isShown = false;
@@ -43,7 +48,7 @@ export class Capture {
   constructor(
     private core: Core,
     private project: Project,
-    operands: Operands,
+    private operands: Operands,
     chosen: Chosen,
   ) {
     this.signals = new Signals(operands, chosen, "capture", () => {});
@@ -60,7 +65,7 @@ export class Capture {
       this.record,
     );
     this.result.append(this.saveButtons(), this.plots.element, this.cursors.element, this.table());
-    this.result.append(this.stepPart());
+    this.cursors.changed = this.part("stepResponse", this.step, this.result);
     this.element = h(
       "div",
       {},
@@ -70,6 +75,7 @@ export class Capture {
       this.words,
       this.result,
     );
+    this.part("frequencyResponse", this.sweep, this.element);
     core.on("recording", ({ doneMs, gaps }) => this.showProgress(doneMs, gaps));
     core.on("recorded", ({ recording, ended }) => this.take(recording, ended));
   }
@@ -96,13 +102,14 @@ export class Capture {
     return h("table", { class: "figures" }, h("thead", {}, h("tr", {}, ...heads)), this.figures);
   }
 
-  private stepPart(): HTMLElement {
-    const summary = h("summary", { text: "stepResponse" });
-    const part = h("details", {}, summary, this.step.element) as HTMLDetailsElement;
-    const show = () => this.step.shown(part.open);
+  /** A part that is opened; gives what it does when what it shows has changed. */
+  private part(text: Key, contents: Lazy, home: HTMLElement): () => void {
+    const summary = h("summary", { text });
+    const part = h("details", {}, summary, contents.element) as HTMLDetailsElement;
+    const show = () => contents.shown(part.open);
     part.addEventListener("toggle", show);
-    this.cursors.changed = show;
-    return part;
+    home.append(part);
+    return show;
   }
 
   /** For how long, and from step to step; null where that is not valid, which is shown. */

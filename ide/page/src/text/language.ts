@@ -2,6 +2,7 @@
 import type { CHART_WORDS } from "./chart_words";
 import type { DIAGRAM_WORDS } from "./diagram_words";
 import type { STEP_WORDS } from "./step_words";
+import type { SWEEP_WORDS } from "./sweep_words";
 import { TABLE } from "./table";
 import { store, storedText } from "../project/stored";
 
@@ -11,7 +12,8 @@ export type Key =
   | keyof typeof TABLE
   | keyof typeof CHART_WORDS
   | keyof typeof DIAGRAM_WORDS
-  | keyof typeof STEP_WORDS;
+  | keyof typeof STEP_WORDS
+  | keyof typeof SWEEP_WORDS;
 export type Args = (string | number)[];
 
 const STORED = "uno200.language";

@@ -476,6 +476,11 @@ export const TABLE = {
   greatest: ["Maximum", "Maximum", "Máximo"],
   mean: ["Mean", "Mittel", "Media"],
   stepResponse: ["Step response", "Sprungantwort", "Respuesta al escalón"],
+  frequencyResponse: [
+    "Frequency response (Bode plot)",
+    "Frequenzgang (Bode-Diagramm)",
+    "Respuesta en frecuencia (diagrama de Bode)",
+  ],
 
   // Plants
   plantChoice: ["Model", "Modell", "Modelo"],
