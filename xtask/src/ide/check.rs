@@ -62,6 +62,7 @@ fn use_page(folder: &Path) -> Result<()> {
     test("first_steps.mjs", [page])?;
     test("page.mjs", [page, &root().join(FIGURES)])?;
     test("step_response.mjs", [page])?;
+    test("frequency_response.mjs", [page])?;
     test("plants.mjs", [page])?;
     test("languages.mjs", [page])?;
     test("charts.mjs", [page])?;
