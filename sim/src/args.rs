@@ -223,10 +223,6 @@ pub struct SweepArgs {
     #[arg(long, value_name = "TIME", value_parser = parse_scan_time)]
     pub scan_time: Option<u64>,
 
-    /// What runs the program
-    #[arg(long, value_name = "MACHINE", value_enum, default_value_t = On::Host)]
-    pub on: On,
-
     /// A file with symbols of the program; can be given several times
     #[arg(long, value_name = "F")]
     pub symbols: Vec<PathBuf>,

@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 
 use ide_core::protocol::ladder::Ladder;
 use ide_core::protocol::{
-    ApartWish, Event, File, FrequencyResponse, Line, LookWish, Path, Problem, ProjectWish, Recording, Request, Status,
-    TargetWish, TestResult, TextWish, Value, Wish,
+    ApartWish, Event, File, FrequencyResponse, Line, LookWish, Path, Problem, ProjectWish,
+    Recording, Request, Status, TargetWish, TestResult, TextWish, Value, Wish,
 };
 use recorded::Recorded;
 

@@ -25,7 +25,9 @@ async function openText(text) {
 }
 
 async function near(name, numbers, tolerance) {
-  const found = [...(await figure(name)).matchAll(/-?\d+(\.\d+)?/g)].map((match) => Number(match[0]));
+  const found = [...(await figure(name)).matchAll(/-?\d+(\.\d+)?/g)].map((match) =>
+    Number(match[0]),
+  );
   assert.equal(found.length, numbers.length, `${name}: ${found}`);
   for (const [index, number] of numbers.entries())
     assert(Math.abs(found[index] / number - 1) <= tolerance, `${name}: ${found}, not ${numbers}`);
@@ -62,6 +64,7 @@ await figures.waitFor();
 await near("Bandwidth", [0.808], 0.005);
 assert.equal(await figure("Phase margin"), "–", "the gain never comes from above 0 dB");
 assert.equal(await capture.locator(".sweep canvas").count(), 2);
+assert.equal(await capture.locator(".sweep .bad").innerText(), "", "nothing to be careful with");
 console.log("a lag: measured by keyboard, its bandwidth is that of its equation");
 
 // The pointer reads a frequency off.

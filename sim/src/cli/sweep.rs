@@ -30,8 +30,7 @@ pub fn run(args: &SweepArgs) -> Result<()> {
     ensure_distinct(&inputs, args.output.as_deref().as_slice())?;
     let format = format(args)?;
     let files = ProgramFiles { program, symbols: tables, data: data.as_deref() };
-    let Opened { mut machine, symbols, scan_ms, warnings, reals, .. } =
-        files.open(args.on.into())?;
+    let Opened { mut machine, symbols, scan_ms, warnings, reals, .. } = files.open_host()?;
     errors::show(&warnings, args.messages);
     let machine = &mut *machine;
     let mut operand = |option: &str, text: &str| {

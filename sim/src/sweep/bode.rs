@@ -1,5 +1,5 @@
-//! A frequency response as a Bode plot (SVG): the gain in decibels and the phase in degrees over the
-//! logarithm of the frequency. The same points give the same text.
+//! A frequency response as a Bode plot (SVG): the gain in decibels and the phase in degrees over
+//! the logarithm of the frequency. The same points give the same text.
 
 use std::io::{self, Write};
 

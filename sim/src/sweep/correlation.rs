@@ -60,8 +60,8 @@ impl Correlation {
         Phasor { real: self.in_phase * scale, imaginary: self.ahead * scale }
     }
 
-    /// The effective value of all that is neither sine nor offset, for that of the sine; 0 without a
-    /// sine.
+    /// The effective value of all that is neither sine nor offset, for that of the sine; 0 without
+    /// a sine.
     pub(super) fn distortion(&self) -> f64 {
         let mean = self.sum / self.weights;
         let varying = self.squares / self.weights - mean * mean;

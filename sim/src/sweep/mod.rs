@@ -26,8 +26,12 @@ const PERIODS_MIN: f64 = 4.0;
 /// At least so many scans are: a frequency is never further from the wanted one than half a scan in
 /// them.
 const SCANS_MIN: f64 = 100.0;
-/// What begins is over when two measurements, one after the other, differ by no more than this part.
+/// What begins is over when two measurements, one after the other, differ by no more than this
+/// part.
 const SETTLED: f64 = 1e-3;
+/// What dies away slowly hardly counts in gain and phase, but in the distortion: that is measured
+/// until it differs by no more than this part, or this much.
+const DISTORTION_SETTLED: (f64, f64) = (0.1, 1e-3);
 /// So often a frequency is measured at most.
 const MEASUREMENTS_MAX: usize = 20;
 /// Less than this part of the excitation is no sine but what rounding has left.
@@ -50,8 +54,8 @@ pub struct Sweep {
     pub amplitude: f64,
     /// Around which value it swings.
     pub offset: f64,
-    /// How long the offset alone is there first, in milliseconds; two periods of the lowest frequency
-    /// if nothing is said.
+    /// How long the offset alone is there first, in milliseconds; two periods of the lowest
+    /// frequency if nothing is said.
     pub rest_ms: Option<u64>,
     /// Time from scan start to scan start in milliseconds, at least 1.
     pub scan_ms: u64,
@@ -79,8 +83,8 @@ pub struct Point {
     pub hertz: f64,
     /// The amplitude at the path's end for that at its beginning.
     pub gain: f64,
-    /// How far the end is ahead of the beginning, in degrees, without jumps from one frequency to the
-    /// next; nothing where no sine comes out.
+    /// How far the end is ahead of the beginning, in degrees, without jumps from one frequency to
+    /// the next; nothing where no sine comes out.
     pub phase: Option<f64>,
     /// What comes out besides the sine, for the sine: both as effective values. Of a path that is
     /// linear next to nothing.
@@ -174,8 +178,8 @@ pub fn usual_band(scan_ms: u64) -> (f64, f64) {
     (scans_a_second / 1000.0, scans_a_second / 10.0)
 }
 
-/// Measures. `scenario`: what else is set; `plant`: what is wired to the PLC; `progress` is told how
-/// many frequencies are done.
+/// Measures. `scenario`: what else is set; `plant`: what is wired to the PLC; `progress` is told
+/// how many frequencies are done.
 pub fn sweep(
     machine: &mut (impl Machine + ?Sized),
     wanted: &Sweep,
@@ -304,23 +308,26 @@ impl<M: Machine + ?Sized> Bench<'_, M> {
     /// `before`: the phase of the frequency before.
     fn point(&mut self, window: Window, before: Option<f64>) -> Result<Point, SweepError> {
         let hertz = window.hertz(self.wanted.scan_ms);
-        let mut last: Option<Phasor> = None;
+        let mut last: Option<(Phasor, f64)> = None;
         let mut count = 0;
         loop {
             let [from, to] = self.measure(window)?;
             if from.sine().size() <= NOTHING * self.wanted.amplitude {
                 return Err(SweepError::Still(self.wanted.from, hertz));
             }
-            let ratio = to.sine().over(from.sine());
+            let (ratio, distortion) = (to.sine().over(from.sine()), to.distortion());
             let is_settled =
-                last.is_some_and(|last| ratio.minus(last).size() <= SETTLED * ratio.size());
+                last.is_some_and(|(last, _)| ratio.minus(last).size() <= SETTLED * ratio.size());
+            let (part, least) = DISTORTION_SETTLED;
+            let is_pure = last
+                .is_some_and(|(_, last)| (distortion - last).abs() <= least.max(part * distortion));
             count += 1;
-            if is_settled || count == MEASUREMENTS_MAX {
+            if is_settled && is_pure || count == MEASUREMENTS_MAX {
                 let gain = ratio.size();
                 let phase = (gain > 0.0).then(|| continued(ratio.degrees(), before));
-                return Ok(Point { hertz, gain, phase, distortion: to.distortion(), is_settled });
+                return Ok(Point { hertz, gain, phase, distortion, is_settled });
             }
-            last = Some(ratio);
+            last = Some((ratio, distortion));
         }
     }
 }

@@ -8,10 +8,22 @@ import { t, type Key } from "../text/language";
 
 const HEIGHT = 190;
 const AXIS_WIDTH = 62;
+/** A band that has more powers of ten than two is labelled at them only. */
+const WIDE = 150;
 const CURVES = [
   { column: "gains", caption: "sweepGain", stroke: "signal-1" },
-  { column: "phases", caption: "sweepPhase", stroke: "signal-2" },
-] as const satisfies { column: keyof FrequencyResponse; caption: Key; stroke: string }[];
+  {
+    column: "phases",
+    caption: "sweepPhase",
+    stroke: "signal-2",
+    steps: [1, 5, 15, 30, 45, 90, 180, 360, 720],
+  },
+] as const satisfies {
+  column: keyof FrequencyResponse;
+  caption: Key;
+  stroke: string;
+  steps?: number[];
+}[];
 
 export class Bode {
   readonly element = h("div", { class: "plots" });
@@ -46,6 +58,10 @@ export class Bode {
     const caption = t(curve.caption);
     const holder = h("figure", { class: "strip" }, h("figcaption", {}, caption));
     this.element.append(holder);
+    const { frequencies } = response;
+    const [low, high] = [frequencies[0] ?? 1, frequencies.at(-1) ?? 10];
+    // Between the powers of ten where there is room.
+    const shown = high / low > WIDE ? [1] : [1, 2, 5];
     const axis = { stroke: colour("muted"), grid: { stroke: colour("grid"), width: 1 } };
     return new uPlot(
       {
@@ -53,10 +69,16 @@ export class Bode {
         height: HEIGHT,
         padding: [8, 12, 2, 0],
         legend: { show: false },
-        scales: { x: { time: false, distr: 3 } },
+        scales: { x: { time: false, distr: 3, range: [low, high] } },
         axes: [
-          { ...axis, values: (_, splits) => splits.map(frequencyWords) },
-          { ...axis, size: AXIS_WIDTH },
+          {
+            ...axis,
+            filter: (_, splits) =>
+              splits.map((split) => (shown.includes(digit(split)) ? split : null)),
+            values: (_, splits) =>
+              splits.map((split) => (split === null ? "" : `${Number(split.toPrecision(3))} Hz`)),
+          },
+          { ...axis, size: AXIS_WIDTH, ...("steps" in curve ? { incrs: [...curve.steps] } : {}) },
         ],
         series: [
           {},
@@ -70,15 +92,13 @@ export class Bode {
         cursor: { y: false, drag: { x: false, y: false }, sync: { key: "uno200-bode" } },
         hooks: { setCursor: [(plot) => this.pointed(plot.cursor.idx ?? null)] },
       },
-      [response.frequencies, response[curve.column]],
+      [frequencies, response[curve.column]],
       holder,
     );
   }
 }
 
-/** Between the powers of ten only what has room: one, two and five times. */
-function frequencyWords(hertz: number | null): string {
-  if (hertz === null) return "";
-  const digit = Math.round(hertz / 10 ** Math.floor(Math.log10(hertz) + 1e-9));
-  return [1, 2, 5].includes(digit) ? `${Number(hertz.toPrecision(3))} Hz` : "";
+/** The first digit of a line of the axis, which is a round number. */
+function digit(hertz: number): number {
+  return Math.round(hertz / 10 ** Math.floor(Math.log10(hertz) + 1e-9));
 }

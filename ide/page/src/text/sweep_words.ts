@@ -17,7 +17,7 @@ export const SWEEP_WORDS = {
   sweepLow: ["From Hz", "Von Hz", "Desde Hz"],
   sweepHigh: ["To Hz", "Bis Hz", "Hasta Hz"],
   sweepAmplitude: ["Amplitude", "Amplitude", "Amplitud"],
-  sweepOffset: ["Around", "Um", "Alrededor de"],
+  sweepOffset: ["Offset", "Mittelwert", "Valor medio"],
   sweepMeasure: ["Measure", "Messen", "Medir"],
   sweeping: ["Measuring…", "Es wird gemessen…", "Midiendo…"],
   sweepGain: ["Gain in dB", "Verstärkung in dB", "Ganancia en dB"],
