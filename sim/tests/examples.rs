@@ -58,7 +58,7 @@ fn every_example_does_what_its_scenario_expects() {
             assert!(outcome.met >= 20, "{stem} expects only {} values", outcome.met);
         }
     }
-    assert_eq!(count, 22);
+    assert_eq!(count, 23);
 }
 
 /// What the cost of diagrams is compared with does the same.

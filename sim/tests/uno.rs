@@ -381,6 +381,7 @@ fn loops_settle_on_a_board() {
     let of = |name: &str| examples().join("fbd").join(name).with_extension("scn");
     assert_example_does_what_it_shall(&of("rc_circuit"), Target::Uno);
     assert_example_does_what_it_shall(&of("rc_circuit"), Target::UnoNative);
+    assert_example_does_what_it_shall(&of("excitation"), Target::Uno);
     // Translated it is too large.
     assert_example_does_what_it_shall(&of("motor_speed"), Target::Uno);
 }

@@ -67,7 +67,7 @@ export class Bode {
       {
         width: this.width(),
         height: HEIGHT,
-        padding: [8, 12, 2, 0],
+        padding: [8, 22, 2, 0],
         legend: { show: false },
         scales: { x: { time: false, distr: 3, range: [low, high] } },
         axes: [
