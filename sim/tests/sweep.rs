@@ -105,6 +105,7 @@ fn mistakes_are_told_at_their_place() {
     for (more, expected) in [
         (&["--to", "Main.Slow.Z"][..], "--to:1:1"),
         (&["--to", "Main.Slow.Y", "--set", "Main.Count = 9, Main.Lmp = 1"], "--set:1:17"),
+        (&["--to", "Main.Slow.Y", "--set", "expect Main.Count = 9"], "nothing can be expected"),
         (&["--to", "Main.Slow.Y", "--band", "1Hz..100Hz"], "100.0 Hz needs more than two scans"),
         (&["--to", "Main.Slow.Y", "--from", "Main.Count"], "VW"),
         (&["--to", "Main.Slow.Y", "--band", "10..1"], "the lower frequency is first"),

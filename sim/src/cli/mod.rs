@@ -36,7 +36,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Runs the command and gives its exit code.
 pub fn main() -> u8 {
-    // A program with the name `test` is `./test`.
+    // Programs with the names `test` and `sweep` are `./test` and `./sweep`.
     let mut arguments = std::env::args_os();
     match arguments.nth(1).as_ref().and_then(|first| first.to_str()) {
         Some(name @ "test") => test(&TestArgs::parse_from(after(name, arguments))),

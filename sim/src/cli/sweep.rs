@@ -91,14 +91,22 @@ fn settings(
     let Some(text) = &args.set else { return Ok(Scenario::default()) };
     let mut has_operand = |operand| access(machine, operand);
     let context = Context { symbols, plant, has_operand: &mut has_operand };
-    Scenario::parse("--set", &format!("{AT_START}{text}"), context).map_err(|mut problems| {
-        for problem in &mut problems.list {
+    let problems = |list| Problems { origin: "--set".to_string(), text: text.clone(), list };
+    let scenario = Scenario::parse("--set", &format!("{AT_START}{text}"), context);
+    let scenario = scenario.map_err(|mut found| {
+        for problem in &mut found.list {
             let place = |at: usize| at.saturating_sub(AT_START.len());
             problem.span = place(problem.span.start)..place(problem.span.end);
         }
-        problems.text.clone_from(text);
-        problems.into()
-    })
+        problems(found.list)
+    })?;
+    let Scenario { expectations, plant_expectations, sent, rules, .. } = &scenario;
+    let expects = [expectations.len(), plant_expectations.len(), sent.len(), rules.len()];
+    if expects != [0; 4] {
+        let why = "nothing can be expected here: a sweep tells what it has measured";
+        return Err(problems(vec![Problem::new(0..text.len(), why)]).into());
+    }
+    Ok(scenario)
 }
 
 /// The format that is asked for; without one that of the file.
