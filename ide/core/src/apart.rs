@@ -1,6 +1,7 @@
 //! Runs apart from the target, as fast as possible: simulations with their recording, and scenarios
 //! as tests.
 
+use awl_asm::reals;
 use awl_sim::machine::Machine;
 use awl_sim::machine::host::Host;
 use awl_sim::open::{Opened, open_files};
@@ -37,7 +38,8 @@ pub struct Wanted<'a> {
 
 /// Runs the program for some time.
 pub fn simulate(files: &Files, wanted: &Wanted<'_>) -> Result<Recording, String> {
-    let Opened { mut machine, symbols, scan_ms, reals, .. } = opened(files)?;
+    let Opened { mut machine, symbols, scan_ms, image, .. } = opened(files)?;
+    let reals = reals::of(&image);
     let scan_ms = scan_time(wanted.scan_ms, scan_ms);
     let parse = |name: &String| {
         let signal = Signal::parse(name, &symbols).map_err(|error| error.to_string())?;
@@ -67,7 +69,8 @@ pub fn sweep(
     scan_ms: u32,
     plant: Option<&PlantSpec>,
 ) -> Result<FrequencyResponse, String> {
-    let Opened { mut machine, symbols, scan_ms: programs_ms, reals, .. } = opened(files)?;
+    let Opened { mut machine, symbols, scan_ms: programs_ms, image, .. } = opened(files)?;
+    let reals = reals::of(&image);
     let mut operand = |name: &str| {
         let operand = Operand::parse(name, &symbols).map_err(|error| error.to_string())?;
         machine.read(operand).map_err(|error| error.to_string())?;
@@ -85,7 +88,15 @@ pub fn sweep(
         rest_ms: None,
         scan_ms: scan_time(scan_ms, programs_ms),
     };
-    ensure_sensible(path, &wanted)?;
+    // Numbers come as somebody has typed them.
+    wanted.check().map_err(|error| error.to_string())?;
+    let scans = wanted.scans_max();
+    if scans > SWEEP_SCANS_MAX {
+        return Err(format!(
+            "this may take {scans:.0} scans, and {SWEEP_SCANS_MAX:.0} are the most here: choose a \
+                higher lowest frequency or a longer step"
+        ));
+    }
     let plant = plant.map(built).transpose()?;
     let points = measure(&mut *machine, &wanted, &Scenario::default(), plant, &mut |_| {});
     let points = points.map_err(|error| error.to_string())?;
@@ -101,25 +112,6 @@ pub fn sweep(
         figures: figures_of(&points),
         csv: String::from_utf8_lossy(&csv).into_owned(),
     })
-}
-
-/// Numbers come as somebody has typed them.
-fn ensure_sensible(path: &Path, wanted: &Sweep) -> Result<(), String> {
-    let is_band = path.low > 0.0 && path.low < path.high && path.high.is_finite();
-    if !is_band {
-        return Err("the lowest frequency is above 0 Hz and below the highest".to_owned());
-    }
-    let is_real = |number: f64| (number as f32).is_finite();
-    if !(path.amplitude > 0.0 && is_real(path.amplitude) && is_real(path.offset)) {
-        return Err("the amplitude is above 0; a REAL can hold it and the offset".to_owned());
-    }
-    match wanted.scans_max() {
-        scans if scans > SWEEP_SCANS_MAX => Err(format!(
-            "this may take {scans:.0} scans, and {SWEEP_SCANS_MAX:.0} are the most here: choose a \
-                higher lowest frequency or a longer step"
-        )),
-        _ => Ok(()),
-    }
 }
 
 fn figures_of(points: &[Point]) -> SweepFigures {

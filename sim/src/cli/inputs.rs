@@ -1,5 +1,6 @@
 //! What a simulation is made of, from the arguments: program, plant, scenario.
 
+use std::ops::Range;
 use std::path::Path;
 
 use anyhow::{Result, bail};
@@ -8,9 +9,9 @@ use awl_asm::report::Report;
 use awl_asm::source::Source;
 use awl_sim::machine::{Machine, MachineError};
 use awl_sim::open::{ProgramFiles, read_input};
-use awl_sim::operand::Operand;
+use awl_sim::operand::{Operand, OperandError};
 use awl_sim::plant::{PlantSpec, SpecErrors, parse_spec_with};
-use awl_sim::problem::Problems;
+use awl_sim::problem::{Problem, Problems};
 use awl_sim::scenario::{Context, Scenario};
 use awl_sim::suite::{is_program, plant_for, read_text};
 
@@ -70,4 +71,20 @@ pub fn read_scenario(
 /// Whether a machine has an operand.
 pub fn access(machine: &mut dyn Machine, operand: Operand) -> Result<(), MachineError> {
     machine.read(operand).map(|_| ())
+}
+
+/// What was parsed, if the machine has its operand; otherwise the problem, at its place.
+pub fn accessible<T>(
+    parsed: Result<T, OperandError>,
+    operand_of: impl Fn(&T) -> Operand,
+    span: Range<usize>,
+    machine: &mut dyn Machine,
+) -> Result<T, Problem> {
+    match parsed {
+        Ok(found) => match access(machine, operand_of(&found)) {
+            Ok(()) => Ok(found),
+            Err(error) => Err(Problem::new(span, error.to_string())),
+        },
+        Err(error) => Err(Problem::new(span, error.message).did_you_mean(error.suggestion)),
+    }
 }

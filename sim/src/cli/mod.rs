@@ -29,7 +29,7 @@ use awl_sim::suite::errors::{self, CANNOT_RUN, told};
 use awl_sim::trace::Signal;
 use clap::Parser;
 
-use inputs::{Known, access, parse_plant, program_files, read_scenario};
+use inputs::{Known, accessible, parse_plant, program_files, read_scenario};
 
 /// Runs that take longer than this show how far they are.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -139,15 +139,14 @@ fn signals(
         let at = start + part.len() - part.trim_start().len();
         start += part.len() + 1;
         let span = at..at + name.len().max(1);
-        match Signal::parse(name, symbols) {
-            Ok(signal) => match access(machine, signal.operand) {
-                Ok(()) => signals.push(signal),
-                Err(error) => list.push(Problem::new(span, error.to_string())),
-            },
-            Err(_) if name.is_empty() => list.push(Problem::new(span, "an operand is missing")),
-            Err(error) => {
-                list.push(Problem::new(span, error.message).did_you_mean(error.suggestion))
-            }
+        if name.is_empty() {
+            list.push(Problem::new(span, "an operand is missing"));
+            continue;
+        }
+        let parsed = Signal::parse(name, symbols);
+        match accessible(parsed, |signal| signal.operand, span, machine) {
+            Ok(signal) => signals.push(signal),
+            Err(problem) => list.push(problem),
         }
     }
     if list.is_empty() {
@@ -174,8 +173,12 @@ fn run_with_progress(
     };
     let outcome = run(machine, scenario, Job { progress: Some(&mut progress), ..job });
     if is_shown {
-        // Back to the start of the line, and erase it.
-        eprint!("\r\x1b[K");
+        erase_line();
     }
     outcome
+}
+
+/// On a terminal: goes back to the start of the line, and erases it.
+fn erase_line() {
+    eprint!("\r\x1b[K");
 }

@@ -21,42 +21,55 @@ pub fn write(args: &Args, trace: &Trace) -> Result<()> {
     let rows = if args.on == On::Host { csv::Rows::EveryScan } else { csv::Rows::Changes };
     let title = args.program.first().and_then(|path| path.file_name()).unwrap_or_default();
     let title = title.to_string_lossy();
-    match &args.output {
-        Some(path) => write_whole_with(path, |out| write_as(format, rows, trace, &title, out)),
-        None => {
-            match write_as(format, rows, trace, &title, &mut BufWriter::new(io::stdout().lock())) {
-                // Whoever reads has seen enough.
-                Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
-                result => result.context("cannot write the trace"),
-            }
-        }
-    }
+    to(args.output.as_deref(), "the trace", |out| write_as(format, rows, trace, &title, out))
+}
+
+/// Writes to a file, as a whole, or to standard output. `what` is written is for the error.
+pub fn to(
+    path: Option<&Path>,
+    what: &str,
+    write: impl Fn(&mut dyn Write) -> io::Result<()>,
+) -> Result<()> {
+    let Some(path) = path else {
+        let mut out = BufWriter::new(io::stdout().lock());
+        return match write(&mut out).and_then(|()| out.flush()) {
+            // Whoever reads has seen enough.
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+            result => result.with_context(|| format!("cannot write {what}")),
+        };
+    };
+    write_whole_with(path, write)
 }
 
 /// The format that `args` ask for; without one that of the file. Fails if the file has an ending
 /// that says neither, or is a source: one wrong name must not cost a program.
 pub fn format(args: &Args) -> Result<Format> {
-    let Some(path) = &args.output else { return Ok(args.format.unwrap_or(Format::Csv)) };
-    ensure_no_source(path)?;
-    if let Some(format) = args.format {
-        return Ok(format);
-    }
-    match ending(path).as_str() {
-        "csv" => Ok(Format::Csv),
-        "txt" => Ok(Format::Table),
-        "vcd" => Ok(Format::Vcd),
-        "svg" => Ok(Format::Svg),
-        _ => bail!(
-            "-o {}: the ending says no format: name it .csv, .vcd, .svg or .txt, or choose one by \
-                --format",
-            path.display()
-        ),
-    }
+    let formats =
+        [("csv", Format::Csv), ("vcd", Format::Vcd), ("svg", Format::Svg), ("txt", Format::Table)];
+    Ok(format_of(args.output.as_deref(), args.format, &formats)?.unwrap_or(Format::Csv))
 }
 
-/// The ending of a file, in small letters.
-pub fn ending(path: &Path) -> String {
-    path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
+/// The format that is asked for; without one that of the file, by its ending; without a file none.
+/// Fails as [`format`] does. `formats`: endings, in small letters, and what they say.
+pub fn format_of<F: Copy>(
+    path: Option<&Path>,
+    asked: Option<F>,
+    formats: &[(&str, F)],
+) -> Result<Option<F>> {
+    let Some(path) = path else { return Ok(asked) };
+    ensure_no_source(path)?;
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let by_ending = formats.iter().find(|(known, _)| *known == ending).map(|(_, format)| *format);
+    if let Some(format) = asked.or(by_ending) {
+        return Ok(Some(format));
+    }
+    let names: Vec<String> = formats.iter().map(|(known, _)| format!(".{known}")).collect();
+    let (last, others) = names.split_last().map_or(("", &[][..]), |(last, rest)| (last, rest));
+    bail!(
+        "-o {}: the ending says no format: name it {} or {last}, or choose one by --format",
+        path.display(),
+        others.join(", ")
+    )
 }
 
 fn write_as(
@@ -67,10 +80,9 @@ fn write_as(
     out: &mut dyn Write,
 ) -> io::Result<()> {
     match format {
-        Format::Csv => csv::write(trace, rows, out)?,
-        Format::Table => table::write(trace, out)?,
-        Format::Vcd => vcd::write(trace, out)?,
-        Format::Svg => svg::write(trace, title, out)?,
+        Format::Csv => csv::write(trace, rows, out),
+        Format::Table => table::write(trace, out),
+        Format::Vcd => vcd::write(trace, out),
+        Format::Svg => svg::write(trace, title, out),
     }
-    out.flush()
 }

@@ -29,9 +29,7 @@ pub fn print(
         print_warnings(outcome);
     }
     match (&outcome.fault, outcome.stop_ms) {
-        (Some(fault), _) => {
-            eprintln!("error: PLC fault at {}: {}", format_time(fault.at_ms), fault.text)
-        }
+        (Some(fault), _) => eprintln!("error: {fault}"),
         (None, Some(stop_ms)) if !is_quiet => {
             eprintln!("note: the PLC is in STOP since {}", format_time(stop_ms))
         }

@@ -1,11 +1,12 @@
 //! `awl-sim sweep`: the frequency response of a path through a program, as a table or a Bode plot.
 
-use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
+use std::io::{self, IsTerminal};
 use std::path::Path;
 
-use anyhow::{Context as _, Error, Result, bail};
+use anyhow::{Error, Result};
 use awl_asm::ast::Symbol;
-use awl_asm::files::{ensure_distinct, write_whole_with};
+use awl_asm::files::ensure_distinct;
+use awl_asm::reals;
 use awl_sim::args::{SweepArgs, SweepFormat};
 use awl_sim::machine::Machine;
 use awl_sim::open::{Opened, ProgramFiles};
@@ -13,11 +14,11 @@ use awl_sim::operand::Operand;
 use awl_sim::plant::PlantSpec;
 use awl_sim::problem::{Problem, Problems};
 use awl_sim::scenario::{Context, Scenario};
-use awl_sim::suite::{ensure_no_source, errors};
+use awl_sim::suite::errors;
 use awl_sim::sweep::{Point, Sweep, bode, spread, sweep, table, usual_band};
 
-use super::inputs::{access, parse_plant};
-use super::output::ending;
+use super::inputs::{access, accessible, parse_plant};
+use super::{erase_line, output};
 
 /// The event that `--set` is the rest of.
 const AT_START: &str = "at 0ms ";
@@ -28,9 +29,12 @@ pub fn run(args: &SweepArgs) -> Result<()> {
     let inputs: Vec<&Path> =
         program.iter().chain(data).chain(tables).map(|path| path.as_path()).collect();
     ensure_distinct(&inputs, args.output.as_deref().as_slice())?;
-    let format = format(args)?;
+    let formats =
+        [("csv", SweepFormat::Csv), ("svg", SweepFormat::Svg), ("txt", SweepFormat::Table)];
+    let format = output::format_of(args.output.as_deref(), args.format, &formats)?;
     let files = ProgramFiles { program, symbols: tables, data: data.as_deref() };
-    let Opened { mut machine, symbols, scan_ms, warnings, reals, .. } = files.open_host()?;
+    let Opened { mut machine, symbols, scan_ms, warnings, image, .. } = files.open_host()?;
+    let reals = reals::of(&image);
     errors::show(&warnings, args.messages);
     let machine = &mut *machine;
     let mut operand = |option: &str, text: &str| {
@@ -59,7 +63,7 @@ pub fn run(args: &SweepArgs) -> Result<()> {
     let points =
         with_progress(args.points, |progress| sweep(machine, &wanted, &scenario, plant, progress))?;
     let title = format!("{} to {}", args.from.as_ref().unwrap_or(&args.excite), args.to);
-    write(args, format, &points, &title)
+    write(args, format.unwrap_or(SweepFormat::Table), &points, &title)
 }
 
 /// An operand of an option, by address or symbol.
@@ -69,16 +73,11 @@ fn operand(
     symbols: &[Symbol],
     machine: &mut dyn Machine,
 ) -> Result<Operand> {
-    let span = 0..text.len().max(1);
-    let problem = match Operand::parse(text, symbols) {
-        Ok(operand) => match access(machine, operand) {
-            Ok(()) => return Ok(operand),
-            Err(error) => Problem::new(span, error.to_string()),
-        },
-        Err(error) => Problem::new(span, error.message).did_you_mean(error.suggestion),
-    };
-    let (origin, text) = (option.to_string(), text.to_string());
-    Err(Problems { origin, text, list: vec![problem] }.into())
+    let parsed = Operand::parse(text, symbols);
+    accessible(parsed, |operand| *operand, 0..text.len().max(1), machine).map_err(|problem| {
+        let (origin, text) = (option.to_string(), text.to_string());
+        Problems { origin, text, list: vec![problem] }.into()
+    })
 }
 
 /// What `--set` says, as the scenario that it is a part of.
@@ -109,25 +108,6 @@ fn settings(
     Ok(scenario)
 }
 
-/// The format that is asked for; without one that of the file.
-fn format(args: &SweepArgs) -> Result<SweepFormat> {
-    let Some(path) = &args.output else { return Ok(args.format.unwrap_or(SweepFormat::Table)) };
-    ensure_no_source(path)?;
-    if let Some(format) = args.format {
-        return Ok(format);
-    }
-    match ending(path).as_str() {
-        "csv" => Ok(SweepFormat::Csv),
-        "txt" => Ok(SweepFormat::Table),
-        "svg" => Ok(SweepFormat::Svg),
-        _ => bail!(
-            "-o {}: the ending says no format: name it .csv, .svg or .txt, or choose one by \
-                --format",
-            path.display()
-        ),
-    }
-}
-
 /// On a terminal tells how many frequencies are done.
 fn with_progress<R>(count: u16, measure: impl FnOnce(&mut dyn FnMut(usize)) -> R) -> R {
     let is_shown = io::stderr().is_terminal();
@@ -137,27 +117,15 @@ fn with_progress<R>(count: u16, measure: impl FnOnce(&mut dyn FnMut(usize)) -> R
         }
     });
     if is_shown {
-        // Back to the start of the line, and erase it.
-        eprint!("\r\x1b[K");
+        erase_line();
     }
     result
 }
 
 fn write(args: &SweepArgs, format: SweepFormat, points: &[Point], title: &str) -> Result<()> {
-    let write_as = |out: &mut dyn Write| {
-        match format {
-            SweepFormat::Table => table::write(points, out)?,
-            SweepFormat::Csv => table::write_csv(points, out)?,
-            SweepFormat::Svg => bode::write(points, title, out)?,
-        }
-        out.flush()
-    };
-    match &args.output {
-        Some(path) => write_whole_with(path, write_as),
-        None => match write_as(&mut BufWriter::new(io::stdout().lock())) {
-            // Whoever reads has seen enough.
-            Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
-            result => result.context("cannot write what was measured"),
-        },
-    }
+    output::to(args.output.as_deref(), "what was measured", |out| match format {
+        SweepFormat::Table => table::write(points, out),
+        SweepFormat::Csv => table::write_csv(points, out),
+        SweepFormat::Svg => bode::write(points, title, out),
+    })
 }

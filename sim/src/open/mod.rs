@@ -5,7 +5,6 @@
 mod files;
 mod overwritten;
 
-use std::collections::BTreeSet;
 use std::fmt;
 use std::path::Path;
 
@@ -15,7 +14,6 @@ use awl_asm::ast::{DataLine, Symbol};
 use awl_asm::data_block;
 use awl_asm::diagnostic::{Diagnostic, Severity};
 use awl_asm::disassemble::{disassemble, instructions};
-use awl_asm::reals;
 use awl_asm::source::{Source, SourceError};
 use awl_asm::tools::{Tools, image_in};
 use diagnostics::binary::Binary;
@@ -61,8 +59,8 @@ pub struct Opened<M: ?Sized = dyn Machine> {
     pub scan_ms: Option<u64>,
     /// Bits that the program writes in every scan and never reads.
     pub overwritten: Vec<Operand>,
-    /// The double words that the program computes with as reals.
-    pub reals: BTreeSet<Address>,
+    /// The program's image.
+    pub image: Vec<u8>,
     /// The networks with their instructions, for coverage.
     pub networks: Vec<Network>,
     /// Warnings, by text.
@@ -154,7 +152,7 @@ struct Read {
 /// What is known about a program.
 struct About {
     assembly: Assembly,
-    reals: BTreeSet<Address>,
+    image: Vec<u8>,
     networks: Vec<Network>,
     warnings: Vec<Findings>,
 }
@@ -183,7 +181,7 @@ impl Read {
             }
         };
         let networks = networks(&assembly, &place_of);
-        let about = About { assembly, reals: reals::of(&image), networks, warnings: findings };
+        let about = About { assembly, image: image.clone(), networks, warnings: findings };
         Ok(Read { image, place_of, about })
     }
 }
@@ -200,7 +198,7 @@ impl About {
             symbols: self.assembly.program.symbols,
             default_signals,
             scan_ms: (scan_ms > 0).then_some(scan_ms),
-            reals: self.reals,
+            image: self.image,
             networks: self.networks,
             warnings: self.warnings,
         }

@@ -36,6 +36,12 @@ pub struct Fault {
     pub text: String,
 }
 
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "PLC fault at {}: {}", format_time(self.at_ms), self.text)
+    }
+}
+
 /// What came out of a run.
 #[derive(Debug, Clone, Default)]
 pub struct Outcome {

@@ -4,7 +4,6 @@ use std::path::Path;
 use std::time::Duration;
 
 use crate::run::Outcome;
-use crate::time::format_time;
 use anstream::adapter::strip_str;
 use anyhow::Error;
 
@@ -54,8 +53,7 @@ impl TestResult {
             .map(|failure| format!("{}:{}: {failure}", self.scenario, failure.line))
             .collect();
         if let Some(fault) = &outcome.fault {
-            let at = format_time(fault.at_ms);
-            self.failures.push(format!("{}: PLC fault at {at}: {}", self.program, fault.text));
+            self.failures.push(format!("{}: {fault}", self.program));
         }
         if outcome.unreached_settings > 0 {
             let count = plural(outcome.unreached_settings, "value");

@@ -3,13 +3,12 @@
 
 use std::io::{self, Write};
 
-use svg::Document;
-use svg::node::element::{Circle, Group, Polyline, Rectangle};
+use svg::node::element::{Circle, Group, Polyline};
 
 use super::{Point, table};
-use crate::trace::svg::FONT;
 use crate::trace::svg::axis::line;
 use crate::trace::svg::colour::{AXIS, FAINT_INK, GRID, INK, PAPER};
+use crate::trace::svg::sheet;
 use crate::trace::svg::text::{Anchor, label, round};
 
 const WIDTH: f64 = 760.0;
@@ -37,12 +36,7 @@ pub fn write(points: &[Point], title: &str, out: &mut dyn Write) -> io::Result<(
     let band = Band::of(points);
     let gains = points.iter().map(|point| (point, Some(point.decibels())));
     let phases = points.iter().map(|point| (point, point.phase));
-    let mut document = Document::new()
-        .set("viewBox", format!("0 0 {WIDTH} {height}"))
-        .set("width", WIDTH)
-        .set("height", height)
-        .set("font-family", FONT)
-        .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", PAPER))
+    let mut document = sheet(WIDTH, height)
         .add(label(title, 18.0, 27.0, 16.0, INK, Anchor::Start).set("font-weight", "bold"))
         .add(label("gain in dB", 18.0, TOP - 12.0, SIZE, GAIN, Anchor::Start))
         .add(plot(&band, TOP, gains, DECIBELS, GAIN))

@@ -44,12 +44,12 @@ pub(super) struct Correlation {
 }
 
 impl Correlation {
-    /// Adds a value, at this angle of the sine in radians.
-    pub(super) fn add(&mut self, weight: f64, angle: f64, value: f64) {
+    /// Adds a value, with the sine there and its cosine.
+    pub(super) fn add(&mut self, weight: f64, (sine, cosine): (f64, f64), value: f64) {
         let value = value - *self.first.get_or_insert(value);
         self.weights += weight;
-        self.in_phase += weight * value * angle.sin();
-        self.ahead += weight * value * angle.cos();
+        self.in_phase += weight * value * sine;
+        self.ahead += weight * value * cosine;
         self.sum += weight * value;
         self.squares += weight * value * value;
     }
@@ -79,7 +79,7 @@ mod tests {
         let mut correlation = Correlation::default();
         for scan in 0..200 {
             let (part, angle) = (f64::from(scan) / 200.0, f64::from(5 * scan) / 200.0 * TAU);
-            correlation.add(1.0 - (TAU * part).cos(), angle, value(angle));
+            correlation.add(1.0 - (TAU * part).cos(), angle.sin_cos(), value(angle));
         }
         correlation
     }

@@ -14,8 +14,9 @@ use std::fmt;
 use crate::machine::{Machine, MachineError, Mode};
 use crate::operand::{Operand, Width, value_of};
 use crate::plant::Plant;
-use crate::run::{Course, Outcome};
+use crate::run::{Course, Fault, Outcome};
 use crate::scenario::Scenario;
+use crate::time::format_time;
 use crate::trace::Trace;
 use correlation::{Correlation, Phasor};
 
@@ -62,6 +63,41 @@ pub struct Sweep {
 }
 
 impl Sweep {
+    /// Whether it is possible, as far as that can be said before.
+    pub fn check(&self) -> Result<(), SweepError> {
+        let is_above = |hertz: &f64| *hertz > 0.0 && hertz.is_finite();
+        let is_upwards = self.frequencies.is_sorted_by(|one, next| one < next);
+        if !(is_upwards && self.frequencies.iter().all(is_above)) {
+            return Err(SweepError::Band);
+        }
+        let is_real = |number: f64| (number as f32).is_finite();
+        if !(self.amplitude > 0.0 && is_real(self.amplitude) && is_real(self.offset)) {
+            return Err(SweepError::Sine);
+        }
+        self.check_range()?;
+        let limit = 500.0 / self.scan_ms as f64;
+        let is_too_fast =
+            |hertz: &&f64| Window::of(**hertz, self.scan_ms).hertz(self.scan_ms) >= limit;
+        let too_fast = self.frequencies.iter().rfind(is_too_fast);
+        too_fast.map_or(Ok(()), |&hertz| Err(SweepError::Frequency(hertz, limit)))
+    }
+
+    /// Whether what is excited can hold the sine.
+    fn check_range(&self) -> Result<(), SweepError> {
+        match self.excite.width() {
+            Width::Bit => return Err(SweepError::Bit(self.excite)),
+            Width::Real => return Ok(()),
+            Width::Byte | Width::Word | Width::Double => {}
+        }
+        let range = self.excite.range();
+        let range = f64::from(*range.start())..=f64::from(*range.end());
+        let ends = [self.offset - self.amplitude, self.offset + self.amplitude];
+        match ends.iter().all(|end| range.contains(end)) {
+            true => Ok(()),
+            false => Err(SweepError::Range(self.excite)),
+        }
+    }
+
     /// How many scans it takes at most: where nothing settles.
     pub fn scans_max(&self) -> f64 {
         let windows = self.frequencies.iter().map(|&hertz| Window::of(hertz, self.scan_ms).scans);
@@ -103,6 +139,10 @@ impl Point {
 /// Why there is no frequency response.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SweepError {
+    /// The frequencies do not go upwards from above 0.
+    Band,
+    /// The amplitude is not above 0, or no REAL can hold it or the offset.
+    Sine,
     /// The machine cannot access an operand.
     Machine(MachineError),
     /// A bit is excited: it has no sine.
@@ -115,8 +155,10 @@ pub enum SweepError {
     Overwritten(Operand),
     /// The path's beginning does not follow the excitation, at so many Hz.
     Still(Operand, f64),
-    /// The PLC went to STOP at this time in milliseconds: why, where it is known.
-    Stop(u64, Option<String>),
+    /// The PLC has a fault.
+    Fault(Fault),
+    /// The PLC went to STOP at this time in milliseconds.
+    Stop(u64),
 }
 
 impl From<MachineError> for SweepError {
@@ -128,6 +170,12 @@ impl From<MachineError> for SweepError {
 impl fmt::Display for SweepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            SweepError::Band => {
+                f.write_str("the lowest frequency is above 0 Hz and below the highest")
+            }
+            SweepError::Sine => {
+                f.write_str("the amplitude is above 0; a REAL can hold it and the offset")
+            }
             SweepError::Machine(error) => error.fmt(f),
             SweepError::Bit(operand) => {
                 write!(f, "{operand} is a bit, which cannot follow a sine: excite a number")
@@ -153,11 +201,9 @@ impl fmt::Display for SweepError {
                 "{operand} does not follow the sine at {}: the path cannot begin there",
                 table::hertz(*hertz)
             ),
-            SweepError::Stop(at_ms, Some(why)) => {
-                write!(f, "PLC fault at {}: {why}", crate::time::format_time(*at_ms))
-            }
-            SweepError::Stop(at_ms, None) => {
-                write!(f, "the PLC went to STOP at {}", crate::time::format_time(*at_ms))
+            SweepError::Fault(fault) => fault.fmt(f),
+            SweepError::Stop(at_ms) => {
+                write!(f, "the PLC went to STOP at {}", format_time(*at_ms))
             }
         }
     }
@@ -187,7 +233,7 @@ pub fn sweep(
     plant: Option<Box<dyn Plant>>,
     progress: &mut dyn FnMut(usize),
 ) -> Result<Vec<Point>, SweepError> {
-    check(wanted)?;
+    wanted.check()?;
     let mut bench = Bench {
         machine,
         wanted,
@@ -203,29 +249,6 @@ pub fn sweep(
         progress(points.len());
     }
     Ok(points)
-}
-
-/// Whether the excitation is possible.
-fn check(wanted: &Sweep) -> Result<(), SweepError> {
-    let Sweep { excite, amplitude, offset, .. } = *wanted;
-    match excite.width() {
-        Width::Bit => return Err(SweepError::Bit(excite)),
-        Width::Real => {}
-        Width::Byte | Width::Word | Width::Double => {
-            let range = excite.range();
-            let range = f64::from(*range.start())..=f64::from(*range.end());
-            if ![offset - amplitude, offset + amplitude].iter().all(|end| range.contains(end)) {
-                return Err(SweepError::Range(excite));
-            }
-        }
-    }
-    let limit = 500.0 / wanted.scan_ms as f64;
-    let is_too_fast =
-        |hertz: &&f64| Window::of(**hertz, wanted.scan_ms).hertz(wanted.scan_ms) >= limit;
-    match wanted.frequencies.iter().rfind(is_too_fast) {
-        Some(&hertz) => Err(SweepError::Frequency(hertz, limit)),
-        None => Ok(()),
-    }
 }
 
 /// What is measured at once: whole periods in whole scans.
@@ -283,7 +306,8 @@ impl<M: Machine + ?Sized> Bench<'_, M> {
         self.machine.write(excite, value)?;
         self.machine.scan(now_ms);
         if self.machine.mode() == Mode::Stop {
-            return Err(SweepError::Stop(now_ms, self.machine.fault()));
+            let fault = self.machine.fault().map(|text| Fault { at_ms: now_ms, text });
+            return Err(fault.map_or(SweepError::Stop(now_ms), SweepError::Fault));
         }
         if self.machine.read(excite)? != value {
             return Err(SweepError::Overwritten(excite));
@@ -294,12 +318,12 @@ impl<M: Machine + ?Sized> Bench<'_, M> {
     fn measure(&mut self, window: Window) -> Result<[Correlation; 2], SweepError> {
         let mut both = [Correlation::default(); 2];
         for scan in 0..window.scans {
-            let angle = window.angle(scan);
-            let excitation = self.wanted.offset + self.wanted.amplitude * angle.sin();
+            let (sine, cosine) = window.angle(scan).sin_cos();
+            let excitation = self.wanted.offset + self.wanted.amplitude * sine;
             let weight = 1.0 - (std::f64::consts::TAU * scan as f64 / window.scans as f64).cos();
             let values = self.scan(excitation)?;
             for (correlation, value) in both.iter_mut().zip(values) {
-                correlation.add(weight, angle, value);
+                correlation.add(weight, (sine, cosine), value);
             }
         }
         Ok(both)

@@ -24,19 +24,20 @@ use crate::time::format_time;
 use layout::{Layout, Row};
 use text::{Anchor, label};
 
-/// The font of all drawings: what is there of these.
-pub(crate) const FONT: &str = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
+/// An empty drawing, with its font and its paper.
+pub(crate) fn sheet(width: f64, height: f64) -> Document {
+    Document::new()
+        .set("viewBox", format!("0 0 {width} {height}"))
+        .set("width", width)
+        .set("height", height)
+        .set("font-family", "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif")
+        .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", colour::PAPER))
+}
 
 /// Writes the trace. `title` is above the diagram, usually the name of the program.
 pub fn write(trace: &Trace, title: &str, out: &mut dyn Write) -> io::Result<()> {
     let layout = Layout::new(trace);
-    let (width, height) = (layout.width, layout.height);
-    let mut document = Document::new()
-        .set("viewBox", format!("0 0 {width} {height}"))
-        .set("width", width)
-        .set("height", height)
-        .set("font-family", FONT)
-        .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", colour::PAPER))
+    let mut document = sheet(layout.width, layout.height)
         .add(heading(trace, title, &layout))
         .add(stripes(&layout))
         .add(axis::draw(&layout));

@@ -11,6 +11,7 @@ import { save } from "../project/files";
 import type { Project } from "../project/project";
 import { t, type Key } from "../text/language";
 import { Lazy } from "./lazy";
+import { numberField } from "./numbers";
 import type { Operands } from "./operands";
 import { labelled } from "./scope";
 import { Signals } from "./signals";
@@ -24,8 +25,8 @@ export class Capture {
   private signals: Signals;
   private plots = new Plots();
   private cursors = new CursorTable(this.plots);
-  private seconds = number(60, SECONDS_MAX, 0.001);
-  private stepMs = number(1, STEP_MS_MAX, 1);
+  private seconds = numberField(60, { min: 0.001, max: SECONDS_MAX, step: 0.001 });
+  private stepMs = numberField(1, { min: 1, max: STEP_MS_MAX, step: 1 });
   private simulate: HTMLButtonElement;
   private record: HTMLButtonElement;
   private recordWords: Element;
@@ -196,17 +197,13 @@ export class Capture {
     this.figures.replaceChildren(...rows);
   }
 
-  private name(): string {
-    return (this.project.main() ?? "capture").replace(/^.*\/|\.[^.]*$/g, "");
-  }
-
   private save(ending: string, text: string | undefined, type: string): void {
-    if (text !== undefined) save(`${this.name()}.${ending}`, text, type);
+    if (text !== undefined) save(`${this.project.stem("capture")}.${ending}`, text, type);
   }
 
   private savePicture(): void {
     this.plots.picture().toBlob((blob) => {
-      if (blob) save(`${this.name()}.png`, blob, "image/png");
+      if (blob) save(`${this.project.stem("capture")}.png`, blob, "image/png");
       else notice(t("noPicture"), true);
     });
   }
@@ -215,11 +212,4 @@ export class Capture {
 /** A figure; of what was never measured there is none. */
 function figureWords(figure: number | null): string {
   return figure === null ? "–" : String(Number(figure.toPrecision(7)));
-}
-
-function number(value: number, max: number, step: number): HTMLInputElement {
-  return h("input", {
-    attributes: { type: "number", min: step, max, step, required: true },
-    set: { value: String(value) },
-  });
 }

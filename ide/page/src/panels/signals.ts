@@ -19,16 +19,7 @@ export class Signals {
     private what: What,
     private changed: () => void,
   ) {
-    this.field = h("input", {
-      label: "addSignal",
-      placeholder: "addSignal",
-      attributes: {
-        list: operands.element.id,
-        autocomplete: "off",
-        spellcheck: "false",
-        required: true,
-      },
-    });
+    this.field = operands.field("addSignal");
     const submit = (event: Event) => {
       event.preventDefault();
       this.add(this.field.value.split(/[\s,;]+/).filter(Boolean));

@@ -4,6 +4,7 @@ import type { Cursors, Data } from "../plot/plots";
 import { stepResponse, type Response } from "../plot/step";
 import { addWords, onLanguage, t, type Key } from "../text/language";
 import { STEP_WORDS } from "../text/step_words";
+import { rounded } from "./numbers";
 import { labelled } from "./scope";
 
 addWords(STEP_WORDS);
@@ -25,6 +26,8 @@ const ROWS: Record<Figure, { text: Key; unit?: string }> = {
   iae: { text: "stepIae" },
 };
 const FIGURES = Object.keys(ROWS) as Figure[];
+
+const DECIMALS = 6;
 
 /** Choices of the set value that are no signals; no signal has such a name. */
 const NONE = "";
@@ -97,7 +100,7 @@ export class StepTable {
       cell.textContent = words(response[figure], ROWS[figure].unit);
     const { kind } = response;
     this.state.textContent = kind === "step" ? "" : t(`step-${kind}`);
-    this.gaps.textContent = t("stepMissing", rounded(response.missing));
+    this.gaps.textContent = t("stepMissing", rounded(response.missing, DECIMALS));
     this.gaps.hidden = response.missing === 0;
   }
 
@@ -132,9 +135,5 @@ export class StepTable {
 /** What is not known is a dash. */
 function words(figure: number | null, unit: string | undefined): string {
   if (figure === null) return "–";
-  return unit ? `${rounded(figure)} ${unit}` : String(rounded(figure));
-}
-
-function rounded(value: number): number {
-  return Number(Number(value.toFixed(6)).toPrecision(4));
+  return unit ? `${rounded(figure, DECIMALS)} ${unit}` : String(rounded(figure, DECIMALS));
 }

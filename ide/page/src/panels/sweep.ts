@@ -9,6 +9,7 @@ import { save } from "../project/files";
 import type { Project } from "../project/project";
 import { addWords, onLanguage, t } from "../text/language";
 import { SWEEP_WORDS } from "../text/sweep_words";
+import { numberField, rounded } from "./numbers";
 import type { Operands } from "./operands";
 import { labelled } from "./scope";
 
@@ -26,10 +27,10 @@ export class Sweep {
   private excite: HTMLInputElement;
   private from: HTMLInputElement;
   private to: HTMLInputElement;
-  private low = number(0.1, { min: 0 });
-  private high = number(10, { min: 0 });
-  private amplitude = number(1, { min: 0 });
-  private offset = number(0);
+  private low = numberField(0.1, { min: 0, step: "any" });
+  private high = numberField(10, { min: 0, step: "any" });
+  private amplitude = numberField(1, { min: 0, step: "any" });
+  private offset = numberField(0, { step: "any" });
   private measure = h("button", {
     text: "sweepMeasure",
     class: "primary",
@@ -55,16 +56,9 @@ export class Sweep {
     /** The step in milliseconds; null where it is not valid, which is shown. */
     private stepMs: () => number | null,
   ) {
-    const operand = (isRequired: boolean) =>
-      h("input", {
-        attributes: {
-          list: operands.element.id,
-          autocomplete: "off",
-          spellcheck: "false",
-          required: isRequired,
-        },
-      });
-    [this.excite, this.from, this.to] = [operand(true), operand(false), operand(true)];
+    this.excite = operands.field();
+    this.from = operands.field(undefined, false);
+    this.to = operands.field();
     const submit = (event: Event) => {
       event.preventDefault();
       void this.run();
@@ -164,8 +158,8 @@ export class Sweep {
   }
 
   private save(): void {
-    const name = (this.project.main() ?? "sweep").replace(/^.*\/|\.[^.]*$/g, "");
-    if (this.response) save(`${name}_sweep.csv`, this.response.csv, "text/csv");
+    const name = `${this.project.stem("sweep")}_sweep.csv`;
+    if (this.response) save(name, this.response.csv, "text/csv");
   }
 }
 
@@ -173,19 +167,9 @@ export class Sweep {
 function warnings(response: FrequencyResponse): string[] {
   const words = [];
   const unsettled = response.frequencies.filter((_, index) => !response.settled[index]);
-  if (unsettled.length > 0) words.push(t("sweepUnsettled", unsettled.map(rounded).join(", ")));
+  const places = unsettled.map((hertz) => rounded(hertz)).join(", ");
+  if (unsettled.length > 0) words.push(t("sweepUnsettled", places));
   const most = Math.max(0, ...response.distortions);
   if (most > DISTORTION_MAX) words.push(t("sweepDistorted", Math.round(most * 100)));
   return words;
-}
-
-function rounded(value: number): number {
-  return Number(Number(value.toFixed(4)).toPrecision(4));
-}
-
-function number(value: number, limits: { min?: number } = {}): HTMLInputElement {
-  return h("input", {
-    attributes: { type: "number", step: "any", required: true, ...limits },
-    set: { value: String(value) },
-  });
 }

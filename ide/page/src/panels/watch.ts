@@ -81,16 +81,7 @@ export class Watch {
   }
 
   private addForm(operands: Operands): HTMLElement {
-    const field = h("input", {
-      label: "operandToWatch",
-      placeholder: "operandToWatch",
-      attributes: {
-        list: operands.element.id,
-        autocomplete: "off",
-        spellcheck: "false",
-        required: true,
-      },
-    });
+    const field = operands.field("operandToWatch");
     const submit = (event: Event) => {
       event.preventDefault();
       for (const operand of field.value.split(/[\s,;]+/).filter(Boolean)) this.add(operand);

@@ -100,6 +100,11 @@ export class Project {
     return this.texts.get(file);
   }
 
+  /** The name of what is run, without folder and ending; `otherwise` where there is nothing. */
+  stem(otherwise: string): string {
+    return (this.main() ?? otherwise).replace(/^.*\/|\.[^.]*$/g, "");
+  }
+
   /** The file that is run: the chosen one, or the first program there is. */
   main(): string | null {
     if (this.chosen !== null && this.texts.has(this.chosen)) return this.chosen;
