@@ -1,7 +1,7 @@
 //! The figures of a frequency response: bandwidth and the margins of a loop. Between two measured
 //! frequencies both curves are taken as straight, over the logarithm of the frequency.
 
-use super::Point;
+use super::{Point, decimals, digits};
 
 /// A gain of so many decibels less is a power of half.
 const HALF_POWER: f64 = 3.010_299_956_639_812;
@@ -35,14 +35,14 @@ impl Figures {
         let phases: Vec<_> =
             points.iter().filter_map(|point| Some((point.hertz.ln(), point.phase?))).collect();
         let margin = |at: f64, other: &[(f64, f64)], from: f64, sign: f64| {
-            let margin = sign * (value(other, at)? - from);
-            Some(Crossing { hertz: at.exp(), margin })
+            let margin = decimals(sign * (value(other, at)? - from));
+            Some(Crossing { hertz: digits(at.exp()), margin })
         };
         let first = gains.first().map_or(0.0, |(_, gain)| *gain);
         let gain_crossover = falls_below(&gains, 0.0);
         let phase_crossover = falls_below(&phases, -180.0);
         Figures {
-            bandwidth: falls_below(&gains, first - HALF_POWER).map(f64::exp),
+            bandwidth: falls_below(&gains, first - HALF_POWER).map(|at| digits(at.exp())),
             gain_crossover: gain_crossover.and_then(|at| margin(at, &phases, -180.0, 1.0)),
             phase_crossover: phase_crossover.and_then(|at| margin(at, &gains, 0.0, -1.0)),
         }

@@ -132,7 +132,7 @@ pub struct Point {
 impl Point {
     /// The gain in decibels; minus infinity where nothing comes out.
     pub fn decibels(&self) -> f64 {
-        20.0 * self.gain.log10()
+        decimals(20.0 * self.gain.log10())
     }
 }
 
@@ -347,8 +347,9 @@ impl<M: Machine + ?Sized> Bench<'_, M> {
                 .is_some_and(|(_, last)| (distortion - last).abs() <= least.max(part * distortion));
             count += 1;
             if is_settled && is_pure || count == MEASUREMENTS_MAX {
-                let gain = ratio.size();
-                let phase = (gain > 0.0).then(|| continued(ratio.degrees(), before));
+                let gain = digits(ratio.size());
+                let phase = (gain > 0.0).then(|| decimals(continued(ratio.degrees(), before)));
+                let distortion = decimals(distortion);
                 return Ok(Point { hertz, gain, phase, distortion, is_settled });
             }
             last = Some((ratio, distortion));
@@ -361,4 +362,15 @@ impl<M: Machine + ?Sized> Bench<'_, M> {
 fn continued(degrees: f64, before: Option<f64>) -> f64 {
     let middle = before.unwrap_or(-90.0);
     middle + (degrees - middle + 180.0).rem_euclid(360.0) - 180.0
+}
+
+/// A figure with nine digits. Sines and logarithms differ from computer to computer in the last of
+/// sixteen; what is told of a path is the same on all.
+fn digits(value: f64) -> f64 {
+    format!("{value:.8e}").parse().unwrap_or(value)
+}
+
+/// The same with nine decimals: of what is small beside what it is the difference of.
+fn decimals(value: f64) -> f64 {
+    (value * 1e9).round() / 1e9
 }
