@@ -18,6 +18,8 @@ pub(crate) struct Model {
     together: Together,
     /// What the assembler made of it.
     pub assembly: Assembly,
+    /// What is wrong with periods, by the numbers of the files in Structured Text.
+    periods: Vec<(usize, project::Diagnostic)>,
 }
 
 impl Model {
@@ -25,7 +27,8 @@ impl Model {
     pub(crate) fn of(sources: Vec<Source>, symbols: Vec<Symbol>) -> Option<Model> {
         let together = together(&sources).ok()?;
         let assembly = assemble(&together.awl, symbols);
-        Some(Model { sources, together, assembly })
+        let periods = together.st.as_ref().map_or_else(Vec::new, |st| st.periods(&assembly));
+        Some(Model { sources, together, assembly, periods })
     }
 
     /// The AWL text of all files, whose places the assembly has.
@@ -111,7 +114,7 @@ impl Model {
         let found = self.st().into_iter().flat_map(|st| &st.compiled.diagnostics);
         let of_st = found.filter(|(file, _)| Some(*file) == number);
         let of_st = of_st.map(|(_, one)| Problem::of(one.clone(), text));
-        let others = self.st().into_iter().flat_map(|st| &st.others);
+        let others = self.st().into_iter().flat_map(|st| &st.others).chain(&self.periods);
         let others = others.filter(|(file, _)| Some(*file) == number);
         let others = others.map(|(_, one)| Problem::of(one.clone(), text));
         // Calls of what has no AWL yet would be errors.

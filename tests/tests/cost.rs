@@ -263,8 +263,12 @@ fn random_programs_cost_what_the_assembler_says() {
     assert!(near > count / 5, "hardly any program without jumps");
 }
 
-/// Routines with parameters and segments.
-const UNITS: [(&str, &str); 2] = [
+/// Routines with parameters, segments, and hidden instructions.
+const UNITS: [(&str, &str); 3] = [
+    (
+        "analog outputs",
+        "LD I0.0\nMOVW VW0, AQW0\nLD I0.1\nMOVW VW2, AQW2\nLD SM0.0\n+I 1007, VW0\n-I 777, VW2\n",
+    ),
     (
         "routines",
         "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nLD I0.0\nCALL SBR0, VW0, I0.1, VW2\nLD SM0.0\n\
@@ -302,6 +306,7 @@ fn demanding() -> Vec<(String, String)> {
         ("timers of 10 ms", timers(&[33, 34, 35, 36, 97, 98, 99, 100])),
         ("timers of 1 ms", timers(&[32, 96])),
         ("timers of all", timers(&[[32, 33, 34, 96, 97].as_slice(), &slow].concat())),
+        ("analog outputs", "LD SM0.0\nMOVW 1, AQW0\nMOVW 32000, AQW2\n".to_string()),
         ("retained V", "//# retain VB0-VB127\nLD SM0.5\nEU\nINCW VW0\n".to_string()),
         ("retained C", "//# retain C0-C31\nLD SM0.5\nLD SM0.1\nCTU C3, 5\n".to_string()),
     ]

@@ -13,4 +13,5 @@ diagnostics::codes! {
     Feedback = "E0505";
     NotConnected = "W0500";
     Drawing = "W0501";
+    ShortPeriod = "W0502";
 }

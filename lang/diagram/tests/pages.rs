@@ -16,7 +16,8 @@ fn codes(text: &str) -> Vec<&'static str> {
 
 #[test]
 fn the_examples_of_every_page_do_what_the_page_says() {
-    for code in Code::ALL {
+    // That a period is too short is known when the program is assembled.
+    for code in Code::ALL.iter().filter(|&&code| code != Code::ShortPeriod) {
         page_examples::check(code.text(), code.page(), "fbd", codes);
     }
 }

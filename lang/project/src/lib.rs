@@ -3,10 +3,12 @@
 
 mod findings;
 mod join;
+mod periods;
 mod read;
 
 use std::path::Path;
 
+use awl_asm::assemble::Assembly;
 use awl_asm::diagnostic::Code as AwlCode;
 use awl_asm::source::{Source, SourceError};
 use diagnostics::{Severity, Span};
@@ -35,6 +37,14 @@ pub enum Language {
 /// counts.
 pub const ENDINGS: [&str; 6] = ["awl", "st", "sfc", "fbd", "fbt", "xml"];
 
+impl StructuredText {
+    /// What is wrong with its periods, by the numbers of its files, when it is executed as
+    /// bytecode.
+    pub fn periods(&self, assembly: &Assembly) -> Vec<(usize, Diagnostic)> {
+        periods::check(&self.compiled, assembly, false)
+    }
+}
+
 impl Language {
     /// That of a file.
     pub fn of(name: &str) -> Language {
@@ -59,6 +69,17 @@ pub struct Joined {
     pub is_generated: bool,
     /// Warnings.
     pub findings: Vec<Findings>,
+    /// The texts that are not AWL, and what they mean.
+    compiled: Option<(Vec<Source>, st::Compiled)>,
+}
+
+impl Joined {
+    /// What is wrong with its periods, which is known when it is assembled. `is_native`: it is to
+    /// be executed as machine code.
+    pub fn periods(&self, assembly: &Assembly, is_native: bool) -> Vec<Findings> {
+        let Some((texts, compiled)) = &self.compiled else { return Vec::new() };
+        by_text(texts.iter().cloned(), periods::check(compiled, assembly, is_native))
+    }
 }
 
 /// The texts of a program together, with errors or without: for those who look at texts that are
@@ -117,24 +138,34 @@ pub fn together(sources: &[Source]) -> Result<Together, SourceError> {
 /// Makes one AWL text of the texts of a program. What is wrong with them comes all at once.
 pub fn join(sources: Vec<Source>) -> Result<Joined, Vec<Findings>> {
     let Together { awl, st, .. } = together(&sources).map_err(|_| Vec::new())?;
-    let Some(StructuredText { files, compiled, mut others, .. }) = st else {
-        return Ok(Joined { awl, is_generated: false, findings: Vec::new() });
+    let Some(StructuredText { files, mut compiled, mut others, .. }) = st else {
+        return Ok(Joined { awl, is_generated: false, findings: Vec::new(), compiled: None });
     };
-    let texts = files.iter().filter_map(|&file| sources.get(file).cloned());
+    let texts: Vec<Source> = files.iter().filter_map(|&file| sources.get(file).cloned()).collect();
+    let of_st = std::mem::take(&mut compiled.diagnostics).into_iter();
+    others.extend(of_st.map(|(at, one)| (at, findings::from_st(one))));
+    others.sort_by_key(|(_, one)| one.span);
+    let findings = by_text(texts.iter().cloned(), others);
+    match compiled.awl.is_some() && !has_errors(&findings) {
+        true => {
+            let compiled = Some((texts, compiled));
+            Ok(Joined { awl, is_generated: true, findings, compiled })
+        }
+        false => Err(findings),
+    }
+}
+
+/// What was found, text by text.
+fn by_text(texts: impl Iterator<Item = Source>, found: Vec<(usize, Diagnostic)>) -> Vec<Findings> {
     let mut findings: Vec<Findings> =
         texts.map(|source| Findings { source, diagnostics: Vec::new() }).collect();
-    others.extend(compiled.diagnostics.into_iter().map(|(at, one)| (at, findings::from_st(one))));
-    others.sort_by_key(|(_, one)| one.span);
-    for (file, one) in others {
+    for (file, one) in found {
         if let Some(findings) = findings.get_mut(file) {
             findings.diagnostics.push(one);
         }
     }
     findings.retain(|one| !one.diagnostics.is_empty());
-    match compiled.awl.is_some() && !has_errors(&findings) {
-        true => Ok(Joined { awl, is_generated: true, findings }),
-        false => Err(findings),
-    }
+    findings
 }
 
 /// A text in the canonical layout of its language; or its errors of form.

@@ -565,3 +565,25 @@ pub enum RoutineArgument {
     /// For an output.
     Place(Place),
 }
+
+/// Each statement, those in others too.
+pub fn each_statement<'s>(statements: &'s [Statement], found: &mut dyn FnMut(&'s Statement)) {
+    for statement in statements {
+        found(statement);
+        match &statement.kind {
+            StatementKind::If(arms, otherwise) => {
+                arms.iter().for_each(|(_, body)| each_statement(body, found));
+                each_statement(otherwise, found);
+            }
+            StatementKind::Case(_, arms, otherwise) => {
+                arms.iter().for_each(|(_, body)| each_statement(body, found));
+                each_statement(otherwise, found);
+            }
+            StatementKind::For(one) => each_statement(&one.body, found),
+            StatementKind::While(_, body) | StatementKind::Repeat(body, _) => {
+                each_statement(body, found)
+            }
+            _ => {}
+        }
+    }
+}

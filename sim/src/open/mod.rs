@@ -259,13 +259,14 @@ fn open_text(
     needs_board: bool,
     findings: &mut Vec<Findings>,
 ) -> Result<Parts, OpenError> {
-    let Joined { awl: source, is_generated, findings: warnings } =
-        join(sources).map_err(OpenError::Errors)?;
-    findings.extend(warnings);
-    let mut assembly = assemble_with_data(&source, symbols, data);
+    let joined = join(sources).map_err(OpenError::Errors)?;
+    let mut assembly = assemble_with_data(&joined.awl, symbols, data);
     if needs_board {
         assembly.require_board();
     }
+    let periods = joined.periods(&assembly, false);
+    let Joined { awl: source, is_generated, findings: warnings, .. } = joined;
+    findings.extend(warnings.into_iter().chain(periods));
     let place_of = assembly.places(&source);
     let diagnostics = from_awl(std::mem::take(&mut assembly.diagnostics), is_generated);
     if !diagnostics.is_empty() {

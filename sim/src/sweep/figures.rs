@@ -1,7 +1,7 @@
 //! The figures of a frequency response: bandwidth and the margins of a loop. Between two measured
 //! frequencies both curves are taken as straight, over the logarithm of the frequency.
 
-use super::{Point, decimals, digits};
+use super::{Point, digits, rounded};
 
 /// A gain of so many decibels less is a power of half.
 const HALF_POWER: f64 = 3.010_299_956_639_812;
@@ -35,7 +35,7 @@ impl Figures {
         let phases: Vec<_> =
             points.iter().filter_map(|point| Some((point.hertz.ln(), point.phase?))).collect();
         let margin = |at: f64, other: &[(f64, f64)], from: f64, sign: f64| {
-            let margin = decimals(sign * (value(other, at)? - from));
+            let margin = rounded(sign * (value(other, at)? - from), 9);
             Some(Crossing { hertz: digits(at.exp()), margin })
         };
         let first = gains.first().map_or(0.0, |(_, gain)| *gain);

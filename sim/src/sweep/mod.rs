@@ -132,7 +132,7 @@ pub struct Point {
 impl Point {
     /// The gain in decibels; minus infinity where nothing comes out.
     pub fn decibels(&self) -> f64 {
-        decimals(20.0 * self.gain.log10())
+        rounded(20.0 * self.gain.log10(), 9)
     }
 }
 
@@ -348,8 +348,9 @@ impl<M: Machine + ?Sized> Bench<'_, M> {
             count += 1;
             if is_settled && is_pure || count == MEASUREMENTS_MAX {
                 let gain = digits(ratio.size());
-                let phase = (gain > 0.0).then(|| decimals(continued(ratio.degrees(), before)));
-                let distortion = decimals(distortion);
+                let phase = (gain > 0.0).then(|| rounded(continued(ratio.degrees(), before), 9));
+                // What the sums leave of a pure sine is a hundredth of that.
+                let distortion = rounded(distortion, 5);
                 return Ok(Point { hertz, gain, phase, distortion, is_settled });
             }
             last = Some((ratio, distortion));
@@ -370,7 +371,8 @@ fn digits(value: f64) -> f64 {
     format!("{value:.8e}").parse().unwrap_or(value)
 }
 
-/// The same with nine decimals: of what is small beside what it is the difference of.
-fn decimals(value: f64) -> f64 {
-    (value * 1e9).round() / 1e9
+/// The same with so many decimals: of what is small beside what it is the difference of.
+fn rounded(value: f64, decimals: i32) -> f64 {
+    let scale = 10_f64.powi(decimals);
+    (value * scale).round() / scale
 }

@@ -51,18 +51,24 @@ pub fn measure_with(row: &Row, tier: Tier, count: u8) -> ByFlow {
         situation(&mut meter, &mut rng);
         values::write(&mut meter, row.items, count, &mut rng);
         let execution = meter.execute();
-        let mut hidden = 0;
+        // What is hidden before an instruction, and after it, is part of that.
+        let (mut before, mut last) = (0, None::<(_, bool)>);
         for step in &execution.steps {
             let Some(instruction) = step.instruction else { continue };
+            let number = meter.executable.written(instruction);
             if meter.executable.is_hidden(instruction) {
-                hidden = step.cycles;
+                let of_last = last.filter(|(of, ..)| *of == number);
+                match of_last.and_then(|(_, flow)| found.get_mut(&flow)?.last_mut()) {
+                    Some(taken) => *taken += step.cycles,
+                    None => before = step.cycles,
+                }
                 continue;
             }
-            let taken = hidden + step.cycles;
-            hidden = 0;
-            if meter.executable.written(instruction).is_some_and(|number| numbers.contains(&number))
-            {
+            let taken = std::mem::take(&mut before) + step.cycles;
+            last = None;
+            if number.is_some_and(|number| numbers.contains(&number)) {
                 found.entry(step.flow).or_default().push(taken);
+                last = Some((number, step.flow));
             }
         }
     }

@@ -247,6 +247,9 @@ const STRINGS: &[Row] = &[
     row("STR VB100, 1, VD4").with(&[(100, String("-123.456"))]),
 ];
 
+/// What an analog output is given, and what is cut off.
+const ANALOG: &[Item] = &[(4, Word(-1000, i16::MAX))];
+
 const POINTS: &[Row] = &[
     loads("LDI I0.1").quoted(fixed(15.0)),
     loads("LDNI I0.1").quoted(fixed(15.0)),
@@ -260,6 +263,9 @@ const POINTS: &[Row] = &[
     row("BIR IB0, VB4").quoted(fixed(23.0)),
     row("BIW VB4, QB0").quoted(fixed(24.0)),
     row("DLED VB4"),
+    // With the hidden instruction after it, which hands the value to the timer.
+    row("MOVW VW4, AQW0").with(ANALOG),
+    Row::new("MOVW VW4, AQW2 // with AQW0", MEMORY, "LD M30.0\nMOVW VW4, AQW0\n{}").with(ANALOG),
     in_frame("HDEF 0, 0", BOX).once().quoted(fixed(18.0)),
     in_frame("HSC 0", "LD SM0.1\nHDEF 0, 0\nLD SM0.0\nMOVB 16#F8, SMB37\nLD M30.0\n{}")
         .quoted(fixed(30.0)),

@@ -11,8 +11,9 @@ use fastrand::Rng;
 use plc_isa::{Kind, Op, PowerFlow};
 
 use super::forms::situation;
-use super::rows::CHAPTERS;
-use super::{Executable, Execution, Meter, Step, Tier};
+use super::module_rows::MODULE_CHAPTERS;
+use super::rows::{CHAPTERS, Row};
+use super::{Executable, Execution, Meter, Step, Tier, values};
 use crate::case::Case;
 use crate::random::{random_interrupts, random_program};
 
@@ -36,12 +37,13 @@ const RANDOM: u64 = 1_500;
 pub fn table() -> String {
     let mut found: BTreeMap<(Op, String), Ways> = BTreeMap::new();
     let mut start = 0;
-    for row in CHAPTERS.iter().flat_map(|chapter| chapter.rows) {
+    for row in CHAPTERS.iter().flat_map(|chapter| chapter.rows).chain(analog()) {
         let mut meter = Meter::new(Executable::new(row.awl, &row.program().0, Tier::Interpreter));
         meter.board.stop_clock();
         let mut rng = Rng::with_seed(1);
         for _ in 0..SCANS {
             situation(&mut meter, &mut rng);
+            values::write(&mut meter, row.items, 0, &mut rng);
             let execution = meter.execute();
             start = start.max(enter(&meter, &execution, &mut found));
         }
@@ -57,6 +59,12 @@ pub fn table() -> String {
         any_inputs(&text, 2, &mut Rng::with_seed(1), &mut found);
     }
     native_constants(&found) + &text(start, &found)
+}
+
+/// Rows of modules with an instruction that has no row: what hands analog outputs to the timer.
+fn analog() -> impl Iterator<Item = &'static Row> {
+    let rows = MODULE_CHAPTERS.iter().flat_map(|chapter| chapter.rows);
+    rows.filter(|row| row.awl.contains("AQW"))
 }
 
 /// What calls between the engine and machine code take: constants of

@@ -27,12 +27,14 @@ pub(super) fn build(arguments: &Build) -> Result<bool> {
         Ok(joined) => joined,
         Err(findings) => return Ok(told(&findings, arguments.messages)),
     };
-    let Joined { awl, is_generated, mut findings } = joined;
-    let mut assembly = assemble(&awl, Vec::new());
+    let mut assembly = assemble(&joined.awl, Vec::new());
     if arguments.native || kind == Kind::Hex {
         assembly.require_board();
     }
     let image = image(&mut assembly, arguments.native)?;
+    let periods = joined.periods(&assembly, arguments.native);
+    let Joined { awl, is_generated, mut findings, .. } = joined;
+    findings.extend(periods);
     let diagnostics = from_awl(std::mem::take(&mut assembly.diagnostics), is_generated);
     if !diagnostics.is_empty() {
         findings.push(Findings { source: awl.clone(), diagnostics });

@@ -28,8 +28,6 @@ struct Language {
     least: usize,
     /// How often as much as by hand it may take: the median, and the most.
     budget: (f64, f64),
-    /// How many instructions may be without known cycles, in either program the same.
-    unknown: usize,
     /// The text with timers of the controller, as far as it can have them.
     coarse: fn(String) -> Result<String>,
 }
@@ -44,7 +42,6 @@ const LANGUAGES: [Language; 3] = [
                 *native* the cycles of the longest scan as `awl-asm` tells them.\n\n",
         least: 10,
         budget: (budgets::COMPILED_MEDIAN_MAX, budgets::COMPILED_RATIO_MAX),
-        unknown: 0,
         coarse: Ok,
     },
     Language {
@@ -55,7 +52,6 @@ const LANGUAGES: [Language; 3] = [
                 `tests/by_hand`), with `{coarse}`\nat each step.\n\n",
         least: 6,
         budget: (budgets::COMPILED_MEDIAN_MAX, budgets::COMPILED_RATIO_MAX),
-        unknown: 0,
         coarse: coarse_steps,
     },
     Language {
@@ -65,11 +61,9 @@ const LANGUAGES: [Language; 3] = [
         words: "A control loop of `examples/fbd`, with the blocks EVERY, ANALOG_IN, PID and \
                 ANALOG_OUT of the library, beside one\nby hand with the instruction PID. The \
                 diagram has limits, a filter, anti-windup and changes without a jump, and\neach \
-                value with a name. The cycles of both are without those of the write to AQW0, \
-                which are not known.\n\n",
+                value with a name.\n\n",
         least: 1,
         budget: (budgets::DIAGRAM_RATIO_MAX, budgets::DIAGRAM_RATIO_MAX),
-        unknown: 1,
         coarse: Ok,
     },
 ];
@@ -188,7 +182,6 @@ impl Language {
     fn pair(&self, path: &Path, by_hand: &Path) -> Result<Pair> {
         let text = (self.coarse)(read(path)?)?;
         let exact = text.replace("{coarse}", "");
-        let size = |path, text| size(path, text, self.unknown);
         let exact = if exact == text { None } else { Some(size(path, exact)?) };
         let (compiled, awl) = (size(path, text)?, size(by_hand, read(by_hand)?)?);
         Ok(Pair { name: stem(by_hand), compiled, exact, awl })
@@ -243,7 +236,7 @@ fn read(path: &Path) -> Result<String> {
 }
 
 /// What a program of either language takes.
-fn size(path: &Path, text: String, unknown: usize) -> Result<Size> {
+fn size(path: &Path, text: String) -> Result<Size> {
     let name = path.display().to_string();
     let source =
         Source::new(name.as_str(), text).map_err(|_| anyhow::anyhow!("{name}: too long"))?;
@@ -253,9 +246,9 @@ fn size(path: &Path, text: String, unknown: usize) -> Result<Size> {
     let image = assembly.image.as_deref().with_context(|| format!("{name}: no image"))?;
     let bytes = assembly.lines.iter().map(|line| u64::from(line.len)).sum();
     let cost = cost(image).with_context(|| format!("{name}: not for the board"))?;
-    let is_known = |longest: &&Longest| longest.missing.len() == unknown;
-    let known = Some(&cost.interpreted).filter(is_known);
-    let (Some(interpreted), Some(native)) = (known, cost.translated.as_ref().filter(is_known))
+    let known = |longest: Option<&Longest>| longest.filter(|one| one.is_known()).cloned();
+    let (Some(interpreted), Some(native)) =
+        (known(Some(&cost.interpreted)), known(cost.translated.as_ref()))
     else {
         anyhow::bail!("{name}: the longest scan is not known");
     };

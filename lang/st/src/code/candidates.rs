@@ -3,14 +3,13 @@
 
 use std::collections::HashMap;
 
-use super::timers::each;
-use crate::model::{Program, StatementKind, Type, Unit, UnitKind, Variable};
+use crate::model::{Program, StatementKind, Type, Unit, UnitKind, Variable, each_statement};
 
 /// Blocks that can be subroutines: called more than once, with elementary variables alone.
 pub(super) fn candidates(program: &Program) -> Vec<usize> {
     let mut calls: HashMap<usize, usize> = HashMap::new();
     for unit in &program.units {
-        each(&unit.body, &mut |statement| {
+        each_statement(&unit.body, &mut |statement| {
             if let StatementKind::Call(call) = &statement.kind {
                 *calls.entry(call.block).or_default() += 1;
             }

@@ -6,13 +6,12 @@ use super::Generator;
 use super::compare::relation;
 use super::logic::Logic;
 use super::memory::{literal, storage};
-use super::timers::each;
 use super::values::{has_instructions, known};
 use super::writer::Storage;
 use crate::check::each_assignment;
 use crate::model::{
     BinaryOperator, CaseArm, Expression, ExpressionKind, ForLoop, Statement, StatementKind, Type,
-    Value,
+    Value, each_statement,
 };
 
 /// FOR and NEXT in each other at most (docs/errors/E0011.md).
@@ -84,7 +83,7 @@ impl Generator<'_> {
     /// Whether statements may change what an expression reads.
     fn may_write(&self, body: &[Statement], expression: &Expression) -> bool {
         let mut is_written = false;
-        each(body, &mut |statement| {
+        each_statement(body, &mut |statement| {
             // Blocks write global variables, subroutines whatever they like.
             let is_call =
                 matches!(statement.kind, StatementKind::Call(_) | StatementKind::Routine(..));
@@ -438,7 +437,7 @@ fn counts_by_instruction(one: &ForLoop, storage: Storage) -> bool {
 
 fn any(body: &[Statement], is_wanted: &dyn Fn(&StatementKind) -> bool) -> bool {
     let mut found = false;
-    each(body, &mut |statement| found |= is_wanted(&statement.kind));
+    each_statement(body, &mut |statement| found |= is_wanted(&statement.kind));
     found
 }
 

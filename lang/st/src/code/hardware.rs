@@ -5,13 +5,13 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 
 use diagnostics::Span;
 
-use super::timers::{Owner, each};
+use super::timers::Owner;
 use crate::around::Around;
 use crate::check::{each_assignment, each_expression};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{
     BinaryOperator, BlockCall, Expression, ExpressionKind, Place, Program, Root, RoutineArgument,
-    Statement, StatementKind, Step, Type, UnitKind, Value,
+    Statement, StatementKind, Step, Type, UnitKind, Value, each_statement,
 };
 use crate::names::safe_name;
 
@@ -346,10 +346,10 @@ pub(super) fn usages(program: &Program) -> HashMap<Key, Usage<'_>> {
     let mut usages: HashMap<Key, Usage> = HashMap::new();
     for (number, unit) in program.units.iter().enumerate() {
         let mut has_return = false;
-        each(&unit.body, &mut |statement| {
+        each_statement(&unit.body, &mut |statement| {
             has_return |= matches!(statement.kind, StatementKind::Return);
         });
-        each(&unit.body, &mut |statement| match &statement.kind {
+        each_statement(&unit.body, &mut |statement| match &statement.kind {
             StatementKind::Call(call) => {
                 let Some((key, _)) = member(program, number, &call.instance) else { return };
                 let is_plain = !has_return && is_directly_in(&unit.body, statement);
@@ -391,7 +391,7 @@ pub(super) fn usages(program: &Program) -> HashMap<Key, Usage<'_>> {
 fn taken_outputs(program: &Program, number: usize) -> Vec<(Key, usize)> {
     let mut found = Vec::new();
     let Some(unit) = program.units.get(number) else { return found };
-    each(&unit.body, &mut |statement| {
+    each_statement(&unit.body, &mut |statement| {
         if let StatementKind::Call(call) = &statement.kind
             && let Some((key, _)) = member(program, number, &call.instance)
         {

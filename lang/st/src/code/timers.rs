@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::model::{
-    ExpressionKind, Place, Program, Root, Statement, StatementKind, Step, Type, Value,
+    ExpressionKind, Place, Program, Root, StatementKind, Step, Type, Value, each_statement,
 };
 
 /// What a variable belongs to.
@@ -26,7 +26,7 @@ pub(super) fn short_timers(program: &Program) -> Short {
             Root::Global(at) => Some((Owner::Global, at)),
             Root::Address(_) => None,
         };
-        each(&unit.body, &mut |statement| match &statement.kind {
+        each_statement(&unit.body, &mut |statement| match &statement.kind {
             StatementKind::Call(call) if is_timer(program, call.block) => {
                 let Some(key) = key(&call.instance) else { return };
                 let given = call.inputs.iter().find(|(at, _)| *at == 1).map(|(_, value)| value);
@@ -62,24 +62,4 @@ pub(super) fn short_timers(program: &Program) -> Short {
 fn is_timer(program: &Program, block: usize) -> bool {
     let unit = program.units.get(block).filter(|unit| unit.file.is_none());
     unit.is_some_and(|unit| ["TON", "TOF", "TP"].contains(&unit.name.as_str()))
-}
-
-/// Each statement, those in others too.
-pub(super) fn each<'s>(statements: &'s [Statement], found: &mut dyn FnMut(&'s Statement)) {
-    for statement in statements {
-        found(statement);
-        match &statement.kind {
-            StatementKind::If(arms, otherwise) => {
-                arms.iter().for_each(|(_, body)| each(body, found));
-                each(otherwise, found);
-            }
-            StatementKind::Case(_, arms, otherwise) => {
-                arms.iter().for_each(|(_, body)| each(body, found));
-                each(otherwise, found);
-            }
-            StatementKind::For(one) => each(&one.body, found),
-            StatementKind::While(_, body) | StatementKind::Repeat(body, _) => each(body, found),
-            _ => {}
-        }
-    }
 }
