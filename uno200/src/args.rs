@@ -258,8 +258,8 @@ pub struct Convert {
     /// blocks (.fbd), a block of IEC 61499 (.fbt) or one in MATLAB (.m)
     #[arg(value_name = "IN")]
     pub input: PathBuf,
-    /// Where the result goes: a text (.st, .sfc, .m), a project (.xml), a block (.fbt), the service
-    /// sequences of a block (.scn) or a picture (.svg); without it to standard output
+    /// Where the result goes: a text (.st, .sfc, .fbd, .m), a project (.xml), a block (.fbt), the
+    /// service sequences of a block (.scn) or a picture (.svg); without it to standard output
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
     /// For whom Structured Text is written [default: uno200]

@@ -114,7 +114,8 @@ fn a_chart_becomes_a_picture() {
         let (found, _, errors) = convert(path, &arguments);
         assert_eq!(found, Some(code), "{arguments:?}: {errors}");
         assert!(errors.contains(words), "{arguments:?}: {errors}");
-        assert!(!path.join("out.svg").exists() && !path.join("out.st").exists());
+        let is_left = ["out.svg", "out.st", "out.xml"].iter().any(|file| path.join(file).exists());
+        assert!(!is_left, "{arguments:?}");
     }
 }
 
@@ -134,18 +135,49 @@ fn a_diagram_becomes_a_picture() {
     let twice = text.replace("%Q0.0 :=", "%Q0.0 := 1; %Q0.0 :=");
     fs::write(path.join("twice.fbd"), twice).unwrap();
     fs::write(path.join("no.fbd"), "(* nothing *)").unwrap();
+    fs::write(path.join("routine.fbd"), text.replace("%Q0.0 :=", "Lamp(); %Q0.0 :=")).unwrap();
     for (arguments, code, words) in [
         (["twice.fbd", "-o", "out.svg"], 1, "E0502"),
         (["no.fbd", "-o", "out.svg"], 2, "nothing to draw"),
         (["d.fbd", "-o", "out.st"], 2, "`-o diagram.svg`"),
+        (["routine.fbd", "-o", "out.xml"], 1, "E0707"),
         (["d.fbd", "--table", "--overwrite"], 2, "--table"),
         (["d.fbd", "--summary", "--overwrite"], 2, "--summary"),
     ] {
         let (found, _, errors) = convert(path, &arguments);
         assert_eq!(found, Some(code), "{arguments:?}: {errors}");
         assert!(errors.contains(words), "{arguments:?}: {errors}");
-        assert!(!path.join("out.svg").exists() && !path.join("out.st").exists());
+        let is_left = ["out.svg", "out.st", "out.xml"].iter().any(|file| path.join(file).exists());
+        assert!(!is_left, "{arguments:?}");
     }
+}
+
+#[test]
+fn diagrams_become_projects_and_projects_diagrams() {
+    let folder = folder();
+    let path = folder.path();
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/fbd/control_loop.fbd");
+    fs::copy(example, path.join("loop.fbd")).unwrap();
+    for arguments in [["loop.fbd", "-o", "loop.xml"], ["loop.xml", "-o", "again.fbd"]] {
+        let (code, _, errors) = convert(path, &arguments);
+        assert_eq!((code, errors.as_str()), (Some(0), ""), "{arguments:?}");
+    }
+    let text = |file: &str| fs::read_to_string(path.join(file)).unwrap();
+    let statements = |text: &str| -> Vec<String> {
+        let (_, body) = text.rsplit_once("END_VAR").unwrap();
+        body.lines().map(str::to_owned).filter(|line| !line.is_empty()).collect()
+    };
+    assert_eq!(statements(&text("again.fbd")), statements(&text("loop.fbd")));
+
+    // What sets a variable is no diagram; it says which statement, and what to do.
+    let set = text("loop.xml").replacen("<outVariable ", "<outVariable storage=\"set\" ", 1);
+    assert!(set.contains("storage=\"set\""), "there is a variable");
+    fs::write(path.join("set.xml"), set).unwrap();
+    let (code, _, errors) = convert(path, &["set.xml", "-o", "set.fbd"]);
+    assert_eq!(code, Some(2), "{errors}");
+    assert!(errors.contains("(`IF ") && errors.contains("`-o set.st`"), "{errors}");
+    assert!(!path.join("set.fbd").exists());
+    assert_eq!(convert(path, &["set.xml", "-o", "set.st"]).0, Some(0));
 }
 
 #[test]

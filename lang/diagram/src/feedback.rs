@@ -1,8 +1,13 @@
 //! `{feedback}` before a name: it is read as it was in the scan before, which opens a loop.
 
-use diagnostics::Span;
+use std::collections::HashMap;
 
+use diagnostics::{Source, Span};
+use st::lexer::cut;
+
+use crate::addresses::Addresses;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::elements::{Element, Reading};
 
 /// The pragmas of a text that no name has taken yet.
 pub(crate) struct Feedback<'t> {
@@ -20,8 +25,9 @@ impl<'t> Feedback<'t> {
         Feedback { text, left: pragmas.iter().filter(is_feedback).copied().collect() }
     }
 
-    /// Whether one is before a name; that is taken.
+    /// Whether one is before a name, which may be in brackets; that is taken.
     pub(crate) fn take(&mut self, name: Span) -> bool {
+        let name = bare(self.text, name);
         let is_before = |pragma: &Span| {
             pragma.end <= name.start
                 && Span { start: pragma.end, end: name.start }.text(self.text).trim().is_empty()
@@ -38,4 +44,49 @@ impl<'t> Feedback<'t> {
             Diagnostic::new(Code::Feedback, span, message).help(help)
         })
     }
+}
+
+/// A name without brackets before it, and pragmas in these.
+fn bare(text: &str, name: Span) -> Span {
+    let mut rest = name.text(text);
+    while let Some(inner) = rest.strip_prefix('(') {
+        rest = inner.trim_start();
+        let pragma = rest.strip_prefix('{').and_then(|inner| inner.split_once('}'));
+        rest = pragma.map_or(rest, |(_, behind)| behind.trim_start());
+    }
+    Span { start: name.end - rest.len() as u32, end: name.end }
+}
+
+/// A text whose diagrams are executed in the order of their statements, with `{feedback}` before
+/// each name that is read before it is written.
+pub fn marked(source: &Source) -> String {
+    let (file, _) = st::parser::parse(source);
+    let pragmas = cut(&source.text).pragmas;
+    let mut feedback = Feedback::of(&source.text, &pragmas);
+    let mut marks: Vec<u32> = Vec::new();
+    for unit in crate::diagrams(&file) {
+        let addresses = Addresses::of(unit);
+        let mut reading = Reading { text: &source.text, addresses, feedback: &mut feedback };
+        let elements: Vec<Element> = unit
+            .body
+            .iter()
+            .filter_map(|one| Element::of(one.clone(), &mut reading).ok())
+            .collect();
+        let mut later: HashMap<&str, usize> = HashMap::new();
+        for (at, element) in elements.iter().enumerate() {
+            later.extend(element.writes.iter().map(|one| (one.name.as_str(), at)));
+        }
+        for (at, element) in elements.iter().enumerate() {
+            let is_later = |name: &str| later.get(name).is_some_and(|writer| *writer >= at);
+            let reads = element.reads.iter().filter(|one| !one.is_feedback && is_later(&one.name));
+            marks.extend(reads.map(|one| bare(&source.text, one.span).start));
+        }
+    }
+    marks.sort_unstable();
+    marks.dedup();
+    let mut text = source.text.clone();
+    for at in marks.into_iter().rev() {
+        text.insert_str(at as usize, "{feedback} ");
+    }
+    text
 }

@@ -60,7 +60,7 @@ impl Interfaces {
     }
 
     /// With the blocks that a text declares itself.
-    pub(crate) fn and_of(&self, text: &str, file: &File) -> Interfaces {
+    pub fn and_of(&self, text: &str, file: &File) -> Interfaces {
         let own = file.units.iter().filter_map(|unit| Interface::of(unit, text, Origin::Project));
         Interfaces(own.chain(self.0.iter().cloned()).collect())
     }

@@ -25,6 +25,7 @@ use addresses::Addresses;
 pub use diagnostic::{Code, Diagnostic};
 use elements::{Element, Reading};
 use feedback::Feedback;
+pub use feedback::marked;
 
 /// A text with diagrams.
 #[derive(Debug)]

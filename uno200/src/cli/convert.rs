@@ -132,6 +132,10 @@ fn from_project(arguments: &Convert, source: &Source) -> Result<bool> {
         );
     }
     let mut report = Report::new(arguments.messages, false);
+    let output = arguments.output.as_deref().filter(|_| !arguments.summary);
+    if let Some(output) = output.filter(|output| has_ending(output, "fbd")) {
+        return diagram::from_project(source, output, &mut report);
+    }
     let plcopen::Imported { text, charts, diagnostics } = plcopen::read(source);
     if !told(&mut report, source, diagnostics) {
         return Ok(false);
@@ -148,7 +152,7 @@ fn from_project(arguments: &Convert, source: &Source) -> Result<bool> {
         return Ok(false);
     }
     let Some(output) = &arguments.output else { return print(text.text()).map(|()| true) };
-    if ending(output, &["sfc", "st"])? == "st" && !charts.is_empty() {
+    if ending(output, &["sfc", "st", "fbd"])? == "st" && !charts.is_empty() {
         bail!("{}: there are charts in it: write it as .sfc", arguments.input.display());
     }
     write_whole(output, text.text().as_bytes()).map(|()| true)

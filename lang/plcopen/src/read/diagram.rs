@@ -4,8 +4,8 @@
 use chart::model::{Code, Origin};
 use diagnostics::xml::{Node, tag};
 
-use super::drawn::{Called, assigned, instance};
-use super::formatted::formatted;
+use super::drawn::{Called, assigned, instance, is_plain};
+use super::formatted::{documentation, formatted};
 use super::network::{Network, lines_into, title};
 use super::reader::{Reader, child, is_true, optional};
 use crate::diagnostic::Code as ErrorCode;
@@ -18,20 +18,45 @@ pub(super) fn statements(reader: &mut Reader, diagram: Node) -> Option<Vec<Code>
     let network = Network::of(reader, diagram);
     let mut all = network.elements.clone();
     all.sort_by_key(|node| place(*node));
-    let mut writer = Writer { reader, network: &network, called: Called::new(), codes: Vec::new() };
-    all.into_iter().for_each(|node| writer.element(node));
+    let has_places = reader.has_places && diagram.tag_name().name() == "FBD";
+    let (called, codes, given) = (Called::new(), Vec::new(), Vec::new());
+    let mut writer = Writer { reader, network: &network, called, codes, last_call: None, given };
+    for node in all {
+        if writer.is_output_of_last(node) {
+            continue;
+        }
+        let first = writer.codes.len();
+        writer.element(node);
+        if has_places {
+            writer.placed(node, first);
+            let is_call = node.tag_name().name() == "block" && writer.codes.len() > first;
+            let next = order(node).filter(|_| is_call).map(|order| order.saturating_add(1));
+            writer.last_call = next.map(|next| (node, next));
+            writer.given.clear();
+        }
+    }
     Some(writer.codes)
 }
 
 /// Where an element is in the order of execution: by its number, or from the top and the left.
 fn place(node: Node) -> (u32, i64, i64) {
+    let (x, y) = corner(node);
+    (order(node).unwrap_or(u32::MAX), y, x)
+}
+
+/// The place of an element in the order of execution, if it has one.
+pub(super) fn order(node: Node) -> Option<u32> {
     let order = optional(node, "executionOrderId").and_then(|one| one.text.parse().ok());
-    let order = order.filter(|order| *order > 0).unwrap_or(u32::MAX);
+    order.filter(|order| *order > 0)
+}
+
+/// The upper left corner of an element.
+fn corner(node: Node) -> (i64, i64) {
     let at = |name| {
         let number = child(node, "position").and_then(|one| optional(one, name));
         number.and_then(|one| one.text.parse::<f64>().ok()).map_or(0, |number| number as i64)
     };
-    (order, at("y"), at("x"))
+    (at("x"), at("y"))
 }
 
 struct Writer<'w, 'f, 'a, 'i> {
@@ -39,6 +64,11 @@ struct Writer<'w, 'f, 'a, 'i> {
     network: &'w Network<'a, 'i>,
     called: Called<'a, 'i>,
     codes: Vec<Code>,
+    /// Whose call the last statement is, and the place after it in the order of execution: what is
+    /// there and gets an output is part of the call.
+    last_call: Option<(Node<'a, 'i>, u32)>,
+    /// The outputs that it gives already, in upper case.
+    given: Vec<String>,
 }
 
 impl<'a, 'i> Writer<'_, '_, 'a, 'i> {
@@ -65,6 +95,45 @@ impl<'a, 'i> Writer<'_, '_, 'a, 'i> {
             "addData" | "documentation" => self.reader.ignore(node, "a diagram"),
             _ => self.unread(node),
         }
+    }
+
+    /// Adds a variable to the call before it, if that is where an output of its block goes.
+    fn is_output_of_last(&mut self, node: Node<'a, 'i>) -> bool {
+        let is_next = |(_, next): &(Node, u32)| order(node) == Some(*next);
+        let last = self.last_call.filter(is_next);
+        let Some((block, next)) = last.filter(|_| node.tag_name().name() == "outVariable") else {
+            return false;
+        };
+        let is_as_it_is = !is_true(node, "negated") && is_plain(node);
+        let output = self.network.only_output(node, block).filter(|_| is_as_it_is);
+        // A call gives each of its outputs once.
+        let Some(output) = output.filter(|one| !self.given.contains(&one.to_uppercase())) else {
+            return false;
+        };
+        let target = child(node, "expression").map(|one| formatted(one).text);
+        let (Some(target), Some(code)) = (target, self.codes.last_mut()) else { return false };
+        let Some(call) = code.text.strip_suffix(");") else { return false };
+        let gap = if call.ends_with('(') { "" } else { ", " };
+        code.text = format!("{call}{gap}{output} => {target});");
+        self.given.push(output.to_uppercase());
+        self.last_call = Some((block, next.saturating_add(1)));
+        true
+    }
+
+    /// Says where the element is drawn whose statements begin with a number; the last one is its own.
+    /// What is said about it comes before that.
+    fn placed(&mut self, node: Node, first: usize) {
+        let (x, y) = corner(node);
+        let has_own = self.codes.len() > first && node.tag_name().name() != "comment";
+        let Some(code) = self.codes.last_mut().filter(|_| has_own) else { return };
+        code.text = format!("{{at {x} {y}}} {}", code.text);
+        let (mut before, origin) = (String::new(), code.origin);
+        for line in documentation(node).lines().map(str::trim) {
+            let is_group = line.starts_with("{group ") && line.ends_with('}');
+            before += &if is_group { format!("{line}\n") } else { format!("// {line}\n") };
+        }
+        code.text.insert_str(0, &before);
+        code.origin = origin;
     }
 
     fn unread(&mut self, node: Node) {

@@ -10,6 +10,7 @@ use diagnostics::Span;
 use diagnostics::xml::{Node, elements, tag};
 use st::names::{is_name, is_same};
 
+use super::diagram::order;
 use super::formatted::formatted;
 use super::network::{Line, Network, lines_into, lines_of, title};
 use super::operand::is_operand;
@@ -82,7 +83,8 @@ pub(super) fn assigned<'a, 'i>(
 ) -> Drawn {
     let lines = lines_into(to);
     let can_enable = lines.len() == 1;
-    let drawing = Drawing { can_enable, ..Drawing::of(reader, network, called) };
+    let order = order(to);
+    let drawing = Drawing { can_enable, order, ..Drawing::of(reader, network, called) };
     expression(drawing, to, &lines, tag(to))
 }
 
@@ -106,7 +108,8 @@ pub(super) fn instance<'a, 'i>(
     block: Node<'a, 'i>,
     called: &mut Called<'a, 'i>,
 ) -> Vec<Code> {
-    let mut drawing = Drawing { blocks: vec![block], ..Drawing::of(reader, network, called) };
+    let (blocks, order) = (vec![block], order(block));
+    let mut drawing = Drawing { blocks, order, ..Drawing::of(reader, network, called) };
     drawing.calls().unwrap_or_default()
 }
 
@@ -122,6 +125,8 @@ struct Drawing<'r, 'f, 'a, 'i> {
     /// Function blocks that are asked for, as often as that.
     blocks: Vec<Node<'a, 'i>>,
     called: &'r mut Called<'a, 'i>,
+    /// The place in the order of execution of what asks, if it has one.
+    order: Option<u32>,
     /// Whether the first function may have EN, and what that gets.
     can_enable: bool,
     enable: Option<String>,
@@ -134,7 +139,8 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
         called: &'r mut Called<'a, 'i>,
     ) -> Self {
         let (known, open, blocks) = (HashMap::new(), Vec::new(), Vec::new());
-        Drawing { reader, network, known, open, blocks, called, can_enable: false, enable: None }
+        let (can_enable, enable, order) = (false, None, None);
+        Drawing { reader, network, known, open, blocks, called, order, can_enable, enable }
     }
 
     /// What lines into an element carry: one of them is enough. `None`: what is wrong has been
@@ -204,7 +210,11 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
         instance: &Text,
         output: &str,
     ) -> Option<String> {
-        self.blocks.push(node);
+        // One with a higher number is executed later: its output is of the scan before.
+        let is_later = self.order.zip(order(node)).is_some_and(|(own, other)| own < other);
+        if !is_later {
+            self.blocks.push(node);
+        }
         let name = match output {
             "" => variable.and_then(|one| optional(one, "formalParameter")).map(|one| one.text),
             name => Some(name.to_owned()),
@@ -400,7 +410,7 @@ fn output_of<'a, 'i>(block: Node<'a, 'i>, output: &str) -> Option<Node<'a, 'i>> 
 }
 
 /// Whether an element says nothing of edges, nor that it sets or resets.
-fn is_plain(node: Node) -> bool {
+pub(super) fn is_plain(node: Node) -> bool {
     ["edge", "storage"].iter().all(|kind| optional(node, kind).is_none_or(|it| it.text == "none"))
 }
 

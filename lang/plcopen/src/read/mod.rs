@@ -68,7 +68,18 @@ fn kind(root: Node) -> Option<Root> {
 
 /// Reads a file. All that is wrong comes in one run.
 pub fn read(source: &Source) -> Imported {
+    read_with(source, Reader::new(&source.text))
+}
+
+/// The same for a text with diagrams: statements of bodies in FBD have the places at which they are
+/// drawn.
+pub fn read_diagrams(source: &Source) -> Imported {
     let mut reader = Reader::new(&source.text);
+    reader.has_places = true;
+    read_with(source, reader)
+}
+
+fn read_with(source: &Source, mut reader: Reader) -> Imported {
     let mut out = Traced::default();
     let mut charts = Vec::new();
     if source.text.len() > BYTES_MAX {

@@ -6,7 +6,9 @@ use std::collections::{HashMap, HashSet};
 use diagnostics::Span;
 use diagnostics::xml::{Node, elements, tag};
 
-use super::reader::{Reader, Text, optional};
+use st::names::is_same;
+
+use super::reader::{Reader, Text, child, is_true, optional};
 use crate::diagnostic::{Code, Diagnostic};
 
 /// A drawing.
@@ -96,6 +98,22 @@ impl<'a, 'i> Network<'a, 'i> {
             reader.error(Code::Unknown, line.span, message, help);
         }
         found
+    }
+
+    /// The output of a block that the only line into an element comes from; nothing where it has
+    /// no name, or is negated.
+    pub(super) fn only_output(&self, node: Node<'a, 'i>, block: Node<'a, 'i>) -> Option<String> {
+        let lines = lines_into(node);
+        let [line] = lines.as_slice() else { return None };
+        if line.output.is_empty() || self.known.get(&line.from.text) != Some(&block) {
+            return None;
+        }
+        let outputs = child(block, "outputVariables").into_iter().flat_map(elements);
+        let is_it = |one: &Node| {
+            optional(*one, "formalParameter").is_some_and(|name| is_same(&name.text, &line.output))
+        };
+        let output = outputs.into_iter().find(is_it)?;
+        (!is_true(output, "negated")).then(|| line.output.clone())
     }
 
     /// The elements of a kind that lead to an element, through those that only join lines. What

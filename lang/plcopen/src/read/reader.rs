@@ -20,13 +20,15 @@ pub(super) struct Text {
 pub(super) struct Reader<'f> {
     pub(super) file: &'f str,
     pub(super) diagnostics: Vec<Diagnostic>,
+    /// Whether statements of FBD say where they are drawn.
+    pub(super) has_places: bool,
     /// The names of additional data that were told already: files have the same in many elements.
     told: BTreeSet<String>,
 }
 
 impl<'f> Reader<'f> {
     pub(super) fn new(file: &'f str) -> Reader<'f> {
-        Reader { file, diagnostics: Vec::new(), told: BTreeSet::new() }
+        Reader { file, diagnostics: Vec::new(), has_places: false, told: BTreeSet::new() }
     }
 
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {

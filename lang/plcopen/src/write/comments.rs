@@ -66,7 +66,7 @@ impl Comments {
 }
 
 /// A comment without its signs.
-fn bare(comment: &str) -> String {
+pub(super) fn bare(comment: &str) -> String {
     let inside = comment.strip_prefix("//").or_else(|| {
         let block = comment.strip_prefix("(*").and_then(|rest| rest.strip_suffix("*)"));
         block.or_else(|| comment.strip_prefix("/*").and_then(|rest| rest.strip_suffix("*/")))

@@ -1,9 +1,11 @@
-//! From a text to XML: Structured Text with charts as a project of PLCopen TC6, version 2.01.
-//! [`types`] writes declarations, [`units`] programs and blocks, [`chart`] drawings. What has no
-//! place in such a project is refused; comments find one ([`comments`]).
+//! From a text to XML: Structured Text with charts, or diagrams of blocks, as a project of PLCopen
+//! TC6, version 2.01. [`types`] writes declarations, [`units`] programs and blocks, [`chart`] and
+//! [`diagram`] drawings. What has no place in such a project is refused; comments find one
+//! ([`comments`]).
 
 mod chart;
 mod comments;
+mod diagram;
 mod types;
 mod units;
 
@@ -11,6 +13,8 @@ use std::collections::HashSet;
 
 use ::chart::set_reset::plcopen_head;
 use ::chart::text::{self, Reading};
+use ::diagram::drawing::{Sheet, TooLarge, draw};
+use ::diagram::interfaces::Interfaces;
 use diagnostics::xml::Writer;
 use diagnostics::{Severity, Source, Span};
 use st::tree::{File, Section};
@@ -36,8 +40,28 @@ pub struct Exported {
 pub fn write(source: &Source) -> Exported {
     let reading = text::read(source);
     let file = ::chart::frame(source, &reading, &mut HashSet::new());
-    let mut project = Project { source, found: Vec::new(), out: Writer::default() };
-    project.all(&file, &reading);
+    project(source, &file, &reading, Vec::new())
+}
+
+/// Writes a text with diagrams as a project: their bodies in FBD. It has no errors:
+/// [`::diagram::read`] says so.
+///
+/// # Errors
+/// A diagram with more elements than are drawn.
+pub fn write_diagrams(source: &Source) -> Result<Exported, TooLarge> {
+    let ::diagram::Read { file, .. } = ::diagram::read(source);
+    let sheets = draw(source, &file, &Interfaces::default())?.sheets;
+    // There are no charts in it.
+    let (document, regions, diagnostics) = Default::default();
+    let reading = Reading { document, regions, diagnostics };
+    Ok(project(source, &file, &reading, sheets))
+}
+
+fn project(source: &Source, file: &File, reading: &Reading, sheets: Vec<Sheet>) -> Exported {
+    let interfaces = Interfaces::default().and_of(&source.text, file);
+    let out = Writer::default();
+    let mut project = Project { source, found: Vec::new(), sheets, interfaces, out };
+    project.all(file, reading);
     let Project { out, found: mut diagnostics, .. } = project;
     diagnostics.sort_by_key(|one| one.span);
     if diagnostics.iter().any(|one| one.severity() == Severity::Error) {
@@ -50,6 +74,10 @@ pub fn write(source: &Source) -> Exported {
 struct Project<'s> {
     source: &'s Source,
     found: Vec<Diagnostic>,
+    /// The units that are diagrams, as they are drawn, in the order of the text.
+    sheets: Vec<Sheet>,
+    /// The blocks that they know.
+    interfaces: Interfaces,
     out: Writer,
 }
 
