@@ -156,7 +156,7 @@ fn a_diagram_becomes_a_picture() {
 fn diagrams_become_projects_and_projects_diagrams() {
     let folder = folder();
     let path = folder.path();
-    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/fbd/control_loop.fbd");
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/fbd/rc_circuit.fbd");
     fs::copy(example, path.join("loop.fbd")).unwrap();
     for arguments in [["loop.fbd", "-o", "loop.xml"], ["loop.xml", "-o", "again.fbd"]] {
         let (code, _, errors) = convert(path, &arguments);
@@ -175,7 +175,7 @@ fn diagrams_become_projects_and_projects_diagrams() {
     fs::write(path.join("set.xml"), set).unwrap();
     let (code, _, errors) = convert(path, &["set.xml", "-o", "set.fbd"]);
     assert_eq!(code, Some(2), "{errors}");
-    assert!(errors.contains("(`IF ") && errors.contains("`-o set.st`"), "{errors}");
+    assert!(errors.contains(" IF Resistor.RAW THEN") && errors.contains("`-o set.st`"), "{errors}");
     assert!(!path.join("set.fbd").exists());
     assert_eq!(convert(path, &["set.xml", "-o", "set.st"]).0, Some(0));
 }

@@ -1,13 +1,8 @@
 //! `{feedback}` before a name: it is read as it was in the scan before, which opens a loop.
 
-use std::collections::HashMap;
+use diagnostics::Span;
 
-use diagnostics::{Source, Span};
-use st::lexer::cut;
-
-use crate::addresses::Addresses;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::elements::{Element, Reading};
 
 /// The pragmas of a text that no name has taken yet.
 pub(crate) struct Feedback<'t> {
@@ -47,7 +42,7 @@ impl<'t> Feedback<'t> {
 }
 
 /// A name without brackets before it, and pragmas in these.
-fn bare(text: &str, name: Span) -> Span {
+pub(crate) fn bare(text: &str, name: Span) -> Span {
     let mut rest = name.text(text);
     while let Some(inner) = rest.strip_prefix('(') {
         rest = inner.trim_start();
@@ -55,38 +50,4 @@ fn bare(text: &str, name: Span) -> Span {
         rest = pragma.map_or(rest, |(_, behind)| behind.trim_start());
     }
     Span { start: name.end - rest.len() as u32, end: name.end }
-}
-
-/// A text whose diagrams are executed in the order of their statements, with `{feedback}` before
-/// each name that is read before it is written.
-pub fn marked(source: &Source) -> String {
-    let (file, _) = st::parser::parse(source);
-    let pragmas = cut(&source.text).pragmas;
-    let mut feedback = Feedback::of(&source.text, &pragmas);
-    let mut marks: Vec<u32> = Vec::new();
-    for unit in crate::diagrams(&file) {
-        let addresses = Addresses::of(unit);
-        let mut reading = Reading { text: &source.text, addresses, feedback: &mut feedback };
-        let elements: Vec<Element> = unit
-            .body
-            .iter()
-            .filter_map(|one| Element::of(one.clone(), &mut reading).ok())
-            .collect();
-        let mut later: HashMap<&str, usize> = HashMap::new();
-        for (at, element) in elements.iter().enumerate() {
-            later.extend(element.writes.iter().map(|one| (one.name.as_str(), at)));
-        }
-        for (at, element) in elements.iter().enumerate() {
-            let is_later = |name: &str| later.get(name).is_some_and(|writer| *writer >= at);
-            let reads = element.reads.iter().filter(|one| !one.is_feedback && is_later(&one.name));
-            marks.extend(reads.map(|one| bare(&source.text, one.span).start));
-        }
-    }
-    marks.sort_unstable();
-    marks.dedup();
-    let mut text = source.text.clone();
-    for at in marks.into_iter().rev() {
-        text.insert_str(at as usize, "{feedback} ");
-    }
-    text
 }

@@ -13,6 +13,7 @@ pub mod edit;
 mod elements;
 mod feedback;
 pub mod interfaces;
+mod mark;
 mod order;
 mod pragmas;
 pub mod svg;
@@ -25,7 +26,7 @@ use addresses::Addresses;
 pub use diagnostic::{Code, Diagnostic};
 use elements::{Element, Reading};
 use feedback::Feedback;
-pub use feedback::marked;
+pub use mark::marked;
 
 /// A text with diagrams.
 #[derive(Debug)]

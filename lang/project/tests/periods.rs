@@ -113,7 +113,7 @@ fn clocks_of_all_are_found_in_their_file() {
 #[test]
 fn what_machine_code_is_fast_enough_for_is_said() {
     // Whole numbers are faster in machine code, and this is many of them.
-    let text = "PROGRAM Main\nVAR\n    Beat : EVERY := (TS := T#2ms);\n    I, S, N : INT;\nEND_VAR\n\
+    let text = "PROGRAM Main\nVAR\nBeat : EVERY := (TS := T#2ms);\nI, S, N : INT;\nEND_VAR\n\
         Beat();\nIF Beat.Q THEN\nFOR I := 1 TO 150 DO\nS := S + N;\nN := N + 1;\nS := S - N;\n\
         END_FOR;\nEND_IF;\n%QW0 := S;\nEND_PROGRAM\n";
     let [(_, one)] = &found(&[("sums.st", text)], false)[..] else { panic!("one warning") };

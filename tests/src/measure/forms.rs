@@ -56,19 +56,22 @@ pub fn measure_with(row: &Row, tier: Tier, count: u8) -> ByFlow {
         for step in &execution.steps {
             let Some(instruction) = step.instruction else { continue };
             let number = meter.executable.written(instruction);
+            let is_of_row = number.is_some_and(|number| numbers.contains(&number));
             if meter.executable.is_hidden(instruction) {
-                let of_last = last.filter(|(of, ..)| *of == number);
-                match of_last.and_then(|(_, flow)| found.get_mut(&flow)?.last_mut()) {
-                    Some(taken) => *taken += step.cycles,
+                match last.filter(|(of, _)| *of == number) {
+                    Some((_, flow)) if is_of_row => {
+                        let taken = found.get_mut(&flow).and_then(|all| all.last_mut());
+                        taken.into_iter().for_each(|taken| *taken += step.cycles);
+                    }
+                    Some(_) => {}
                     None => before = step.cycles,
                 }
                 continue;
             }
+            last = Some((number, step.flow));
             let taken = std::mem::take(&mut before) + step.cycles;
-            last = None;
-            if number.is_some_and(|number| numbers.contains(&number)) {
+            if is_of_row {
                 found.entry(step.flow).or_default().push(taken);
-                last = Some((number, step.flow));
             }
         }
     }

@@ -17,7 +17,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("chart", &["diagnostics", "awl-asm", "picture", "st"]),
     ("fb", &["diagnostics", "awl-asm", "st"]),
     ("diagram", &["diagnostics", "picture", "st"]),
-    ("plcopen", &["diagnostics", "st", "chart"]),
+    ("plcopen", &["diagnostics", "st", "chart", "diagram"]),
     ("project", &["diagnostics", "awl-asm", "st", "chart", "diagram", "fb", "plcopen"]),
     ("analysis", &["plc-isa", "diagnostics", "awl-asm", "st", "chart", "fb", "project", "awl-sim"]),
     ("simavr", &[]),

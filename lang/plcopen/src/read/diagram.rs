@@ -120,8 +120,8 @@ impl<'a, 'i> Writer<'_, '_, 'a, 'i> {
         true
     }
 
-    /// Says where the element is drawn whose statements begin with a number; the last one is its own.
-    /// What is said about it comes before that.
+    /// Says where the element is drawn whose statements begin with a number; the last one is its
+    /// own. What is said about it comes before that.
     fn placed(&mut self, node: Node, first: usize) {
         let (x, y) = corner(node);
         let has_own = self.codes.len() > first && node.tag_name().name() != "comment";

@@ -179,23 +179,7 @@ impl Project<'_> {
         self.corner(corner);
         self.inputs(&inputs);
         self.out.empty("inOutVariables", &[]);
-        self.open("outputVariables", &[]);
-        // What others take from it, and what it is given to here.
-        let pins = shape.outputs.iter().map(|pin| pin.name.clone());
-        let more = outputs.iter().map(|(name, _)| name.clone());
-        let mut names: Vec<String> = pins.chain(more).filter(|one| !one.is_empty()).collect();
-        let mut seen = Vec::new();
-        names.retain(|name| {
-            let is_new = !seen.contains(&name.to_uppercase());
-            seen.push(name.to_uppercase());
-            is_new
-        });
-        for name in &names {
-            self.open("variable", &[("formalParameter", name)]);
-            self.out.empty("connectionPointOut", &[]);
-            self.close();
-        }
-        self.close();
+        self.outputs(shape, &outputs);
         let said = self.said(diagram, statement);
         self.documentation(&said);
         self.close();
@@ -319,6 +303,24 @@ impl Project<'_> {
         self.out.text("expression", &[], text);
         self.close();
         Line { from, output: None, is_negated: false }
+    }
+
+    /// The outputs of a block: all that are drawn, and those that are given to something.
+    fn outputs(&mut self, shape: &ElementShape, given: &[(String, String)]) {
+        let pins = shape.outputs.iter().map(|pin| &pin.name);
+        let mut names: Vec<&String> = Vec::new();
+        for name in pins.chain(given.iter().map(|(name, _)| name)).filter(|one| !one.is_empty()) {
+            if !names.iter().any(|one| is_same(one, name)) {
+                names.push(name);
+            }
+        }
+        self.open("outputVariables", &[]);
+        for name in names {
+            self.open("variable", &[("formalParameter", name)]);
+            self.out.empty("connectionPointOut", &[]);
+            self.close();
+        }
+        self.close();
     }
 
     fn is_in_out(&self, block: &str, name: &str) -> bool {

@@ -72,9 +72,9 @@ pub(super) fn from_project(source: &Source, output: &Path, report: &mut Report) 
         return Ok(false);
     }
     let written = Source::new(source.name.as_str(), marked)?;
-    let found = diagram::read(&written).diagnostics.into_iter();
+    let mut found = diagram::read(&written).diagnostics.into_iter();
     let is_error = |one: &diagram::Diagnostic| one.severity() == Severity::Error;
-    if let Some(first) = found.filter(is_error).next() {
+    if let Some(first) = found.find(is_error) {
         let (line, _) = written.position(first.span.start as usize);
         bail!(
             "{}: this is no diagram of blocks: {} (`{}`); `-o {}` makes Structured Text of it",
