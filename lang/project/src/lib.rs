@@ -41,7 +41,8 @@ impl StructuredText {
     /// What is wrong with its periods, by the numbers of its files, when it is executed as
     /// bytecode.
     pub fn periods(&self, assembly: &Assembly) -> Vec<(usize, Diagnostic)> {
-        periods::check(&self.compiled, assembly, false)
+        let image = assembly.image.as_deref().unwrap_or_default();
+        periods::check(&self.compiled, (image, assembly), false)
     }
 }
 
@@ -74,11 +75,11 @@ pub struct Joined {
 }
 
 impl Joined {
-    /// What is wrong with its periods, which is known when it is assembled. `is_native`: it is to
-    /// be executed as machine code.
-    pub fn periods(&self, assembly: &Assembly, is_native: bool) -> Vec<Findings> {
+    /// What is wrong with its periods, which is known when it is assembled to this bytecode.
+    /// `is_native`: it is to be executed as machine code.
+    pub fn periods(&self, image: &[u8], assembly: &Assembly, is_native: bool) -> Vec<Findings> {
         let Some((texts, compiled)) = &self.compiled else { return Vec::new() };
-        by_text(texts.iter().cloned(), periods::check(compiled, assembly, is_native))
+        by_text(texts.iter().cloned(), periods::check(compiled, (image, assembly), is_native))
     }
 }
 

@@ -38,18 +38,19 @@ struct Scan {
     translated: Option<u64>,
 }
 
-/// Warnings about clocks, with the numbers of their files. `is_native`: the program is to be
+/// Warnings about clocks, with the numbers of their files, of a program that is assembled to this
+/// bytecode, which is empty where there are errors. `is_native`: the program is to be
 /// executed as machine code.
 pub(crate) fn check(
     compiled: &Compiled,
-    assembly: &Assembly,
+    (image, assembly): (&[u8], &Assembly),
     is_native: bool,
 ) -> Vec<(usize, Diagnostic)> {
     let clocks = clocks(compiled);
-    if clocks.is_empty() || assembly.image.is_none() {
+    if clocks.is_empty() || image.is_empty() {
         return Vec::new();
     }
-    let scan = Scan::of(assembly, is_native);
+    let scan = Scan::of(image, assembly, is_native);
     clocks.iter().filter_map(|clock| Some((clock.file, scan.warning(clock)?))).collect()
 }
 
@@ -106,8 +107,7 @@ fn clock<'p>(
 }
 
 impl Scan {
-    fn of(assembly: &Assembly, is_native: bool) -> Scan {
-        let image = assembly.image.as_deref().unwrap_or_default();
+    fn of(image: &[u8], assembly: &Assembly, is_native: bool) -> Scan {
         let cost = cost_with(image, &Stated::of(assembly));
         let us = |cycles: u64| cycles.div_ceil(CYCLES_PER_US.into());
         let (longest, translated) = match cost {

@@ -14,7 +14,8 @@ fn found(texts: &[(&str, &str)], is_native: bool) -> Vec<(String, Diagnostic)> {
     let sources = texts.iter().map(|(name, text)| Source::new(*name, *text).expect("a short text"));
     let joined = join(sources.collect()).expect("a good program");
     let assembly = assemble(&joined.awl, Vec::new());
-    let periods = joined.periods(&assembly, is_native);
+    let image = assembly.image.as_deref().expect("an image");
+    let periods = joined.periods(image, &assembly, is_native);
     let all = joined.findings.into_iter().chain(periods);
     let placed = |Findings { source, diagnostics }| {
         let at = move |one: Diagnostic| (one.span.text(&source.text).to_owned(), one);

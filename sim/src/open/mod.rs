@@ -264,7 +264,7 @@ fn open_text(
     if needs_board {
         assembly.require_board();
     }
-    let periods = joined.periods(&assembly, false);
+    let periods = joined.periods(assembly.image.as_deref().unwrap_or_default(), &assembly, false);
     let Joined { awl: source, is_generated, findings: warnings, .. } = joined;
     findings.extend(warnings.into_iter().chain(periods));
     let place_of = assembly.places(&source);

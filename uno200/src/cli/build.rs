@@ -32,7 +32,8 @@ pub(super) fn build(arguments: &Build) -> Result<bool> {
         assembly.require_board();
     }
     let image = image(&mut assembly, arguments.native)?;
-    let periods = joined.periods(&assembly, arguments.native);
+    let bytecode = assembly.image.as_deref().unwrap_or_default();
+    let periods = joined.periods(bytecode, &assembly, arguments.native);
     let Joined { awl, is_generated, mut findings, .. } = joined;
     findings.extend(periods);
     let diagnostics = from_awl(std::mem::take(&mut assembly.diagnostics), is_generated);

@@ -6,10 +6,12 @@ use std::io::IsTerminal;
 use anyhow::{Context as _, Error, Result, bail};
 use awl_asm::flash::{Firmware, flash as write};
 use awl_asm::native::translate;
+use awl_asm::report::{MessageFormat, Messages, Report};
 use client::fault;
 use client::service::Identity;
 use client::{Program, compare};
 use plc_isa::Op;
+use project::{Findings, join};
 use uno200::Client;
 use uno200::program::shown;
 use uno200::transport::{Target, ports};
@@ -23,6 +25,7 @@ pub(super) fn flash(target: Target, mut program: Program, arguments: &Flash) -> 
         bail!("a PLC on the network is not flashed: --port names the port of a board");
     };
     let image = image(&mut program, arguments.native)?;
+    tell_periods(&program, arguments.native);
     let firmware = Firmware::asked_for(arguments.with_firmware.as_ref())?;
     let port = settings.port.take().map_or_else(ports::only_port, Ok)?;
     let echo = std::io::stderr().is_terminal();
@@ -51,6 +54,17 @@ fn image(program: &mut Program, is_native: bool) -> Result<Vec<u8>> {
     match error.diagnostic(&program.assembly) {
         Some(diagnostic) => Err(shown(program.error(vec![diagnostic]))),
         None => Err(Error::new(error)),
+    }
+}
+
+/// Tells which clocks have a period that is shorter than a scan.
+fn tell_periods(program: &Program, is_native: bool) {
+    let Ok(joined) = join(program.texts.clone()) else { return };
+    let messages = Messages { message_format: MessageFormat::Human, quiet: false };
+    for Findings { source, diagnostics } in
+        joined.periods(&program.image, &program.assembly, is_native)
+    {
+        Report::new(messages, false).show(&source, &diagnostics);
     }
 }
 

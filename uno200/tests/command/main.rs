@@ -460,3 +460,18 @@ fn without_a_plc_it_is_said_what_to_try() {
     let (code, _, errors) = run(&["--port", "/dev/none", "status"]);
     assert!(code == Some(2) && errors.contains("plugged in"), "{errors}");
 }
+
+#[test]
+fn a_period_that_is_too_short_is_told_before_anything_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "PROGRAM Main\nVAR\n    Beat : EVERY := (TS := T#1ms);\n    Loop : PID;\nEND_VAR\n\
+        Beat();\nLoop(EN := Beat.Q, PV := 1.0);\n%QW0 := REAL_TO_INT(Loop.U);\nEND_PROGRAM\n";
+    let path = folder.path().join("fast.fbd");
+    fs::write(&path, text).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_uno200"));
+    let output = command.args(["--port", "/dev/none", "flash"]).arg(&path).output().unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    let (before, after) = errors.split_once("warning[W0502]: Beat has a period of 1 ms").unwrap();
+    assert!(output.status.code() == Some(2) && before.is_empty(), "{errors}");
+    assert!(after.contains("fast.fbd:3:5") && after.contains("/dev/none"), "{errors}");
+}

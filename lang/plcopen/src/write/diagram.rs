@@ -67,6 +67,9 @@ struct Diagram<'d> {
     sheet: &'d Sheet,
     /// The numbers of the instances that are called, by their names in upper case.
     instances: HashMap<String, u32>,
+    /// The comments of the text, and the pragmas that say a group.
+    comments: Vec<Span>,
+    groups: Vec<Span>,
     /// The last number of an element.
     last: u32,
     /// The last place in the order of execution.
@@ -98,8 +101,14 @@ impl Project<'_> {
             _ => None,
         });
         let instances = calls.collect();
-        let last = unit.body.len() as u32;
-        let mut diagram = Diagram { unit, sheet, instances, last, executed: 0 };
+        let cut = cut(&self.source.text);
+        let is_group = |pragma: &Span| {
+            let word = self.text(*pragma).trim_start_matches('{').trim();
+            word.to_ascii_lowercase().starts_with("group")
+        };
+        let groups = cut.pragmas.into_iter().filter(is_group).collect();
+        let (comments, last) = (cut.comments, unit.body.len() as u32);
+        let mut diagram = Diagram { unit, sheet, instances, comments, groups, last, executed: 0 };
         let mut all: Vec<_> = (1..).zip(unit.body.iter().zip(&sheet.elements)).collect();
         all.sort_by_key(|(_, (_, shape))| shape.order);
         self.open("body", &[]);
@@ -372,7 +381,6 @@ impl Project<'_> {
     /// what is before it, or after it in its line.
     fn said(&self, diagram: &Diagram, statement: &Statement) -> String {
         let text = &self.source.text;
-        let all = cut(text);
         let ends = diagram.unit.body.iter().map(|one| one.span.end);
         let from = ends.filter(|end| *end <= statement.span.start).max();
         let line_end = |at: u32| {
@@ -384,9 +392,8 @@ impl Project<'_> {
             (begin..statement.span.start).contains(&span.start)
                 || (statement.span.end..line_end(statement.span.end)).contains(&span.start)
         };
-        let groups = all.pragmas.iter().filter(is_here).map(|span| self.text(*span));
-        let groups = groups.filter(|one| one.trim_start_matches('{').trim().starts_with("group"));
-        let comments = all.comments.iter().filter(is_here).map(|one| bare(self.text(*one)));
+        let groups = diagram.groups.iter().filter(is_here).map(|span| self.text(*span));
+        let comments = diagram.comments.iter().filter(is_here).map(|one| bare(self.text(*one)));
         groups.map(str::to_owned).chain(comments).collect::<Vec<_>>().join("\n")
     }
 }
