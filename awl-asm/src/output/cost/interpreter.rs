@@ -256,8 +256,9 @@ mod tests {
 
     #[test]
     fn every_form_has_an_entry_and_none_has_two() {
-        // What modules cost is apart.
-        let is_measured = |row: &&Instruction| row.module().is_none();
+        // What modules cost is apart, but for a hidden instruction, which has no row of its own.
+        let is_measured =
+            |row: &&Instruction| row.module().is_none() || row.op == Op::AnalogOutputs;
         let rows = INSTRUCTIONS.iter().filter(is_measured);
         let forms = rows.flat_map(|row| row.forms.iter().map(move |form| (row.op, form.kinds)));
         let entries = |op: Op, kinds: &[Kind]| {
