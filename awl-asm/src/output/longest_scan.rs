@@ -64,7 +64,8 @@ fn figures(longest: &Longest) -> String {
     }
 }
 
-fn us(cycles: u64) -> u64 {
+/// Cycles of the board in microseconds, rounded up.
+pub fn us(cycles: u64) -> u64 {
     cycles.div_ceil(u64::from(CYCLES_PER_US))
 }
 

@@ -61,11 +61,11 @@ fn a_feedback_is_read_before_it_is_written() {
     // Its own value, too.
     let (said, order) = of(&["n := { FEEDBACK } n + 1;"]);
     assert_eq!((said, order.len()), (vec![], 1));
-    // Also where no loop would be.
     // In brackets, too.
     let (said, order) = of(&["b := a;", "a := -(({feedback} b)) + 1;"]);
     assert!(said.is_empty(), "{said:?}");
     assert_eq!(order, ["a := -(({feedback} b)) + 1", "b := a"]);
+    // Also where no loop would be.
     let (said, order) = of(&["a := 5;", "b := {feedback} a;"]);
     assert_eq!(said, [""; 0]);
     assert_eq!(order, ["b := {feedback} a", "a := 5"]);

@@ -3,6 +3,7 @@
 //! not is in docs/charts.md.
 
 pub mod diagnostic;
+mod operators;
 mod read;
 mod write;
 

@@ -37,15 +37,6 @@ pub enum Language {
 /// counts.
 pub const ENDINGS: [&str; 6] = ["awl", "st", "sfc", "fbd", "fbt", "xml"];
 
-impl StructuredText {
-    /// What is wrong with its periods, by the numbers of its files, when it is executed as
-    /// bytecode.
-    pub fn periods(&self, assembly: &Assembly) -> Vec<(usize, Diagnostic)> {
-        let image = assembly.image.as_deref().unwrap_or_default();
-        periods::check(&self.compiled, (image, assembly), false)
-    }
-}
-
 impl Language {
     /// That of a file.
     pub fn of(name: &str) -> Language {
@@ -79,7 +70,7 @@ impl Joined {
     /// `is_native`: it is to be executed as machine code.
     pub fn periods(&self, image: &[u8], assembly: &Assembly, is_native: bool) -> Vec<Findings> {
         let Some((texts, compiled)) = &self.compiled else { return Vec::new() };
-        by_text(texts.iter().cloned(), periods::check(compiled, (image, assembly), is_native))
+        by_text(texts, periods::check(compiled, (image, assembly), is_native))
     }
 }
 
@@ -107,6 +98,15 @@ pub struct StructuredText {
     pub others: Vec<(usize, Diagnostic)>,
     /// What the compiler found out.
     pub compiled: st::Compiled,
+}
+
+impl StructuredText {
+    /// What is wrong with its periods, by the numbers of its files, when it is executed as
+    /// bytecode.
+    pub fn periods(&self, assembly: &Assembly) -> Vec<(usize, Diagnostic)> {
+        let image = assembly.image.as_deref().unwrap_or_default();
+        periods::check(&self.compiled, (image, assembly), false)
+    }
 }
 
 /// Puts the texts of a program together. It fails above four gigabytes alone.
@@ -146,7 +146,7 @@ pub fn join(sources: Vec<Source>) -> Result<Joined, Vec<Findings>> {
     let of_st = std::mem::take(&mut compiled.diagnostics).into_iter();
     others.extend(of_st.map(|(at, one)| (at, findings::from_st(one))));
     others.sort_by_key(|(_, one)| one.span);
-    let findings = by_text(texts.iter().cloned(), others);
+    let findings = by_text(&texts, others);
     match compiled.awl.is_some() && !has_errors(&findings) {
         true => {
             let compiled = Some((texts, compiled));
@@ -156,17 +156,16 @@ pub fn join(sources: Vec<Source>) -> Result<Joined, Vec<Findings>> {
     }
 }
 
-/// What was found, text by text.
-fn by_text(texts: impl Iterator<Item = Source>, found: Vec<(usize, Diagnostic)>) -> Vec<Findings> {
-    let mut findings: Vec<Findings> =
-        texts.map(|source| Findings { source, diagnostics: Vec::new() }).collect();
+/// What was found, text by text; those without anything are left out.
+fn by_text(texts: &[Source], found: Vec<(usize, Diagnostic)>) -> Vec<Findings> {
+    let mut of_files: Vec<Vec<Diagnostic>> = texts.iter().map(|_| Vec::new()).collect();
     for (file, one) in found {
-        if let Some(findings) = findings.get_mut(file) {
-            findings.diagnostics.push(one);
+        if let Some(list) = of_files.get_mut(file) {
+            list.push(one);
         }
     }
-    findings.retain(|one| !one.diagnostics.is_empty());
-    findings
+    let all = texts.iter().zip(of_files).filter(|(_, diagnostics)| !diagnostics.is_empty());
+    all.map(|(source, diagnostics)| Findings { source: source.clone(), diagnostics }).collect()
 }
 
 /// A text in the canonical layout of its language; or its errors of form.

@@ -2,7 +2,8 @@
 //! has no more periods than there are scans.
 
 use awl_asm::assemble::Assembly;
-use awl_asm::cost::{CYCLES_PER_US, Stated, cost_with};
+use awl_asm::cost::{Stated, cost_with};
+use awl_asm::longest_scan::us;
 use diagnostics::Span;
 use st::Compiled;
 use st::model::{
@@ -109,7 +110,6 @@ fn clock<'p>(
 impl Scan {
     fn of(image: &[u8], assembly: &Assembly, is_native: bool) -> Scan {
         let cost = cost_with(image, &Stated::of(assembly));
-        let us = |cycles: u64| cycles.div_ceil(CYCLES_PER_US.into());
         let (longest, translated) = match cost {
             Some(cost) if is_native => (cost.translated, None),
             Some(cost) => (Some(cost.interpreted), cost.translated.filter(|one| one.is_known())),

@@ -350,7 +350,7 @@ impl<M: Machine + ?Sized> Bench<'_, M> {
                 let gain = digits(ratio.size());
                 let phase = (gain > 0.0).then(|| rounded(continued(ratio.degrees(), before), 9));
                 // What the sums leave of a pure sine is a hundredth of that.
-                let distortion = rounded(distortion, 5);
+                let distortion = rounded(distortion, 6);
                 return Ok(Point { hertz, gain, phase, distortion, is_settled });
             }
             last = Some((ratio, distortion));

@@ -75,7 +75,7 @@ fn what_bends_the_sine_is_distortion() {
     let points = measured(&mut machine, &wanted(vec![1.0])).unwrap();
     // The cube of a sine has a third of its fundamental at three times the frequency.
     assert!((points[0].gain - 0.75).abs() < 1e-6, "{points:?}");
-    assert!((points[0].distortion - 1.0 / 3.0).abs() < 1e-5, "{points:?}");
+    assert!((points[0].distortion - 1.0 / 3.0).abs() < 1e-6, "{points:?}");
 }
 
 #[test]

@@ -110,7 +110,7 @@ impl Executable {
         lines.get(index).map(|_| index)
     }
 
-    /// Whether the assembler put this instruction before the one that was written.
+    /// Whether the assembler put this instruction before or after the one that was written.
     pub fn is_hidden(&self, instruction: usize) -> bool {
         let is_hidden =
             |(_, decoded): &(u16, Decoded)| decoded.op.instruction().group == Group::Hidden;

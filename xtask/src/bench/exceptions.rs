@@ -115,9 +115,8 @@ pub static EXCEPTIONS: &[Exception] = &[
     Exception {
         tiers: BYTECODE,
         what: TYPICAL,
-        names: &["SCRT", "CSCRE", "DTCH"],
-        reason: "rare: written to be small, what DTCH forgets is looked for in the queues of \
-            events",
+        names: &["DTCH"],
+        reason: "rare: written to be small, what it forgets is looked for in the queues of events",
     },
     Exception {
         tiers: BYTECODE,

@@ -143,5 +143,5 @@ pub(super) const TABLE: &[Typical] = &[
     of(Op::Xmt, 61, [303, 315, 327], None),
     of(Op::Rcv, 61, [416, 416, 441], None),
     of(Op::Call, 17, [54, 54, 54], None),
-    of(Op::Cscre, 72, [95, 95, 95], None),
+    of(Op::Cscre, 16, [39, 39, 39], None),
 ];

@@ -3,10 +3,11 @@
 
 use chart::model::{Code, Origin};
 use diagnostics::xml::{Node, tag};
+use st::names::is_same;
 
-use super::drawn::{Called, assigned, instance, is_plain};
+use super::drawn::{Called, assigned, instance, is_plain, output_of};
 use super::formatted::{documentation, formatted};
-use super::network::{Network, lines_into, title};
+use super::network::{Network, lines_into, order, title};
 use super::reader::{Reader, child, is_true, optional};
 use crate::diagnostic::Code as ErrorCode;
 
@@ -19,8 +20,8 @@ pub(super) fn statements(reader: &mut Reader, diagram: Node) -> Option<Vec<Code>
     let mut all = network.elements.clone();
     all.sort_by_key(|node| place(*node));
     let has_places = reader.has_places && diagram.tag_name().name() == "FBD";
-    let (called, codes, given) = (Called::new(), Vec::new(), Vec::new());
-    let mut writer = Writer { reader, network: &network, called, codes, last_call: None, given };
+    let (called, codes) = (Called::new(), Vec::new());
+    let mut writer = Writer { reader, network: &network, called, codes, last_call: None };
     for node in all {
         if writer.is_output_of_last(node) {
             continue;
@@ -30,9 +31,9 @@ pub(super) fn statements(reader: &mut Reader, diagram: Node) -> Option<Vec<Code>
         if has_places {
             writer.placed(node, first);
             let is_call = node.tag_name().name() == "block" && writer.codes.len() > first;
-            let next = order(node).filter(|_| is_call).map(|order| order.saturating_add(1));
-            writer.last_call = next.map(|next| (node, next));
-            writer.given.clear();
+            let order = order(node).filter(|_| is_call);
+            writer.last_call =
+                order.map(|order| LastCall { block: node, order, given: Vec::new() });
         }
     }
     Some(writer.codes)
@@ -42,12 +43,6 @@ pub(super) fn statements(reader: &mut Reader, diagram: Node) -> Option<Vec<Code>
 fn place(node: Node) -> (u32, i64, i64) {
     let (x, y) = corner(node);
     (order(node).unwrap_or(u32::MAX), y, x)
-}
-
-/// The place of an element in the order of execution, if it has one.
-pub(super) fn order(node: Node) -> Option<u32> {
-    let order = optional(node, "executionOrderId").and_then(|one| one.text.parse().ok());
-    order.filter(|order| *order > 0)
 }
 
 /// The upper left corner of an element.
@@ -64,10 +59,16 @@ struct Writer<'w, 'f, 'a, 'i> {
     network: &'w Network<'a, 'i>,
     called: Called<'a, 'i>,
     codes: Vec<Code>,
-    /// Whose call the last statement is, and the place after it in the order of execution: what is
-    /// there and gets an output is part of the call.
-    last_call: Option<(Node<'a, 'i>, u32)>,
-    /// The outputs that it gives already, in upper case.
+    last_call: Option<LastCall<'a, 'i>>,
+}
+
+/// A call that is the last statement: variables with the next places in the order of execution that
+/// get an output of its block are part of it.
+struct LastCall<'a, 'i> {
+    block: Node<'a, 'i>,
+    /// The place of the block, or of the last of these variables.
+    order: u32,
+    /// The outputs that it gives already.
     given: Vec<String>,
 }
 
@@ -99,25 +100,34 @@ impl<'a, 'i> Writer<'_, '_, 'a, 'i> {
 
     /// Adds a variable to the call before it, if that is where an output of its block goes.
     fn is_output_of_last(&mut self, node: Node<'a, 'i>) -> bool {
-        let is_next = |(_, next): &(Node, u32)| order(node) == Some(*next);
-        let last = self.last_call.filter(is_next);
-        let Some((block, next)) = last.filter(|_| node.tag_name().name() == "outVariable") else {
+        let next = self.last_call.as_ref().and_then(|last| last.order.checked_add(1));
+        let is_next = next.is_some() && order(node) == next;
+        let is_target = node.tag_name().name() == "outVariable" && is_plain(node);
+        if !is_next || !is_target || is_true(node, "negated") {
             return false;
-        };
-        let is_as_it_is = !is_true(node, "negated") && is_plain(node);
-        let output = self.network.only_output(node, block).filter(|_| is_as_it_is);
-        // A call gives each of its outputs once.
-        let Some(output) = output.filter(|one| !self.given.contains(&one.to_uppercase())) else {
-            return false;
-        };
+        }
+        let Some(output) = self.output_of_last(node) else { return false };
         let target = child(node, "expression").map(|one| formatted(one).text);
         let (Some(target), Some(code)) = (target, self.codes.last_mut()) else { return false };
-        let Some(call) = code.text.strip_suffix(");") else { return false };
+        let (Some(call), Some(last)) = (code.text.strip_suffix(");"), &mut self.last_call) else {
+            return false;
+        };
         let gap = if call.ends_with('(') { "" } else { ", " };
         code.text = format!("{call}{gap}{output} => {target});");
-        self.given.push(output.to_uppercase());
-        self.last_call = Some((block, next.saturating_add(1)));
+        last.order += 1;
+        last.given.push(output);
         true
+    }
+
+    /// The output of the last block that the only line into an element comes from, unless it is
+    /// negated or goes somewhere already: a call gives each of its outputs once.
+    fn output_of_last(&mut self, node: Node<'a, 'i>) -> Option<String> {
+        let [line] = lines_into(node).try_into().ok()?;
+        let from = self.network.from(self.reader, &line, node)?;
+        let last = self.last_call.as_ref().filter(|last| last.block == from)?;
+        let output = output_of(from, &line.output).filter(|_| !line.output.is_empty())?;
+        let is_given = last.given.iter().any(|one| is_same(one, &line.output));
+        (!is_given && !is_true(output, "negated")).then_some(line.output)
     }
 
     /// Says where the element is drawn whose statements begin with a number; the last one is its
@@ -126,14 +136,12 @@ impl<'a, 'i> Writer<'_, '_, 'a, 'i> {
         let (x, y) = corner(node);
         let has_own = self.codes.len() > first && node.tag_name().name() != "comment";
         let Some(code) = self.codes.last_mut().filter(|_| has_own) else { return };
-        code.text = format!("{{at {x} {y}}} {}", code.text);
-        let (mut before, origin) = (String::new(), code.origin);
+        let mut text = String::new();
         for line in documentation(node).lines().map(str::trim) {
             let is_group = line.starts_with("{group ") && line.ends_with('}');
-            before += &if is_group { format!("{line}\n") } else { format!("// {line}\n") };
+            text += &if is_group { format!("{line}\n") } else { format!("// {line}\n") };
         }
-        code.text.insert_str(0, &before);
-        code.origin = origin;
+        code.text = format!("{text}{{at {x} {y}}} {}", code.text);
     }
 
     fn unread(&mut self, node: Node) {

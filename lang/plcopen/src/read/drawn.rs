@@ -10,34 +10,17 @@ use diagnostics::Span;
 use diagnostics::xml::{Node, elements, tag};
 use st::names::{is_name, is_same};
 
-use super::diagram::order;
 use super::formatted::formatted;
-use super::network::{Line, Network, lines_into, lines_of, title};
+use super::network::{Line, Network, lines_into, lines_of, order, title};
 use super::operand::is_operand;
 use super::reader::{Reader, Text, child, is_true, optional};
 use crate::diagnostic::Code as ErrorCode;
+use crate::operators::OPERATORS;
 
 /// How deep a drawn condition can be.
 const DEPTH_MAX: usize = 50;
 /// Most characters of a drawn condition.
 const LENGTH_MAX: usize = 10_000;
-/// Blocks that are operators, and the operator.
-pub(super) const OPERATORS: [(&str, &str); 14] = [
-    ("AND", "AND"),
-    ("OR", "OR"),
-    ("XOR", "XOR"),
-    ("EQ", "="),
-    ("NE", "<>"),
-    ("GT", ">"),
-    ("GE", ">="),
-    ("LT", "<"),
-    ("LE", "<="),
-    ("ADD", "+"),
-    ("SUB", "-"),
-    ("MUL", "*"),
-    ("DIV", "/"),
-    ("MOD", "MOD"),
-];
 
 /// An expression, and what has to be called for it.
 #[derive(Debug, Default)]
@@ -400,7 +383,7 @@ impl<'r, 'f, 'a, 'i> Drawing<'r, 'f, 'a, 'i> {
 }
 
 /// The variable of a block for an output; for none, or one without a name, the first beside ENO.
-fn output_of<'a, 'i>(block: Node<'a, 'i>, output: &str) -> Option<Node<'a, 'i>> {
+pub(super) fn output_of<'a, 'i>(block: Node<'a, 'i>, output: &str) -> Option<Node<'a, 'i>> {
     let mut outputs = child(block, "outputVariables").into_iter().flat_map(elements);
     outputs.find(|one| match optional(*one, "formalParameter") {
         Some(name) if output.is_empty() => name.text != "ENO",

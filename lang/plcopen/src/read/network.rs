@@ -6,9 +6,7 @@ use std::collections::{HashMap, HashSet};
 use diagnostics::Span;
 use diagnostics::xml::{Node, elements, tag};
 
-use st::names::is_same;
-
-use super::reader::{Reader, Text, child, is_true, optional};
+use super::reader::{Reader, Text, optional};
 use crate::diagnostic::{Code, Diagnostic};
 
 /// A drawing.
@@ -32,6 +30,12 @@ pub(super) fn title(node: Node) -> String {
         Some(name) => format!("{kind} {}", name.text),
         None => format!("{kind} {}", id(node)),
     }
+}
+
+/// The place of an element in the order of execution, if it has one.
+pub(super) fn order(node: Node) -> Option<u32> {
+    let order = optional(node, "executionOrderId").and_then(|one| one.text.parse().ok());
+    order.filter(|order| *order > 0)
 }
 
 /// A line, as the element at its end says where it comes from.
@@ -98,22 +102,6 @@ impl<'a, 'i> Network<'a, 'i> {
             reader.error(Code::Unknown, line.span, message, help);
         }
         found
-    }
-
-    /// The output of a block that the only line into an element comes from; nothing where it has
-    /// no name, or is negated.
-    pub(super) fn only_output(&self, node: Node<'a, 'i>, block: Node<'a, 'i>) -> Option<String> {
-        let lines = lines_into(node);
-        let [line] = lines.as_slice() else { return None };
-        if line.output.is_empty() || self.known.get(&line.from.text) != Some(&block) {
-            return None;
-        }
-        let outputs = child(block, "outputVariables").into_iter().flat_map(elements);
-        let is_it = |one: &Node| {
-            optional(*one, "formalParameter").is_some_and(|name| is_same(&name.text, &line.output))
-        };
-        let output = outputs.into_iter().find(is_it)?;
-        (!is_true(output, "negated")).then(|| line.output.clone())
     }
 
     /// The elements of a kind that lead to an element, through those that only join lines. What

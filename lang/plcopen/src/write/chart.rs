@@ -280,8 +280,7 @@ impl Project<'_> {
 
     /// The corner of what has its middle there.
     fn position(&mut self, middle: Position, size: (i32, i32)) {
-        let (x, y) = (middle.x - size.0 / 2, middle.y - size.1 / 2);
-        self.out.empty("position", &[("x", &x.to_string()), ("y", &y.to_string())]);
+        self.corner(middle.x - size.0 / 2, middle.y - size.1 / 2);
     }
 
     /// Where the lines into an element come from.

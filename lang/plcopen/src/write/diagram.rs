@@ -6,17 +6,17 @@ use std::collections::HashMap;
 
 use diagnostics::Span;
 use diagram::drawing::Sheet;
-use diagram::drawing::shapes::{ElementShape, Point};
+use diagram::drawing::shapes::{ElementShape, Point, Rect};
 use st::lexer::cut;
 use st::names::is_same;
 use st::tree::{
-    Argument, BinaryOperator, Expression, ExpressionKind, Statement, StatementKind, UnaryOperator,
-    Unit,
+    Argument, Expression, ExpressionKind, Statement, StatementKind, UnaryOperator, Unit, UnitKind,
 };
 
 use super::Project;
 use super::comments::bare;
 use super::units::body_of;
+use crate::operators::OPERATORS;
 
 /// From an element to what is before one of its inputs, across; from one input to the next.
 const ACROSS: i32 = 120;
@@ -24,23 +24,6 @@ const DOWN: i32 = 20;
 /// What a variable or an operator takes.
 const SIZE: (i32, i32) = (80, 20);
 
-/// Operators that are blocks.
-const OPERATORS: [(BinaryOperator, &str); 14] = [
-    (BinaryOperator::And, "AND"),
-    (BinaryOperator::Or, "OR"),
-    (BinaryOperator::Xor, "XOR"),
-    (BinaryOperator::Equal, "EQ"),
-    (BinaryOperator::NotEqual, "NE"),
-    (BinaryOperator::Greater, "GT"),
-    (BinaryOperator::GreaterOrEqual, "GE"),
-    (BinaryOperator::Less, "LT"),
-    (BinaryOperator::LessOrEqual, "LE"),
-    (BinaryOperator::Add, "ADD"),
-    (BinaryOperator::Subtract, "SUB"),
-    (BinaryOperator::Multiply, "MUL"),
-    (BinaryOperator::Divide, "DIV"),
-    (BinaryOperator::Modulo, "MOD"),
-];
 /// Inputs of functions that are not IN, or IN1, IN2 and so on.
 const INPUTS: [(&str, &[&str]); 7] = [
     ("LIMIT", &["MN", "IN", "MX"]),
@@ -67,9 +50,8 @@ struct Diagram<'d> {
     sheet: &'d Sheet,
     /// The numbers of the instances that are called, by their names in upper case.
     instances: HashMap<String, u32>,
-    /// The comments of the text, and the pragmas that say a group.
+    /// The comments of the text.
     comments: Vec<Span>,
-    groups: Vec<Span>,
     /// The last number of an element.
     last: u32,
     /// The last place in the order of execution.
@@ -82,10 +64,15 @@ impl Diagram<'_> {
         self.last
     }
 
-    /// The corner of an element, as a text says it.
-    fn corner(&self, shape: &ElementShape) -> Point {
-        Point::new(shape.frame.x - self.sheet.origin.x, shape.frame.y - self.sheet.origin.y)
+    /// The frame of an element; its corner is as a text says it.
+    fn frame(&self, shape: &ElementShape) -> Rect {
+        shape.frame.moved(Point::new(-self.sheet.origin.x, -self.sheet.origin.y))
     }
+}
+
+/// The frame of a variable or an operator with this corner.
+fn small(corner: Point) -> Rect {
+    Rect { x: corner.x, y: corner.y, width: SIZE.0, height: SIZE.1 }
 }
 
 /// A name without blanks, by which instances are found.
@@ -93,7 +80,13 @@ fn key(name: &str) -> String {
     name.split_whitespace().collect::<String>().to_uppercase()
 }
 
-impl Project<'_> {
+impl<'s> Project<'s> {
+    /// How a unit is drawn that is a diagram; functions are none.
+    pub(super) fn sheet(&self, unit: &Unit) -> Option<&'s Sheet> {
+        let is_diagram = !matches!(unit.kind, UnitKind::Function(_));
+        self.sheets.iter().find(|sheet| is_diagram && sheet.name == unit.name.text)
+    }
+
     /// The body of a unit that is a diagram; its elements are those of the sheet.
     pub(super) fn diagram(&mut self, unit: &Unit, sheet: &Sheet) {
         let calls = (1..).zip(&unit.body).filter_map(|(number, one)| match &one.kind {
@@ -101,14 +94,8 @@ impl Project<'_> {
             _ => None,
         });
         let instances = calls.collect();
-        let cut = cut(&self.source.text);
-        let is_group = |pragma: &Span| {
-            let word = self.text(*pragma).trim_start_matches('{').trim();
-            word.to_ascii_lowercase().starts_with("group")
-        };
-        let groups = cut.pragmas.into_iter().filter(is_group).collect();
-        let (comments, last) = (cut.comments, unit.body.len() as u32);
-        let mut diagram = Diagram { unit, sheet, instances, comments, groups, last, executed: 0 };
+        let (comments, last) = (cut(&self.source.text).comments, unit.body.len() as u32);
+        let mut diagram = Diagram { unit, sheet, instances, comments, last, executed: 0 };
         let mut all: Vec<_> = (1..).zip(unit.body.iter().zip(&sheet.elements)).collect();
         all.sort_by_key(|(_, (_, shape))| shape.order);
         self.open("body", &[]);
@@ -119,10 +106,11 @@ impl Project<'_> {
                     self.call(&mut diagram, number, shape, (statement, target, arguments));
                 }
                 StatementKind::Assign(target, value) => {
-                    let corner = diagram.corner(shape);
+                    let frame = diagram.frame(shape);
+                    let corner = Point::new(frame.x, frame.y);
                     let line = self.source(&mut diagram, value, corner);
                     let target = self.plain(target.span);
-                    let said = self.said(&diagram, statement);
+                    let said = self.said(&diagram, number, statement);
                     // What comes directly after a block is part of its call.
                     diagram.executed += 1;
                     self.target(&mut diagram, number, corner, (&target, &line, &said));
@@ -151,7 +139,7 @@ impl Project<'_> {
             let help = "a FUNCTION_BLOCK with an instance in this unit has a place in FBD";
             return self.refuse(target.span, message, help);
         };
-        let corner = diagram.corner(shape);
+        let frame = diagram.frame(shape);
         let (mut inputs, mut outputs) = (Vec::new(), Vec::new());
         for (argument, row) in arguments.iter().zip(1..) {
             let Some(parameter) = &argument.name else {
@@ -170,33 +158,30 @@ impl Project<'_> {
                 outputs.push((parameter.text.clone(), self.plain(argument.value.span)));
                 continue;
             }
-            let at = Point::new(corner.x, corner.y + row * DOWN);
+            let at = Point::new(frame.x, frame.y + row * DOWN);
             inputs.push((parameter.text.clone(), self.source(diagram, &argument.value, at)));
         }
         diagram.executed += 1;
-        let (id, order) = (number.to_string(), diagram.executed.to_string());
-        let [width, height] = [shape.frame.width, shape.frame.height].map(|one| one.to_string());
-        let head = [
-            ("localId", id.as_str()),
-            ("width", &width),
-            ("height", &height),
-            ("typeName", block),
-            ("instanceName", &name),
-            ("executionOrderId", &order),
-        ];
-        self.open("block", &head);
-        self.corner(corner);
-        self.inputs(&inputs);
-        self.out.empty("inOutVariables", &[]);
-        self.outputs(shape, &outputs);
-        let said = self.said(diagram, statement);
+        let order = diagram.executed.to_string();
+        let called = [("typeName", block), ("instanceName", &name), ("executionOrderId", &order)];
+        // All outputs that are drawn, and those that are given to something.
+        let given = outputs.iter().map(|(name, _)| name.as_str());
+        let mut pins: Vec<&str> = Vec::new();
+        for pin in shape.outputs.iter().map(|pin| pin.name.as_str()).chain(given) {
+            if !pin.is_empty() && !pins.iter().any(|one| is_same(one, pin)) {
+                pins.push(pin);
+            }
+        }
+        self.element("block", number, frame, &called);
+        self.pins(&inputs, &pins);
+        let said = self.said(diagram, number, statement);
         self.documentation(&said);
         self.close();
-        let right = Point::new(corner.x + shape.frame.width + ACROSS / 2, corner.y);
+        let right = frame.right() + ACROSS / 2;
         for ((output, target), row) in outputs.into_iter().zip(1..) {
             let line = Line { from: number, output: Some(output), is_negated: false };
             let variable = diagram.number();
-            let at = Point::new(right.x, right.y + row * DOWN);
+            let at = Point::new(right, frame.y + row * DOWN);
             self.target(diagram, variable, at, (&target, &line, ""));
         }
     }
@@ -210,13 +195,10 @@ impl Project<'_> {
         (expression, line, said): (&str, &Line, &str),
     ) {
         diagram.executed += 1;
-        let (number, order) = (number.to_string(), diagram.executed.to_string());
-        let [width, height] = [SIZE.0, SIZE.1].map(|one| one.to_string());
-        let mut head = vec![("localId", number.as_str()), ("width", &width), ("height", &height)];
-        head.push(("executionOrderId", &order));
-        head.extend(line.is_negated.then_some(("negated", "true")));
-        self.open("outVariable", &head);
-        self.corner(corner);
+        let order = diagram.executed.to_string();
+        let mut more = vec![("executionOrderId", order.as_str())];
+        more.extend(line.is_negated.then_some(("negated", "true")));
+        self.element("outVariable", number, small(corner), &more);
         self.line(line);
         self.out.text("expression", &[], expression);
         self.documentation(said);
@@ -247,9 +229,9 @@ impl Project<'_> {
                 Line { is_negated: !line.is_negated, ..line }
             }
             ExpressionKind::Binary(operator, left, right) => {
-                let name = OPERATORS.iter().find(|(of, _)| of == operator);
-                match name {
-                    Some((_, name)) => self.function(diagram, name, &[&**left, &**right], before),
+                let block = OPERATORS.iter().find(|(_, sign)| *sign == operator.text());
+                match block {
+                    Some((name, _)) => self.function(diagram, name, &[&**left, &**right], before),
                     None => self.variable(diagram, &text, before),
                 }
             }
@@ -283,19 +265,9 @@ impl Project<'_> {
             inputs.push((input(number), self.source(diagram, value, place)));
         }
         let from = diagram.number();
-        let (id, width) = (from.to_string(), SIZE.0.to_string());
-        let height = (DOWN * values.len() as i32).to_string();
-        let head =
-            [("localId", id.as_str()), ("width", &width), ("height", &height), ("typeName", name)];
-        self.open("block", &head);
-        self.corner(at);
-        self.inputs(&inputs);
-        self.out.empty("inOutVariables", &[]);
-        self.open("outputVariables", &[]);
-        self.open("variable", &[("formalParameter", "OUT")]);
-        self.out.empty("connectionPointOut", &[]);
-        self.close();
-        self.close();
+        let frame = Rect { height: DOWN * values.len() as i32, ..small(at) };
+        self.element("block", from, frame, &[("typeName", name)]);
+        self.pins(&inputs, &["OUT"]);
         self.close();
         Line { from, output: Some("OUT".to_owned()), is_negated: false }
     }
@@ -303,33 +275,20 @@ impl Project<'_> {
     /// A variable or a value.
     fn variable(&mut self, diagram: &mut Diagram, text: &str, at: Point) -> Line {
         let from = diagram.number();
-        let number = from.to_string();
-        let [width, height] = [SIZE.0, SIZE.1].map(|one| one.to_string());
-        let head = [("localId", number.as_str()), ("width", &width), ("height", &height)];
-        self.open("inVariable", &head);
-        self.corner(at);
+        self.element("inVariable", from, small(at), &[]);
         self.out.empty("connectionPointOut", &[]);
         self.out.text("expression", &[], text);
         self.close();
         Line { from, output: None, is_negated: false }
     }
 
-    /// The outputs of a block: all that are drawn, and those that are given to something.
-    fn outputs(&mut self, shape: &ElementShape, given: &[(String, String)]) {
-        let pins = shape.outputs.iter().map(|pin| &pin.name);
-        let mut names: Vec<&String> = Vec::new();
-        for name in pins.chain(given.iter().map(|(name, _)| name)).filter(|one| !one.is_empty()) {
-            if !names.iter().any(|one| is_same(one, name)) {
-                names.push(name);
-            }
-        }
-        self.open("outputVariables", &[]);
-        for name in names {
-            self.open("variable", &[("formalParameter", name)]);
-            self.out.empty("connectionPointOut", &[]);
-            self.close();
-        }
-        self.close();
+    /// Begins an element, with its number and its frame.
+    fn element(&mut self, kind: &str, number: u32, frame: Rect, more: &[(&str, &str)]) {
+        let number = number.to_string();
+        let [width, height] = [frame.width, frame.height].map(|one| one.to_string());
+        let head = [("localId", number.as_str()), ("width", &width), ("height", &height)];
+        self.open(kind, &[&head, more].concat());
+        self.corner(frame.x, frame.y);
     }
 
     fn is_in_out(&self, block: &str, name: &str) -> bool {
@@ -338,13 +297,22 @@ impl Project<'_> {
         variables.any(|one| one.is_in_out && is_same(&one.name, name))
     }
 
-    fn inputs(&mut self, inputs: &[(String, Line)]) {
+    /// The inputs and outputs of a block.
+    fn pins(&mut self, inputs: &[(String, Line)], outputs: &[&str]) {
         self.open("inputVariables", &[]);
         for (name, line) in inputs {
             let mut head = vec![("formalParameter", name.as_str())];
             head.extend(line.is_negated.then_some(("negated", "true")));
             self.open("variable", &head);
             self.line(line);
+            self.close();
+        }
+        self.close();
+        self.out.empty("inOutVariables", &[]);
+        self.open("outputVariables", &[]);
+        for name in outputs {
+            self.open("variable", &[("formalParameter", name)]);
+            self.out.empty("connectionPointOut", &[]);
             self.close();
         }
         self.close();
@@ -357,10 +325,6 @@ impl Project<'_> {
         head.extend(line.output.as_deref().map(|output| ("formalParameter", output)));
         self.out.empty("connection", &head);
         self.close();
-    }
-
-    fn corner(&mut self, at: Point) {
-        self.out.empty("position", &[("x", &at.x.to_string()), ("y", &at.y.to_string())]);
     }
 
     /// A part of the text in a line, without pragmas and comments.
@@ -377,9 +341,9 @@ impl Project<'_> {
         plain
     }
 
-    /// What is said about an element: its group as the pragma says it, and comments between it and
+    /// What is said about an element: its group as a pragma says it, and comments between it and
     /// what is before it, or after it in its line.
-    fn said(&self, diagram: &Diagram, statement: &Statement) -> String {
+    fn said(&self, diagram: &Diagram, number: u32, statement: &Statement) -> String {
         let text = &self.source.text;
         let ends = diagram.unit.body.iter().map(|one| one.span.end);
         let from = ends.filter(|end| *end <= statement.span.start).max();
@@ -392,8 +356,10 @@ impl Project<'_> {
             (begin..statement.span.start).contains(&span.start)
                 || (statement.span.end..line_end(statement.span.end)).contains(&span.start)
         };
-        let groups = diagram.groups.iter().filter(is_here).map(|span| self.text(*span));
+        let element = number as usize - 1;
+        let group = diagram.sheet.groups.iter().find(|group| group.elements.contains(&element));
+        let group = group.map(|group| format!("{{group \"{}\"}}", group.name));
         let comments = diagram.comments.iter().filter(is_here).map(|one| bare(self.text(*one)));
-        groups.map(str::to_owned).chain(comments).collect::<Vec<_>>().join("\n")
+        group.into_iter().chain(comments).collect::<Vec<_>>().join("\n")
     }
 }

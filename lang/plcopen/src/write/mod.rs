@@ -40,7 +40,7 @@ pub struct Exported {
 pub fn write(source: &Source) -> Exported {
     let reading = text::read(source);
     let file = ::chart::frame(source, &reading, &mut HashSet::new());
-    project(source, &file, &reading, Vec::new())
+    project(source, &file, &reading, &[])
 }
 
 /// Writes a text with diagrams as a project: their bodies in FBD. It has no errors:
@@ -49,15 +49,15 @@ pub fn write(source: &Source) -> Exported {
 /// # Errors
 /// A diagram with more elements than are drawn.
 pub fn write_diagrams(source: &Source) -> Result<Exported, TooLarge> {
-    let ::diagram::Read { file, .. } = ::diagram::read(source);
+    let (file, _) = st::parser::parse(source);
     let sheets = draw(source, &file, &Interfaces::default())?.sheets;
     // There are no charts in it.
     let (document, regions, diagnostics) = Default::default();
     let reading = Reading { document, regions, diagnostics };
-    Ok(project(source, &file, &reading, sheets))
+    Ok(project(source, &file, &reading, &sheets))
 }
 
-fn project(source: &Source, file: &File, reading: &Reading, sheets: Vec<Sheet>) -> Exported {
+fn project(source: &Source, file: &File, reading: &Reading, sheets: &[Sheet]) -> Exported {
     let interfaces = Interfaces::default().and_of(&source.text, file);
     let out = Writer::default();
     let mut project = Project { source, found: Vec::new(), sheets, interfaces, out };
@@ -75,7 +75,7 @@ struct Project<'s> {
     source: &'s Source,
     found: Vec<Diagnostic>,
     /// The units that are diagrams, as they are drawn, in the order of the text.
-    sheets: Vec<Sheet>,
+    sheets: &'s [Sheet],
     /// The blocks that they know.
     interfaces: Interfaces,
     out: Writer,
@@ -94,6 +94,11 @@ impl Project<'_> {
     fn refuse_coarse(&mut self, pragma: Span) {
         let help = "without it the time is exact";
         self.refuse(pragma, "{coarse}: a project of PLCopen has no pragmas", help);
+    }
+
+    /// The upper left corner of an element.
+    fn corner(&mut self, x: i32, y: i32) {
+        self.out.empty("position", &[("x", &x.to_string()), ("y", &y.to_string())]);
     }
 
     fn open(&mut self, name: &str, attributes: &[(&str, &str)]) {

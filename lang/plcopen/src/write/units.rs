@@ -2,7 +2,6 @@
 
 use ::chart::Chart;
 use ::chart::text::Reading;
-use ::diagram::drawing::Sheet;
 use diagnostics::Span;
 use st::lexer::{Kind, cut};
 use st::tree::{File, SectionKind, Unit, UnitKind};
@@ -96,7 +95,7 @@ impl Project<'_> {
         match (written.chart, written.unit) {
             (Some(chart), _) => self.chart(chart),
             (None, Some(unit)) => match self.sheet(unit) {
-                Some(sheet) => self.diagram(unit, &sheet),
+                Some(sheet) => self.diagram(unit, sheet),
                 None => {
                     let text = self.text(body_of(&self.source.text, unit)).trim().to_owned();
                     self.statements(&text);
@@ -106,16 +105,6 @@ impl Project<'_> {
         }
         self.documentation(written.unit.map_or("", |unit| comments.at(unit.name.span)));
         self.close();
-    }
-
-    /// How a unit is drawn that is a diagram; functions are none.
-    fn sheet(&self, unit: &Unit) -> Option<Sheet> {
-        let is_it = |sheet: &&Sheet| sheet.name == unit.name.text;
-        self.sheets
-            .iter()
-            .find(is_it)
-            .filter(|_| !matches!(unit.kind, UnitKind::Function(_)))
-            .cloned()
     }
 
     /// A body in Structured Text.

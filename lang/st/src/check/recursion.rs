@@ -7,6 +7,7 @@ use super::Checker;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{
     Expression, ExpressionKind, Place, Root, Statement, StatementKind, Step, UnitKind,
+    each_statement,
 };
 
 /// Calls below the main program at most (docs/s7-200.md 1.8).
@@ -112,33 +113,17 @@ pub(crate) fn each_assignment(
     statements: &[Statement],
     found: &mut dyn FnMut(&Place, diagnostics::Span),
 ) {
-    for statement in statements {
-        match &statement.kind {
-            StatementKind::Assign(place, _) | StatementKind::AddElapsed(place) => {
-                found(place, statement.span);
-            }
-            StatementKind::If(arms, otherwise) => {
-                arms.iter().for_each(|(_, body)| each_assignment(body, found));
-                each_assignment(otherwise, found);
-            }
-            StatementKind::Case(_, arms, otherwise) => {
-                arms.iter().for_each(|(_, body)| each_assignment(body, found));
-                each_assignment(otherwise, found);
-            }
-            StatementKind::For(one) => {
-                found(&one.variable, statement.span);
-                each_assignment(&one.body, found);
-            }
-            StatementKind::While(_, body) | StatementKind::Repeat(body, _) => {
-                each_assignment(body, found);
-            }
-            StatementKind::Call(call) => {
-                let places = call.in_outs.iter().chain(&call.outputs);
-                places.for_each(|(_, place)| found(place, statement.span));
-            }
-            _ => {}
+    each_statement(statements, &mut |statement| match &statement.kind {
+        StatementKind::Assign(place, _) | StatementKind::AddElapsed(place) => {
+            found(place, statement.span);
         }
-    }
+        StatementKind::For(one) => found(&one.variable, statement.span),
+        StatementKind::Call(call) => {
+            let places = call.in_outs.iter().chain(&call.outputs);
+            places.for_each(|(_, place)| found(place, statement.span));
+        }
+        _ => {}
+    });
 }
 
 /// Each expression in statements, those inside others too.

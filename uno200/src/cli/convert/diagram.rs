@@ -61,17 +61,12 @@ pub(super) fn from_project(source: &Source, output: &Path, report: &mut Report) 
         bail!("{}: there are charts in it: write it as .sfc", source.name);
     }
     let read = Source::new(source.name.as_str(), text.text())?;
-    let marked = diagram::marked(&read);
-    // What is wrong is told about the file: there every name is read as it was before.
     let diagram::Read { of_st, .. } = diagram::read(&read);
-    if !told(
-        report,
-        source,
-        of_st.into_iter().map(|one| one.moved(|span| text.place(span))).collect(),
-    ) {
+    let of_st = of_st.into_iter().map(|one| one.moved(|span| text.place(span)));
+    if !told(report, source, of_st.collect()) {
         return Ok(false);
     }
-    let written = Source::new(source.name.as_str(), marked)?;
+    let written = Source::new(source.name.as_str(), diagram::marked(&read))?;
     let mut found = diagram::read(&written).diagnostics.into_iter();
     let is_error = |one: &diagram::Diagnostic| one.severity() == Severity::Error;
     if let Some(first) = found.find(is_error) {

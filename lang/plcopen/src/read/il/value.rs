@@ -1,8 +1,8 @@
 //! The accumulator of an instruction list as an expression. It has no type: those who check the
 //! statements know it.
 
-use super::super::drawn::OPERATORS;
 use super::super::operand::is_operand;
+use crate::operators::OPERATORS;
 
 /// What is in the accumulator.
 #[derive(Debug, Clone, Default)]
