@@ -87,6 +87,8 @@ fn edit_of(change: DiagramEdit) -> Edit {
         DiagramEdit::Write { statement, at } => Edit::Write { statement, at: point(at) },
         DiagramEdit::Give { element, input, value } => Edit::Give { element, input, value },
         DiagramEdit::Set { element, parameter, value } => Edit::Set { element, parameter, value },
+        DiagramEdit::Group { elements, name } => Edit::Group { elements, name },
+        DiagramEdit::Comment { element, comment } => Edit::Comment { element, comment },
         DiagramEdit::Paste { text, by } => Edit::Paste { text, by: point(by) },
         DiagramEdit::Remove { elements } => Edit::Remove { elements },
     }
@@ -120,8 +122,11 @@ fn drawn(drawing: &Drawing, mistake: Option<Mistake>) -> Diagrams {
 }
 
 fn sheet(sheet: &shapes::Sheet) -> Sheet {
-    let group =
-        |one: &shapes::GroupShape| Group { name: one.name.clone(), frame: frame(one.frame) };
+    let group = |one: &shapes::GroupShape| Group {
+        name: one.name.clone(),
+        frame: frame(one.frame),
+        elements: one.elements.clone(),
+    };
     Sheet {
         name: sheet.name.clone(),
         title: point(sheet.title),
@@ -137,6 +142,7 @@ fn element(one: &shapes::ElementShape) -> Element {
     Element {
         id: one.id.clone(),
         line: one.line,
+        column: one.column,
         name: one.name.clone(),
         full_name: one.full_name.clone(),
         block: one.block.clone(),

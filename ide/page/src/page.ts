@@ -110,7 +110,8 @@ const diagram = new Lazy("diagram", async (element) => {
     scope.add(operand);
     tabs.show("scope", true);
   };
-  return new DiagramView(element, core, editors, project, header, operands, watching, plot);
+  const helps = { plot, rename: (file: string, at: number) => commands.rename({ file, at }) };
+  return new DiagramView(element, core, editors, project, header, operands, watching, helps);
 });
 const tabs: Tabs = new Tabs("panels", [
   { id: "problems", text: "problems", element: problems.element },

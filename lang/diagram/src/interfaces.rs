@@ -3,6 +3,7 @@
 
 use std::sync::OnceLock;
 
+use crate::comments;
 use diagnostics::Source;
 use st::library::BLOCKS;
 use st::tree::{Declaration, File, SectionKind, Unit, UnitKind};
@@ -122,23 +123,13 @@ impl Interface {
 
 fn variables(one: &Declaration, text: &str, kind: SectionKind) -> Vec<Variable> {
     let initial = one.initial.as_ref().map(|value| value.span.text(text).to_owned());
-    let comment = comment_after(text, one);
+    let comment = comments::after(text, one.span().end).text(text);
     let variable = |name: &st::tree::Name| Variable {
         name: name.text.clone(),
         of_type: one.of_type.span.text(text).to_owned(),
         initial: initial.clone(),
-        comment: comment.clone(),
+        comment: comment.to_owned(),
         is_in_out: kind == SectionKind::InOut,
     };
     one.names.iter().map(variable).collect()
-}
-
-/// What is after a declaration in its line.
-fn comment_after(text: &str, one: &Declaration) -> String {
-    let rest = text
-        .get(one.span().end as usize..)
-        .and_then(|rest| rest.lines().next())
-        .unwrap_or_default();
-    let comment = rest.trim_start().strip_prefix(';').map(str::trim_start);
-    comment.and_then(|rest| rest.strip_prefix("//")).map(str::trim).unwrap_or_default().to_owned()
 }

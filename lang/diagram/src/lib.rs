@@ -6,6 +6,7 @@
 //! [`drawing`] draws them, with the pins that [`interfaces`] gives blocks; [`edit`] changes them.
 
 mod addresses;
+mod comments;
 mod connections;
 pub mod diagnostic;
 pub mod drawing;

@@ -214,6 +214,72 @@ fn elements_are_taken_out_with_what_is_theirs() {
     assert!(text_after(text, &remove(&["B", "C"])).contains("VAR A : BLINK;"));
 }
 
+fn group(elements: &[&str], name: &str) -> Edit {
+    let elements = elements.iter().map(|one| (*one).to_owned()).collect();
+    Edit::Group { elements, name: name.to_owned() }
+}
+
+/// Of each group its name and its elements.
+fn groups(text: &str) -> Vec<(String, Vec<usize>)> {
+    sheet(text).groups.into_iter().map(|one| (one.name, one.elements)).collect()
+}
+
+#[test]
+fn elements_are_in_groups() {
+    let both = text_after(LOOP, &group(&["CAPACITOR", "LOOP"], " Control & plant "));
+    let (_, new) = differences(LOOP, &both);
+    let wanted = [
+        "{group \"Control & plant\"} {at 360 40} Loop(SP := Setpoint, PV := {feedback} Capacitor.Y);",
+        "{group \"Control & plant\"} {at 640 40} Capacitor(X := Loop.U); // what is controlled",
+    ];
+    assert_eq!(new, wanted);
+    assert_eq!(groups(&both), [("Control & plant".to_owned(), vec![0, 1])]);
+    // Another name for one of them, and for those that are left.
+    let two = text_after(&both, &group(&["CAPACITOR"], "Plant"));
+    let wanted = [("Control & plant".to_owned(), vec![0]), ("Plant".to_owned(), vec![1])];
+    assert_eq!(groups(&two), wanted);
+    let none = text_after(&two, &group(&["LOOP", "CAPACITOR"], ""));
+    assert_eq!(none, LOOP);
+    assert_eq!(text_after(LOOP, &group(&["LOOP"], "")), LOOP);
+    // As a line of its own, and after the place.
+    let own = LOOP.replace("{at 640 40}", "{group \"Plant\"}\n{at 640 40}");
+    assert_eq!(text_after(&own, &group(&["CAPACITOR"], "")), LOOP);
+    let after = LOOP.replace("{at 640 40}", "{at 640 40} { GROUP \"Plant\" }");
+    assert_eq!(text_after(&after, &group(&["CAPACITOR"], "")), LOOP);
+    for name in ["a \"b\"", "}", "{at 1 1}", "a\nb"] {
+        let refusal = changed(LOOP, &group(&["LOOP"], name)).expect_err(name);
+        assert!(refusal.contains("quotation marks"), "{refusal}");
+    }
+}
+
+fn comment(element: &str, comment: &str) -> Edit {
+    Edit::Comment { element: element.to_owned(), comment: comment.to_owned() }
+}
+
+#[test]
+fn elements_have_comments() {
+    let said = |text: &str| -> Vec<String> {
+        sheet(text).elements.into_iter().map(|one| one.comment).collect()
+    };
+    let after = text_after(LOOP, &comment("LOOP", " at each scan "));
+    assert_eq!(said(&after), ["at each scan", "what is controlled"]);
+    assert_eq!(text_after(&after, &comment("LOOP", "")), LOOP);
+    let after = text_after(LOOP, &comment("CAPACITOR", "// {at 1 1} *)"));
+    assert_eq!(said(&after), ["", "// {at 1 1} *)"]);
+    let none = text_after(&after, &comment("CAPACITOR", ""));
+    assert!(none.contains("Capacitor(X := Loop.U);\n"), "{none}");
+    assert_eq!(text_after(&none, &comment("CAPACITOR", "what is controlled")), LOOP);
+    // What is after it in its line is not part of it.
+    let text = "PROGRAM Main VAR A, B : BLINK; END_VAR\nA() ; B(); (* on *)\r\nEND_PROGRAM";
+    let after = text_after(text, &comment("A", "first"));
+    assert!(after.contains("A() ; // first\n B(); (* on *)\r\n"), "{after}");
+    assert_eq!(said(&after), ["first", ""]);
+    let after = text_after(&after, &comment("B", "second"));
+    assert_eq!(said(&after), ["first", "second"]);
+    let refusal = changed(LOOP, &comment("LOOP", "a\nb")).expect_err("two lines");
+    assert_eq!(refusal, "a comment is in one line");
+}
+
 fn copied(text: &str, elements: &[&str]) -> String {
     let source = Source::new("d.fbd", text).expect("a short text");
     let elements: Vec<String> = elements.iter().map(|one| (*one).to_owned()).collect();

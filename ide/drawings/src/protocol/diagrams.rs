@@ -46,6 +46,8 @@ pub struct Element {
     pub id: String,
     /// Its line, from 1.
     pub line: usize,
+    /// Where in that its name begins, in characters from 1.
+    pub column: usize,
     /// The instance, or what is assigned to, as drawn: one that is too long ends in dots.
     pub name: String,
     /// That in full.
@@ -125,6 +127,8 @@ pub struct Group {
     pub name: String,
     /// Around its elements.
     pub frame: [i32; 4],
+    /// The numbers of these.
+    pub elements: Vec<usize>,
 }
 
 /// A change of a diagram, as `diagram::edit` describes it.
@@ -137,6 +141,8 @@ pub enum DiagramEdit {
     Write { statement: String, at: At },
     Give { element: String, input: String, value: String },
     Set { element: String, parameter: String, value: String },
+    Group { elements: Vec<String>, name: String },
+    Comment { element: String, comment: String },
     Paste { text: String, by: At },
     Remove { elements: Vec<String> },
 }

@@ -1,8 +1,9 @@
 // What there is to be read and changed of the element that is chosen: its inputs, outputs and
 // parameters.
 import type { Core } from "../core/core";
-import { button, h, newId } from "../page/dom";
+import { button, h, newId, say } from "../page/dom";
 import { nameOf, type Edits } from "./edits";
+import { field } from "./field";
 import type { Live } from "./live";
 import type { Pin } from "./protocol";
 import { Row, type Named, type Table } from "./row";
@@ -61,6 +62,9 @@ export class Details {
     const free = inputs.filter((pin, at) => isFree(pin) && !linked.includes(at));
     const hasEnable = block === null || inputs.some(({ name }) => name.toUpperCase() === "EN");
     const title = h("h2", {}, block === null ? fullName : `${fullName}: ${block}`);
+    const said = field("//", comment, (words) => edits.comment(item, words), { class: "comment" });
+    say(said, "aria-label", "diagramComment");
+    say(said, "placeholder", "diagramComment");
     const go = button("showPlace", () => this.goTo(line), { class: "small" });
     const bodies = [
       this.part(table, "diagramInputs", hasEnable ? inputs : [ENABLE, ...inputs], free),
@@ -69,8 +73,7 @@ export class Details {
     ];
     return [
       this.outputs,
-      h("div", { class: "controls" }, title, go),
-      ...(comment === "" ? [] : [h("p", { class: "hint" }, comment)]),
+      h("div", { class: "controls" }, title, go, said),
       h("div", { class: "scroll" }, h("table", {}, ...bodies)),
     ];
   }

@@ -8,6 +8,7 @@ import { button, h, iconButton, say } from "../page/dom";
 import type { Point } from "../page/ground";
 import { tellsOfProgram, type Header } from "../page/header";
 import { icon } from "../page/icons";
+import { notice } from "../page/notices";
 import type { Operands } from "../panels/operands";
 import type { Project } from "../project/project";
 import { DIAGRAM_WORDS } from "../text/diagram_words";
@@ -25,6 +26,13 @@ import { Selection } from "./selection";
 import { Sheets, type Item } from "./sheets";
 
 addWords(DIAGRAM_WORDS);
+
+/** What others do for diagrams. */
+interface Helps {
+  plot(operand: string): void;
+  /** Asks for another name for what is at a place of a text; that name, or null. */
+  rename(file: string, at: number): Promise<string | null>;
+}
 
 export class DiagramView {
   private document: DiagramDocument;
@@ -49,7 +57,7 @@ export class DiagramView {
     header: Header,
     operands: Operands,
     watching: Watching,
-    plot: (operand: string) => void,
+    private helps: Helps,
   ) {
     this.document = new DiagramDocument(editors, project);
     this.live = new Live(watching, operands, () => this.showValues());
@@ -61,7 +69,7 @@ export class DiagramView {
       paste: (text) => void this.edits.paste(this.sheet, text),
     });
     this.palette = new Palette(({ name }) => this.add((at) => ({ call: { block: name, at } })));
-    this.details = new Details(core, this.live, this.edits, plot, (line) =>
+    this.details = new Details(core, this.live, this.edits, helps.plot, (line) =>
       this.document.goTo(line),
     );
     this.tools = h(
@@ -69,6 +77,8 @@ export class DiagramView {
       { class: "tools", attributes: { role: "toolbar" }, label: "diagramTools" },
       button("diagramAddBlock", () => void this.openPalette()),
       button("diagramAddWritten", () => void this.write()),
+      button("diagramGroup", () => void this.group()),
+      button("diagramRename", () => void this.rename()),
       button("diagramRemove", () => this.remove()),
       iconButton(icon("undo"), "diagramUndo", () => this.document.goBack(true)),
       iconButton(icon("redo"), "diagramRedo", () => this.document.goBack(false)),
@@ -206,14 +216,24 @@ export class DiagramView {
       goToText: (item) => this.document.goTo(item.element.line),
       move: (by) => void this.edits.move(this.selection.chosen, by),
       remove: () => this.remove(),
+      group: () => void this.group(),
+      rename: () => void this.rename(),
       goBack: (isUndo) => this.document.goBack(isUndo),
       addBlock: () => void this.openPalette(),
     };
     this.stage.addEventListener("keydown", (event) => {
-      if (pressed(event, this.sheets.items, this.selection.focus, acts)) event.preventDefault();
+      const group = this.sheets.groupAt(event.target);
+      if (group.length > 0 && (event.key === "Enter" || event.key === " ")) {
+        event.preventDefault();
+        this.chooseTogether(group);
+      } else if (pressed(event, this.sheets.items, this.selection.focus, acts))
+        event.preventDefault();
     });
     element.addEventListener("click", (event) => {
-      this.choose(this.sheets.at(event.target), event.shiftKey || event.ctrlKey || event.metaKey);
+      const group = this.sheets.groupAt(event.target);
+      if (group.length > 0) this.chooseTogether(group);
+      else
+        this.choose(this.sheets.at(event.target), event.shiftKey || event.ctrlKey || event.metaKey);
     });
     element.addEventListener("dblclick", (event) => {
       const item = this.sheets.at(event.target);
@@ -229,6 +249,25 @@ export class DiagramView {
 
   private remove(): void {
     void this.edits.remove(this.selection.chosen);
+  }
+
+  /** Asks for the group of what is chosen. */
+  private async group(): Promise<void> {
+    const { chosen } = this.selection;
+    const [first] = chosen;
+    if (!first) return notice(t("diagramChoose"));
+    const title = t("diagramGroupTitle");
+    const name = await ask(title, "diagramGroupName", first.group, "diagramGroupPut", false);
+    if (name !== null) await this.edits.group(chosen, name);
+  }
+
+  /** Asks for another name of the element that keys go to. */
+  private async rename(): Promise<void> {
+    const { focus } = this.selection;
+    const place = focus && this.selection.has(focus) && this.document.nameAt(focus.element);
+    if (!place) return notice(t("diagramChoose"));
+    const to = await this.helps.rename(place.file, place.at);
+    if (to !== null) this.selection.renamed(focus, to);
   }
 
   private async openPalette(): Promise<void> {
@@ -253,7 +292,10 @@ export class DiagramView {
 
   /** Chooses elements that are new. */
   private chooseMade(keys: string[]): void {
-    const items = this.sheets.items.filter(({ key }) => keys.includes(key));
+    this.chooseTogether(this.sheets.items.filter(({ key }) => keys.includes(key)));
+  }
+
+  private chooseTogether(items: Item[]): void {
     const [first] = items;
     if (!first) return;
     this.choose(first);

@@ -7,7 +7,7 @@ import type { Editors } from "../editor/editors";
 import { notice } from "../page/notices";
 import type { Project } from "../project/project";
 import { t } from "../text/language";
-import type { Block, DiagramEdit, Diagrams, Questions, Wish } from "./protocol";
+import type { Block, DiagramEdit, DiagramElement, Diagrams, Questions, Wish } from "./protocol";
 
 /** So long nothing is drawn while a text is being written. */
 const QUIET_MS = 120;
@@ -128,6 +128,14 @@ export class DiagramDocument {
     if (!drawn && !this.drawn && !isOther) return;
     Object.assign(this, { file, drawn });
     for (const listener of this.listeners) listener(isOther);
+  }
+
+  /** Where the name of an element begins in the text of the editor. */
+  nameAt({ line, column }: DiagramElement): { file: string; at: number } | null {
+    const document = this.file === null ? undefined : this.editors.viewOf(this.file)?.state.doc;
+    if (this.file === null || !document || line > document.lines) return null;
+    const { from, text } = document.line(line);
+    return { file: this.file, at: from + [...text].slice(0, column - 1).join("").length };
   }
 
   /** Leads to a line of the text. */

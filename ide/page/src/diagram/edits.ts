@@ -41,6 +41,16 @@ export class Edits {
     if (first) await this.perform(first.sheet, { remove: { elements: idsOf(items) } });
   }
 
+  /** Puts elements of one diagram into a group; into none where its name is empty. */
+  async group(items: Item[], name: string): Promise<void> {
+    const [first] = items;
+    if (first) await this.perform(first.sheet, { group: { elements: idsOf(items), name } });
+  }
+
+  comment({ sheet, element }: Item, comment: string): Promise<boolean> {
+    return this.perform(sheet, { comment: { element: element.id, comment } });
+  }
+
   paste(sheet: number, text: string): Promise<boolean> {
     return this.perform(sheet, { paste: { text, by: [2 * GRID, 2 * GRID] } });
   }

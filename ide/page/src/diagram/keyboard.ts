@@ -20,6 +20,8 @@ export interface Acts {
   goToText(item: Item): void;
   move(by: Point): void;
   remove(): void;
+  group(): void;
+  rename(): void;
   goBack(isUndo: boolean): void;
   addBlock(): void;
 }
@@ -40,6 +42,7 @@ export function pressed(
   else if (event.key === "Escape") acts.choose(undefined);
   else if (event.key === "Insert") acts.addBlock();
   else if (event.key === "F12" && focus) acts.goToText(focus);
+  else if (event.key === "F2") acts.rename();
   else if (event.key === "Delete" || event.key === "Backspace") acts.remove();
   else return false;
   return true;
@@ -51,6 +54,7 @@ function withControl(event: KeyboardEvent, focus: Item | undefined, acts: Acts):
   if (by) acts.move(by);
   else if (key === "a") acts.chooseAll();
   else if (key === " ") acts.choose(focus, true);
+  else if (key === "g") acts.group();
   else if (key === "z") acts.goBack(!event.shiftKey);
   else if (key === "y") acts.goBack(false);
   else return false;

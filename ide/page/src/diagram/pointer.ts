@@ -28,8 +28,11 @@ export class Pointer {
     if (event.button > 1) return;
     const port = this.portOf(event.target);
     const item = this.sheets.at(event.target);
+    const group = this.sheets.groupAt(event.target);
     if (port) this.link(event, port);
-    else if (item && event.button === 0) this.carry(event, item);
+    else if (item && event.button === 0) this.carry(event, this.withOthers(item));
+    else if (group.length > 0 && event.button === 0)
+      this.carry(event, group, this.sheets.groupNode(event.target));
     else if (event.pointerType !== "touch") this.pan(event);
   }
 
@@ -81,10 +84,15 @@ export class Pointer {
     return pin < 0 ? undefined : { item, isInput, pin };
   }
 
-  private carry(down: PointerEvent, item: Item): void {
-    // What is chosen moves together.
-    const items = this.selection.has(item) ? this.selection.chosen : [item];
-    const groups = items.flatMap((one) => this.sheets.shape(one)?.group ?? []);
+  /** What is chosen moves together. */
+  private withOthers(item: Item): Item[] {
+    return this.selection.has(item) ? this.selection.chosen : [item];
+  }
+
+  /** `frame`: what is moved with them. */
+  private carry(down: PointerEvent, items: Item[], frame?: Element | null): void {
+    const shapes = items.flatMap((one) => this.sheets.shape(one)?.group ?? []);
+    const groups = frame ? [frame, ...shapes] : shapes;
     const start = this.sheets.point(down);
     const by = (event: PointerEvent): Point => {
       const [x, y] = this.sheets.point(event);

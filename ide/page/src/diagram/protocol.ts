@@ -30,6 +30,8 @@ export interface Parameter {
 export interface DiagramElement {
   id: string;
   line: number;
+  /** Where in its line its name begins, in characters from 1. */
+  column: number;
   /** As drawn, and whole. */
   name: string;
   fullName: string;
@@ -66,7 +68,8 @@ export interface DiagramSheet {
   elements: DiagramElement[];
   links: DiagramLink[];
   junctions: Point[];
-  groups: { name: string; frame: Frame }[];
+  /** With the numbers of their elements. */
+  groups: { name: string; frame: Frame; elements: number[] }[];
 }
 
 export interface Diagrams {
@@ -86,6 +89,8 @@ export type DiagramEdit =
   | { write: { statement: string; at: Point } }
   | { give: { element: string; input: string; value: string } }
   | { set: { element: string; parameter: string; value: string } }
+  | { group: { elements: string[]; name: string } }
+  | { comment: { element: string; comment: string } }
   | { paste: { text: string; by: Point } }
   | { remove: { elements: string[] } };
 

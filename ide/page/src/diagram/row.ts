@@ -6,6 +6,7 @@ import { button, h, say } from "../page/dom";
 import { valueMenu } from "../page/values";
 import { t } from "../text/language";
 import type { Edits } from "./edits";
+import { field } from "./field";
 import type { Parameter, Pin } from "./protocol";
 import { short } from "./shape";
 import type { Item } from "./sheets";
@@ -65,21 +66,10 @@ export class Row {
 
   private field(): HTMLElement {
     const { name } = this.named;
-    const field = h("input", {
-      attributes: { list: this.table.offered, autocomplete: "off", spellcheck: "false" },
-      set: { value: this.written },
-    });
-    field.dataset["of"] = name;
-    say(field, "aria-label", "diagramValueOf", name || this.table.item.element.fullName);
-    field.addEventListener("keydown", (event) => {
-      if (event.key === "Escape") field.value = this.written;
-    });
-    field.addEventListener("change", async () => {
-      const value = field.value.trim();
-      if (value === this.written) return;
-      if (!(await this.write(value))) field.value = this.written;
-    });
-    return field;
+    const list = this.table.offered;
+    const input = field(name, this.written, (value) => this.write(value), { list });
+    say(input, "aria-label", "diagramValueOf", name || this.table.item.element.fullName);
+    return input;
   }
 
   private write(value: string): Promise<boolean> {

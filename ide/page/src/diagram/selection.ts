@@ -36,6 +36,17 @@ export class Selection {
     this.focus = item;
   }
 
+  /** What is called like an element has another name in the next drawing. */
+  renamed({ sheet, element }: Item, name: string): void {
+    const [before, after] = [element.id, name].map((one) => `${sheet}:${one.toUpperCase()}`);
+    if (before === undefined || after === undefined) return;
+    for (const item of this.items) {
+      if (item.key !== before) continue;
+      if (this.keys.delete(before)) this.keys.add(after);
+      item.key = after;
+    }
+  }
+
   all(items: Item[]): void {
     this.keys = new Set(items.map(({ key }) => key));
     if (items[0] && !(this.focus && this.has(this.focus))) this.focus = items[0];

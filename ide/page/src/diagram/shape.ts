@@ -9,6 +9,8 @@ import type { DiagramElement, DiagramLink, DiagramSheet, Pin } from "./protocol"
 /** From the edge of a box to a text in it; the line to a text beside it. */
 const INSET = 8;
 const ARROW = 8;
+/** Height of the bar with the name of a group. */
+const BAR = 20;
 /** Digits of a value as it is drawn. */
 const DIGITS = 5;
 
@@ -129,16 +131,37 @@ export class LinkShape {
   }
 }
 
-/** What is behind the elements of a sheet, and its name. */
-export function ground({ groups, junctions, name, title }: DiagramSheet): SVGElement[] {
+/** What is behind the elements of a sheet, and its name; `sheet` is its number. */
+export function ground(drawn: DiagramSheet, sheet: number): SVGElement[] {
+  const { groups, junctions, name, title } = drawn;
   return [
     text(title, name, "title"),
-    ...groups.flatMap(({ name, frame }) => {
-      const [x, y, width] = frame;
-      return [rect(frame, "group"), text([x + width - INSET, y + 12], name, "group-name")];
-    }),
+    ...groups.map(({ name, frame }) => groupOf(name, frame, sheet)),
     ...junctions.map(([x, y]) => s("circle", { class: "arrow", cx: x, cy: y, r: 3.5 })),
   ];
+}
+
+/** By which a group of a sheet is known. */
+export function groupKey(sheet: number, name: string): string {
+  return `${sheet}:${name}`;
+}
+
+/** A frame, with a bar by which its elements are chosen and moved together. */
+function groupOf(name: string, frame: Frame, sheet: number): SVGElement {
+  const [x, y, width] = frame;
+  return s(
+    "g",
+    {
+      role: "button",
+      tabindex: 0,
+      class: "grouped",
+      "data-group": groupKey(sheet, name),
+      "aria-label": t("diagramGroupNamed", name),
+    },
+    rect(frame, "group"),
+    rect([x, y, width, BAR], "handle"),
+    text([x + width - INSET, y + 12], name, "group-name"),
+  );
 }
 
 function rect([x, y, width, height]: Frame, name: string): SVGRectElement {

@@ -5,7 +5,7 @@ import { Ground, meet, type Frame, type Point } from "../page/ground";
 import { t } from "../text/language";
 import type { DiagramElement, DiagramLink, Diagrams, DiagramSheet, Pin } from "./protocol";
 import type { Selection } from "./selection";
-import { ElementShape, ground, LinkShape } from "./shape";
+import { ElementShape, ground, groupKey, LinkShape } from "./shape";
 import type { Live } from "./live";
 
 /** So far around what can be seen elements have nodes, in pixels. */
@@ -18,6 +18,8 @@ export interface Item {
   element: DiagramElement;
   /** The numbers of its inputs to which links lead. */
   linked: number[];
+  /** The name of its group; of none empty. */
+  group: string;
 }
 
 /** What has nodes while it can be seen, with the outputs whose values it shows. */
@@ -59,13 +61,13 @@ export class Sheets extends Ground {
     const sheets = drawn?.sheets ?? [];
     this.items = sheets.flatMap(itemsOf);
     this.selection.take(this.items);
-    this.layers = sheets.map((sheet) => {
+    this.layers = sheets.map((sheet, at) => {
       const [links, elements] = [s("g"), s("g")];
       const label = t("diagramOf", sheet.name);
       const group = s(
         "g",
         { role: "group", "aria-label": label },
-        ...ground(sheet),
+        ...ground(sheet, at),
         links,
         elements,
       );
@@ -136,13 +138,27 @@ export class Sheets extends Ground {
     const key = node.closest("[data-key]")?.getAttribute("data-key");
     return this.items.find((item) => item.key === key);
   }
+
+  /** The group that a node is a part of, apart from elements. */
+  groupNode(node: EventTarget | null): Element | null {
+    return node instanceof Element ? node.closest("[data-group]") : null;
+  }
+
+  /** The elements of that. */
+  groupAt(node: EventTarget | null): Item[] {
+    const key = this.groupNode(node)?.getAttribute("data-group");
+    return this.items.filter(({ sheet, group }) => groupKey(sheet, group) === key);
+  }
 }
 
-function itemsOf({ elements, links }: DiagramSheet, sheet: number): Item[] {
+function itemsOf({ elements, links, groups }: DiagramSheet, sheet: number): Item[] {
   const linked = elements.map((): number[] => []);
+  const names = elements.map(() => "");
+  for (const { name, elements } of groups) for (const at of elements) names[at] = name;
   for (const { to } of links) linked[to[0]]?.push(to[1]);
   return elements.map((element, at) => {
-    return { key: `${sheet}:${element.id}`, sheet, element, linked: linked[at] ?? [] };
+    const key = `${sheet}:${element.id}`;
+    return { key, sheet, element, linked: linked[at] ?? [], group: names[at] ?? "" };
   });
 }
 

@@ -28,7 +28,7 @@ export class Commands {
   readonly keys: KeyBinding[] = [
     { key: "F12", run: this.command(() => this.definition()) },
     { key: "Shift-F12", run: this.command(() => this.references()) },
-    { key: "F2", run: this.command(() => this.rename()) },
+    { key: "F2", run: this.command(() => void this.rename()) },
     { key: "Shift-Alt-f", run: this.command(() => this.format()) },
     { key: "Alt-Enter", run: this.command(() => this.chooseValue()) },
   ];
@@ -73,19 +73,25 @@ export class Commands {
     else this.showFound(t("referencesOf", name), places);
   }
 
-  async rename(): Promise<void> {
-    const where = this.where();
-    const { state } = this.editors().view;
-    const word = where && state.wordAt(where.at);
-    if (!where || !word) return notice(t("nothingToRename"));
-    const before = state.sliceDoc(word.from, word.to);
+  /** Gives what is at a place another name; that name, or null where nothing is renamed. */
+  async rename(where = this.where()): Promise<string | null> {
+    const state = where ? this.editors().viewOf(where.file)?.state : undefined;
+    const word = where && state?.wordAt(where.at);
+    const before = word ? state?.sliceDoc(word.from, word.to) : undefined;
+    if (!where || before === undefined) {
+      notice(t("nothingToRename"));
+      return null;
+    }
     const to = await ask(t("renameSymbol", before), "newName", before, "rename");
-    if (to === null || to === before) return;
+    if (to === null || to === before) return null;
+    let renamed: string | null = null;
     await this.guard(async () => {
       const edits = await this.core.ask({ do: "renameSymbol", ...where, to });
       this.editors().apply(edits);
       notice(t("renamed", edits.length));
+      renamed = to;
     });
+    return renamed;
   }
 
   async format(): Promise<void> {

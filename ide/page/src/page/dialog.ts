@@ -36,16 +36,17 @@ export function confirm(title: Key, question: Key, agree: Key, ...args: Args): P
   return dialog({ title: t(title), body: [h("p", {}, t(question, ...args))], agree });
 }
 
-/** Asks for a line of text; null where nobody gave one. */
+/** Asks for a line of text; null where nobody gave one. It may be empty where it is not `required`. */
 export async function ask(
   title: string,
   label: Key,
   value: string,
   agree: Key,
+  required = true,
 ): Promise<string | null> {
   const id = newId();
   const input = h("input", {
-    attributes: { id, required: true, autocomplete: "off", spellcheck: "false" },
+    attributes: { id, required, autocomplete: "off", spellcheck: "false" },
     set: { value },
   });
   const words = h("label", { text: label, attributes: { for: id } });

@@ -13,6 +13,7 @@ use st::tree::{
 
 use super::Unwired;
 use super::shapes::{ElementShape, Parameter, Pin};
+use crate::comments;
 use crate::elements::Element;
 use crate::interfaces::{Interface, Variable};
 
@@ -50,7 +51,8 @@ impl Unwired<'_> {
         shape.id = element.name.to_uppercase();
         shape.name = cut(&element.name, NAME_MAX);
         shape.full_name.clone_from(&element.name);
-        shape.comment = self.comment(element);
+        let comment = comments::after(self.text, element.statement.span.end);
+        shape.comment = comment.text(self.text).to_owned();
         shape
     }
 
@@ -212,13 +214,6 @@ impl Unwired<'_> {
         };
         let text = |value: &Expression| value.span.text(self.text).to_owned();
         members.iter().map(|(name, value)| (name.text.to_uppercase(), text(value))).collect()
-    }
-
-    /// What is after an element in its line.
-    fn comment(&self, element: &Element) -> String {
-        let rest = self.text.get(element.statement.span.end as usize..).unwrap_or_default();
-        let rest = rest.lines().next().unwrap_or_default().trim_start_matches(';').trim_start();
-        rest.strip_prefix("//").map(str::trim).unwrap_or_default().to_owned()
     }
 }
 

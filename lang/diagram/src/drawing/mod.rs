@@ -147,7 +147,7 @@ impl<'u> Unwired<'u> {
             elements.get_mut(at).into_iter().for_each(|one| one.order = place + 1);
         }
         for (shape, element) in elements.iter_mut().zip(&self.elements) {
-            shape.line = source.position(element.statement.span.start as usize).0;
+            (shape.line, shape.column) = source.position(element.statement.span.start as usize);
         }
         let links = self.links(&mut elements);
         let is_placed = self.said.iter().any(|one| one.place.is_some());

@@ -48,6 +48,8 @@ pub struct ElementShape {
     pub id: String,
     /// Its line in the text.
     pub line: usize,
+    /// Where in that its name begins, in characters from 1.
+    pub column: usize,
     /// The instance, or what is assigned to; one that is too long ends in dots.
     pub name: String,
     /// That in full.

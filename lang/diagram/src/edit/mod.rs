@@ -3,6 +3,8 @@
 
 mod add;
 mod clipboard;
+mod comment;
+mod groups;
 mod inputs;
 mod moves;
 mod remove;
@@ -71,6 +73,20 @@ pub enum Edit {
         /// How far from the places in the text.
         by: Point,
     },
+    /// Elements are put into a group.
+    Group {
+        /// Which ones.
+        elements: Vec<String>,
+        /// What it is called; empty: they are in none.
+        name: String,
+    },
+    /// What is said about an element in its line.
+    Comment {
+        /// About which one.
+        element: String,
+        /// The words; empty: nothing.
+        comment: String,
+    },
     /// Elements are taken out, with their links and with declarations that nothing needs any more.
     Remove {
         /// Which ones.
@@ -130,6 +146,8 @@ pub fn edit(
         Edit::Write { statement, at } => editing.written(statement, *at),
         Edit::Give { element, input, value } => editing.given(element, input, value),
         Edit::Set { element, parameter, value } => editing.set(element, parameter, value),
+        Edit::Group { elements, name } => editing.grouped(elements, name),
+        Edit::Comment { element, comment } => editing.commented(element, comment),
         Edit::Paste { text, by } => editing.pasted(text, *by),
         Edit::Remove { elements } => editing.removed(elements),
     })

@@ -34,6 +34,13 @@ impl Changes {
         }
     }
 
+    /// Takes something out that is before something else, with the blanks between them.
+    pub(super) fn remove_before(&mut self, text: &str, span: Span) {
+        let after = text.get(span.end as usize..).unwrap_or_default();
+        let blanks = after.len() - after.trim_start().len();
+        self.replace(Span { start: span.start, end: span.end + blanks as u32 }, "");
+    }
+
     /// The text with all of them.
     pub(super) fn carry_out(mut self, text: &str) -> String {
         self.0.sort_by_key(|(span, _)| (span.start, span.end));
