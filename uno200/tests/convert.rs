@@ -270,8 +270,18 @@ fn a_block_becomes_matlab_and_a_block_again() {
     assert_eq!(code, Some(1));
     assert!(errors.contains("E0408") && errors.contains("wrong.m:"), "{errors}");
     assert!(!path.join("wrong.fbt").exists());
-    let (code, _, errors) = convert(path, &["tank.fbt", "-o", "tank.svg"]);
+    let (code, _, errors) = convert(path, &["tank.fbt", "-o", "tank.st"]);
     assert_eq!(code, Some(2), "{errors}");
+    // Its chart, the same from either form; nothing of a wrong one.
+    for (input, picture) in [("tank.fbt", "tank.svg"), ("tank.m", "again.svg")] {
+        let (code, _, errors) = convert(path, &[input, "-o", picture]);
+        assert_eq!((code, errors.as_str()), (Some(0), ""));
+    }
+    let picture = fs::read_to_string(path.join("tank.svg")).unwrap();
+    assert!(picture.contains(">Histeresis</text>") && picture.contains(">Control</text>"));
+    assert_eq!(fs::read_to_string(path.join("again.svg")).unwrap(), picture);
+    let (code, _, errors) = convert(path, &["wrong.m", "-o", "wrong.svg"]);
+    assert!(code == Some(1) && !path.join("wrong.svg").exists(), "{errors}");
     let (code, _, errors) = convert(path, &["tank.fbt", "--summary"]);
     assert!(code == Some(2) && errors.contains("charts"), "{errors}");
 }

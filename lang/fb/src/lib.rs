@@ -5,6 +5,7 @@ pub mod check;
 pub mod condition;
 pub mod data_type;
 pub mod diagnostic;
+pub mod drawing;
 pub mod generate;
 pub mod interpreter;
 pub mod matlab;
@@ -13,6 +14,7 @@ pub mod parsed;
 mod rest;
 pub mod service;
 pub mod session;
+pub mod svg;
 pub mod xml;
 
 pub use data_type::DataType;

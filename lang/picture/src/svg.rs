@@ -5,9 +5,9 @@ use std::fmt::Write;
 use crate::geometry::{Point, Rect};
 
 const STYLE: &str = "\
-svg { background: #fff; color: #1a1a1a; --soft: #0b57a4; }
+svg { background: var(--ground); color: #1a1a1a; --ground: #fff; --soft: #0b57a4; }
 @media (prefers-color-scheme: dark) {
-  svg { background: #1b1d21; color: #e6e6e6; --soft: #8ab8f0; }
+  svg { color: #e6e6e6; --ground: #1b1d21; --soft: #8ab8f0; }
 }
 path, rect { fill: none; stroke: currentColor; stroke-width: 1.5; }
 .arrow { fill: currentColor; stroke: none; }
@@ -61,6 +61,13 @@ impl Svg {
     pub fn rect(&mut self, rect: Rect) {
         let Rect { x, y, width, height } = rect;
         self.line(&format!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"/>"));
+    }
+
+    /// A curve of Bézier: its beginning, two control points, its end.
+    pub fn curve(&mut self, class: &str, [from, near, far, to]: [Point; 4]) {
+        let [near, far, to] = [near, far, to].map(|Point { x, y }| format!("{x} {y}"));
+        let d = format!("M{} {}C{near} {far} {to}", from.x, from.y);
+        self.line(&format!("<path class=\"{class}\" d=\"{d}\"/>"));
     }
 
     /// A line through points.

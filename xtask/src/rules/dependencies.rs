@@ -15,7 +15,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("st", &["diagnostics", "awl-asm"]),
     ("picture", &[]),
     ("chart", &["diagnostics", "awl-asm", "picture", "st"]),
-    ("fb", &["diagnostics", "awl-asm", "st"]),
+    ("fb", &["diagnostics", "awl-asm", "picture", "st"]),
     ("diagram", &["diagnostics", "picture", "st"]),
     ("plcopen", &["diagnostics", "st", "chart", "diagram"]),
     ("project", &["diagnostics", "awl-asm", "st", "chart", "diagram", "fb", "plcopen"]),

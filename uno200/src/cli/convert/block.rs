@@ -1,12 +1,13 @@
-//! Blocks of IEC 61499: as MATLAB text, and back; their service sequences as scenarios.
+//! Blocks of IEC 61499: as MATLAB text, and back; their charts as pictures, their service sequences
+//! as scenarios.
 
 use std::path::Path;
 
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 use awl_asm::files::{ending, ensure_no_source, read_source, write_whole};
 use awl_asm::report::Report;
 use diagnostics::Source;
-use fb::{matlab, service, xml};
+use fb::{Block, matlab, service, xml};
 
 use super::super::args::Convert;
 use super::{has_ending, print, told};
@@ -21,16 +22,16 @@ pub(super) fn convert(arguments: &Convert) -> Result<bool> {
     }
     let source = read_source(input)?;
     let is_matlab = has_ending(input, "m");
-    if let Some(output) = &arguments.output {
-        let kind = ending(output, if is_matlab { &["fbt"] } else { &["m", "scn"] })?;
-        if kind == "scn" {
-            return scenarios(arguments, &source, output);
-        }
-    }
     let mut report = Report::new(arguments.messages, false);
-    let text = match is_matlab {
-        true => from_matlab(&source, &mut report),
-        false => to_matlab(&source, &mut report),
+    let kinds: &[&str] = if is_matlab { &["fbt", "svg"] } else { &["m", "scn", "svg"] };
+    let kind = arguments.output.as_deref().map(|output| ending(output, kinds)).transpose()?;
+    if let Some(output) = arguments.output.as_deref().filter(|_| kind == Some("scn")) {
+        return scenarios(arguments, &source, output);
+    }
+    let text = match (kind, is_matlab) {
+        (Some("svg"), _) => picture(&source, is_matlab, &mut report)?,
+        (_, true) => from_matlab(&source, &mut report),
+        (_, false) => to_matlab(&source, &mut report),
     };
     let Some(text) = text else { return Ok(false) };
     match &arguments.output {
@@ -40,28 +41,45 @@ pub(super) fn convert(arguments: &Convert) -> Result<bool> {
     Ok(true)
 }
 
-fn to_matlab(source: &Source, report: &mut Report) -> Option<String> {
-    let xml::Read { block, diagnostics } = xml::read(source);
+/// The block of a file, if nothing is wrong with it.
+fn block_of(source: &Source, is_matlab: bool, report: &mut Report) -> Option<Block> {
+    let (block, diagnostics) = match is_matlab {
+        true => {
+            let matlab::Read { block, diagnostics } = matlab::read(source);
+            (block, diagnostics)
+        }
+        false => {
+            let xml::Read { block, diagnostics } = xml::read(source);
+            (block, diagnostics)
+        }
+    };
     let is_sound = told(report, source, diagnostics);
-    let block = block.filter(|_| is_sound)?;
+    block.filter(|_| is_sound)
+}
+
+fn to_matlab(source: &Source, report: &mut Report) -> Option<String> {
+    let block = block_of(source, false, report)?;
     let matlab::Written { text, diagnostics, of_st } = matlab::write(&block, source);
     let is_sound = told(report, source, of_st);
     (told(report, source, diagnostics) && is_sound).then_some(text)?
 }
 
 fn from_matlab(source: &Source, report: &mut Report) -> Option<String> {
-    let matlab::Read { block, diagnostics } = matlab::read(source);
-    let is_sound = told(report, source, diagnostics);
-    Some(xml::write(&block.filter(|_| is_sound)?))
+    Some(xml::write(&block_of(source, true, report)?))
+}
+
+/// The chart of the block as a picture.
+fn picture(source: &Source, is_matlab: bool, report: &mut Report) -> Result<Option<String>> {
+    let Some(block) = block_of(source, is_matlab, report) else { return Ok(None) };
+    let drawing = fb::drawing::draw(&block).map_err(|one| anyhow!("{}: {one}", source.name))?;
+    Ok(Some(fb::svg::write(&drawing)))
 }
 
 /// Writes each service sequence as a scenario: `tank.scn`, or `tank.NAME.scn` where there are
 /// several.
 fn scenarios(arguments: &Convert, source: &Source, output: &Path) -> Result<bool> {
     let mut report = Report::new(arguments.messages, false);
-    let xml::Read { block, diagnostics } = xml::read(source);
-    let is_sound = told(&mut report, source, diagnostics);
-    let Some(block) = block.filter(|_| is_sound) else { return Ok(false) };
+    let Some(block) = block_of(source, false, &mut report) else { return Ok(false) };
     let sequences = block.service.as_ref().map_or(&[][..], |one| &one.sequences);
     if sequences.is_empty() {
         bail!("{}: the block has no service sequences", arguments.input.display());
