@@ -1,4 +1,5 @@
-//! Drawings of the IDE: draws charts and changes them, draws diagrams of blocks. Questions in,
+//! Drawings of the IDE: draws charts and changes them, draws diagrams of blocks, sends events to a
+//! block of IEC 61499. Questions in,
 //! answers out; the text is all there is of a drawing, and nothing is known here of PLCs and of the
 //! page.
 //!
@@ -8,6 +9,7 @@
 mod conditions;
 mod diagrams;
 mod drawn;
+mod events;
 mod opened;
 mod places;
 pub mod protocol;
@@ -74,6 +76,9 @@ impl Drawings {
             }
             Question::Blocks { text, name, others } => {
                 Ok(Answer::Blocks(diagrams::blocks(text, name, &others)?))
+            }
+            Question::Events { text, name, lines } => {
+                Ok(Answer::Events(Box::new(events::events(text, name, &lines)?)))
             }
         }
     }

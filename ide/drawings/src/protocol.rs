@@ -3,6 +3,7 @@
 //! point to another four numbers, too.
 
 pub mod diagrams;
+pub mod events;
 
 use std::fmt;
 
@@ -10,6 +11,7 @@ use chart::edit::Element;
 use chart::model::{StepId, TransitionId};
 use diagnostics::{Code, Diagnostic, Source};
 use diagrams::{Block, DiagramEdit, Diagrams};
+use events::Events;
 use serde::{Deserialize, Serialize};
 
 /// A point of a drawing, or a place in a text.
@@ -85,6 +87,8 @@ pub enum Question {
     },
     /// The blocks that a diagram can have. Answer: a [`Block`] each, those of the project first.
     Blocks { text: String, name: String, others: Vec<String> },
+    /// A block of IEC 61499 after lines as `uno200 events` takes them. Answer: [`Events`].
+    Events { text: String, name: String, lines: Vec<String> },
 }
 
 /// A transition of a chart, with a value for each operand of its condition.
@@ -210,6 +214,7 @@ pub enum Answer {
     Diagrams(Diagrams),
     EditedDiagram { text: String, diagrams: Diagrams, new: Vec<String> },
     Blocks(Vec<Block>),
+    Events(Box<Events>),
 }
 
 /// An element of a chart, as `s3` or `t4`: a step or a transition, and its number.

@@ -20,6 +20,7 @@ import { valueMenu, valuesMenu } from "./page/values";
 import { Capture } from "./panels/capture";
 import { Exercises } from "./panels/exercises";
 import { Ladder } from "./panels/ladder";
+import { ByFile } from "./panels/by_file";
 import { Lazy } from "./panels/lazy";
 import { Operands } from "./panels/operands";
 import { Plant } from "./panels/plant";
@@ -104,6 +105,11 @@ const chart = new Lazy("chart", async (element) => {
   const { ChartEditor } = await import("./chart/editor");
   return new ChartEditor(element, core, editors, project, header, operands);
 });
+const events = new Lazy("events", async (element) => {
+  const { EventsView } = await import("./events/events");
+  return new EventsView(element, editors, project);
+});
+const charts = new ByFile(editors, chart, { files: /\.fbt$/i, contents: events });
 const diagram = new Lazy("diagram", async (element) => {
   const { DiagramView } = await import("./diagram/diagram");
   const plot = (operand: string) => {
@@ -136,7 +142,7 @@ const tabs: Tabs = new Tabs("panels", [
     element: ladder.element,
     shown: (shown) => ladder.shown(shown),
   },
-  { id: "chart", text: "chart", element: chart.element, shown: (shown) => chart.shown(shown) },
+  { id: "chart", text: "chart", element: charts.element, shown: (shown) => charts.shown(shown) },
   {
     id: "diagram",
     text: "diagram",

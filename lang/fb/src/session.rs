@@ -104,6 +104,16 @@ impl<'b> Session<'b> {
         Ok(Session { block, parsed, interpreter, last: Step::default() })
     }
 
+    /// The number of the state that the chart is in.
+    pub fn state_number(&self) -> usize {
+        self.interpreter.state_number()
+    }
+
+    /// What the last event brought about.
+    pub fn last(&self) -> &Step {
+        &self.last
+    }
+
     /// Executes a line.
     pub fn obey(&mut self, line: &str) -> Outcome<Done> {
         let line = Part { text: without_comment(line), start: 0 }.trimmed();
@@ -199,7 +209,7 @@ impl<'b> Session<'b> {
     /// What an event brought about.
     fn told(&self, before: &str, events: &[usize]) -> String {
         let Block { states, event_inputs, event_outputs, .. } = self.block;
-        let Step { sent, lost, entered } = &self.last;
+        let Step { sent, lost, entered, .. } = &self.last;
         let name = |event: &usize| event_inputs.get(*event).map_or("", |one| &one.name.text);
         let used: Vec<&str> = events.iter().filter(|one| !lost.contains(one)).map(name).collect();
         let mut path = vec![before];
@@ -220,7 +230,7 @@ impl<'b> Session<'b> {
     }
 
     /// A value as others see it, of an array all of its elements.
-    fn value(&self, name: &str) -> String {
+    pub fn value(&self, name: &str) -> String {
         let variable = self.block.variables().find(|one| one.name.names(name));
         let count = variable.and_then(|one| one.size);
         let one = |at: usize| self.interpreter.element(name, at).map_or(String::new(), written);

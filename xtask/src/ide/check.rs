@@ -72,6 +72,7 @@ fn use_page(folder: &Path) -> Result<()> {
     test("set_reset.mjs", [page])?;
     test("diagrams.mjs", [page])?;
     test("diagram_editor.mjs", [page])?;
+    test("events.mjs", [page])?;
     test("touch.mjs", [page])?;
     test("budgets.mjs", [page, folder])?;
     test("reload.mjs", [page])?;

@@ -43,7 +43,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "ide-site",
         ],
     ),
-    ("ide-drawings", &["diagnostics", "st", "chart", "diagram", "picture"]),
+    ("ide-drawings", &["diagnostics", "st", "chart", "diagram", "fb", "picture"]),
     (
         "ide-core",
         &["plc-isa", "diagnostics", "awl-asm", "project", "awl-sim", "analysis", "client", "flash"],

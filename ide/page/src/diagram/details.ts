@@ -3,7 +3,7 @@
 import type { Core } from "../core/core";
 import { button, h, newId, say } from "../page/dom";
 import { nameOf, type Edits } from "./edits";
-import { field } from "./field";
+import { field } from "../page/field";
 import type { Live } from "./live";
 import type { Pin } from "./protocol";
 import { Row, type Named, type Table } from "./row";

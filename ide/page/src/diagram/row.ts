@@ -6,7 +6,7 @@ import { button, h, say } from "../page/dom";
 import { valueMenu } from "../page/values";
 import { t } from "../text/language";
 import type { Edits } from "./edits";
-import { field } from "./field";
+import { field } from "../page/field";
 import type { Parameter, Pin } from "./protocol";
 import { short } from "./shape";
 import type { Item } from "./sheets";

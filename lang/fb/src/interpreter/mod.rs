@@ -39,7 +39,9 @@ pub struct Step {
     pub sent: Vec<usize>,
     /// Numbers of the events that came at the same time and are lost.
     pub lost: Vec<usize>,
-    /// Numbers of the states that were entered, in order.
+    /// Numbers of the transitions that cleared, in order: among those of [`Parsed`].
+    pub cleared: Vec<usize>,
+    /// Numbers of the states that were entered with them.
     pub entered: Vec<usize>,
 }
 
@@ -148,8 +150,10 @@ impl<'b> Interpreter<'b> {
         let mut present = Some(event);
         while let Some(next) = self.clearing(present)? {
             present = None;
-            self.state = next;
-            step.entered.push(next);
+            let (number, state) = next;
+            self.state = state;
+            step.cleared.push(number);
+            step.entered.push(state);
             self.act(&mut step)?;
             if step.entered.len() >= TRANSITIONS_MAX {
                 return Err(self.no_rest(&step.entered));
@@ -202,18 +206,19 @@ impl<'b> Interpreter<'b> {
         }
     }
 
-    /// The state that the first transition enters that clears.
-    fn clearing(&mut self, present: Option<usize>) -> Result<Option<usize>, Stopped> {
+    /// The first transition that clears, and the state that it enters.
+    fn clearing(&mut self, present: Option<usize>) -> Result<Option<(usize, usize)>, Stopped> {
         let parsed = self.parsed;
         let here = self.state;
-        for transition in parsed.transitions.iter().filter(|one| one.source == here) {
+        let leaving = parsed.transitions.iter().enumerate().filter(|(_, one)| one.source == here);
+        for (number, transition) in leaving {
             let is_there = transition.event.is_none() || transition.event == present;
             let holds = match &transition.guard {
                 Some(guard) if is_there => self.inside.expression(guard)?.is_true(),
                 _ => is_there,
             };
             if holds {
-                return Ok(Some(transition.destination));
+                return Ok(Some((number, transition.destination)));
             }
         }
         Ok(None)

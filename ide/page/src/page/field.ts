@@ -1,5 +1,5 @@
 // A field with something of the text: a value, a comment. What is refused is not kept in it.
-import { h } from "../page/dom";
+import { h } from "./dom";
 
 /** `of`: what it is of, by which it is found again; `change`: whether that could be done. */
 export function field(

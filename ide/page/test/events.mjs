@@ -1,0 +1,86 @@
+// A block of IEC 61499 in the page, in a real Chromium: its chart, events by mouse and keys, values,
+// what is refused, what is taken back, other texts and languages. `node test/events.mjs ADDRESS`.
+import assert from "node:assert/strict";
+import { controls, open } from "./browser.mjs";
+
+const [, , given] = process.argv;
+const { browser, page, errors } = await open({ patience: 60_000 });
+const { button, tab, panel } = controls(page);
+const chart = panel("Chart");
+const key = (name) => page.keyboard.press(name);
+const field = (name) => chart.getByRole("textbox", { name, exact: true });
+const log = chart.getByRole("log", { name: "What came of it" });
+const active = chart.locator(".state.on");
+const value = (name) =>
+  chart.getByRole("row").filter({ has: page.getByRole("rowheader", { name, exact: true }) });
+
+async function example(name, file) {
+  await page.goto("about:blank");
+  await page.goto(`${given.replace(/\?.*/, "")}#example=${name}`);
+  await page.getByRole("textbox", { name: file }).waitFor();
+  await tab("Chart");
+}
+
+async function set(name, to) {
+  await field(name).fill(to);
+  await key("Enter");
+}
+
+await example("tank-fbt", "tank.fbt");
+await active.filter({ hasText: "START" }).waitFor();
+assert.equal(await chart.locator(".state").count(), 2);
+assert.equal(await chart.locator(".taken").count(), 0);
+await set("Nivel", "10.0");
+await set("Nivel_actual", "5.0");
+await chart.getByRole("button", { name: "Control", exact: true }).click();
+await value("Potencia").getByText("90.0").waitFor();
+await log.getByText("Control: START -> E12 -> START").waitFor();
+assert.equal(await chart.locator(".taken").count(), 2, "there and back");
+// With keys, and the focus stays.
+await set("Nivel_actual", "10.6");
+await page.waitForFunction(() => document.activeElement.getAttribute("data-of") === "Nivel_actual");
+await chart.getByRole("button", { name: "Control", exact: true }).focus();
+await key("Enter");
+await value("Potencia").getByText("10.0").waitFor();
+await page.waitForFunction(() => document.activeElement.textContent === "Control");
+// What is no value is refused, and nothing is done.
+await set("Nivel", "high");
+await page.getByRole("alert").filter({ hasText: "`high` is no value" }).waitFor();
+await page.waitForFunction(
+  () => document.querySelector(".event-values [aria-label=Nivel]").value === "10.0",
+);
+// The last is taken back, and all.
+await button("Take the last back").click();
+await value("Potencia").getByText("90.0").waitFor();
+await button("Begin anew").click();
+await value("Potencia").getByText("0.0").waitFor();
+assert.equal(await log.locator("li").count(), 0);
+
+// The ramp stays in no state but its first; its chart is as its file says.
+await example("ramp-fbt", "ramp.fbt");
+await active.filter({ hasText: "START" }).waitFor();
+assert.equal(await chart.locator(".link").count(), 4);
+await set("X1", "10.0");
+for (const event of ["INIT", "REQ"])
+  await chart.getByRole("button", { name: event, exact: true }).click();
+await log.getByText("REQ: START -> E3 -> START").waitFor();
+// Another text: the same is done with it, and a mistake leads to its line.
+const editor = page.getByRole("textbox", { name: "ramp.fbt" });
+await editor.focus();
+await key("Control+Home");
+await key("Control+F");
+await page.keyboard.type('Condition="REQ"');
+await key("Escape");
+await page.keyboard.press("Delete");
+await chart.getByRole("status").getByText(/\S/).waitFor();
+assert.equal(await chart.locator(".state:visible").count(), 0);
+await button("Show the place").click();
+await page.locator(".cm-activeLine", { hasText: "ECTransition" }).waitFor();
+await key("Control+Z");
+await log.getByText("REQ: START -> E3 -> START").waitFor();
+// Another file has the charts of steps again.
+await page.getByRole("button", { name: "ramp.scn", exact: true }).click();
+await chart.getByText("The charts of a file are drawn here").waitFor();
+assert.deepEqual(errors, []);
+await browser.close();
+console.log("a block of IEC 61499: events, values, mistakes");
