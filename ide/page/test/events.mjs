@@ -67,15 +67,14 @@ await log.getByText("REQ: START -> E3 -> START").waitFor();
 // Another text: the same is done with it, and a mistake leads to its line.
 const editor = page.getByRole("textbox", { name: "ramp.fbt" });
 await editor.focus();
-await key("Control+Home");
-await key("Control+F");
-await page.keyboard.type('Condition="REQ"');
-await key("Escape");
-await page.keyboard.press("Delete");
-await chart.getByRole("status").getByText(/\S/).waitFor();
+await key("Control+End");
+await page.keyboard.type("<");
+await chart.locator(".events .obstacle").getByText(/\S/).first().waitFor();
 assert.equal(await chart.locator(".state:visible").count(), 0);
-await button("Show the place").click();
-await page.locator(".cm-activeLine", { hasText: "ECTransition" }).waitFor();
+await key("Control+Home");
+await chart.locator(".events").getByRole("button", { name: "Show the place" }).click();
+await page.locator(".cm-activeLine", { hasText: "<" }).waitFor();
+await editor.focus();
 await key("Control+Z");
 await log.getByText("REQ: START -> E3 -> START").waitFor();
 // Another file has the charts of steps again.
