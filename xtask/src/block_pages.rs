@@ -40,14 +40,36 @@ pub fn text() -> Result<String> {
 }
 
 fn page(block: &Block, text: &mut String) {
-    let _ = write!(text, "\n### {}\n\n{}\n", block.name, block.comment());
     let parameters = block.parameters();
+    let names = |is_output| {
+        let all = parameters.iter().filter(move |one| one.is_output == is_output);
+        all.map(|one| &one.name[..]).collect::<Vec<&str>>()
+    };
+    let picture = picture(block.name, &names(false), &names(true));
+    let _ = write!(text, "\n### {}\n\n```text\n{picture}```\n", block.name);
+    let _ = write!(text, "\n{}\n", block.comment());
     for (title, is_output) in [("input", false), ("output", true)] {
         let _ = write!(text, "\n| {title} | type | |\n|---|---|---|\n");
         for one in parameters.iter().filter(|one| one.is_output == is_output) {
             let _ = writeln!(text, "| `{}` | `{}` | {} |", one.name, one.declared, one.comment);
         }
     }
+}
+
+/// A block as diagrams draw it: inputs on the left, outputs on the right.
+fn picture(name: &str, inputs: &[&str], outputs: &[&str]) -> String {
+    let left = inputs.iter().map(|one| one.len()).max().unwrap_or(0);
+    let (line, blanks) = ("─".repeat(name.len()), " ".repeat(name.len()));
+    let mut picture = format!("{:left$} ┌─{line}─┐\n", "");
+    for row in 0..inputs.len().max(outputs.len()) {
+        let input =
+            inputs.get(row).map_or(format!("{:left$} │", ""), |one| format!("{one:>left$} ┤"));
+        let output = outputs.get(row).map_or("│".to_owned(), |one| format!("├ {one}"));
+        let inside = if row == 0 { name } else { &blanks };
+        let _ = writeln!(picture, "{input} {inside} {output}");
+    }
+    let _ = writeln!(picture, "{:left$} └─{line}─┘", "");
+    picture
 }
 
 /// What an instance more costs that is called once, without arguments.

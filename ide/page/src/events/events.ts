@@ -6,7 +6,7 @@ import { icon } from "../page/icons";
 import { notice } from "../page/notices";
 import type { Project } from "../project/project";
 import { EVENT_WORDS } from "../text/event_words";
-import { addWords, onLanguage, t } from "../text/language";
+import { addWords, onLanguage } from "../text/language";
 import { EventsDocument, type Shown } from "./document";
 import { Picture } from "./picture";
 import type { BlockEvent, BlockValue, Events } from "./protocol";
@@ -113,7 +113,7 @@ export class EventsView {
   /** Whether it could be done; why not is told. */
   private async add(line: string): Promise<boolean> {
     const wrong = await this.document.add(line);
-    if (wrong !== null) notice(wrong || t("eventsWrong"), true);
+    if (wrong !== null) notice(wrong, true);
     return wrong === null;
   }
 }

@@ -14,5 +14,4 @@ export const EVENT_WORDS = {
   eventsInputs: ["Inputs", "Eingänge", "Entradas"],
   eventsOutputs: ["Outputs", "Ausgänge", "Salidas"],
   eventsInternals: ["Own variables", "Eigene Variablen", "Variables propias"],
-  eventsWrong: ["That is not possible.", "Das geht nicht.", "No es posible."],
 } as const satisfies Record<string, Words>;
