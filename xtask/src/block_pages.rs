@@ -43,7 +43,7 @@ fn page(block: &Block, text: &mut String) {
     let parameters = block.parameters();
     let names = |is_output| {
         let all = parameters.iter().filter(move |one| one.is_output == is_output);
-        all.map(|one| &one.name[..]).collect::<Vec<&str>>()
+        all.map(|one| one.name).collect::<Vec<&str>>()
     };
     let picture = picture(block.name, &names(false), &names(true));
     let _ = write!(text, "\n### {}\n\n```text\n{picture}```\n", block.name);
