@@ -40,17 +40,16 @@ pub fn text() -> Result<String> {
 }
 
 fn page(block: &Block, text: &mut String) {
-    let parameters = block.parameters();
-    let names = |is_output| {
-        let all = parameters.iter().filter(move |one| one.is_output == is_output);
-        all.map(|one| one.name).collect::<Vec<&str>>()
-    };
-    let picture = picture(block.name, &names(false), &names(true));
+    let (outputs, inputs): (Vec<_>, Vec<_>) =
+        block.parameters().into_iter().partition(|one| one.is_output);
+    let [of_inputs, of_outputs] =
+        [&inputs, &outputs].map(|all| all.iter().map(|one| one.name).collect::<Vec<_>>());
+    let picture = picture(block.name, &of_inputs, &of_outputs);
     let _ = write!(text, "\n### {}\n\n```text\n{picture}```\n", block.name);
     let _ = write!(text, "\n{}\n", block.comment());
-    for (title, is_output) in [("input", false), ("output", true)] {
+    for (title, all) in [("input", inputs), ("output", outputs)] {
         let _ = write!(text, "\n| {title} | type | |\n|---|---|---|\n");
-        for one in parameters.iter().filter(|one| one.is_output == is_output) {
+        for one in all {
             let _ = writeln!(text, "| `{}` | `{}` | {} |", one.name, one.declared, one.comment);
         }
     }

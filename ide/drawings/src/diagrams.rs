@@ -1,13 +1,14 @@
 //! Diagrams of blocks as the page gets them: what `diagram::drawing` says. What is wrong in a text
 //! is told with it; what could be read is drawn all the same.
 
-use diagnostics::{Code, Diagnostic, Severity, Source};
+use diagnostics::Source;
 use diagram::drawing::shapes::{self, End};
 use diagram::drawing::{self, Drawing};
 use diagram::edit::{self, Edit, Edited};
 use diagram::interfaces::{Interface, Interfaces, Origin, Variable, of_text};
-use picture::{Point, Rect};
+use picture::Point;
 
+use crate::geometry::{frame, point};
 use crate::protocol::diagrams::{
     Block, DiagramEdit, Diagrams, Element, Group, Link, Parameter, Pin, Sheet,
 };
@@ -96,19 +97,13 @@ fn edit_of(change: DiagramEdit) -> Edit {
 
 fn drawing_of(source: &Source, interfaces: &Interfaces) -> Result<Diagrams, String> {
     let diagram::Read { file, of_st, diagnostics } = diagram::read(source);
-    let mistake = mistake_in(source, &of_st).or_else(|| mistake_in(source, &diagnostics));
+    let mistake = Mistake::first(source, &of_st).or_else(|| Mistake::first(source, &diagnostics));
     match drawing::draw(source, &file, interfaces) {
         Ok(drawing) => Ok(drawn(&drawing, mistake)),
         Err(too_large) => {
             Ok(Diagrams { obstacle: Some(too_large.to_string()), mistake, ..Diagrams::default() })
         }
     }
-}
-
-/// The first error.
-fn mistake_in<C: Code>(source: &Source, found: &[Diagnostic<C>]) -> Option<Mistake> {
-    let error = found.iter().find(|one| one.severity() == Severity::Error)?;
-    Some(Mistake::of(source, error))
 }
 
 fn drawn(drawing: &Drawing, mistake: Option<Mistake>) -> Diagrams {
@@ -186,12 +181,4 @@ fn link(link: &shapes::LinkShape) -> Link {
         is_feedback: link.is_feedback,
         points: link.points.iter().copied().map(point).collect(),
     }
-}
-
-fn point(Point { x, y }: Point) -> At {
-    (x, y)
-}
-
-fn frame(Rect { x, y, width, height }: Rect) -> [i32; 4] {
-    [x, y, width, height]
 }

@@ -3,14 +3,15 @@
 
 use std::collections::BTreeMap;
 
-use chart::drawing::shapes::{Drawing, Look, Point, Rect, Sheet, StepShape, TransitionShape};
+use chart::drawing::shapes::{Drawing, Look, Point, Sheet, StepShape, TransitionShape};
 use chart::edit::Element;
 use chart::model::{self, Chart, Instance, StepId, StepKind, TransitionId};
 use chart::text::Document;
 
 use crate::conditions::{self, Condition};
+use crate::geometry::{frame, point};
 use crate::protocol as page;
-use crate::protocol::{At, ElementId, Mistake};
+use crate::protocol::{ElementId, Mistake};
 
 /// A drawing of charts.
 pub fn charts(drawing: &Drawing, document: &Document, mistake: Option<Mistake>) -> page::Charts {
@@ -34,23 +35,15 @@ fn sheet(sheet: &Sheet, chart: &Chart, charts: &[&Chart], names: &[String]) -> p
     let transitions = sheet.transitions.iter().filter_map(|one| transition(one, chart, &scopes));
     page::Sheet {
         name: sheet.name.clone(),
-        title: point(&sheet.title),
+        title: point(sheet.title),
         frame: frame(sheet.frame),
         is_folded: sheet.steps.is_empty() && !chart.steps.is_empty(),
         is_grafcet: chart.standard == model::Standard::Grafcet,
         is_placed: sheet.is_placed,
-        origin: point(&sheet.origin),
+        origin: point(sheet.origin),
         steps: steps.collect(),
         transitions: transitions.collect(),
     }
-}
-
-fn point(point: &Point) -> At {
-    (point.x, point.y)
-}
-
-fn frame(rect: Rect) -> [i32; 4] {
-    [rect.x, rect.y, rect.width, rect.height]
 }
 
 fn line((a, b): &(Point, Point)) -> [i32; 4] {
@@ -120,7 +113,7 @@ fn transition(
     scopes: &[String],
 ) -> Option<page::Transition> {
     let one = chart.transitions.get(&shape.id)?;
-    let points = |points: &Vec<Point>| points.iter().map(point).collect();
+    let points = |points: &Vec<Point>| points.iter().copied().map(point).collect();
     let id = |id: TransitionId| ElementId(Element::Transition(id));
     Some(page::Transition {
         id: id(shape.id),
@@ -135,9 +128,9 @@ fn transition(
         to: shape.to.iter().copied().map(id_of_step).collect(),
         bar: line(&shape.bar),
         text: shape.text.clone(),
-        label: point(&shape.label),
+        label: point(shape.label),
         lines: shape.lines.iter().map(points).collect(),
         doubles: shape.doubles.iter().map(line).collect(),
-        arrows: shape.arrows.iter().map(point).collect(),
+        arrows: shape.arrows.iter().copied().map(point).collect(),
     })
 }

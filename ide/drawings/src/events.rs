@@ -1,19 +1,20 @@
 //! A block of IEC 61499 as the page gets it: its chart, and what events make of it. All that was
 //! done with a block is done again for each answer: there is nothing to be kept.
 
-use diagnostics::{Severity, Source};
+use diagnostics::Source;
 use fb::drawing::draw;
 use fb::drawing::shapes::{self, ActionShape};
 use fb::model::{Block, Event, Variable};
 use fb::parsed::{Parsed, parse};
 use fb::session::{Done, Session};
 use fb::xml;
-use picture::{Point, Rect};
+use picture::Rect;
 
+use crate::geometry::{frame, point};
+use crate::protocol::Mistake;
 use crate::protocol::events::{
     Action, BlockEvent, BlockValue, Boxed, Events, State, Told, Transition,
 };
-use crate::protocol::{At, Mistake};
 
 /// Most lines that are done again.
 const LINES_MAX: usize = 10_000;
@@ -22,17 +23,15 @@ const LINES_MAX: usize = 10_000;
 /// one alone.
 pub fn events(text: String, name: String, lines: &[String]) -> Result<Events, String> {
     let source = Source::new(name, text).map_err(|error| error.to_string())?;
-    let xml::Read { block, diagnostics } = xml::read(&source);
-    let first = diagnostics.iter().find(|one| one.severity() == Severity::Error);
-    let wrong = |mistake| Events { mistake: Some(mistake), ..Events::default() };
-    let Some(block) = block.filter(|_| first.is_none()) else {
-        return Ok(first.map_or(Events::default(), |first| wrong(Mistake::of(&source, first))));
+    let fb::Read { block, diagnostics } = xml::read(&source);
+    let Some(block) = block else {
+        return Ok(Events { mistake: Mistake::first(&source, &diagnostics), ..Events::default() });
     };
     let parsed = parse(&block, &source);
-    if let Some(first) = parsed.diagnostics.iter().find(|one| one.severity() == Severity::Error) {
-        return Ok(wrong(Mistake::of(&source, first)));
+    match Mistake::first(&source, &parsed.diagnostics) {
+        None => after(&block, &parsed, lines),
+        mistake => Ok(Events { mistake, ..Events::default() }),
     }
-    after(&block, &parsed, lines)
 }
 
 fn after(block: &Block, parsed: &Parsed, lines: &[String]) -> Result<Events, String> {
@@ -120,12 +119,4 @@ fn transition(one: &shapes::TransitionShape) -> Transition {
         middle: point(one.middle),
         arrow: one.arrow.map(point),
     }
-}
-
-fn point(Point { x, y }: Point) -> At {
-    (x, y)
-}
-
-fn frame(Rect { x, y, width, height }: Rect) -> [i32; 4] {
-    [x, y, width, height]
 }

@@ -1,7 +1,6 @@
 //! Drawings of the IDE: draws charts and changes them, draws diagrams of blocks, sends events to a
-//! block of IEC 61499. Questions in,
-//! answers out; the text is all there is of a drawing, and nothing is known here of PLCs and of the
-//! page.
+//! block of IEC 61499. Questions in, answers out; the text is all there is of a drawing, and
+//! nothing is known here of PLCs and of the page.
 //!
 //! [`Drawings`] answers, [`protocol`] is what it is asked. A page loads it when a drawing is looked
 //! at for the first time; the same code runs natively in tests.
@@ -10,6 +9,7 @@ mod conditions;
 mod diagrams;
 mod drawn;
 mod events;
+mod geometry;
 mod opened;
 mod places;
 pub mod protocol;

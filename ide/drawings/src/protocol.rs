@@ -9,7 +9,7 @@ use std::fmt;
 
 use chart::edit::Element;
 use chart::model::{StepId, TransitionId};
-use diagnostics::{Code, Diagnostic, Source};
+use diagnostics::{Code, Diagnostic, Severity, Source};
 use diagrams::{Block, DiagramEdit, Diagrams};
 use events::Events;
 use serde::{Deserialize, Serialize};
@@ -373,6 +373,12 @@ impl Mistake {
     pub fn of<C: Code>(source: &Source, error: &Diagnostic<C>) -> Mistake {
         let (line, _) = source.position(error.span.start as usize);
         Mistake { line: line as u32, message: error.message.clone() }
+    }
+
+    /// The first error among what was found.
+    pub fn first<C: Code>(source: &Source, found: &[Diagnostic<C>]) -> Option<Mistake> {
+        let error = found.iter().find(|one| one.severity() == Severity::Error)?;
+        Some(Mistake::of(source, error))
     }
 }
 

@@ -44,7 +44,7 @@ impl Shapes for Svg {
         let frame = step.frame;
         let (left, right) = (frame.x, frame.right());
         let (top, bottom) = (frame.y, frame.bottom());
-        let middle = Point::new(left + frame.width / 2, top + frame.height / 2);
+        let middle = frame.centre();
         self.rect(frame);
         if step.is_initial {
             let (width, height) = (frame.width - 2 * INSET, frame.height - 2 * INSET);

@@ -32,37 +32,33 @@ fn state(svg: &mut Svg, state: &StateShape) {
     if state.is_initial {
         svg.rect(frame.grown(-INSET));
     }
-    svg.text("name", middle(frame), &state.name);
+    svg.text("name", frame.centre(), &state.name);
     svg.line("</g>");
-    let boxes = |one: &Option<(String, Rect)>| one.clone();
     for action in &state.actions {
-        let all = [("algorithm", boxes(&action.algorithm)), ("output", boxes(&action.output))];
-        for (class, (text, frame)) in all.into_iter().filter_map(|(class, one)| Some((class, one?)))
-        {
-            svg.rect(frame);
-            svg.text(class, middle(frame), &text);
+        let all = [("algorithm", &action.algorithm), ("output", &action.output)];
+        for (class, one) in all {
+            one.iter().for_each(|(text, frame)| boxed(svg, class, text, *frame));
         }
     }
-    let first =
-        state.actions.first().and_then(|one| one.algorithm.as_ref().or(one.output.as_ref()));
-    if let Some((_, first)) = first {
-        let y = middle(frame).y;
+    if let Some((_, first)) = state.actions.first().and_then(|one| one.boxes().next()) {
+        let y = frame.centre().y;
         svg.path("line", &[Point::new(frame.right(), y), Point::new(first.x, y)]);
     }
+}
+
+fn boxed(svg: &mut Svg, class: &str, text: &str, frame: Rect) {
+    svg.rect(frame);
+    svg.text(class, frame.centre(), text);
 }
 
 fn transition(svg: &mut Svg, one: &TransitionShape) {
     svg.curve("transition", one.curve);
     svg.path("arrow", &one.arrow);
     svg.path("arrow", &dot(one.middle));
-    svg.text("condition", Point::new(one.label.x, middle(one.label).y), &one.text);
+    svg.text("condition", Point::new(one.label.x, one.label.centre().y), &one.text);
 }
 
 /// A mark on a line: a square on a corner.
 fn dot(Point { x, y }: Point) -> [Point; 4] {
     [(x - 3, y), (x, y - 3), (x + 3, y), (x, y + 3)].map(|(x, y)| Point::new(x, y))
-}
-
-fn middle(Rect { x, y, width, height }: Rect) -> Point {
-    Point::new(x + width / 2, y + height / 2)
 }

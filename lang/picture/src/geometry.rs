@@ -46,6 +46,11 @@ impl Rect {
         Rect { x: centre.x - width / 2, y: centre.y - height / 2, width, height }
     }
 
+    /// Its middle.
+    pub fn centre(self) -> Point {
+        Point::new(self.x + self.width / 2, self.y + self.height / 2)
+    }
+
     /// Its right edge.
     pub fn right(self) -> i32 {
         self.x + self.width

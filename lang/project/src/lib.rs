@@ -181,7 +181,7 @@ pub fn format(source: &Source) -> Result<String, Vec<Diagnostic>> {
             if errors.is_empty() { Ok(chart::text::write(&document)) } else { Err(errors) }
         }
         Language::Block => {
-            let fb::xml::Read { block, diagnostics } = fb::xml::read(source);
+            let fb::Read { block, diagnostics } = fb::xml::read(source);
             let errors = errors_of(diagnostics, findings::from_block);
             block.map(|block| fb::xml::write(&block)).ok_or(errors)
         }

@@ -92,7 +92,7 @@ impl Read {
 
     /// A function block of IEC 61499; an empty text where it has errors.
     fn block(&mut self, at: usize, text: &Source, form: Form) -> File {
-        let fb::xml::Read { block, diagnostics } = fb::xml::read(text);
+        let fb::Read { block, diagnostics } = fb::xml::read(text);
         self.others.extend(diagnostics.into_iter().map(|one| (at, from_block(one))));
         let Some(block) = block else { return File::default() };
         let Translation { file, diagnostics } = fb::generate::translate(&block, text, form);

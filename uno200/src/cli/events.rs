@@ -10,24 +10,14 @@ use awl_asm::report::Report;
 use diagnostics::Severity;
 use fb::parsed::{Parsed, parse};
 use fb::session::{Done, Mistake, Session};
-use fb::{Block, matlab, service, xml};
+use fb::{Block, service};
 
 use uno200::args::Events;
 
 /// Runs a block; returns whether all is as expected.
 pub(super) fn events(arguments: &Events) -> Result<bool> {
     let source = read_source(&arguments.file)?;
-    let is_matlab = arguments.file.extension().is_some_and(|one| one.eq_ignore_ascii_case("m"));
-    let (block, diagnostics) = match is_matlab {
-        true => {
-            let matlab::Read { block, diagnostics } = matlab::read(&source);
-            (block, diagnostics)
-        }
-        false => {
-            let xml::Read { block, diagnostics } = xml::read(&source);
-            (block, diagnostics)
-        }
-    };
+    let fb::Read { block, diagnostics } = fb::read(&source);
     let mut report = Report::new(arguments.messages, false);
     report.show(&source, &diagnostics);
     let Some(block) = block else { return Ok(false) };

@@ -8,7 +8,7 @@ import { notice } from "../page/notices";
 import type { Project } from "../project/project";
 import type { Operands } from "../panels/operands";
 import { CHART_WORDS } from "../text/chart_words";
-import { addWords, onLanguage, t } from "../text/language";
+import { addWords, onLanguage } from "../text/language";
 import { Canvas } from "./canvas";
 import { DrawingsModule, tellRefusal } from "../drawings/module";
 import { Commands } from "./commands";
@@ -70,9 +70,7 @@ export class ChartEditor {
     header: Header,
     operands: Operands,
   ) {
-    const module = new DrawingsModule<Questions>((message) =>
-      notice(t("drawingBroken", message), true),
-    );
+    const module = new DrawingsModule<Questions>();
     this.document = new ChartDocument(module, editors, project);
     this.canvas = new Canvas({
       state: (item) => this.live.state(item),

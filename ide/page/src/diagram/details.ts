@@ -2,8 +2,8 @@
 // parameters.
 import type { Core } from "../core/core";
 import { button, h, newId, say } from "../page/dom";
-import { nameOf, type Edits } from "./edits";
 import { field } from "../page/field";
+import { nameOf, type Edits } from "./edits";
 import type { Live } from "./live";
 import type { Pin } from "./protocol";
 import { Row, type Named, type Table } from "./row";

@@ -3,6 +3,7 @@
 import type { Core } from "../core/core";
 import type { Watching } from "../core/watching";
 import type { Editors } from "../editor/editors";
+import { Obstacle, zoomButtons } from "../drawings/parts";
 import { ask } from "../page/dialog";
 import { button, h, iconButton, say } from "../page/dom";
 import type { Point } from "../page/ground";
@@ -42,7 +43,7 @@ export class DiagramView {
   private edits: Edits;
   private palette: Palette;
   private words = h("p", { class: "nothing", text: "diagramNothing" });
-  private obstacle = h("p", { class: "obstacle", attributes: { role: "status" } });
+  private obstacle = new Obstacle((line) => this.document.goTo(line));
   private tools: HTMLElement;
   private stage: HTMLElement;
   private selection = new Selection();
@@ -82,13 +83,11 @@ export class DiagramView {
       button("diagramRemove", () => this.remove()),
       iconButton(icon("undo"), "diagramUndo", () => this.document.goBack(true)),
       iconButton(icon("redo"), "diagramRedo", () => this.document.goBack(false)),
-      iconButton(icon("smaller"), "diagramSmaller", () => this.sheets.zoomBy(-1)),
-      iconButton(icon("add"), "diagramLarger", () => this.sheets.zoomBy(1)),
-      iconButton(icon("fit"), "diagramFit", () => this.sheets.fit()),
+      ...zoomButtons(this.sheets),
     );
     this.stage = h("div", { class: "stage" }, this.sheets.element);
     const { palette, details } = this;
-    element.append(this.tools, this.obstacle, this.words, palette.element, this.stage);
+    element.append(this.tools, this.obstacle.element, this.words, palette.element, this.stage);
     element.append(details.element);
     this.document.onDrawn((isOther) => this.take(isOther));
     this.listen();
@@ -129,21 +128,14 @@ export class DiagramView {
     const hasElements = drawn?.sheets.some(({ elements }) => elements.length > 0) ?? false;
     say(this.words, "text", isDrawn ? "diagramEmpty" : "diagramNothing");
     this.words.hidden = hasElements || Boolean(drawn?.obstacle);
-    this.obstacle.hidden = !drawn?.obstacle && !drawn?.mistake;
-    this.showObstacle();
+    const { obstacle, mistake } = drawn ?? {};
+    this.obstacle.show(obstacle ?? mistake?.message ?? "", mistake?.line);
     this.sheets.draw(drawn);
     this.details.offer(this.sheets.items);
     this.showChosen();
     this.want();
     const { focus } = this.selection;
     if (hadFocus && focus) this.sheets.shape(focus)?.button.focus();
-  }
-
-  private showObstacle(): void {
-    const { obstacle, mistake } = this.document.drawn ?? {};
-    const words = obstacle ?? mistake?.message ?? "";
-    const go = mistake && button("showPlace", () => this.document.goTo(mistake.line));
-    this.obstacle.replaceChildren(h("span", {}, words), ...(go ? [go] : []));
   }
 
   /** Other nodes are there: marks what is chosen, and asks for other values. */

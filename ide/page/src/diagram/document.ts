@@ -4,7 +4,6 @@ import { redo, undo } from "@codemirror/commands";
 import { Refusal } from "../core/core";
 import { DrawingsModule, Overtaken } from "../drawings/module";
 import type { Editors } from "../editor/editors";
-import { notice } from "../page/notices";
 import type { Project } from "../project/project";
 import { t } from "../text/language";
 import type { Block, DiagramEdit, DiagramElement, Diagrams, Questions, Wish } from "./protocol";
@@ -20,9 +19,7 @@ const NOTHING = { width: 0, height: 0, sheets: [], mistake: null };
 export class DiagramDocument {
   file: string | null = null;
   drawn: Diagrams | null = null;
-  private module = new DrawingsModule<Questions>((message) =>
-    notice(t("drawingBroken", message), true),
-  );
+  private module = new DrawingsModule<Questions>();
   /** What was asked about last. */
   private asked = "";
   private isShown = false;

@@ -4,6 +4,10 @@ import { Refusal } from "../core/core";
 import { OpenQuestions } from "../core/questions";
 import { addressOf } from "../offline/address";
 import { notice } from "../page/notices";
+import { DRAWING_WORDS } from "../text/drawing_words";
+import { addWords, t } from "../text/language";
+
+addWords(DRAWING_WORDS);
 
 /** What can be asked: a wish and its answer for each question. */
 type Asked<Q> = { [K in keyof Q]: { wish: object; answer: unknown } };
@@ -21,8 +25,6 @@ export function tellRefusal(error: unknown): void {
 export class DrawingsModule<Q extends Asked<Q>> {
   private worker: Worker | undefined;
   private questions = new OpenQuestions();
-
-  constructor(private broken: (message: string) => void) {}
 
   /** Asks; the promise fails with a [`Refusal`], or as [`Overtaken`]. */
   ask<K extends keyof Q>(question: { do: K } & Q[K]["wish"]): Promise<Q[K]["answer"]> {
@@ -55,6 +57,6 @@ export class DrawingsModule<Q extends Asked<Q>> {
     this.worker?.terminate();
     this.worker = undefined;
     this.questions.rejectAll(new Overtaken());
-    this.broken(message);
+    notice(t("drawingBroken", message), true);
   }
 }

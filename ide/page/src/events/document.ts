@@ -3,9 +3,7 @@
 import { Refusal } from "../core/core";
 import { DrawingsModule, Overtaken } from "../drawings/module";
 import type { Editors } from "../editor/editors";
-import { notice } from "../page/notices";
 import type { Project } from "../project/project";
-import { t } from "../text/language";
 import type { Events, Questions } from "./protocol";
 
 /** So long nothing is asked while a text is being written. */
@@ -19,9 +17,7 @@ export class EventsDocument {
   file: string | null = null;
   /** What was done with it, as `uno200 events` takes it. */
   lines: string[] = [];
-  private module = new DrawingsModule<Questions>((message) =>
-    notice(t("drawingBroken", message), true),
-  );
+  private module = new DrawingsModule<Questions>();
   private isShown = false;
   private timer = 0;
   private asked = 0;

@@ -7,6 +7,7 @@ import { notice } from "../page/notices";
 import type { Project } from "../project/project";
 import { EVENT_WORDS } from "../text/event_words";
 import { addWords, onLanguage } from "../text/language";
+import { Obstacle, zoomButtons } from "../drawings/parts";
 import { EventsDocument, type Shown } from "./document";
 import { Picture } from "./picture";
 import type { BlockEvent, BlockValue, Events } from "./protocol";
@@ -17,7 +18,7 @@ addWords(EVENT_WORDS);
 export class EventsView {
   private document: EventsDocument;
   private picture = new Picture();
-  private obstacle = h("p", { class: "obstacle", attributes: { role: "status" } });
+  private obstacle = new Obstacle((line) => this.document.goTo(line));
   private tools = h("div", { class: "tools", attributes: { role: "toolbar" } });
   private stage = h("div", { class: "stage" }, this.picture.element);
   private send = h("div", { class: "controls", attributes: { role: "group" } });
@@ -35,11 +36,9 @@ export class EventsView {
     this.tools.append(
       button("eventsAnew", () => this.document.takeBack(true)),
       iconButton(icon("undo"), "eventsBack", () => this.document.takeBack(false)),
-      iconButton(icon("smaller"), "eventsSmaller", () => this.picture.zoomBy(-1)),
-      iconButton(icon("add"), "eventsLarger", () => this.picture.zoomBy(1)),
-      iconButton(icon("fit"), "eventsFit", () => this.picture.fit()),
+      ...zoomButtons(this.picture),
     );
-    element.append(this.tools, this.obstacle, this.stage, this.send, this.values, this.log);
+    element.append(this.tools, this.obstacle.element, this.stage, this.send, this.values, this.log);
     onLanguage(() => this.draw());
     this.draw();
   }
@@ -68,9 +67,7 @@ export class EventsView {
       part.hidden = events === null;
     const mistake = drawn && "events" in drawn ? drawn.events.mistake : null;
     const words = drawn && "refused" in drawn ? drawn.refused : (mistake?.message ?? "");
-    const go = mistake && button("showPlace", () => this.document.goTo(mistake.line));
-    this.obstacle.replaceChildren(h("span", {}, words), ...(go ? [go] : []));
-    this.obstacle.hidden = words === "";
+    this.obstacle.show(words, mistake?.line);
     if (events) this.drawBlock(events);
   }
 

@@ -51,9 +51,6 @@ export const CHART_WORDS = {
     "es gibt keine Änderung, zu der es zurückginge",
     "no hay ningún cambio al que volver",
   ],
-  chartSmaller: ["Smaller", "Kleiner", "Más pequeño"],
-  chartLarger: ["Larger", "Größer", "Más grande"],
-  chartFit: ["Fit", "Einpassen", "Ajustar"],
   chartView: ["View", "Ansicht", "Ver"],
   chartFind: ["Find …", "Suchen …", "Buscar …"],
   chartFindWhat: [

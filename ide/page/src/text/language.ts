@@ -1,6 +1,7 @@
 // Which language the page speaks, and its words from the table.
 import type { CHART_WORDS } from "./chart_words";
 import type { DIAGRAM_WORDS } from "./diagram_words";
+import type { DRAWING_WORDS } from "./drawing_words";
 import type { EVENT_WORDS } from "./event_words";
 import type { STEP_WORDS } from "./step_words";
 import type { SWEEP_WORDS } from "./sweep_words";
@@ -13,6 +14,7 @@ export type Key =
   | keyof typeof TABLE
   | keyof typeof CHART_WORDS
   | keyof typeof DIAGRAM_WORDS
+  | keyof typeof DRAWING_WORDS
   | keyof typeof EVENT_WORDS
   | keyof typeof STEP_WORDS
   | keyof typeof SWEEP_WORDS;

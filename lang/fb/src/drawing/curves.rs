@@ -7,10 +7,11 @@ use std::collections::HashMap;
 use picture::text::{TEXT_LINE, cut, text_width};
 use picture::{Point, Rect};
 
+use super::Way;
 use super::layout::point;
 use super::shapes::{CONDITION_MAX, StateShape, TransitionShape};
 use super::vector::Vector;
-use crate::model::{Block, Transition};
+use crate::model::Block;
 
 /// So far a curve is beside the straight line: at least, for each further one between the same
 /// states, and for each unit of its length.
@@ -34,53 +35,40 @@ const TO_LABEL: i32 = 8;
 
 /// What it takes to draw the transitions of a block.
 pub(super) struct Curves<'b> {
-    block: &'b Block,
-    states: &'b [StateShape],
+    pub(super) block: &'b Block,
+    pub(super) states: &'b [StateShape],
     /// The row of each state that is in one.
-    rows: &'b [Option<usize>],
-    /// How many leave each state.
-    leaving: HashMap<usize, usize>,
+    pub(super) rows: &'b [Option<usize>],
+    pub(super) ways: &'b [Way],
 }
 
-impl<'b> Curves<'b> {
-    pub(super) fn of(
-        block: &'b Block,
-        states: &'b [StateShape],
-        rows: &'b [Option<usize>],
-    ) -> Curves<'b> {
-        let mut leaving = HashMap::new();
-        for (from, _) in super::layout::edges(block) {
-            *leaving.entry(from).or_default() += 1;
-        }
-        Curves { block, states, rows, leaving }
-    }
-
+impl Curves<'_> {
     pub(super) fn all(&self) -> Vec<TransitionShape> {
+        let mut leaving: HashMap<usize, usize> = HashMap::new();
+        self.ways.iter().for_each(|one| *leaving.entry(one.from).or_default() += 1);
         let mut same: HashMap<(usize, usize), usize> = HashMap::new();
         let mut orders: HashMap<usize, usize> = HashMap::new();
         let mut around = 0;
-        let shapes = self.block.transitions.iter().enumerate().filter_map(|(number, one)| {
-            let from = self.block.state(&one.source.text)?;
-            let to = self.block.state(&one.destination.text)?;
-            let before = same.entry((from, to)).or_default();
-            let order = orders.entry(from).or_default();
+        let shapes = self.ways.iter().filter_map(|way| {
+            let before = same.entry((way.from, way.to)).or_default();
+            let order = orders.entry(way.from).or_default();
             *order += 1;
-            let is_alone = self.leaving.get(&from) == Some(&1);
+            let is_alone = leaving.get(&way.from) == Some(&1);
             let order = (!is_alone).then_some(*order);
-            let shape = self.transition(one, (from, to), (*before, order), &mut around)?;
+            let shape = self.transition(*way, (*before, order), &mut around)?;
             *before += 1;
-            Some(TransitionShape { number, states: (from, to), order, ..shape })
+            Some(shape)
         });
         shapes.collect()
     }
 
     fn transition(
         &self,
-        one: &Transition,
-        (from, to): (usize, usize),
+        Way { number, from, to }: Way,
         (before, order): (usize, Option<usize>),
         around: &mut usize,
     ) -> Option<TransitionShape> {
+        let one = self.block.transitions.get(number)?;
         let ends = [self.states.get(from)?.frame, self.states.get(to)?.frame];
         let place = one.place.map(|place| Vector::of(point(place)));
         let row = |at: usize| self.rows.get(at).copied().flatten();
@@ -104,7 +92,16 @@ impl<'b> Curves<'b> {
         let label = label(middle, side, &text);
         let arrow = arrow(curve).map(Vector::point);
         let curve = curve.map(Vector::point);
-        Some(TransitionShape { text, label, curve, middle, arrow, ..TransitionShape::default() })
+        Some(TransitionShape {
+            number,
+            states: (from, to),
+            order,
+            text,
+            label,
+            curve,
+            middle,
+            arrow,
+        })
     }
 }
 
@@ -120,8 +117,7 @@ enum Side {
 type Curve = [Vector; 4];
 
 fn centre(frame: Rect) -> Vector {
-    let half = |from: i32, size: i32| f64::from(from) + f64::from(size) / 2.0;
-    Vector { x: half(frame.x, frame.width), y: half(frame.y, frame.height) }
+    Vector::of(frame.centre())
 }
 
 fn upright(y: f64) -> Vector {

@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 
 use picture::{PLACE_MAX, Point, Rect};
 
+use super::Way;
 use super::shapes::StateShape;
 use crate::model::{Block, Place};
 
@@ -15,7 +16,7 @@ const BETWEEN_ROWS: i32 = 100;
 const BETWEEN: i32 = 70;
 
 /// Gives states their places. Returns the row of each state that is in one.
-pub(super) fn place(block: &Block, states: &mut [StateShape]) -> Vec<Option<usize>> {
+pub(super) fn place(block: &Block, ways: &[Way], states: &mut [StateShape]) -> Vec<Option<usize>> {
     let places: Vec<Option<Point>> = block.states.iter().map(|one| one.place.map(point)).collect();
     let mut taken: Option<Rect> = None;
     for (state, at) in states.iter_mut().zip(&places) {
@@ -27,7 +28,7 @@ pub(super) fn place(block: &Block, states: &mut [StateShape]) -> Vec<Option<usiz
         Some(taken) => (taken.x, taken.bottom() + BETWEEN_ROWS),
         None => (0, 0),
     };
-    let rows = rows(block, &places);
+    let rows = rows(ways, &places);
     let wide = |row: &Vec<usize>| {
         let rooms = row.iter().filter_map(|at| states.get(*at)).map(|one| one.room().width);
         rooms.map(|width| width + BETWEEN).sum::<i32>() - BETWEEN
@@ -61,16 +62,15 @@ pub(super) fn point(Place { x, y }: Place) -> Point {
 
 /// States without places in rows: those that a transition leads to from one row are in the next
 /// one, those that none leads to in the last one.
-fn rows(block: &Block, places: &[Option<Point>]) -> Vec<Vec<usize>> {
-    let mut depths: Vec<Option<usize>> = vec![None; block.states.len()];
+fn rows(ways: &[Way], places: &[Option<Point>]) -> Vec<Vec<usize>> {
+    let mut depths: Vec<Option<usize>> = vec![None; places.len()];
     let mut next = VecDeque::new();
     if let Some(first) = depths.first_mut() {
         *first = Some(0);
         next.push_back((0, 0));
     }
-    let leads = edges(block);
     while let Some((from, depth)) = next.pop_front() {
-        for (_, to) in leads.iter().filter(|(source, _)| *source == from) {
+        for Way { to, .. } in ways.iter().filter(|one| one.from == from) {
             if let Some(found @ None) = depths.get_mut(*to) {
                 *found = Some(depth + 1);
                 next.push_back((*to, depth + 1));
@@ -79,20 +79,10 @@ fn rows(block: &Block, places: &[Option<Point>]) -> Vec<Vec<usize>> {
     }
     let last = depths.iter().flatten().max().map_or(0, |last| last + 1);
     let mut rows = vec![Vec::new(); last + 1];
-    for (at, depth) in depths.into_iter().enumerate() {
-        let is_free = places.get(at).is_none_or(Option::is_none);
-        let row = rows.get_mut(depth.unwrap_or(last)).filter(|_| is_free);
+    for (at, (depth, place)) in depths.into_iter().zip(places).enumerate() {
+        let row = rows.get_mut(depth.unwrap_or(last)).filter(|_| place.is_none());
         row.into_iter().for_each(|row: &mut Vec<usize>| row.push(at));
     }
     rows.retain(|row| !row.is_empty());
     rows
-}
-
-/// The transitions between states that are there: from which to which.
-pub(super) fn edges(block: &Block) -> Vec<(usize, usize)> {
-    let ends = block
-        .transitions
-        .iter()
-        .map(|one| Some((block.state(&one.source.text)?, block.state(&one.destination.text)?)));
-    ends.flatten().collect()
 }

@@ -47,12 +47,30 @@ pub fn draw(block: &Block) -> Result<Drawing, TooLarge> {
     if let Some(first) = states.first_mut() {
         first.is_initial = true;
     }
-    let rows = layout::place(block, &mut states);
-    let transitions = Curves::of(block, &states, &rows).all();
+    let ways = ways(block);
+    let rows = layout::place(block, &ways, &mut states);
+    let transitions = Curves { block, states: &states, rows: &rows, ways: &ways }.all();
     let name = block.name.text.clone();
     let mut drawing = Drawing { name, states, transitions, ..Drawing::default() };
     frame(&mut drawing);
     Ok(drawing)
+}
+
+/// A transition by its number, with those of the states that it leaves and enters.
+#[derive(Debug, Clone, Copy)]
+struct Way {
+    number: usize,
+    from: usize,
+    to: usize,
+}
+
+/// The transitions between states that are there.
+fn ways(block: &Block) -> Vec<Way> {
+    let all = block.transitions.iter().enumerate().map(|(number, one)| {
+        let from = block.state(&one.source.text)?;
+        Some(Way { number, from, to: block.state(&one.destination.text)? })
+    });
+    all.flatten().collect()
 }
 
 /// Moves everything so that the frame begins in the corner, with the title above.

@@ -92,14 +92,21 @@ impl StateShape {
 
     /// What it takes with its actions.
     pub fn room(&self) -> Rect {
-        let actions = self.actions.iter().flat_map(|one| [&one.algorithm, &one.output]);
-        actions.flatten().fold(self.frame, |room, (_, frame)| room.union(*frame))
+        let boxes = self.actions.iter().flat_map(ActionShape::boxes);
+        boxes.fold(self.frame, |room, (_, frame)| room.union(*frame))
     }
 
     pub(super) fn move_by(&mut self, by: Point) {
         self.frame = self.frame.moved(by);
         let actions = self.actions.iter_mut().flat_map(|one| [&mut one.algorithm, &mut one.output]);
         actions.flatten().for_each(|(_, frame)| *frame = frame.moved(by));
+    }
+}
+
+impl ActionShape {
+    /// Its texts with their boxes, from left to right.
+    pub fn boxes(&self) -> impl Iterator<Item = &(String, Rect)> {
+        self.algorithm.iter().chain(&self.output)
     }
 }
 

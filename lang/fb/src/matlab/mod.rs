@@ -11,7 +11,7 @@ mod to_st;
 mod vocabulary;
 mod write;
 
-pub use read::{Read, read};
+pub use read::read;
 pub use write::{Written, write};
 
 /// The lines that begin the sections, in their order.

@@ -4,5 +4,5 @@ mod locals;
 mod read;
 mod write;
 
-pub use read::{Read, read};
+pub use read::read;
 pub use write::write;

@@ -11,15 +11,7 @@ use crate::data_type::DataType;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Action, Algorithm, Block, Event, Place, State, Text, Transition, Variable};
 use crate::model::{Primitive, Sequence, Service, Transaction};
-
-/// What is in a file.
-#[derive(Debug)]
-pub struct Read {
-    /// The block; `None` when there are errors.
-    pub block: Option<Block>,
-    /// Errors and warnings.
-    pub diagnostics: Vec<Diagnostic>,
-}
+use crate::read::Read;
 
 /// Reads a block.
 pub fn read(source: &Source) -> Read {

@@ -10,7 +10,7 @@ use diagnostics::Source;
 use fb::{Block, matlab, service, xml};
 
 use super::super::args::Convert;
-use super::{has_ending, print, told};
+use super::{print, told};
 
 pub(super) fn convert(arguments: &Convert) -> Result<bool> {
     let input = &arguments.input;
@@ -21,7 +21,7 @@ pub(super) fn convert(arguments: &Convert) -> Result<bool> {
         bail!("{}: --summary counts what is in charts", input.display());
     }
     let source = read_source(input)?;
-    let is_matlab = has_ending(input, "m");
+    let is_matlab = fb::is_matlab(input);
     let mut report = Report::new(arguments.messages, false);
     let kinds: &[&str] = if is_matlab { &["fbt", "svg"] } else { &["m", "scn", "svg"] };
     let kind = arguments.output.as_deref().map(|output| ending(output, kinds)).transpose()?;
@@ -29,7 +29,7 @@ pub(super) fn convert(arguments: &Convert) -> Result<bool> {
         return scenarios(arguments, &source, output);
     }
     let text = match (kind, is_matlab) {
-        (Some("svg"), _) => picture(&source, is_matlab, &mut report)?,
+        (Some("svg"), _) => picture(&source, &mut report)?,
         (_, true) => from_matlab(&source, &mut report),
         (_, false) => to_matlab(&source, &mut report),
     };
@@ -42,35 +42,26 @@ pub(super) fn convert(arguments: &Convert) -> Result<bool> {
 }
 
 /// The block of a file, if nothing is wrong with it.
-fn block_of(source: &Source, is_matlab: bool, report: &mut Report) -> Option<Block> {
-    let (block, diagnostics) = match is_matlab {
-        true => {
-            let matlab::Read { block, diagnostics } = matlab::read(source);
-            (block, diagnostics)
-        }
-        false => {
-            let xml::Read { block, diagnostics } = xml::read(source);
-            (block, diagnostics)
-        }
-    };
+fn block_of(source: &Source, report: &mut Report) -> Option<Block> {
+    let fb::Read { block, diagnostics } = fb::read(source);
     let is_sound = told(report, source, diagnostics);
     block.filter(|_| is_sound)
 }
 
 fn to_matlab(source: &Source, report: &mut Report) -> Option<String> {
-    let block = block_of(source, false, report)?;
+    let block = block_of(source, report)?;
     let matlab::Written { text, diagnostics, of_st } = matlab::write(&block, source);
     let is_sound = told(report, source, of_st);
     (told(report, source, diagnostics) && is_sound).then_some(text)?
 }
 
 fn from_matlab(source: &Source, report: &mut Report) -> Option<String> {
-    Some(xml::write(&block_of(source, true, report)?))
+    Some(xml::write(&block_of(source, report)?))
 }
 
 /// The chart of the block as a picture.
-fn picture(source: &Source, is_matlab: bool, report: &mut Report) -> Result<Option<String>> {
-    let Some(block) = block_of(source, is_matlab, report) else { return Ok(None) };
+fn picture(source: &Source, report: &mut Report) -> Result<Option<String>> {
+    let Some(block) = block_of(source, report) else { return Ok(None) };
     let drawing = fb::drawing::draw(&block).map_err(|one| anyhow!("{}: {one}", source.name))?;
     Ok(Some(fb::svg::write(&drawing)))
 }
@@ -79,7 +70,7 @@ fn picture(source: &Source, is_matlab: bool, report: &mut Report) -> Result<Opti
 /// several.
 fn scenarios(arguments: &Convert, source: &Source, output: &Path) -> Result<bool> {
     let mut report = Report::new(arguments.messages, false);
-    let Some(block) = block_of(source, false, &mut report) else { return Ok(false) };
+    let Some(block) = block_of(source, &mut report) else { return Ok(false) };
     let sequences = block.service.as_ref().map_or(&[][..], |one| &one.sequences);
     if sequences.is_empty() {
         bail!("{}: the block has no service sequences", arguments.input.display());

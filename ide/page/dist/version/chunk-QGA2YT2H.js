@@ -1,1 +1,0 @@
-import{k as a}from"./chunk-E2757RZX.js";function u(s,t,i,o={}){let e=a("input",{attributes:{autocomplete:"off",spellcheck:"false",...o},set:{value:t}});return e.dataset.of=s,e.addEventListener("keydown",n=>{n.key==="Escape"&&(e.value=t)}),e.addEventListener("change",async()=>{let n=e.value.trim();n!==t&&(await i(n)||(e.value=t))}),e}export{u as a};

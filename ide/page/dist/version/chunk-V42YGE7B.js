@@ -1,0 +1,1 @@
+import{k as n}from"./chunk-XDK5TOFU.js";function t(e,r){return n("input",{attributes:{type:"number",required:!0,...r},set:{value:String(e)}})}function m(e,r=4){return Number(Number(e.toFixed(r)).toPrecision(4))}export{t as a,m as b};

@@ -1,1 +1,0 @@
-import{k as n}from"./chunk-E2757RZX.js";function t(e,r){return n("input",{attributes:{type:"number",required:!0,...r},set:{value:String(e)}})}function m(e,r=4){return Number(Number(e.toFixed(r)).toPrecision(4))}export{t as a,m as b};
