@@ -19,7 +19,7 @@ export async function open(options = {}) {
   const errors = [];
   const opened = await browser.newPage({ viewport: { width, height }, bypassCSP });
   const page = watched(opened, errors, patience);
-  process.once("uncaughtException", (error) => void fail(error, page, errors));
+  process.once("uncaughtException", (error) => void fail(error, browser, errors));
   return { browser, page, errors };
 }
 
@@ -33,10 +33,11 @@ export function controls(page) {
   };
 }
 
-/** Ends a test that fails, with what could be read in the page at that time. */
-async function fail(error, page, errors) {
+/** Ends a test that fails, with what could be read in its pages at that time. */
+async function fail(error, browser, errors) {
   console.error(error, ...errors);
-  console.error(await page.innerText("body", { timeout: 5000 }).catch(String));
+  for (const page of browser.contexts().flatMap((context) => context.pages()))
+    console.error(page.url(), await page.innerText("body", { timeout: 5000 }).catch(String));
   process.exit(1);
 }
 

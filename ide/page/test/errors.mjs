@@ -58,15 +58,8 @@ async function said(page, key) {
 
 /** A server with its address; `end` ends it. */
 async function serve(...more) {
-  const child = spawn(uno200, [
-    "ide",
-    "--no-open",
-    "--listen",
-    "127.0.0.1:0",
-    "--page",
-    folder,
-    ...more,
-  ]);
+  const given = ["ide", "--no-open", "--listen", "127.0.0.1:0", "--page", folder, ...more];
+  const child = spawn(uno200, given, { stdio: ["ignore", "pipe", "inherit"] });
   const [address] = await once(createInterface({ input: child.stdout }), "line");
   const end = async () => {
     child.kill();

@@ -12,6 +12,7 @@ use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
+use std::time::Duration;
 
 use anyhow::{Context, Result, bail, ensure};
 use tungstenite::handshake::server::{Request, create_response, write_response};
@@ -22,6 +23,9 @@ use bridge::protocol::{Kind, Port};
 use bridge::{Ports, Reach};
 use folder::Folder;
 use page::Page;
+
+/// Before the next connection where one could not be taken.
+const RESPITE: Duration = Duration::from_millis(50);
 
 /// What is served, and where.
 #[derive(Debug)]
@@ -92,12 +96,16 @@ impl Server {
     }
 
     /// Serves until the process ends.
-    pub fn run(&self) -> Result<()> {
+    pub fn run(&self) -> ! {
         loop {
-            let (stream, _) = self.listener.accept().context("the server has ended")?;
+            let Ok((stream, _)) = self.listener.accept() else {
+                // One that was given up, or too many for the system: the next one is served.
+                thread::sleep(RESPITE);
+                continue;
+            };
             let site = Arc::clone(&self.site);
-            // A browser that has gone away misses nothing.
-            thread::spawn(move || site.answer(stream));
+            // A browser that has gone away misses nothing; one that is not answered asks again.
+            let _ = thread::Builder::new().spawn(move || site.answer(stream));
         }
     }
 }

@@ -158,7 +158,8 @@ export class Header {
   private show(status: Status): void {
     this.status = status;
     this.target.value = status.target;
-    this.speed.hidden = !isInPage(status.target);
+    // Its place stays: a button that moves under a finger is not pressed.
+    this.speed.classList.toggle("unseen", !isInPage(status.target));
     this.press("pause", status.mode === "PAUSE");
     this.press("connect", isConnected(status.mode));
     const mode = h("strong", { class: `mode ${status.mode.toLowerCase()}` }, status.mode);
