@@ -39,7 +39,7 @@ const BISTABLE: Standard = Standard {
         event R; expect EO = 0; event S; expect EO = 1, Q = TRUE",
 };
 
-const STANDARD: [Standard; 14] = [
+const STANDARD: [Standard; 15] = [
     Standard {
         name: "E_SPLIT",
         takes: &["EI"],
@@ -226,6 +226,31 @@ const STANDARD: [Standard; 14] = [
             event R; expect RO = 1, CV = 0, QD = TRUE; event LD;
             expect LDO = 1, CV = 2, QU = TRUE, QD = FALSE",
     },
+    Standard {
+        name: "E_TABLE_CTRL",
+        takes: &["INIT DT N", "CLK"],
+        sends: &["CLKO DTO CV"],
+        inputs: "DT TIME 4, N UINT",
+        outputs: "DTO TIME, CV UINT",
+        states: &["START - -", "INIT Begin -", "FIRST - CLKO", "NEXT Step CLKO"],
+        transitions: &[
+            "START INIT INIT",
+            "INIT START [N = 0]",
+            "INIT FIRST [N > 0]",
+            "FIRST START 1",
+            "START NEXT CLK[CV < MIN(3, N - 1)]",
+            "NEXT START 1",
+        ],
+        algorithms: &[
+            ("Begin", "CV := 0; DTO := DT[0];"),
+            ("Step", "CV := CV + 1; DTO := DT[CV];"),
+        ],
+        script: "DT = [T#1s, T#2s, T#3s, T#4s]; event INIT; expect CLKO = 0; N = 3; event INIT;
+            expect CLKO = 1, CV = 0, DTO = T#1s; event CLK; expect CLKO = 1, CV = 1, DTO = T#2s;
+            event CLK; expect CLKO = 1, CV = 2, DTO = T#3s; event CLK; expect CLKO = 0, CV = 2;
+            DT[1] = T#9s, N = 7; event INIT; event CLK; expect DTO = T#9s; event CLK; event CLK;
+            expect CLKO = 1, CV = 3, DTO = T#4s; event CLK; expect CLKO = 0, CV = 3",
+    },
 ];
 
 fn events(list: &[&str]) -> String {
@@ -241,7 +266,8 @@ fn events(list: &[&str]) -> String {
 fn variables(list: &str) -> String {
     let variable = |text: &str| {
         let (name, of) = text.split_once(' ')?;
-        Some(format!("<VarDeclaration Name='{name}' Type='{of}'/>"))
+        let (of, size) = of.split_once(' ').unwrap_or((of, ""));
+        Some(format!("<VarDeclaration Name='{name}' Type='{of}' ArraySize='{size}'/>"))
     };
     list.split(", ").filter_map(variable).collect()
 }

@@ -83,6 +83,48 @@ fn a_sign_in_a_value_begins_no_comment() {
     }
 }
 
+/// A block that sends what it gets.
+const PASSING: &str = "<FBType Name='PASSING'><InterfaceList>
+    <EventInputs><Event Name='EI'><With Var='A'/><With Var='B'/></Event></EventInputs>
+    <EventOutputs><Event Name='EO'><With Var='S'/></Event></EventOutputs>
+    <InputVars><VarDeclaration Name='A' Type='INT' ArraySize='3'/>
+    <VarDeclaration Name='B' Type='BOOL'/></InputVars>
+    <OutputVars><VarDeclaration Name='S' Type='INT' ArraySize='3'/></OutputVars>
+    </InterfaceList><BasicFB><ECC><ECState Name='START'/>
+    <ECState Name='PASS'><ECAction Algorithm='Pass' Output='EO'/></ECState>
+    <ECTransition Source='START' Destination='PASS' Condition='EI'/>
+    <ECTransition Source='PASS' Destination='START' Condition='1'/></ECC>
+    <Algorithm Name='Pass'><ST Text='S[0] := A[0]; S[1] := A[1]; S[2] := A[2];'/></Algorithm>
+    </BasicFB></FBType>";
+
+#[test]
+fn arrays_are_set_and_expected_whole_or_by_element() {
+    let (block, parsed) = read(PASSING);
+    let mut session = Session::new(&block, &parsed).expect("a sound block");
+    said(&mut session, "a = [1, -2, 16#03], B = TRUE");
+    assert_eq!(said(&mut session, "event EI"), "EI: START -> PASS -> START\n  EO S = [1, -2, 3]");
+    said(&mut session, "A[1] = 5");
+    said(&mut session, "expect A = [1, 5, 3], S = [1, -2, 3], S[1] = -2, B = TRUE");
+    let failed = session.obey("expect S = [1, 2, 3], A[2] = 4");
+    let text = "S is [1, -2, 3], not [1, 2, 3]; A[2] is 3, not 4";
+    assert_eq!(failed, Ok(Done::Failed(text.to_owned())));
+    for (line, place, message) in [
+        ("A = 5", "5", "A is an array of 3"),
+        ("A = [1, 2]", "[1, 2]", "A is an array of 3"),
+        ("A = [1, 2, 3, 4], B = TRUE", "[1, 2, 3, 4]", "A is an array of 3"),
+        ("A = [1, x, 3]", "x", "`x` is no value"),
+        ("A[1] = 7, A[3] = 5", "3", "A: no element 3"),
+        ("A[-1] = 5", "-1", "A: no element -1"),
+        ("A[] = 5", "", "A: no element "),
+        ("B[0] = TRUE", "B[0]", "B: no array"),
+        ("A[1 = 5", "A[1", "A[1: no input of the block"),
+    ] {
+        let mistake = session.obey(line).expect_err(line);
+        assert_eq!((mistake.span.text(line), mistake.message.as_str()), (place, message), "{line}");
+    }
+    said(&mut session, "expect A = [1, 5, 3]");
+}
+
 #[test]
 fn mistakes_are_told_at_their_places() {
     let (block, parsed) = read(RAMP);

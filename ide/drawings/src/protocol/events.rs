@@ -115,7 +115,7 @@ pub struct BlockValue {
     pub of_type: String,
     /// What it is.
     pub comment: String,
-    /// Whether it is one, which cannot be set.
+    /// Whether that is a list of values.
     pub is_array: bool,
     /// Its value as others see it.
     pub value: String,

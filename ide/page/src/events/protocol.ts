@@ -39,7 +39,7 @@ export interface BlockValue {
   name: string;
   type: string;
   comment: string;
-  /** It cannot be set. */
+  /** Its value is a list. */
   isArray: boolean;
   value: string;
 }

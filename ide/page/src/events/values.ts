@@ -16,8 +16,8 @@ export function valuesTable(title: Key, values: BlockValue[], set?: Set): HTMLEl
 }
 
 function row(one: BlockValue, set?: Set): HTMLElement {
-  const { name, type, comment, isArray, value } = one;
-  const shown = set && !isArray ? control(one, set) : h("code", {}, value);
+  const { name, type, comment, value } = one;
+  const shown = set ? control(one, set) : h("code", {}, value);
   return h(
     "tr",
     {},
@@ -28,8 +28,9 @@ function row(one: BlockValue, set?: Set): HTMLElement {
 }
 
 function control(one: BlockValue, set: Set): HTMLElement {
-  const { name, type, value } = one;
-  if (type !== "BOOL") return field(name, value, (text) => set(one, text), { "aria-label": name });
+  const { name, type, isArray, value } = one;
+  if (type !== "BOOL" || isArray)
+    return field(name, value, (text) => set(one, text), { "aria-label": name });
   const options = ["FALSE", "TRUE"].map((text) => h("option", {}, text));
   const attributes = { "aria-label": name, "data-of": name };
   const select = h("select", { attributes }, ...options);

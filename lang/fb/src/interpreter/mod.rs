@@ -121,10 +121,15 @@ impl<'b> Interpreter<'b> {
     /// Sets an input. The block sees it with an event that has it with it. Returns whether there is
     /// such an input.
     pub fn set(&mut self, input: &str, value: Value) -> bool {
+        self.set_element(input, 0, value)
+    }
+
+    /// The same with an element of an array.
+    pub fn set_element(&mut self, input: &str, at: usize, value: Value) -> bool {
         let is_input = self.block.inputs.iter().any(|one| one.name.names(input));
         let variable = self.outside.get_mut(&input.to_lowercase()).filter(|_| is_input);
         let of_type = variable.as_ref().map(|variable| variable.of_type);
-        let slot = variable.and_then(|variable| variable.values.first_mut());
+        let slot = variable.and_then(|variable| variable.values.get_mut(at));
         match slot.zip(of_type) {
             Some((slot, of_type)) => {
                 *slot = value.to(of_type);

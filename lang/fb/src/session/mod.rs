@@ -1,20 +1,25 @@
 //! A block at work, line by line: inputs are set, events are sent, and what comes of it is told and
 //! compared. It reads and prints nothing itself.
 
+mod part;
+mod value;
+
 use std::fmt::Write as _;
 
 use awl_asm::suggest::nearest;
-use diagnostics::Span;
-use st::parser::parse_expression;
-use st::tree::{Expression, ExpressionKind};
 
-use crate::interpreter::{Interpreter, Step, Stopped, Value, range};
-use crate::model::{Block, Text, Variable};
+use crate::interpreter::{Interpreter, Step, Stopped, Value};
+use crate::model::{Block, Text};
 use crate::parsed::Parsed;
+pub use part::Mistake;
+use part::{Outcome, Part, without_comment};
+use value::Place;
+pub(crate) use value::{is_same, value_of, written};
 
 /// What the commands are.
 pub const HELP: &str = "\
   X = 5, Y = TRUE            sets inputs; the block sees them with an event that has them with it
+  A = [1, 2, 3], A[0] = 4    sets an array, or one of its elements
   event NAME                 sends an event; of several, NAME, NAME, the block uses one
   expect X = 5, State = S    fails where it is something else; an output event is 1 or 0
   show                       state and values
@@ -34,59 +39,6 @@ pub enum Done {
     Failed(String),
     /// There is nothing more.
     End,
-}
-
-/// What is wrong with a line.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Mistake {
-    /// Where, in the line.
-    pub span: Span,
-    /// What.
-    pub message: String,
-    /// What to do.
-    pub help: Option<String>,
-}
-
-type Outcome<T> = Result<T, Mistake>;
-
-/// A part of a line with its place.
-#[derive(Debug, Clone, Copy)]
-struct Part<'l> {
-    text: &'l str,
-    start: usize,
-}
-
-impl<'l> Part<'l> {
-    fn trimmed(self) -> Part<'l> {
-        let before = self.text.len() - self.text.trim_start().len();
-        Part { text: self.text.trim(), start: self.start + before }
-    }
-
-    fn span(self) -> Span {
-        Span::new(self.start, self.start + self.text.len())
-    }
-
-    fn split(self, at: usize, separator: usize) -> (Part<'l>, Part<'l>) {
-        let first = Part { text: self.text.get(..at).unwrap_or(""), start: self.start };
-        let after = at + separator;
-        let text = self.text.get(after..).unwrap_or("");
-        (first.trimmed(), Part { text, start: self.start + after }.trimmed())
-    }
-
-    /// The parts between commas.
-    fn list(self) -> Vec<Part<'l>> {
-        let mut start = self.start;
-        let parts = self.text.split(',').map(|text| {
-            let part = Part { text, start };
-            start += text.len() + 1;
-            part.trimmed()
-        });
-        parts.collect()
-    }
-
-    fn wrong<T>(self, message: String, help: Option<String>) -> Outcome<T> {
-        Err(Mistake { span: self.span(), message, help })
-    }
 }
 
 /// A block that is told what to do.
@@ -168,18 +120,16 @@ impl<'b> Session<'b> {
         let mut all = Vec::new();
         for part in line.list() {
             let (name, value) = self.assignment(part)?;
-            let Some(input) = self.block.inputs.iter().find(|one| one.name.names(name.text)) else {
+            let Some(place) = Place::find(name, self.block.inputs.iter())? else {
                 let names = self.block.inputs.iter().map(|one| one.name.text.as_str());
                 return self.unknown(name, "input", names.collect());
             };
-            if input.size.is_some() {
-                let help = "a block that is a program can be given arrays".to_owned();
-                return name.wrong(format!("{}: an array", name.text), Some(help));
-            }
-            all.push((input.name.text.clone(), literal(value, input)?));
+            all.push((place.values(value)?, place));
         }
-        for (name, value) in all {
-            self.interpreter.set(&name, value);
+        for (values, place) in all {
+            for (at, value) in place.elements.zip(values) {
+                self.interpreter.set_element(&place.variable.name.text, at, value);
+            }
         }
         Ok(Done::Said(String::new()))
     }
@@ -232,15 +182,12 @@ impl<'b> Session<'b> {
     /// A value as others see it, of an array all of its elements.
     pub fn value(&self, name: &str) -> String {
         let variable = self.block.variables().find(|one| one.name.names(name));
-        let count = variable.and_then(|one| one.size);
-        let one = |at: usize| self.interpreter.element(name, at).map_or(String::new(), written);
-        match count {
-            None => one(0),
-            Some(count) => {
-                let all: Vec<String> = (0..count as usize).map(one).collect();
-                format!("[{}]", all.join(", "))
-            }
-        }
+        variable.map(Place::of).map_or(String::new(), |place| place.written(&self.values(&place)))
+    }
+
+    fn values(&self, place: &Place) -> Vec<Value> {
+        let name = &place.variable.name.text;
+        place.elements.clone().filter_map(|at| self.interpreter.element(name, at)).collect()
     }
 
     fn expect(&mut self, list: Part) -> Outcome<Done> {
@@ -259,15 +206,11 @@ impl<'b> Session<'b> {
     /// What something is, where it is not what is expected.
     fn found(&self, name: Part, value: Part) -> Outcome<Option<String>> {
         let Block { states, event_outputs, .. } = self.block;
-        if let Some(variable) = self.block.variables().find(|one| one.name.names(name.text)) {
-            let wanted = literal(value, variable)?;
-            let is = self.interpreter.value(name.text);
-            let is_it = is.is_some_and(|is| is_same(is, wanted));
-            let text = || {
-                let (is, wanted) = (self.value(name.text), written(wanted));
-                format!("{} is {is}, not {wanted}", name.text)
-            };
-            return Ok((!is_it).then(text));
+        if let Some(place) = Place::find(name, self.block.variables())? {
+            let (is, wanted) = (self.values(&place), place.values(value)?);
+            let is_it = is.iter().zip(&wanted).all(|(is, wanted)| is_same(*is, *wanted));
+            let [is, wanted] = [is, wanted].map(|values| place.written(&values));
+            return Ok((!is_it).then(|| format!("{} is {is}, not {wanted}", name.text)));
         }
         if let Some(event) = event_outputs.iter().position(|one| one.name.names(name.text)) {
             let wanted = match value.text {
@@ -330,62 +273,4 @@ impl<'b> Session<'b> {
         }
         lines.join("\n")
     }
-}
-
-/// A line up to a `#` that is the first character or after a blank: others belong to values such as
-/// `16#FF` and `T#5s`.
-fn without_comment(line: &str) -> &str {
-    let mut signs = line.match_indices('#').map(|(at, _)| line.get(..at).unwrap_or(""));
-    let code = signs.find(|code| code.is_empty() || code.ends_with(char::is_whitespace));
-    code.unwrap_or(line)
-}
-
-/// Whether two values are the same: of REAL as far as six digits.
-pub(crate) fn is_same(a: Value, b: Value) -> bool {
-    match (a, b) {
-        (Value::Real(a), Value::Real(b)) => (a - b).abs() <= 1e-6 * a.abs().max(b.abs()),
-        _ => a.whole() == b.whole(),
-    }
-}
-
-/// A value as ST writes it.
-pub(crate) fn written(value: Value) -> String {
-    match value {
-        Value::Bool(value) => if value { "TRUE" } else { "FALSE" }.to_owned(),
-        Value::Real(value) => format!("{value:?}"),
-        Value::Whole(crate::DataType::Time, ms) => format!("T#{ms}ms"),
-        other => other.whole().to_string(),
-    }
-}
-
-/// The value of a text for a variable.
-pub(crate) fn value_of(text: &str, variable: &Variable) -> Result<Value, String> {
-    let of = variable.of_type;
-    let (expression, wrong) = parse_expression(text, Span::new(0, text.len()));
-    let found = expression.filter(|_| wrong.is_empty()).and_then(|one| constant(&one));
-    let Some(found) = found else { return Err(format!("`{text}` is no value")) };
-    let is_real = matches!(found, Value::Real(_));
-    let (low, high) = match (of, range(of)) {
-        (crate::DataType::Real, _) => return Ok(found.to(of)),
-        (_, Some(range)) if !is_real => range,
-        _ => return Err(format!("{} has no value {text}", of.name())),
-    };
-    match (low..=high).contains(&found.whole()) {
-        true => Ok(found.to(of)),
-        false => Err(format!("{text} is no {}: that is {low} to {high}", of.name())),
-    }
-}
-
-fn literal(part: Part, variable: &Variable) -> Outcome<Value> {
-    value_of(part.text, variable).or_else(|message| part.wrong(message, None))
-}
-
-fn constant(expression: &Expression) -> Option<Value> {
-    Some(match &expression.kind {
-        ExpressionKind::Integer(value) | ExpressionKind::Duration(value) => Value::Literal(*value),
-        ExpressionKind::Real(value) => Value::Real(*value),
-        ExpressionKind::Bool(value) => Value::Bool(*value),
-        ExpressionKind::Typed(_, value) => constant(value)?,
-        _ => return None,
-    })
 }
