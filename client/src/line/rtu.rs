@@ -3,6 +3,7 @@
 //! tokio-modbus frames RTU as well, but reads no answers to user-defined functions: their lengths
 //! are known here alone.
 
+use plc_link::crc16;
 use plc_link::protocol::{
     CONTROL, FORCE, FORCE_LEN, IDENTIFICATION, IDENTIFY, READ_BLOCK, SET, STATUS, TRACE, WATCH,
 };
@@ -13,18 +14,6 @@ const AROUND: usize = 3;
 /// How long so many characters of 11 bits take, in whole milliseconds, at least that long.
 pub fn characters_ms(count: u64, baud: u32) -> u64 {
     (count * 11 * 1000).div_ceil(u64::from(baud.max(1)))
-}
-
-/// The CRC-16 of Modbus over these bytes; over a whole frame it is 0.
-pub fn crc16(bytes: &[u8]) -> u16 {
-    let mut crc = 0xFFFFu16;
-    for &byte in bytes {
-        crc ^= u16::from(byte);
-        for _ in 0..8 {
-            crc = if crc & 1 != 0 { crc >> 1 ^ 0xA001 } else { crc >> 1 };
-        }
-    }
-    crc
 }
 
 /// The frame that carries a request to a unit.

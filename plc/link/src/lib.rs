@@ -16,6 +16,7 @@
 #![no_std]
 
 mod answer;
+mod crc16;
 mod forces;
 mod identity;
 mod link;
@@ -30,6 +31,7 @@ pub mod status;
 mod trace;
 
 pub use answer::answer;
+pub use crc16::crc16;
 pub use forces::Forces;
 pub use link::{Link, PDU_MAX};
 pub use place::SizedAddress;

@@ -1,7 +1,7 @@
 //! What a machine holds for the answers: where the frame is, how far the work on a request has
 //! come, forces and trace.
 
-use plc_isa::ARENA_START;
+use plc_isa::{ARENA_START, Program, ProgramMemory};
 use plc_vm::Memory;
 
 use crate::forces::Forces;
@@ -9,6 +9,10 @@ use crate::sampling::Trace;
 
 /// Longest request and answer: function code and data.
 pub const PDU_MAX: u16 = 252;
+
+/// The Uno also puts the checksum of a request in the frame. All have the same room, so that all
+/// answer the same.
+const CHECKSUM_LEN: u16 = 2;
 
 /// Offset in the frame of the first [entry](crate::status) of a status request.
 pub(crate) const STATUS_AT: u8 = 3;
@@ -66,6 +70,20 @@ impl Link {
         self.phase = Phase::New;
         self.forces = Forces::NONE;
         self.trace.place(ring, ring_end);
+    }
+
+    /// The same after a program's memory and the copy of what it retains, as far as its modules
+    /// leave data memory; without a program in the arena, up to `data_end`.
+    pub fn place_after<P: ProgramMemory>(&mut self, program: Option<&Program<P>>, data_end: u16) {
+        let (frame, end) = match program {
+            Some(program) => {
+                let (plan, image) = (program.plan(), program.memory());
+                (plan.end() + plan.retained_len(), image.modules_end().unwrap_or(data_end))
+            }
+            None => (ARENA_START, data_end),
+        };
+        let frame_len = (end - frame).min(PDU_MAX + CHECKSUM_LEN);
+        self.place(frame, frame_len - CHECKSUM_LEN, frame + frame_len, end);
     }
 
     /// Data address of the frame.

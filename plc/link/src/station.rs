@@ -26,7 +26,12 @@ impl ScanTimes {
     /// Before the first scan.
     pub const NONE: ScanTimes = ScanTimes { shortest: 0, last: 0, longest: 0, scans: 0 };
 
-    /// Enters a scan of so many counts.
+    /// A scan has executed the program.
+    pub fn count(&mut self) {
+        self.scans = self.scans.wrapping_add(1);
+    }
+
+    /// Enters the length of a scan, in counts.
     pub fn enter(&mut self, length: u32) {
         if self.longest == 0 || length < self.shortest {
             self.shortest = length;
@@ -35,7 +40,6 @@ impl ScanTimes {
             self.longest = length;
         }
         self.last = length;
-        self.scans = self.scans.wrapping_add(1);
     }
 }
 

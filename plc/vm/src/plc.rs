@@ -11,6 +11,7 @@ use crate::events::{EventSystem, Events};
 use crate::fault::Fault;
 use crate::interpreter::{Exit, Interpreter};
 use crate::memory::Memory;
+use crate::modules::is_freeport;
 use crate::scan::Scan;
 use crate::special;
 use crate::timer::{self, AtScanStart};
@@ -149,6 +150,11 @@ impl<P: ProgramMemory> Plc<P> {
     /// output drives its pin.
     pub fn duty(&self, output: u8) -> Option<u16> {
         self.events.hardware.pulses.duty(output).filter(|_| self.mode == Mode::Run)
+    }
+
+    /// Whether the line is the program's: freeport mode, in RUN.
+    pub fn has_line(&self, memory: &Memory) -> bool {
+        self.mode == Mode::Run && is_freeport(memory)
     }
 
     /// A character comes in on the serial line, at this time in milliseconds, between two scans.

@@ -5,7 +5,7 @@ mod link;
 
 use std::collections::VecDeque;
 
-use plc_isa::{I_START, LogicStack, Plan};
+use plc_isa::{I_START, LogicStack, Plan, UNO};
 use plc_link::ScanTimes;
 use plc_vm::{Environment, Fault, Inputs, Memory, Plc, SCAN_MS_MAX};
 
@@ -125,7 +125,7 @@ impl Host {
             }
             host.plc.run();
         }
-        host.place_frame();
+        host.line.link.place_after(host.plc.program(), UNO.data_end);
         host.time.looped_bytes_max = host.watchdog_ms() * LOOPED_BYTES_PER_MS;
         host
     }

@@ -2,7 +2,8 @@
 //! numbers. What is for the Uno alone may.
 
 /// Sources that must ask a profile.
-const GENERAL: [&str; 5] = ["plc/", "awl-asm/src/", "sim/src/", "uno200/src/", "client/src/"];
+const GENERAL: [&str; 6] =
+    ["plc/", "runtime/src/", "awl-asm/src/", "sim/src/", "uno200/src/", "client/src/"];
 /// Those among them that are for the Uno alone, or say what all boards have in common.
 const OF_THE_UNO: [&str; 5] = [
     "plc/isa/src/profile.rs",

@@ -10,6 +10,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("plc-isa", &[]),
     ("plc-vm", &["plc-isa"]),
     ("plc-link", &["plc-isa", "plc-vm"]),
+    ("runtime", &["plc-isa", "plc-vm", "plc-link"]),
     ("diagnostics", &[]),
     ("awl-asm", &["plc-isa", "diagnostics"]),
     ("st", &["diagnostics", "awl-asm"]),

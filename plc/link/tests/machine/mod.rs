@@ -128,6 +128,7 @@ impl Machine {
         let mut outside = Outside { entries: self.link.status_entries() };
         self.plc.execute(&mut self.memory, &mut outside);
         self.link.forces.apply(&mut self.memory);
+        self.times.count();
         self.times.enter(1000);
         let scan = self.times.scans as u16;
         self.link.trace_step(&mut self.memory, scan);

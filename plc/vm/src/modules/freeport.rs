@@ -242,7 +242,8 @@ fn milliseconds(count: u8, memory: &Memory) -> u32 {
     (u32::from(count) * bits * 1000).div_ceil(rate)
 }
 
-fn is_freeport(memory: &Memory) -> bool {
+/// Whether the program has chosen freeport mode.
+pub(crate) fn is_freeport(memory: &Memory) -> bool {
     memory.byte(SETTINGS) & MODE_MASK == FREEPORT
 }
 

@@ -24,6 +24,7 @@ use plc_isa::{Bit, ENO, Flow, Group, Op, Operands, PowerFlow, ProgramMemory, SM_
 
 pub use clock::TimeOfDay;
 use execution::{Execution, Failure};
+pub(crate) use freeport::is_freeport;
 
 use crate::environment::Environment;
 use crate::interpreter::{Exit, Interpreter};

@@ -1,16 +1,9 @@
 //! The host machine's line: what `plc-link` needs of it, and requests that come one at a time.
 
-use plc_isa::{ARENA_START, ProgramMemory, UNO};
-use plc_link::{Command, Link, PDU_MAX, ScanTimes, Station, TEXTS};
+use plc_link::{Command, Link, ScanTimes, Station, TEXTS};
 use plc_vm::{Memory, Mode, Plc};
 
 use super::Host;
-
-/// The board also puts the checksum of a request in the frame. The host has the same room, so that
-/// it answers the same.
-const CHECKSUM_LEN: u16 = 2;
-/// Bytes of data memory for the frame, where there are so many; the memory of traces is after it.
-const FRAME_LEN: u16 = PDU_MAX + CHECKSUM_LEN;
 
 /// The product code of a simulator; no longer than a board's, for which there is room.
 const SIMULATOR: &str = "simulator";
@@ -39,19 +32,6 @@ impl Line {
 }
 
 impl Host {
-    /// Finds the place of the frame: after the program's memory and the copy of what it retains.
-    pub(super) fn place_frame(&mut self) {
-        let (frame, end) = match self.plc.program() {
-            Some(program) => {
-                let (plan, image) = (program.plan(), program.memory());
-                (plan.end() + plan.retained_len(), image.modules_end().unwrap_or(UNO.data_end))
-            }
-            None => (ARENA_START, UNO.data_end),
-        };
-        let frame_len = (end - frame).min(FRAME_LEN);
-        self.line.link.place(frame, frame_len - CHECKSUM_LEN, frame + frame_len, end);
-    }
-
     /// Says that it is a simulator to whoever asks. Otherwise it answers as the board does, byte by
     /// byte.
     pub fn call_itself_simulator(&mut self) {
@@ -102,6 +82,7 @@ impl Host {
         let length_us = (self.clock)().saturating_sub(start_us);
         // 0 would be no scan.
         let length = u32::try_from(length_us).unwrap_or(u32::MAX).max(1);
+        self.line.times.count();
         self.line.times.enter(length);
         self.line.link.trace_step(&mut self.memory, self.line.times.scans as u16);
         if self.plc.mode() == Mode::Stop {

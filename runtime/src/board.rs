@@ -1,0 +1,96 @@
+//! What the runtime asks of a board: time, points, a line, memory that keeps without power.
+
+use embedded_io::{Read, ReadReady, Write, WriteReady};
+use embedded_storage::nor_flash::NorFlash;
+use plc_isa::{LineSettings, Profile, ProgramMemory};
+
+/// A board. Points are given and taken as levels of their pins; what a program inverts, the runtime
+/// inverts.
+pub trait Board {
+    /// What it has.
+    const PROFILE: &'static Profile;
+    /// How it calls itself on its line.
+    const PRODUCT: &'static str;
+
+    /// Where the program is read. It takes images of the board's profile alone.
+    type Image: ProgramMemory + Clone;
+    /// Where requests come in and answers go out. Characters that come between two looks wait, at
+    /// least as many as come in the longest scan.
+    type Line: Read + ReadReady + Write + WriteReady;
+    /// Where retained values are kept: all of it, from its first byte on, at least
+    /// [`SECTORS_MIN`](crate::SECTORS_MIN) sectors.
+    type Storage: NorFlash;
+
+    /// A clock of microseconds that wraps. Only differences are used; two looks at it are never as
+    /// far apart as it wraps.
+    fn now_us(&mut self) -> u32;
+
+    /// The program in the board's memory, valid or not; `None` where nothing was ever written.
+    fn image(&mut self) -> Option<Self::Image>;
+
+    /// The levels of the inputs, a bit for each pin that the profile has.
+    fn inputs(&mut self) -> u8;
+
+    /// Switches the pull-up resistors of inputs on, a bit each, and all others off.
+    fn set_pullups(&mut self, inputs: u8);
+
+    /// Drives the pins of the outputs to these levels.
+    fn drive_outputs(&mut self, levels: u8);
+
+    /// Lets the pins of the outputs go: none is driven, none modulated. As after a reset.
+    fn release_outputs(&mut self);
+
+    /// The part of the time in thousandths that an output is high, in the place of its level;
+    /// `None` ends that.
+    fn modulate(&mut self, output: u8, duty: Option<u16>);
+
+    /// An analog input as a part of full scale, 0 to 65535, however many bits the converter has: of
+    /// 10 bits `bits << 6 | bits >> 4`.
+    fn analog(&mut self, channel: u8) -> u16;
+
+    /// The line.
+    fn line(&mut self) -> &mut Self::Line;
+
+    /// How characters are sent on the line from now on. A line that has no rate does nothing.
+    fn set_line(&mut self, settings: LineSettings);
+
+    /// The memory for retained values.
+    fn storage(&mut self) -> &mut Self::Storage;
+
+    /// The program is alive: the hardware watchdog, which resets the board otherwise, waits again.
+    /// It waits at least half a second, and as long as the storage needs to erase a sector.
+    fn feed_watchdog(&mut self);
+
+    /// Remembers a fault where a reset leaves it alone, and whether it holds the board in STOP
+    /// after that.
+    fn remember_fault(&mut self, fault: u32, holds: bool);
+
+    /// The fault that was remembered, 0 if there is none, and whether it holds the board in STOP:
+    /// it does so once.
+    fn recall_fault(&mut self) -> (u32, bool);
+
+    /// Whether the stack has left alone what is before it.
+    fn is_stack_sound(&mut self) -> bool {
+        true
+    }
+
+    /// Bytes of stack that were never used; 0xFFFF: not known.
+    fn free_stack(&mut self) -> u16 {
+        0xFFFF
+    }
+
+    /// Tells whoever looks at the board from outside, such as a test, how far the scan is.
+    #[inline(always)]
+    fn mark(&mut self, mark: Mark) {
+        let _ = mark;
+    }
+}
+
+/// How far the scan is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mark {
+    /// It begins: inputs were not read yet.
+    ScanStart = 1,
+    /// Outputs were written.
+    ScanEnd = 2,
+}

@@ -1,0 +1,447 @@
+//! The scan: inputs, program, communication, self-test, outputs; and the way between RUN and STOP.
+
+use embedded_io::{Read, ReadReady, Write, WriteReady};
+use heapless::Deque;
+use plc_isa::{CRC_LEN, I_START, ImageError, ImageFault, LineSettings, Settings};
+use plc_link::{Command, Link, ScanTimes};
+use plc_vm::{Fault, Memory, Mode, Plc};
+
+use crate::analog::Analog;
+use crate::board::{Board, Mark};
+use crate::clock::Clock;
+use crate::environment::{OUTGOING, ScanTime};
+use crate::line::Line;
+use crate::retention::Retention;
+use crate::self_test::SelfTest;
+
+/// A PLC on a board. It is large: a board keeps it in a static.
+pub struct Controller<B: Board> {
+    board: B,
+    clock: Clock,
+    pub(crate) plc: Plc<B::Image>,
+    pub(crate) memory: Memory,
+    pub(crate) link: Link,
+    pub(crate) times: ScanTimes,
+    /// The board's image, valid or not.
+    pub(crate) slot: Option<B::Image>,
+    pub(crate) fault_before_reset: u32,
+    pub(crate) free_stack: u16,
+    /// RUN or single scans, which begin when the answer has been sent.
+    pub(crate) command: Option<Command>,
+    /// Single scans to come, with the one that is under way; 0 without.
+    pub(crate) scans_left: u16,
+    settings: Settings,
+    line: Line,
+    /// Bytes of the request that is being answered; 0: none.
+    request_len: u16,
+    outgoing: Deque<u8, OUTGOING>,
+    analog: Analog,
+    retention: Retention,
+    self_test: SelfTest,
+    /// When the last scan was due, with a fixed period.
+    due_ms: u32,
+}
+
+impl<B: Board> Controller<B> {
+    /// The PLC in STOP, without a program.
+    pub fn new(mut board: B) -> Controller<B> {
+        let clock = Clock::starting(board.now_us());
+        Controller {
+            board,
+            clock,
+            plc: Plc::new(),
+            memory: Memory::new(),
+            link: Link::new(),
+            times: ScanTimes::NONE,
+            slot: None,
+            fault_before_reset: 0,
+            free_stack: 0xFFFF,
+            command: None,
+            scans_left: 0,
+            settings: Settings::DEFAULT,
+            line: Line::NEW,
+            request_len: 0,
+            outgoing: Deque::new(),
+            analog: Analog::NEW,
+            retention: Retention::NONE,
+            self_test: SelfTest::STARTING,
+            due_ms: 0,
+        }
+    }
+
+    /// Power has come: loads the program and goes to RUN, unless there is none or a fault of before
+    /// forbids it.
+    pub fn power_up(&mut self) {
+        self.board.release_outputs();
+        // Before loading, which may have a fault of its own to remember.
+        let (fault, holds) = self.board.recall_fault();
+        self.fault_before_reset = fault;
+        self.load();
+        if self.plc.fault().is_some() {
+            return;
+        }
+        if holds {
+            // Only these two hold.
+            let is_panic = fault as u8 == Fault::Panic.code();
+            self.fail(if is_panic { Fault::Panic } else { Fault::Hang });
+        } else {
+            self.run();
+        }
+    }
+
+    /// Loads the board's program, if there is one.
+    fn load(&mut self) {
+        self.slot = self.board.image();
+        if let Some(image) = self.slot.clone() {
+            self.load_program(image);
+        }
+        self.link.place_after(self.plc.program(), B::PROFILE.data_end);
+        let line = LineSettings::of_byte(self.settings.line);
+        self.board.set_line(line);
+        self.line.place(self.settings.modbus_address, line);
+        self.request_len = 0;
+        self.analog.start(&mut self.board, self.settings.filter);
+    }
+
+    fn load_program(&mut self, image: B::Image) {
+        self.settings = Settings::DEFAULT;
+        if self.plc.replace(&mut self.memory, image).is_err() {
+            return self.tell();
+        }
+        self.self_test = SelfTest::STARTING;
+        let Some(program) = self.plc.program() else { return };
+        let plan = program.plan();
+        self.settings = plan.header.settings;
+        self.board.set_pullups(self.settings.pullup);
+        let (storage, now_ms) = (self.board.storage(), self.clock.now_ms());
+        if self.retention.restore(plan, &mut self.memory, storage, now_ms) {
+            self.plc.retentive_data_lost();
+        }
+    }
+
+    /// STOP to RUN: with a first scan, or on from where the program was.
+    fn run(&mut self) {
+        if self.is_program_in_doubt() {
+            self.load();
+        }
+        if self.plc.mode() == Mode::Stop && !self.is_program_in_doubt() && self.go() {
+            self.due_ms = self.clock.now_ms().wrapping_sub(self.settings.scan_ms.into());
+        }
+        self.tell();
+    }
+
+    fn go(&mut self) -> bool {
+        if self.scans_left > 0 {
+            return self.plc.go_on();
+        }
+        self.times = ScanTimes::NONE;
+        self.plc.run()
+    }
+
+    /// Whether what is in the board's memory may not be the program that was checked, which may
+    /// still be in force.
+    fn is_program_in_doubt(&self) -> bool {
+        const BAD_IMAGE: u8 =
+            Fault::BadImage(ImageError { fault: ImageFault::Length, at: 0 }).code();
+        const UNDEFINED: u8 = Fault::UndefinedInstruction { at: 0 }.code();
+        const CHANGED: u8 = Fault::ProgramChanged.code();
+        matches!(self.plc.fault_word() as u8, BAD_IMAGE | UNDEFINED | CHANGED)
+    }
+
+    /// A scan; with a fixed period, while the next one is not due, what is done between scans.
+    #[inline(always)]
+    pub fn scan(&mut self) {
+        if self.command.is_some() && !self.line.is_sending() {
+            self.begin_command();
+        }
+        if self.settings.scan_ms != 0 && self.is_early() {
+            self.communicate();
+            return self.test();
+        }
+        self.board.mark(Mark::ScanStart);
+        self.look_at_clock();
+        let start_us = self.board.now_us();
+        self.read_inputs();
+        self.link.forces.apply(&mut self.memory);
+        let executes = self.plc.mode() == Mode::Run;
+        self.execute();
+        if executes {
+            self.times.count();
+        }
+        self.communicate();
+        self.test();
+        self.link.forces.apply(&mut self.memory);
+        let runs = self.plc.mode() == Mode::Run;
+        self.write_outputs(runs);
+        self.keep(executes, runs);
+        if executes {
+            self.end_scan(start_us);
+        }
+        self.board.mark(Mark::ScanEnd);
+    }
+
+    fn begin_command(&mut self) {
+        self.scans_left = match self.command.take() {
+            Some(Command::Scans(scans)) => scans,
+            _ => 0,
+        };
+        self.run();
+    }
+
+    #[inline(always)]
+    fn look_at_clock(&mut self) {
+        if self.clock.advance(self.board.now_us()) {
+            self.tick();
+        }
+    }
+
+    /// It is another millisecond.
+    fn tick(&mut self) {
+        self.plc.set_time(self.clock.now_ms());
+        if !self.analog.is_direct() {
+            self.analog.sample(&mut self.board);
+        }
+        self.board.feed_watchdog();
+        if let Some(program) = self.plc.program()
+            && self.self_test.has_changed(program)
+            && !self.is_program_in_doubt()
+        {
+            self.fail(Fault::ProgramChanged);
+        }
+    }
+
+    /// Whether the period is not over; when it is, the next one begins.
+    fn is_early(&mut self) -> bool {
+        self.look_at_clock();
+        if self.plc.mode() != Mode::Run {
+            return false;
+        }
+        let (now_ms, period_ms) = (self.clock.now_ms(), u32::from(self.settings.scan_ms));
+        let passed_ms = now_ms.wrapping_sub(self.due_ms);
+        if passed_ms < period_ms {
+            return true;
+        }
+        // On time the period goes on from where it was due, too late it begins anew.
+        let is_late = passed_ms - period_ms >= period_ms;
+        self.due_ms = if is_late { now_ms } else { self.due_ms.wrapping_add(period_ms) };
+        false
+    }
+
+    #[inline(always)]
+    fn read_inputs(&mut self) {
+        let pins = ((1_u16 << B::PROFILE.digital_inputs) - 1) as u8;
+        let levels = (self.board.inputs() ^ self.settings.invert_inputs) & pins;
+        self.plc.see_inputs(&mut self.memory, levels);
+        self.memory.set_byte(I_START, levels);
+        if self.analog.is_direct() {
+            self.analog.sample(&mut self.board);
+        }
+        self.analog.write(&mut self.memory);
+        if self.plc.has_line(&self.memory) {
+            self.receive_characters();
+        }
+    }
+
+    /// Executes the program, in RUN.
+    #[inline(always)]
+    fn execute(&mut self) {
+        let start_ms = self.plc.time();
+        let mut time = ScanTime {
+            board: &mut self.board,
+            clock: &self.clock,
+            outgoing: &mut self.outgoing,
+            start_ms,
+            watchdog_start_ms: start_ms,
+            watchdog_ms: self.settings.watchdog_ms,
+            fed_ms: start_ms,
+            noted: self.link.status_entries(),
+        };
+        let runs = self.plc.mode() == Mode::Run;
+        self.plc.execute(&mut self.memory, &mut time);
+        let is_over = runs && time.is_over();
+        if self.plc.mode() == Mode::Stop {
+            if runs {
+                self.tell();
+            }
+        } else if is_over {
+            self.fail_at_end();
+        }
+    }
+
+    /// Only loops are watched while they run: what else took so long came to the end of the
+    /// program.
+    fn fail_at_end(&mut self) {
+        let Some(program) = self.plc.program() else { return };
+        let at = program.plan().header.total_len - CRC_LEN - 1;
+        self.fail(Fault::Watchdog { at });
+    }
+
+    #[inline(always)]
+    fn test(&mut self) {
+        if !self.board.is_stack_sound() && !self.is_program_in_doubt() {
+            self.fail(Fault::StackOverflow);
+        }
+    }
+
+    #[inline(always)]
+    fn write_outputs(&mut self, runs: bool) {
+        if !runs {
+            return self.board.release_outputs();
+        }
+        let levels = self.plc.outputs(&self.memory, 0) ^ self.settings.invert_outputs;
+        for output in 0..B::PROFILE.digital_outputs {
+            self.board.modulate(output, self.plc.duty(output));
+        }
+        self.board.drive_outputs(levels);
+    }
+
+    /// Saves what is retained. A program that is in doubt is not asked what that is.
+    #[inline(always)]
+    fn keep(&mut self, was_executed: bool, runs: bool) {
+        let now_ms = self.clock.now_ms();
+        if !self.retention.is_busy(runs, now_ms) || self.is_program_in_doubt() {
+            return;
+        }
+        if let Some(program) = self.plc.program() {
+            let storage = self.board.storage();
+            self.retention.step(program.plan(), &mut self.memory, storage, was_executed, now_ms);
+        }
+    }
+
+    fn end_scan(&mut self, start_us: u32) {
+        // 0 would be no scan.
+        self.times.enter(self.board.now_us().wrapping_sub(start_us).max(1));
+        self.link.trace_step(&mut self.memory, self.times.scans as u16);
+        if self.scans_left > 0 && self.plc.mode() == Mode::Run {
+            self.scans_left -= 1;
+            if self.scans_left == 0 {
+                // Forces hold until the next single scan.
+                self.plc.stop();
+            }
+        }
+    }
+
+    /// A request on the line is answered, a little in every scan; or the line is the program's.
+    #[inline(always)]
+    fn communicate(&mut self) {
+        if self.plc.has_line(&self.memory) {
+            return self.send_characters();
+        }
+        self.line.send(self.board.line());
+        let now_us = self.board.now_us();
+        if self.request_len == 0 && self.line.listen(self.board.line(), now_us) {
+            self.take_request();
+        }
+        if self.request_len > 0 {
+            self.answer();
+        }
+    }
+
+    /// Puts a request where answers are made.
+    fn take_request(&mut self) {
+        self.link.forget();
+        self.free_stack = self.board.free_stack();
+        let request = self.line.request();
+        self.request_len = request.len() as u16;
+        let room = usize::from(self.link.room());
+        for (address, &byte) in (self.link.frame()..).zip(request).take(room) {
+            self.memory.set_byte(address, byte);
+        }
+    }
+
+    /// Answers the request, or a part of it.
+    fn answer(&mut self) {
+        let len = plc_link::answer(self, self.request_len);
+        if len > 0 {
+            self.request_len = 0;
+            let (frame, memory) = (self.link.frame(), &self.memory);
+            self.line.answer((frame..frame + len).map(|address| memory.byte(address)));
+            self.line.send(self.board.line());
+        } else if self.command.is_some() {
+            // What the rest of the answer waits for does not wait for the answer.
+            self.begin_command();
+        }
+    }
+
+    /// Freeport: what comes in is the program's.
+    fn receive_characters(&mut self) {
+        self.line.ignore();
+        self.request_len = 0;
+        let now_ms = self.clock.now_ms();
+        let mut characters = [0; 16];
+        let line = self.board.line();
+        while line.read_ready().unwrap_or(false) {
+            let count = line.read(&mut characters).unwrap_or(0);
+            if count == 0 {
+                break;
+            }
+            for &character in characters.iter().take(count) {
+                self.plc.receive(&mut self.memory, character, now_ms);
+            }
+        }
+    }
+
+    /// Freeport: what the program sends goes out as it is, as much as the line takes now.
+    fn send_characters(&mut self) {
+        let line = self.board.line();
+        while line.write_ready().unwrap_or(false)
+            && let Some(&character) = self.outgoing.front()
+        {
+            if line.write(&[character]).unwrap_or(1) == 0 {
+                break;
+            }
+            self.outgoing.pop_front();
+        }
+    }
+
+    /// RUN to STOP, as asked for.
+    pub fn stop(&mut self) {
+        self.plc.stop();
+        self.tell();
+    }
+
+    /// Forgets the fault that led to STOP.
+    pub(crate) fn clear_fault(&mut self) {
+        self.plc.clear_fault();
+    }
+
+    /// RUN to STOP, or STOP for another reason.
+    fn fail(&mut self, fault: Fault) {
+        self.plc.fail(fault);
+        self.tell();
+    }
+
+    /// Another mode or fault: what belongs to RUN ends with it, and a fault is remembered.
+    fn tell(&mut self) {
+        if self.plc.mode() == Mode::Stop {
+            self.board.release_outputs();
+            self.scans_left = 0;
+            self.outgoing.clear();
+            self.link.forces.clear(&mut self.memory);
+        }
+        let fault = self.plc.fault_word();
+        if fault as u8 != 0 {
+            self.board.remember_fault(fault, false);
+        }
+    }
+
+    /// The controller, for whoever looks at it from outside.
+    pub fn plc(&self) -> &Plc<B::Image> {
+        &self.plc
+    }
+
+    /// Its data memory.
+    pub fn memory(&self) -> &Memory {
+        &self.memory
+    }
+
+    /// The same, for whoever sets values from outside.
+    pub fn memory_mut(&mut self) -> &mut Memory {
+        &mut self.memory
+    }
+
+    /// The board.
+    pub fn board(&mut self) -> &mut B {
+        &mut self.board
+    }
+}

@@ -1,0 +1,23 @@
+//! A board as a PLC: power-up, the scan, the serial line, supervision and retention, over traits
+//! that any board can implement. What instructions mean is plc-vm's, what requests mean plc-link's;
+//! registers and interrupts are the board's.
+//!
+//! A board implements [`Board`], most of it by parts that drivers of embedded-hal have ([`Pins`]),
+//! and calls [`Controller::power_up`], then [`Controller::scan`] for ever.
+#![no_std]
+
+mod analog;
+mod board;
+mod clock;
+mod controller;
+mod environment;
+mod line;
+mod pins;
+mod retention;
+mod self_test;
+mod station;
+
+pub use board::{Board, Mark};
+pub use controller::Controller;
+pub use pins::Pins;
+pub use retention::SECTORS_MIN;

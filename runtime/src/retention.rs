@@ -1,0 +1,364 @@
+//! Retained values in flash: records one after the other through its sectors, so that all of them
+//! wear alike and a power cut leaves the last complete record.
+//!
+//! A record is a head (length, sequence number, checksum of these), the values and a checksum of
+//! all, which also covers what the values belong to. It is written from a snapshot after the
+//! program's own memory, which leaves room for it, a piece in every scan. A sector is erased when
+//! the first record goes to it; the last complete record is always in another one.
+
+use embedded_storage::nor_flash::{NorFlash, ReadNorFlash};
+use plc_isa::{
+    Crc32, Plan, ProgramMemory, RETENTION_COPY_INTERVAL_MS, RETENTION_INTERVAL_MIN_MS, RetainedWalk,
+};
+use plc_vm::Memory;
+
+/// The least there must be: what is erased is never what was written last.
+pub const SECTORS_MIN: u32 = 2;
+
+/// Length, sequence number, checksum.
+const HEAD_LEN: usize = 6 + CRC_LEN;
+const CRC_LEN: usize = 4;
+/// Bytes that are read or written at once; what a board can write at once divides it.
+const PIECE: usize = 256;
+/// Bytes compared in a scan.
+const COMPARED: u16 = 16;
+const ERASED: u8 = 0xFF;
+
+/// What is being done, a little in every scan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Phase {
+    /// Looks for values that differ from the last record; so many bytes do not.
+    Comparing(u16),
+    /// Writes the record at `at`; so many of its bytes are written.
+    Writing(u32),
+}
+
+/// The retained values of a program.
+#[derive(Debug, Clone)]
+pub struct Retention {
+    /// Bytes of values; 0: nothing is retained.
+    len: u16,
+    /// Checksum of what the values are: begins the checksum of every record.
+    identity: Crc32,
+    /// Where the next record begins.
+    at: u32,
+    /// The sequence number of the last one.
+    sequence: u32,
+    /// When it was begun, and how long the next one waits.
+    saved_ms: u32,
+    interval_ms: u32,
+    /// The next change is saved without waiting.
+    is_due: bool,
+    /// There is no record of these values.
+    is_first: bool,
+    phase: Phase,
+    walk: RetainedWalk,
+    /// Checksum of what is written of the record.
+    crc: Crc32,
+}
+
+impl Retention {
+    /// Nothing is retained.
+    pub const NONE: Retention = Retention {
+        len: 0,
+        identity: Crc32::new(),
+        at: 0,
+        sequence: 0,
+        saved_ms: 0,
+        interval_ms: 0,
+        is_due: false,
+        is_first: false,
+        phase: Phase::Comparing(0),
+        walk: RetainedWalk::START,
+        crc: Crc32::new(),
+    };
+
+    /// Brings the values of the last complete record back. Returns whether there should be one and
+    /// is none.
+    pub fn restore<P: ProgramMemory, S: NorFlash>(
+        &mut self,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+        storage: &mut S,
+        now_ms: u32,
+    ) -> bool {
+        *self = Retention::NONE;
+        self.len = plan.retained_into(&mut self.identity);
+        if self.len == 0 || self.record_len::<S>() > S::ERASE_SIZE as u32 {
+            self.len = 0;
+            return false;
+        }
+        let found = self.find_last(storage);
+        if let Some(record) = found {
+            read_values(storage, record, plan.end(), self.len, memory);
+            exchange(plan, memory, true);
+        }
+        exchange(plan, memory, false);
+        self.saved_ms = now_ms;
+        // The first change is saved at once.
+        self.is_due = true;
+        self.is_first = found.is_none();
+        self.is_first
+    }
+
+    /// Bytes of a record, with what fills it up to what can be written at once.
+    fn record_len<S: NorFlash>(&self) -> u32 {
+        let len = HEAD_LEN + usize::from(self.len) + CRC_LEN;
+        padded::<S>(len)
+    }
+
+    /// Goes through all records: the last complete one of these values, and where the next one
+    /// goes.
+    fn find_last<S: NorFlash>(&mut self, storage: &mut S) -> Option<u32> {
+        let (mut found, mut newest) = (None, None);
+        let sectors = storage.capacity() as u32 / S::ERASE_SIZE as u32;
+        for sector in 0..sectors {
+            let begin = sector * S::ERASE_SIZE as u32;
+            let mut at = begin;
+            while let Some((len, sequence)) = head(storage, at, begin + S::ERASE_SIZE as u32) {
+                let end = at + padded::<S>(HEAD_LEN + usize::from(len) + CRC_LEN);
+                if newest.is_none_or(|(before, _)| sequence > before) {
+                    newest = Some((sequence, end));
+                }
+                if len == self.len
+                    && found.is_none_or(|(before, _)| sequence > before)
+                    && self.is_complete(storage, at)
+                {
+                    found = Some((sequence, at));
+                }
+                at = end;
+            }
+        }
+        (self.sequence, self.at) = newest.unwrap_or((0, 0));
+        let copies = sectors * (S::ERASE_SIZE as u32 / self.record_len::<S>()).max(1);
+        let interval_ms = RETENTION_COPY_INTERVAL_MS / copies.max(1);
+        self.interval_ms = interval_ms.max(RETENTION_INTERVAL_MIN_MS);
+        found.map(|(_, at)| at)
+    }
+
+    fn is_complete<S: NorFlash>(&self, storage: &mut S, at: u32) -> bool {
+        let mut crc = self.identity;
+        let len = HEAD_LEN + usize::from(self.len) + CRC_LEN;
+        let is_read = read(storage, at, len, |byte| crc.byte(byte));
+        is_read && crc.ends()
+    }
+
+    /// Whether there is anything to do after a scan. Out of RUN changes are saved at once.
+    #[inline(always)]
+    pub fn is_busy(&self, runs: bool, now_ms: u32) -> bool {
+        self.len != 0
+            && (self.is_due
+                || !runs
+                || matches!(self.phase, Phase::Writing(_))
+                || now_ms.wrapping_sub(self.saved_ms) >= self.interval_ms)
+    }
+
+    /// A little work after a scan in which there is, and in which the program `was_executed` or
+    /// not.
+    pub fn step<P: ProgramMemory, S: NorFlash>(
+        &mut self,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+        storage: &mut S,
+        was_executed: bool,
+        now_ms: u32,
+    ) {
+        match self.phase {
+            // The first scan has seen that values were lost.
+            Phase::Comparing(_) if self.is_first => {
+                if was_executed {
+                    self.begin(plan, memory, storage, now_ms);
+                }
+            }
+            Phase::Comparing(done) => self.compare(plan, memory, storage, done, now_ms),
+            Phase::Writing(done) => {
+                if !self.write(plan, memory, storage, done) {
+                    self.fail(S::ERASE_SIZE as u32, now_ms);
+                }
+            }
+        }
+    }
+
+    fn compare<P: ProgramMemory, S: NorFlash>(
+        &mut self,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+        storage: &mut S,
+        done: u16,
+        now_ms: u32,
+    ) {
+        if !self.walk.next(plan, COMPARED) {
+            self.walk = RetainedWalk::START;
+            self.phase = Phase::Comparing(0);
+            return;
+        }
+        let RetainedWalk { address, len, .. } = self.walk;
+        let copy = plan.end() + done;
+        self.phase = Phase::Comparing(done + len);
+        if (0..len).any(|offset| memory.byte(address + offset) != memory.byte(copy + offset)) {
+            self.begin(plan, memory, storage, now_ms);
+        }
+    }
+
+    /// Begins the next record: in this sector where there is room, otherwise in the next one, which
+    /// is erased.
+    fn begin<P: ProgramMemory, S: NorFlash>(
+        &mut self,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+        storage: &mut S,
+        now_ms: u32,
+    ) {
+        let sector_len = S::ERASE_SIZE as u32;
+        let len = self.record_len::<S>();
+        let is_free = self.at % sector_len + len <= sector_len
+            && !self.at.is_multiple_of(sector_len)
+            && is_erased(storage, self.at, len);
+        if !is_free {
+            let next = self.at.next_multiple_of(sector_len);
+            let capacity = storage.capacity() as u32 / sector_len * sector_len;
+            self.at = if next >= capacity { 0 } else { next };
+            if !is_erased(storage, self.at, sector_len)
+                && storage.erase(self.at, self.at + sector_len).is_err()
+            {
+                return self.fail(sector_len, now_ms);
+            }
+        }
+        exchange(plan, memory, false);
+        self.sequence = self.sequence.wrapping_add(1);
+        (self.saved_ms, self.is_due, self.is_first) = (now_ms, false, false);
+        (self.phase, self.crc) = (Phase::Writing(0), self.identity);
+        self.walk = RetainedWalk::START;
+    }
+
+    /// The memory does not do what it should: the next sector is tried, after the usual time.
+    fn fail(&mut self, sector_len: u32, now_ms: u32) {
+        self.at = (self.at / sector_len + 1) * sector_len;
+        (self.phase, self.walk) = (Phase::Comparing(0), RetainedWalk::START);
+        (self.saved_ms, self.is_due, self.is_first) = (now_ms, false, true);
+    }
+
+    /// Writes the next piece of the record; whether it could be written.
+    fn write<P: ProgramMemory, S: NorFlash>(
+        &mut self,
+        plan: &Plan<P>,
+        memory: &Memory,
+        storage: &mut S,
+        done: u32,
+    ) -> bool {
+        let len = self.record_len::<S>();
+        let mut piece = [ERASED; PIECE];
+        let count = (len - done).min(PIECE as u32);
+        for (place, offset) in piece.iter_mut().zip(done..done + count) {
+            *place = self.byte(plan, memory, offset as usize);
+        }
+        let piece = piece.get(..count as usize).unwrap_or(&[]);
+        if storage.write(self.at + done, piece).is_err() {
+            return false;
+        }
+        self.phase = Phase::Writing(done + count);
+        if done + count == len {
+            self.at += len;
+            self.phase = Phase::Comparing(0);
+        }
+        true
+    }
+
+    /// The byte of the record at an offset; all of them are asked for once, in order.
+    fn byte<P: ProgramMemory>(&mut self, plan: &Plan<P>, memory: &Memory, offset: usize) -> u8 {
+        let values_end = HEAD_LEN + usize::from(self.len);
+        let byte = match offset {
+            0..HEAD_LEN => head_bytes(self.len, self.sequence)[offset],
+            _ if offset < values_end => memory.byte(plan.end() + (offset - HEAD_LEN) as u16),
+            _ if offset < values_end + CRC_LEN => {
+                // Its own lowest byte moves the rest of the checksum down.
+                let byte = self.crc.value() as u8;
+                self.crc.byte(!byte);
+                return byte;
+            }
+            _ => return ERASED,
+        };
+        self.crc.byte(byte);
+        byte
+    }
+}
+
+fn head_bytes(len: u16, sequence: u32) -> [u8; HEAD_LEN] {
+    let ([a, b], [c, d, e, f]) = (len.to_le_bytes(), sequence.to_le_bytes());
+    let mut crc = Crc32::new();
+    [a, b, c, d, e, f].into_iter().for_each(|byte| crc.byte(byte));
+    let [g, h, i, j] = crc.value().to_le_bytes();
+    [a, b, c, d, e, f, g, h, i, j]
+}
+
+/// Length and sequence number of the record at a place, if there is one and it ends before `end`.
+fn head<S: NorFlash>(storage: &mut S, at: u32, end: u32) -> Option<(u16, u32)> {
+    if at + padded::<S>(HEAD_LEN) > end {
+        return None;
+    }
+    let (mut bytes, mut count) = ([ERASED; HEAD_LEN], 0);
+    read(storage, at, HEAD_LEN, |byte| {
+        if let Some(place) = bytes.get_mut(count) {
+            *place = byte;
+        }
+        count += 1;
+    });
+    let [a, b, c, d, e, f, ..] = bytes;
+    let (len, sequence) = (u16::from_le_bytes([a, b]), u32::from_le_bytes([c, d, e, f]));
+    let fits = at + padded::<S>(HEAD_LEN + usize::from(len) + CRC_LEN) <= end;
+    (bytes == head_bytes(len, sequence) && fits).then_some((len, sequence))
+}
+
+/// So many bytes, up to what can be written at once.
+fn padded<S: NorFlash>(len: usize) -> u32 {
+    len.next_multiple_of(S::WRITE_SIZE.max(S::READ_SIZE)) as u32
+}
+
+/// Reads bytes in order; whether they could be read.
+fn read<S: NorFlash>(storage: &mut S, at: u32, len: usize, mut take: impl FnMut(u8)) -> bool {
+    let mut piece = [0; PIECE];
+    let mut done = 0;
+    while done < len {
+        let count = (len - done).min(PIECE);
+        let Some(part) = piece.get_mut(..padded::<S>(count) as usize) else { return false };
+        if storage.read(at + done as u32, part).is_err() {
+            return false;
+        }
+        part.iter().take(count).for_each(|&byte| take(byte));
+        done += count;
+    }
+    true
+}
+
+fn is_erased<S: NorFlash>(storage: &mut S, at: u32, len: u32) -> bool {
+    let mut is_erased = true;
+    read(storage, at, len as usize, |byte| is_erased &= byte == ERASED) && is_erased
+}
+
+/// Reads the values of a record to a place of data memory.
+fn read_values<S: ReadNorFlash + NorFlash>(
+    storage: &mut S,
+    record: u32,
+    place: u16,
+    len: u16,
+    memory: &mut Memory,
+) {
+    let mut offset = 0;
+    read(storage, record, HEAD_LEN + usize::from(len), |byte| {
+        if offset >= HEAD_LEN {
+            memory.set_byte(place + (offset - HEAD_LEN) as u16, byte);
+        }
+        offset += 1;
+    });
+}
+
+/// Brings the values to the snapshot after the program's memory, or `back` from there to where they
+/// belong.
+fn exchange<P: ProgramMemory>(plan: &Plan<P>, memory: &mut Memory, back: bool) {
+    let (mut walk, mut place) = (RetainedWalk::START, plan.end());
+    while walk.next(plan, u16::MAX) {
+        let (from, to) = if back { (place, walk.address) } else { (walk.address, place) };
+        memory.copy(from, to, walk.len);
+        place += walk.len;
+    }
+}

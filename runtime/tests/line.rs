@@ -1,0 +1,147 @@
+//! The line: frames as they come, in pieces and with errors; commands; answers on a slow line; and
+//! the freeport.
+
+mod desk;
+
+use awl_asm::assemble::assemble;
+use awl_asm::source::Source;
+use desk::Desk;
+use plc_isa::Parity;
+use plc_link::crc16;
+use plc_vm::Mode;
+use runtime::Controller;
+
+const PROGRAM: &str = "//# name lamp\nLD I0.0\n= Q0.0\n= M0.0\nLD SM0.0\nINCW VW0\n";
+
+fn frame(unit: u8, request: &[u8]) -> Vec<u8> {
+    let mut frame = vec![unit];
+    frame.extend_from_slice(request);
+    frame.extend_from_slice(&crc16(&frame).to_le_bytes());
+    frame
+}
+
+fn with(text: &str) -> Box<Controller<Desk>> {
+    let assembly = assemble(&Source::new("p.awl", text).unwrap(), Vec::new());
+    assert!(assembly.image.is_some(), "{:?}", assembly.diagnostics);
+    let mut plc = Box::new(Controller::new(Desk::new(assembly.image)));
+    plc.power_up();
+    plc
+}
+
+fn scans(plc: &mut Controller<Desk>, count: u32) {
+    for _ in 0..count {
+        plc.board().now_us = plc.board().now_us.wrapping_add(1000);
+        plc.scan();
+    }
+}
+
+/// What comes back, without unit and checksum; empty: nothing.
+fn ask(plc: &mut Controller<Desk>, request: &[u8]) -> Vec<u8> {
+    plc.board().wire.incoming.extend(frame(1, request));
+    scans(plc, 10);
+    answer(plc)
+}
+
+fn answer(plc: &mut Controller<Desk>) -> Vec<u8> {
+    let sent = std::mem::take(&mut plc.board().wire.outgoing);
+    let Some(inner) = sent.len().checked_sub(2) else { return sent };
+    assert_eq!((sent[0], crc16(&sent)), (1, 0));
+    sent[1..inner].to_vec()
+}
+
+#[test]
+fn requests_are_answered() {
+    let mut plc = with(PROGRAM);
+    plc.board().levels = 1;
+    // M0.0, Q0.0 by Modbus; the name by function 43; service function 65.
+    assert_eq!(ask(&mut plc, &[1, 0x03, 0xE8, 0, 1]), [1, 1, 1]);
+    assert_eq!(ask(&mut plc, &[1, 0, 0, 0, 1]), [1, 1, 1]);
+    let identity = ask(&mut plc, &[43, 14, 1, 0]);
+    assert!(identity.windows(4).any(|part| part == b"desk"), "{identity:?}");
+    let state = ask(&mut plc, &[65]);
+    assert_eq!((state.len(), state[3]), (40, 0b11), "{state:?}");
+    assert_eq!(state[12..14], 1000_u16.to_be_bytes(), "microseconds");
+    assert_eq!(ask(&mut plc, &[99]), [99 | 0x80, 1]);
+    // A value, and what of it is forced.
+    assert_eq!(ask(&mut plc, &[5, 0x03, 0xE9, 0xFF, 0]), [5, 0x03, 0xE9, 0xFF, 0]);
+    assert_eq!(ask(&mut plc, &[1, 0x03, 0xE8, 0, 2]), [1, 1, 3]);
+}
+
+#[test]
+fn commands_are_carried_out_after_their_answers() {
+    let mut plc = with(PROGRAM);
+    plc.board().levels = 1;
+    scans(&mut plc, 1);
+    assert_eq!(plc.board().outputs, Some(1));
+    assert_eq!(ask(&mut plc, &[66, 0, 0, 0]), [66, 0, 0, 0]);
+    assert_eq!((plc.plc().mode(), plc.board().outputs), (Mode::Stop, None));
+    let word = |plc: &Controller<Desk>| {
+        let plan = plc.plc().program().unwrap().plan();
+        plc.memory().word(plan.byte_address(plc_isa::Area::V, 0).unwrap())
+    };
+    let before = word(&plc);
+    assert_eq!(ask(&mut plc, &[66, 3, 0, 3]), [66, 3, 0, 3]);
+    assert_eq!((word(&plc) - before, plc.plc().mode()), (3, Mode::Stop), "three single scans");
+    plc.board().wire.takes = 4;
+    plc.board().wire.incoming.extend(frame(1, &[66, 1, 0, 0]));
+    scans(&mut plc, 10);
+    assert_eq!(plc.plc().mode(), Mode::Stop, "the answer is on its way");
+    plc.board().wire.takes = usize::MAX;
+    scans(&mut plc, 3);
+    assert_eq!((answer(&mut plc), plc.plc().mode()), (vec![66, 1, 0, 0], Mode::Run));
+}
+
+#[test]
+fn frames_come_in_pieces_and_what_is_none_is_not_answered() {
+    let mut plc = with(PROGRAM);
+    let request = frame(1, &[1, 0x03, 0xE8, 0, 1]);
+    for &byte in &request {
+        plc.board().wire.incoming.push_back(byte);
+        scans(&mut plc, 1);
+    }
+    scans(&mut plc, 5);
+    assert_eq!(answer(&mut plc), [1, 1, 0]);
+    let mut wrong = request.clone();
+    wrong[3] ^= 1;
+    let other = frame(2, &[1, 0x03, 0xE8, 0, 1]);
+    for silent in [wrong, other, request[..5].to_vec(), vec![1], vec![0x55; 1000]] {
+        plc.board().wire.incoming.extend(silent);
+        scans(&mut plc, 5);
+        assert!(answer(&mut plc).is_empty());
+        assert_eq!(ask(&mut plc, &[1, 0x03, 0xE8, 0, 1]), [1, 1, 0], "and it goes on");
+    }
+    // To everybody: carried out, not answered.
+    plc.board().wire.incoming.extend(frame(0, &[66, 0, 0, 0]));
+    scans(&mut plc, 5);
+    assert_eq!((answer(&mut plc), plc.plc().mode()), (Vec::new(), Mode::Stop));
+}
+
+#[test]
+fn the_line_is_as_the_program_says() {
+    let mut plc = with("//# modbus address 7 baud 9600 parity even\nLD SM0.0\n= Q0.0\n");
+    let settings = plc.board().wire.settings.unwrap();
+    assert_eq!((settings.rate, settings.parity), (4, Parity::Even));
+    plc.board().wire.incoming.extend(frame(7, &[1, 0, 0, 0, 1]));
+    // 39 bits at 9600 baud are 4.06 ms.
+    scans(&mut plc, 4);
+    assert!(plc.board().wire.outgoing.is_empty());
+    scans(&mut plc, 2);
+    assert_eq!(plc.board().wire.outgoing[..4], [7, 1, 1, 1]);
+}
+
+#[test]
+fn in_freeport_mode_the_line_is_the_programs() {
+    let mut plc = with(
+        "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nLD SM0.1\nMOVB 9, SMB30\nATCH INT_0, 8\nENI\n\
+         END_ORGANIZATION_BLOCK\nINTERRUPT_BLOCK INT_0:INT0\nBEGIN\nLD SM0.0\nMOVB 1, VB10\n\
+         MOVB SMB2, VB11\nINCB VB11\nXMT VB10, 0\nEND_INTERRUPT_BLOCK\n",
+    );
+    scans(&mut plc, 2);
+    plc.board().wire.incoming.extend(*b"a");
+    scans(&mut plc, 3);
+    assert_eq!(plc.board().wire.outgoing, b"b");
+    plc.board().wire.outgoing.clear();
+    // Who stops it has the line again.
+    plc.stop();
+    assert_eq!(ask(&mut plc, &[1, 0, 0, 0, 1]), [1, 1, 0]);
+}
