@@ -58,7 +58,8 @@ pub trait Board {
     fn storage(&mut self) -> &mut Self::Storage;
 
     /// The program is alive: the hardware watchdog, which resets the board otherwise, waits again.
-    /// It waits at least half a second, and as long as the storage needs to erase a sector.
+    /// It waits at least half a second, and after that as long as the storage needs to erase a
+    /// sector.
     fn feed_watchdog(&mut self);
 
     /// Remembers a fault where a reset leaves it alone, and whether it holds the board in STOP

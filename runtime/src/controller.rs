@@ -1,8 +1,7 @@
 //! The scan: inputs, program, communication, self-test, outputs; and the way between RUN and STOP.
 
-use embedded_io::{Read, ReadReady, Write, WriteReady};
 use heapless::Deque;
-use plc_isa::{CRC_LEN, I_START, ImageError, ImageFault, LineSettings, Settings};
+use plc_isa::{CRC_LEN, I_START, LineSettings, Settings};
 use plc_link::{Command, Link, ScanTimes};
 use plc_vm::{Fault, Memory, Mode, Plc};
 
@@ -11,13 +10,13 @@ use crate::board::{Board, Mark};
 use crate::clock::Clock;
 use crate::environment::{OUTGOING, ScanTime};
 use crate::line::Line;
-use crate::retention::Retention;
+use crate::retention::{self, Retention};
 use crate::self_test::SelfTest;
 
 /// A PLC on a board. It is large: a board keeps it in a static.
 pub struct Controller<B: Board> {
-    board: B,
-    clock: Clock,
+    pub(crate) board: B,
+    pub(crate) clock: Clock,
     pub(crate) plc: Plc<B::Image>,
     pub(crate) memory: Memory,
     pub(crate) link: Link,
@@ -30,14 +29,21 @@ pub struct Controller<B: Board> {
     pub(crate) command: Option<Command>,
     /// Single scans to come, with the one that is under way; 0 without.
     pub(crate) scans_left: u16,
-    settings: Settings,
-    line: Line,
+    pub(crate) settings: Settings,
+    pub(crate) line: Line,
+    /// How characters are sent on it now.
+    pub(crate) line_settings: Option<LineSettings>,
+    /// The program has the line.
+    pub(crate) is_freeport: bool,
     /// Bytes of the request that is being answered; 0: none.
-    request_len: u16,
-    outgoing: Deque<u8, OUTGOING>,
+    pub(crate) request_len: u16,
+    pub(crate) outgoing: Deque<u8, OUTGOING>,
     analog: Analog,
     retention: Retention,
     self_test: SelfTest,
+    /// What is in the board's memory may not be the program that was checked, which may still be in
+    /// force: it is loaded again before it runs, whatever became of the fault.
+    is_in_doubt: bool,
     /// When the last scan was due, with a fixed period.
     due_ms: u32,
 }
@@ -45,6 +51,7 @@ pub struct Controller<B: Board> {
 impl<B: Board> Controller<B> {
     /// The PLC in STOP, without a program.
     pub fn new(mut board: B) -> Controller<B> {
+        const { assert!(retention::fits::<B::Storage>(B::PROFILE), "a sector holds all values") };
         let clock = Clock::starting(board.now_us());
         Controller {
             board,
@@ -60,11 +67,14 @@ impl<B: Board> Controller<B> {
             scans_left: 0,
             settings: Settings::DEFAULT,
             line: Line::NEW,
+            line_settings: None,
+            is_freeport: false,
             request_len: 0,
             outgoing: Deque::new(),
             analog: Analog::NEW,
             retention: Retention::NONE,
             self_test: SelfTest::STARTING,
+            is_in_doubt: false,
             due_ms: 0,
         }
     }
@@ -91,13 +101,14 @@ impl<B: Board> Controller<B> {
 
     /// Loads the board's program, if there is one.
     fn load(&mut self) {
+        self.board.feed_watchdog();
         self.slot = self.board.image();
         if let Some(image) = self.slot.clone() {
             self.load_program(image);
         }
         self.link.place_after(self.plc.program(), B::PROFILE.data_end);
         let line = LineSettings::of_byte(self.settings.line);
-        self.board.set_line(line);
+        self.set_line(line);
         self.line.place(self.settings.modbus_address, line);
         self.request_len = 0;
         self.analog.start(&mut self.board, self.settings.filter);
@@ -108,11 +119,12 @@ impl<B: Board> Controller<B> {
         if self.plc.replace(&mut self.memory, image).is_err() {
             return self.tell();
         }
-        self.self_test = SelfTest::STARTING;
+        (self.self_test, self.is_in_doubt) = (SelfTest::STARTING, false);
         let Some(program) = self.plc.program() else { return };
         let plan = program.plan();
         self.settings = plan.header.settings;
         self.board.set_pullups(self.settings.pullup);
+        self.board.feed_watchdog();
         let (storage, now_ms) = (self.board.storage(), self.clock.now_ms());
         if self.retention.restore(plan, &mut self.memory, storage, now_ms) {
             self.plc.retentive_data_lost();
@@ -121,10 +133,10 @@ impl<B: Board> Controller<B> {
 
     /// STOP to RUN: with a first scan, or on from where the program was.
     fn run(&mut self) {
-        if self.is_program_in_doubt() {
+        if self.is_in_doubt {
             self.load();
         }
-        if self.plc.mode() == Mode::Stop && !self.is_program_in_doubt() && self.go() {
+        if self.plc.mode() == Mode::Stop && !self.is_in_doubt && self.go() {
             self.due_ms = self.clock.now_ms().wrapping_sub(self.settings.scan_ms.into());
         }
         self.tell();
@@ -138,14 +150,12 @@ impl<B: Board> Controller<B> {
         self.plc.run()
     }
 
-    /// Whether what is in the board's memory may not be the program that was checked, which may
-    /// still be in force.
-    fn is_program_in_doubt(&self) -> bool {
-        const BAD_IMAGE: u8 =
-            Fault::BadImage(ImageError { fault: ImageFault::Length, at: 0 }).code();
-        const UNDEFINED: u8 = Fault::UndefinedInstruction { at: 0 }.code();
-        const CHANGED: u8 = Fault::ProgramChanged.code();
-        matches!(self.plc.fault_word() as u8, BAD_IMAGE | UNDEFINED | CHANGED)
+    /// Whether a fault says that the program in the board's memory is not the one that was checked.
+    fn has_doubtful_fault(&self) -> bool {
+        matches!(
+            self.plc.fault(),
+            Some(Fault::BadImage(_) | Fault::UndefinedInstruction { .. } | Fault::ProgramChanged)
+        )
     }
 
     /// A scan; with a fixed period, while the next one is not due, what is done between scans.
@@ -204,7 +214,7 @@ impl<B: Board> Controller<B> {
         self.board.feed_watchdog();
         if let Some(program) = self.plc.program()
             && self.self_test.has_changed(program)
-            && !self.is_program_in_doubt()
+            && !self.is_in_doubt
         {
             self.fail(Fault::ProgramChanged);
         }
@@ -237,7 +247,7 @@ impl<B: Board> Controller<B> {
             self.analog.sample(&mut self.board);
         }
         self.analog.write(&mut self.memory);
-        if self.plc.has_line(&self.memory) {
+        if self.plc.has_line(&self.memory) && !self.line.is_sending() {
             self.receive_characters();
         }
     }
@@ -278,7 +288,7 @@ impl<B: Board> Controller<B> {
 
     #[inline(always)]
     fn test(&mut self) {
-        if !self.board.is_stack_sound() && !self.is_program_in_doubt() {
+        if !self.board.is_stack_sound() && !self.is_in_doubt {
             self.fail(Fault::StackOverflow);
         }
     }
@@ -299,10 +309,12 @@ impl<B: Board> Controller<B> {
     #[inline(always)]
     fn keep(&mut self, was_executed: bool, runs: bool) {
         let now_ms = self.clock.now_ms();
-        if !self.retention.is_busy(runs, now_ms) || self.is_program_in_doubt() {
+        if !self.retention.is_busy(runs, now_ms) || self.is_in_doubt {
             return;
         }
         if let Some(program) = self.plc.program() {
+            // A sector may have to be erased.
+            self.board.feed_watchdog();
             let storage = self.board.storage();
             self.retention.step(program.plan(), &mut self.memory, storage, was_executed, now_ms);
         }
@@ -317,6 +329,8 @@ impl<B: Board> Controller<B> {
             if self.scans_left == 0 {
                 // Forces hold until the next single scan.
                 self.plc.stop();
+                self.board.release_outputs();
+                self.outgoing.clear();
             }
         }
     }
@@ -324,16 +338,21 @@ impl<B: Board> Controller<B> {
     /// A request on the line is answered, a little in every scan; or the line is the program's.
     #[inline(always)]
     fn communicate(&mut self) {
+        let now_us = self.board.now_us();
+        if self.line.is_sending() {
+            return self.line.send(self.board.line(), now_us);
+        }
         if self.plc.has_line(&self.memory) {
             return self.send_characters();
         }
-        self.line.send(self.board.line());
-        let now_us = self.board.now_us();
+        if self.is_freeport {
+            self.end_freeport();
+        }
         if self.request_len == 0 && self.line.listen(self.board.line(), now_us) {
             self.take_request();
         }
         if self.request_len > 0 {
-            self.answer();
+            self.answer(now_us);
         }
     }
 
@@ -350,47 +369,14 @@ impl<B: Board> Controller<B> {
     }
 
     /// Answers the request, or a part of it.
-    fn answer(&mut self) {
+    fn answer(&mut self, now_us: u32) {
         let len = plc_link::answer(self, self.request_len);
         if len > 0 {
             self.request_len = 0;
             let (frame, memory) = (self.link.frame(), &self.memory);
-            self.line.answer((frame..frame + len).map(|address| memory.byte(address)));
-            self.line.send(self.board.line());
-        } else if self.command.is_some() {
-            // What the rest of the answer waits for does not wait for the answer.
-            self.begin_command();
-        }
-    }
-
-    /// Freeport: what comes in is the program's.
-    fn receive_characters(&mut self) {
-        self.line.ignore();
-        self.request_len = 0;
-        let now_ms = self.clock.now_ms();
-        let mut characters = [0; 16];
-        let line = self.board.line();
-        while line.read_ready().unwrap_or(false) {
-            let count = line.read(&mut characters).unwrap_or(0);
-            if count == 0 {
-                break;
-            }
-            for &character in characters.iter().take(count) {
-                self.plc.receive(&mut self.memory, character, now_ms);
-            }
-        }
-    }
-
-    /// Freeport: what the program sends goes out as it is, as much as the line takes now.
-    fn send_characters(&mut self) {
-        let line = self.board.line();
-        while line.write_ready().unwrap_or(false)
-            && let Some(&character) = self.outgoing.front()
-        {
-            if line.write(&[character]).unwrap_or(1) == 0 {
-                break;
-            }
-            self.outgoing.pop_front();
+            let answer = (frame..frame + len).map(|address| memory.byte(address));
+            self.line.answer(answer, now_us);
+            self.line.send(self.board.line(), now_us);
         }
     }
 
@@ -415,10 +401,11 @@ impl<B: Board> Controller<B> {
     fn tell(&mut self) {
         if self.plc.mode() == Mode::Stop {
             self.board.release_outputs();
-            self.scans_left = 0;
+            (self.scans_left, self.command) = (0, None);
             self.outgoing.clear();
             self.link.forces.clear(&mut self.memory);
         }
+        self.is_in_doubt |= self.has_doubtful_fault();
         let fault = self.plc.fault_word();
         if fault as u8 != 0 {
             self.board.remember_fault(fault, false);

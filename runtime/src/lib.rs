@@ -11,6 +11,7 @@ mod board;
 mod clock;
 mod controller;
 mod environment;
+mod freeport;
 mod line;
 mod pins;
 mod retention;

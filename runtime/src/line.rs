@@ -15,6 +15,10 @@ const EVERYBODY: u8 = 0;
 /// Silence that ends a frame: 3.5 characters of 11 bits, above 19200 baud 1.75 ms.
 const SILENCE_BITS: u32 = 39;
 const SILENCE_MIN_US: u32 = 1750;
+/// A line that takes nothing for so long has nobody at its other end.
+const PATIENCE_US: u32 = 1_000_000;
+/// Looks for characters in a scan: a line that always has some does not hold it up.
+const LOOKS: u32 = 16;
 
 /// What is done with the frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,8 +27,8 @@ enum Phase {
     Receiving { is_sound: bool },
     /// It holds a request that is being answered.
     Answering,
-    /// It holds an answer, of which so many bytes were sent.
-    Sending(usize),
+    /// It holds an answer, of which so many bytes were sent, the last of them at this time.
+    Sending { at: usize, moved_us: u32 },
 }
 
 /// A frame, and what is done with it.
@@ -62,9 +66,13 @@ impl Line {
     pub fn listen(&mut self, line: &mut (impl Read + ReadReady), now_us: u32) -> bool {
         let Phase::Receiving { mut is_sound } = self.phase else { return false };
         let mut has_heard = false;
-        while line.read_ready().unwrap_or(false) {
+        for _ in 0..LOOKS {
+            // What is wrong with a line is told to who reads from it.
+            if !line.read_ready().unwrap_or(true) {
+                break;
+            }
             has_heard = true;
-            let mut rest = [0; 1];
+            let mut rest = [0; 64];
             let place = self.frame.get_mut(self.len..).filter(|place| !place.is_empty());
             let has_room = place.is_some();
             match line.read(place.unwrap_or(&mut rest)) {
@@ -108,7 +116,7 @@ impl Line {
     }
 
     /// Sends an answer. Requests to everybody get none.
-    pub fn answer(&mut self, answer: impl Iterator<Item = u8>) {
+    pub fn answer(&mut self, answer: impl Iterator<Item = u8>, now_us: u32) {
         if self.frame[0] == EVERYBODY {
             return self.ignore();
         }
@@ -121,26 +129,31 @@ impl Line {
         for (place, byte) in self.frame[len..].iter_mut().zip(crc) {
             *place = byte;
         }
-        (self.len, self.phase) = (len + CRC_LEN, Phase::Sending(0));
+        (self.len, self.phase) = (len + CRC_LEN, Phase::Sending { at: 0, moved_us: now_us });
     }
 
     /// Whether an answer is on its way.
     pub fn is_sending(&self) -> bool {
-        matches!(self.phase, Phase::Sending(_))
+        matches!(self.phase, Phase::Sending { .. })
     }
 
     /// Hands the line as much of the answer as it takes now.
-    pub fn send(&mut self, line: &mut (impl Write + WriteReady)) {
-        while let Phase::Sending(at) = self.phase {
+    pub fn send(&mut self, line: &mut (impl Write + WriteReady), now_us: u32) {
+        while let Phase::Sending { at, moved_us } = self.phase {
             let rest = self.frame.get(at..self.len).unwrap_or(&[]);
             if rest.is_empty() {
                 return self.ignore();
             }
             if !line.write_ready().unwrap_or(true) {
+                if now_us.wrapping_sub(moved_us) > PATIENCE_US {
+                    self.ignore();
+                }
                 return;
             }
             match line.write(rest) {
-                Ok(count) if count > 0 => self.phase = Phase::Sending(at + count),
+                Ok(count) if count > 0 => {
+                    self.phase = Phase::Sending { at: at + count, moved_us: now_us };
+                }
                 // Nobody is there any more.
                 _ => return self.ignore(),
             }

@@ -8,7 +8,8 @@
 
 use embedded_storage::nor_flash::{NorFlash, ReadNorFlash};
 use plc_isa::{
-    Crc32, Plan, ProgramMemory, RETENTION_COPY_INTERVAL_MS, RETENTION_INTERVAL_MIN_MS, RetainedWalk,
+    Crc32, Plan, Profile, ProgramMemory, RETENTION_COPY_INTERVAL_MS, RETENTION_INTERVAL_MIN_MS,
+    RetainedWalk,
 };
 use plc_vm::Memory;
 
@@ -20,9 +21,19 @@ const HEAD_LEN: usize = 6 + CRC_LEN;
 const CRC_LEN: usize = 4;
 /// Bytes that are read or written at once; what a board can write at once divides it.
 const PIECE: usize = 256;
+/// In STOP, from a failure of the memory to the next attempt.
+const RETRY_MS: u32 = 1000;
 /// Bytes compared in a scan.
 const COMPARED: u16 = 16;
 const ERASED: u8 = 0xFF;
+
+/// Whether all that a program of this profile can retain fits a sector, and pieces are as memory of
+/// this kind takes them.
+pub const fn fits<S: NorFlash>(profile: &Profile) -> bool {
+    let len = HEAD_LEN + profile.retained_max() as usize + CRC_LEN;
+    let unit = if S::WRITE_SIZE > S::READ_SIZE { S::WRITE_SIZE } else { S::READ_SIZE };
+    len.next_multiple_of(unit) <= S::ERASE_SIZE && PIECE.is_multiple_of(unit)
+}
 
 /// What is being done, a little in every scan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,13 +55,19 @@ pub struct Retention {
     at: u32,
     /// The sequence number of the last one.
     sequence: u32,
+    /// Where the last complete record of these values begins: its sector is never erased.
+    last: Option<u32>,
+    /// There is no record at all: what reads as erased was never anything else.
+    is_new: bool,
     /// When it was begun, and how long the next one waits.
     saved_ms: u32,
     interval_ms: u32,
     /// The next change is saved without waiting.
     is_due: bool,
-    /// There is no record of these values.
+    /// There is no record of these values, and no scan has seen that yet.
     is_first: bool,
+    /// The values were not saved: the memory has failed.
+    is_unsaved: bool,
     phase: Phase,
     walk: RetainedWalk,
     /// Checksum of what is written of the record.
@@ -64,10 +81,13 @@ impl Retention {
         identity: Crc32::new(),
         at: 0,
         sequence: 0,
+        last: None,
+        is_new: false,
         saved_ms: 0,
         interval_ms: 0,
         is_due: false,
         is_first: false,
+        is_unsaved: false,
         phase: Phase::Comparing(0),
         walk: RetainedWalk::START,
         crc: Crc32::new(),
@@ -84,12 +104,15 @@ impl Retention {
     ) -> bool {
         *self = Retention::NONE;
         self.len = plan.retained_into(&mut self.identity);
-        if self.len == 0 || self.record_len::<S>() > S::ERASE_SIZE as u32 {
-            self.len = 0;
+        if self.len == 0 {
             return false;
         }
-        let found = self.find_last(storage);
-        if let Some(record) = found {
+        if (storage.capacity() as u32) < SECTORS_MIN * S::ERASE_SIZE as u32 {
+            self.len = 0;
+            return true;
+        }
+        self.find_last(storage);
+        if let Some(record) = self.last {
             read_values(storage, record, plan.end(), self.len, memory);
             exchange(plan, memory, true);
         }
@@ -97,7 +120,7 @@ impl Retention {
         self.saved_ms = now_ms;
         // The first change is saved at once.
         self.is_due = true;
-        self.is_first = found.is_none();
+        self.is_first = self.last.is_none();
         self.is_first
     }
 
@@ -107,33 +130,24 @@ impl Retention {
         padded::<S>(len)
     }
 
-    /// Goes through all records: the last complete one of these values, and where the next one
-    /// goes.
-    fn find_last<S: NorFlash>(&mut self, storage: &mut S) -> Option<u32> {
-        let (mut found, mut newest) = (None, None);
-        let sectors = storage.capacity() as u32 / S::ERASE_SIZE as u32;
-        for sector in 0..sectors {
-            let begin = sector * S::ERASE_SIZE as u32;
-            let mut at = begin;
-            while let Some((len, sequence)) = head(storage, at, begin + S::ERASE_SIZE as u32) {
-                let end = at + padded::<S>(HEAD_LEN + usize::from(len) + CRC_LEN);
-                if newest.is_none_or(|(before, _)| sequence > before) {
-                    newest = Some((sequence, end));
-                }
-                if len == self.len
-                    && found.is_none_or(|(before, _)| sequence > before)
-                    && self.is_complete(storage, at)
-                {
-                    found = Some((sequence, at));
-                }
-                at = end;
+    /// Looks for the last complete record of these values, and where the next one goes.
+    fn find_last<S: NorFlash>(&mut self, storage: &mut S) {
+        let newest = newest(storage, |_, _| true);
+        (self.sequence, self.at) = newest.map_or((0, 0), |one| (one.sequence, one.end));
+        self.is_new = newest.is_none();
+        // From the newest down: most often that is it, and few bytes are read.
+        let mut before = None;
+        while let Some(one) = newest_of(storage, self.len, before) {
+            if self.is_complete(storage, one.at) {
+                self.last = Some(one.at);
+                break;
             }
+            before = Some(one.sequence);
         }
-        (self.sequence, self.at) = newest.unwrap_or((0, 0));
+        let sectors = storage.capacity() as u32 / S::ERASE_SIZE as u32;
         let copies = sectors * (S::ERASE_SIZE as u32 / self.record_len::<S>()).max(1);
         let interval_ms = RETENTION_COPY_INTERVAL_MS / copies.max(1);
         self.interval_ms = interval_ms.max(RETENTION_INTERVAL_MIN_MS);
-        found.map(|(_, at)| at)
     }
 
     fn is_complete<S: NorFlash>(&self, storage: &mut S, at: u32) -> bool {
@@ -146,11 +160,15 @@ impl Retention {
     /// Whether there is anything to do after a scan. Out of RUN changes are saved at once.
     #[inline(always)]
     pub fn is_busy(&self, runs: bool, now_ms: u32) -> bool {
+        let waits_ms = match (runs, self.is_unsaved) {
+            (true, _) => self.interval_ms,
+            (false, true) => RETRY_MS,
+            (false, false) => 0,
+        };
         self.len != 0
             && (self.is_due
-                || !runs
                 || matches!(self.phase, Phase::Writing(_))
-                || now_ms.wrapping_sub(self.saved_ms) >= self.interval_ms)
+                || now_ms.wrapping_sub(self.saved_ms) >= waits_ms)
     }
 
     /// A little work after a scan in which there is, and in which the program `was_executed` or
@@ -165,10 +183,9 @@ impl Retention {
     ) {
         match self.phase {
             // The first scan has seen that values were lost.
-            Phase::Comparing(_) if self.is_first => {
-                if was_executed {
-                    self.begin(plan, memory, storage, now_ms);
-                }
+            Phase::Comparing(_) if self.is_first && !was_executed => {}
+            Phase::Comparing(_) if self.is_first || self.is_unsaved => {
+                self.begin(plan, memory, storage, now_ms);
             }
             Phase::Comparing(done) => self.compare(plan, memory, storage, done, now_ms),
             Phase::Writing(done) => {
@@ -215,18 +232,17 @@ impl Retention {
             && !self.at.is_multiple_of(sector_len)
             && is_erased(storage, self.at, len);
         if !is_free {
-            let next = self.at.next_multiple_of(sector_len);
-            let capacity = storage.capacity() as u32 / sector_len * sector_len;
-            self.at = if next >= capacity { 0 } else { next };
-            if !is_erased(storage, self.at, sector_len)
-                && storage.erase(self.at, self.at + sector_len).is_err()
-            {
+            self.at = self.next_sector(storage);
+            // Where the power was cut while a sector was erased it may look so and not be.
+            let is_fresh = self.is_new && is_erased(storage, self.at, sector_len);
+            if !is_fresh && storage.erase(self.at, self.at + sector_len).is_err() {
                 return self.fail(sector_len, now_ms);
             }
         }
         exchange(plan, memory, false);
         self.sequence = self.sequence.wrapping_add(1);
         (self.saved_ms, self.is_due, self.is_first) = (now_ms, false, false);
+        (self.is_new, self.is_unsaved) = (false, false);
         (self.phase, self.crc) = (Phase::Writing(0), self.identity);
         self.walk = RetainedWalk::START;
     }
@@ -235,7 +251,19 @@ impl Retention {
     fn fail(&mut self, sector_len: u32, now_ms: u32) {
         self.at = (self.at / sector_len + 1) * sector_len;
         (self.phase, self.walk) = (Phase::Comparing(0), RetainedWalk::START);
-        (self.saved_ms, self.is_due, self.is_first) = (now_ms, false, true);
+        (self.saved_ms, self.is_due, self.is_unsaved) = (now_ms, false, true);
+    }
+
+    /// The sector after the place of the next record, in a ring; not the one with the last complete
+    /// record.
+    fn next_sector<S: NorFlash>(&self, storage: &S) -> u32 {
+        let sector_len = S::ERASE_SIZE as u32;
+        let sectors = storage.capacity() as u32 / sector_len;
+        let mut sector = self.at.div_ceil(sector_len) % sectors;
+        if self.last.is_some_and(|last| last / sector_len == sector) {
+            sector = (sector + 1) % sectors;
+        }
+        sector * sector_len
     }
 
     /// Writes the next piece of the record; whether it could be written.
@@ -258,6 +286,7 @@ impl Retention {
         }
         self.phase = Phase::Writing(done + count);
         if done + count == len {
+            self.last = Some(self.at);
             self.at += len;
             self.phase = Phase::Comparing(0);
         }
@@ -289,6 +318,40 @@ fn head_bytes(len: u16, sequence: u32) -> [u8; HEAD_LEN] {
     [a, b, c, d, e, f].into_iter().for_each(|byte| crc.byte(byte));
     let [g, h, i, j] = crc.value().to_le_bytes();
     [a, b, c, d, e, f, g, h, i, j]
+}
+
+/// A record as its head says.
+#[derive(Debug, Clone, Copy)]
+struct Record {
+    sequence: u32,
+    at: u32,
+    end: u32,
+}
+
+/// The record with the highest sequence number among those of a length and a sequence number that
+/// are `wanted`.
+fn newest<S: NorFlash>(storage: &mut S, wanted: impl Fn(u16, u32) -> bool) -> Option<Record> {
+    let mut newest: Option<Record> = None;
+    let sector_len = S::ERASE_SIZE as u32;
+    for sector in 0..storage.capacity() as u32 / sector_len {
+        let (mut at, sector_end) = (sector * sector_len, (sector + 1) * sector_len);
+        while let Some((len, sequence)) = head(storage, at, sector_end) {
+            let end = at + padded::<S>(HEAD_LEN + usize::from(len) + CRC_LEN);
+            let is_newer = newest.is_none_or(|one| sequence > one.sequence);
+            if is_newer && wanted(len, sequence) {
+                newest = Some(Record { sequence, at, end });
+            }
+            at = end;
+        }
+    }
+    newest
+}
+
+/// The newest record with values of a length, of those before one if that is given.
+fn newest_of<S: NorFlash>(storage: &mut S, len: u16, before: Option<u32>) -> Option<Record> {
+    newest(storage, |its_len, sequence| {
+        its_len == len && before.is_none_or(|before| sequence < before)
+    })
 }
 
 /// Length and sequence number of the record at a place, if there is one and it ends before `end`.

@@ -2,7 +2,7 @@
 
 use plc_isa::ProgramMemory;
 use plc_link::{Command, Link, ScanTimes, Station};
-use plc_vm::{Memory, Plc};
+use plc_vm::{Memory, Mode, Plc};
 
 use crate::board::Board;
 use crate::controller::Controller;
@@ -52,6 +52,8 @@ impl<B: Board> Station for Controller<B> {
         match command {
             Command::Stop => self.stop(),
             Command::ClearFault => self.clear_fault(),
+            // In RUN there is nothing to begin.
+            Command::Run if self.plc.mode() == Mode::Run => self.scans_left = 0,
             // They begin when the answer has been sent.
             Command::Run | Command::Scans(_) => self.command = Some(command),
         }

@@ -92,6 +92,36 @@ fn commands_are_carried_out_after_their_answers() {
 }
 
 #[test]
+fn a_command_within_a_scan_drives_nothing_before_the_next() {
+    let mut plc = with("LD SM0.1\nS Q0.0, 1\nLD I0.0\nSTOP\n");
+    scans(&mut plc, 1);
+    assert_eq!(plc.board().outputs, Some(1));
+    plc.board().levels = 1;
+    scans(&mut plc, 1);
+    assert_eq!(plc.board().outputs, None);
+    // A single scan with the status of the instruction at an offset far after the program.
+    plc.board().wire.incoming.extend(frame(1, &[100, 1, 0, 0, 0]));
+    for _ in 0..10 {
+        scans(&mut plc, 1);
+        assert_eq!(plc.board().outputs, None, "STOP is reached in each of these scans");
+    }
+}
+
+#[test]
+fn a_line_that_takes_nothing_does_not_hold_the_next_client_up() {
+    let mut plc = with(PROGRAM);
+    plc.board().wire.takes = 3;
+    plc.board().wire.incoming.extend(frame(1, &[66, 1, 0, 0]));
+    scans(&mut plc, 10);
+    assert_eq!(plc.board().wire.outgoing.len(), 3);
+    plc.board().wire.takes = 0;
+    scans(&mut plc, 1100);
+    plc.board().wire.takes = usize::MAX;
+    plc.board().wire.outgoing.clear();
+    assert_eq!(ask(&mut plc, &[1, 0x03, 0xE8, 0, 1]), [1, 1, 0]);
+}
+
+#[test]
 fn frames_come_in_pieces_and_what_is_none_is_not_answered() {
     let mut plc = with(PROGRAM);
     let request = frame(1, &[1, 0x03, 0xE8, 0, 1]);
@@ -140,8 +170,10 @@ fn in_freeport_mode_the_line_is_the_programs() {
     plc.board().wire.incoming.extend(*b"a");
     scans(&mut plc, 3);
     assert_eq!(plc.board().wire.outgoing, b"b");
+    assert_eq!(plc.board().wire.settings.map(|settings| settings.rate), Some(4), "9600 baud");
     plc.board().wire.outgoing.clear();
     // Who stops it has the line again.
     plc.stop();
     assert_eq!(ask(&mut plc, &[1, 0, 0, 0, 1]), [1, 1, 0]);
+    assert_eq!(plc.board().wire.settings.map(|settings| settings.rate), Some(0), "115200");
 }

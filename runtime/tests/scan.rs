@@ -7,6 +7,7 @@ use awl_asm::assemble::assemble;
 use awl_asm::source::Source;
 use desk::Desk;
 use plc_isa::CRC_LEN;
+use plc_link::{Command, Station};
 use plc_vm::{Fault, Mode};
 use runtime::Controller;
 
@@ -137,6 +138,24 @@ fn a_program_that_changes_is_found() {
     plc.board().image.as_ref().unwrap().spoil(20);
     (0..20).for_each(|_| scan(&mut plc, 1));
     assert_eq!((plc.plc().fault(), plc.board().outputs), (Some(Fault::ProgramChanged), None));
+}
+
+#[test]
+fn a_program_that_has_changed_does_not_run_because_its_fault_was_cleared() {
+    let mut plc = with("LD SM0.0\n= Q0.0\n");
+    (0..20).for_each(|_| scan(&mut plc, 1));
+    plc.board().image.as_ref().unwrap().spoil(20);
+    (0..20).for_each(|_| scan(&mut plc, 1));
+    plc.control(Command::ClearFault);
+    plc.control(Command::Run);
+    scan(&mut plc, 1);
+    assert!(matches!(plc.plc().fault(), Some(Fault::BadImage(_))), "it is checked again");
+    assert_eq!((plc.plc().mode(), plc.board().outputs), (Mode::Stop, None));
+    // What is good again may run.
+    plc.board().image.as_ref().unwrap().spoil(20);
+    plc.control(Command::Run);
+    scan(&mut plc, 1);
+    assert_eq!((plc.plc().mode(), plc.board().outputs), (Mode::Run, Some(1)));
 }
 
 #[test]
