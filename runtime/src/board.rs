@@ -76,7 +76,7 @@ pub trait Board {
     }
 
     /// Bytes of stack that were never used; 0xFFFF: not known.
-    fn free_stack(&mut self) -> u16 {
+    fn free_stack(&self) -> u16 {
         0xFFFF
     }
 

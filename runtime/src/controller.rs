@@ -24,7 +24,6 @@ pub struct Controller<B: Board> {
     /// The board's image, valid or not.
     pub(crate) slot: Option<B::Image>,
     pub(crate) fault_before_reset: u32,
-    pub(crate) free_stack: u16,
     /// RUN or single scans, which begin when the answer has been sent.
     pub(crate) command: Option<Command>,
     /// Single scans to come, with the one that is under way; 0 without.
@@ -33,8 +32,6 @@ pub struct Controller<B: Board> {
     pub(crate) line: Line,
     /// How characters are sent on it now.
     pub(crate) line_settings: Option<LineSettings>,
-    /// The program has the line.
-    pub(crate) is_freeport: bool,
     /// Bytes of the request that is being answered; 0: none.
     pub(crate) request_len: u16,
     pub(crate) outgoing: Deque<u8, OUTGOING>,
@@ -62,13 +59,11 @@ impl<B: Board> Controller<B> {
             times: ScanTimes::NONE,
             slot: None,
             fault_before_reset: 0,
-            free_stack: 0xFFFF,
             command: None,
             scans_left: 0,
             settings: Settings::DEFAULT,
             line: Line::NEW,
             line_settings: None,
-            is_freeport: false,
             request_len: 0,
             outgoing: Deque::new(),
             analog: Analog::NEW,
@@ -143,6 +138,7 @@ impl<B: Board> Controller<B> {
     }
 
     fn go(&mut self) -> bool {
+        self.outgoing.clear();
         if self.scans_left > 0 {
             return self.plc.go_on();
         }
@@ -247,7 +243,10 @@ impl<B: Board> Controller<B> {
             self.analog.sample(&mut self.board);
         }
         self.analog.write(&mut self.memory);
-        if self.plc.has_line(&self.memory) && !self.line.is_sending() {
+        if let Some(settings) = self.plc.freeport(&self.memory)
+            && !self.line.is_sending()
+        {
+            self.set_line(settings);
             self.receive_characters();
         }
     }
@@ -330,7 +329,6 @@ impl<B: Board> Controller<B> {
                 // Forces hold until the next single scan.
                 self.plc.stop();
                 self.board.release_outputs();
-                self.outgoing.clear();
             }
         }
     }
@@ -342,12 +340,12 @@ impl<B: Board> Controller<B> {
         if self.line.is_sending() {
             return self.line.send(self.board.line(), now_us);
         }
-        if self.plc.has_line(&self.memory) {
+        if let Some(settings) = self.plc.freeport(&self.memory) {
+            self.set_line(settings);
             return self.send_characters();
         }
-        if self.is_freeport {
-            self.end_freeport();
-        }
+        self.set_line(LineSettings::of_byte(self.settings.line));
+        self.outgoing.clear();
         if self.request_len == 0 && self.line.listen(self.board.line(), now_us) {
             self.take_request();
         }
@@ -359,13 +357,9 @@ impl<B: Board> Controller<B> {
     /// Puts a request where answers are made.
     fn take_request(&mut self) {
         self.link.forget();
-        self.free_stack = self.board.free_stack();
         let request = self.line.request();
         self.request_len = request.len() as u16;
-        let room = usize::from(self.link.room());
-        for (address, &byte) in (self.link.frame()..).zip(request).take(room) {
-            self.memory.set_byte(address, byte);
-        }
+        self.link.put(&mut self.memory, request);
     }
 
     /// Answers the request, or a part of it.
@@ -373,9 +367,7 @@ impl<B: Board> Controller<B> {
         let len = plc_link::answer(self, self.request_len);
         if len > 0 {
             self.request_len = 0;
-            let (frame, memory) = (self.link.frame(), &self.memory);
-            let answer = (frame..frame + len).map(|address| memory.byte(address));
-            self.line.answer(answer, now_us);
+            self.line.answer(self.link.answer(&self.memory, len), now_us);
             self.line.send(self.board.line(), now_us);
         }
     }
@@ -402,7 +394,6 @@ impl<B: Board> Controller<B> {
         if self.plc.mode() == Mode::Stop {
             self.board.release_outputs();
             (self.scans_left, self.command) = (0, None);
-            self.outgoing.clear();
             self.link.forces.clear(&mut self.memory);
         }
         self.is_in_doubt |= self.has_doubtful_fault();

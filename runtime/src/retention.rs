@@ -6,7 +6,7 @@
 //! program's own memory, which leaves room for it, a piece in every scan. A sector is erased when
 //! the first record goes to it; the last complete record is always in another one.
 
-use embedded_storage::nor_flash::{NorFlash, ReadNorFlash};
+use embedded_storage::nor_flash::NorFlash;
 use plc_isa::{
     Crc32, Plan, Profile, ProgramMemory, RETENTION_COPY_INTERVAL_MS, RETENTION_INTERVAL_MIN_MS,
     RetainedWalk,
@@ -30,9 +30,8 @@ const ERASED: u8 = 0xFF;
 /// Whether all that a program of this profile can retain fits a sector, and pieces are as memory of
 /// this kind takes them.
 pub const fn fits<S: NorFlash>(profile: &Profile) -> bool {
-    let len = HEAD_LEN + profile.retained_max() as usize + CRC_LEN;
-    let unit = if S::WRITE_SIZE > S::READ_SIZE { S::WRITE_SIZE } else { S::READ_SIZE };
-    len.next_multiple_of(unit) <= S::ERASE_SIZE && PIECE.is_multiple_of(unit)
+    record_len::<S>(profile.retained_max()) as usize <= S::ERASE_SIZE
+        && PIECE.is_multiple_of(unit::<S>())
 }
 
 /// What is being done, a little in every scan.
@@ -53,12 +52,10 @@ pub struct Retention {
     identity: Crc32,
     /// Where the next record begins.
     at: u32,
-    /// The sequence number of the last one.
+    /// The sequence number of the last one; 0: there was none.
     sequence: u32,
     /// Where the last complete record of these values begins: its sector is never erased.
     last: Option<u32>,
-    /// There is no record at all: what reads as erased was never anything else.
-    is_new: bool,
     /// When it was begun, and how long the next one waits.
     saved_ms: u32,
     interval_ms: u32,
@@ -82,7 +79,6 @@ impl Retention {
         at: 0,
         sequence: 0,
         last: None,
-        is_new: false,
         saved_ms: 0,
         interval_ms: 0,
         is_due: false,
@@ -124,28 +120,23 @@ impl Retention {
         self.is_first
     }
 
-    /// Bytes of a record, with what fills it up to what can be written at once.
-    fn record_len<S: NorFlash>(&self) -> u32 {
-        let len = HEAD_LEN + usize::from(self.len) + CRC_LEN;
-        padded::<S>(len)
-    }
-
     /// Looks for the last complete record of these values, and where the next one goes.
     fn find_last<S: NorFlash>(&mut self, storage: &mut S) {
-        let newest = newest(storage, |_, _| true);
-        (self.sequence, self.at) = newest.map_or((0, 0), |one| (one.sequence, one.end));
-        self.is_new = newest.is_none();
+        if let Some(Record { sequence, end, .. }) = newest(storage, |_, _| true) {
+            (self.sequence, self.at) = (sequence, end);
+        }
         // From the newest down: most often that is it, and few bytes are read.
-        let mut before = None;
-        while let Some(one) = newest_of(storage, self.len, before) {
-            if self.is_complete(storage, one.at) {
-                self.last = Some(one.at);
+        let len = self.len;
+        let mut found = newest(storage, |its_len, _| its_len == len);
+        while let Some(Record { sequence, at, .. }) = found {
+            if self.is_complete(storage, at) {
+                self.last = Some(at);
                 break;
             }
-            before = Some(one.sequence);
+            found = newest(storage, |its_len, its| its_len == len && its < sequence);
         }
         let sectors = storage.capacity() as u32 / S::ERASE_SIZE as u32;
-        let copies = sectors * (S::ERASE_SIZE as u32 / self.record_len::<S>()).max(1);
+        let copies = sectors * (S::ERASE_SIZE as u32 / record_len::<S>(self.len)).max(1);
         let interval_ms = RETENTION_COPY_INTERVAL_MS / copies.max(1);
         self.interval_ms = interval_ms.max(RETENTION_INTERVAL_MIN_MS);
     }
@@ -153,7 +144,7 @@ impl Retention {
     fn is_complete<S: NorFlash>(&self, storage: &mut S, at: u32) -> bool {
         let mut crc = self.identity;
         let len = HEAD_LEN + usize::from(self.len) + CRC_LEN;
-        let is_read = read(storage, at, len, |byte| crc.byte(byte));
+        let is_read = read(storage, at, len, |_, byte| crc.byte(byte));
         is_read && crc.ends()
     }
 
@@ -227,14 +218,16 @@ impl Retention {
         now_ms: u32,
     ) {
         let sector_len = S::ERASE_SIZE as u32;
-        let len = self.record_len::<S>();
+        let len = record_len::<S>(self.len);
         let is_free = self.at % sector_len + len <= sector_len
             && !self.at.is_multiple_of(sector_len)
             && is_erased(storage, self.at, len);
         if !is_free {
             self.at = self.next_sector(storage);
-            // Where the power was cut while a sector was erased it may look so and not be.
-            let is_fresh = self.is_new && is_erased(storage, self.at, sector_len);
+            // Where there was never a record, what reads as erased was never anything else.
+            // Otherwise the power may have been cut while a sector was erased, and it looks so and
+            // is not.
+            let is_fresh = self.sequence == 0 && is_erased(storage, self.at, sector_len);
             if !is_fresh && storage.erase(self.at, self.at + sector_len).is_err() {
                 return self.fail(sector_len, now_ms);
             }
@@ -242,7 +235,7 @@ impl Retention {
         exchange(plan, memory, false);
         self.sequence = self.sequence.wrapping_add(1);
         (self.saved_ms, self.is_due, self.is_first) = (now_ms, false, false);
-        (self.is_new, self.is_unsaved) = (false, false);
+        self.is_unsaved = false;
         (self.phase, self.crc) = (Phase::Writing(0), self.identity);
         self.walk = RetainedWalk::START;
     }
@@ -274,7 +267,7 @@ impl Retention {
         storage: &mut S,
         done: u32,
     ) -> bool {
-        let len = self.record_len::<S>();
+        let len = record_len::<S>(self.len);
         let mut piece = [ERASED; PIECE];
         let count = (len - done).min(PIECE as u32);
         for (place, offset) in piece.iter_mut().zip(done..done + count) {
@@ -336,7 +329,7 @@ fn newest<S: NorFlash>(storage: &mut S, wanted: impl Fn(u16, u32) -> bool) -> Op
     for sector in 0..storage.capacity() as u32 / sector_len {
         let (mut at, sector_end) = (sector * sector_len, (sector + 1) * sector_len);
         while let Some((len, sequence)) = head(storage, at, sector_end) {
-            let end = at + padded::<S>(HEAD_LEN + usize::from(len) + CRC_LEN);
+            let end = at + record_len::<S>(len);
             let is_newer = newest.is_none_or(|one| sequence > one.sequence);
             if is_newer && wanted(len, sequence) {
                 newest = Some(Record { sequence, at, end });
@@ -347,47 +340,50 @@ fn newest<S: NorFlash>(storage: &mut S, wanted: impl Fn(u16, u32) -> bool) -> Op
     newest
 }
 
-/// The newest record with values of a length, of those before one if that is given.
-fn newest_of<S: NorFlash>(storage: &mut S, len: u16, before: Option<u32>) -> Option<Record> {
-    newest(storage, |its_len, sequence| {
-        its_len == len && before.is_none_or(|before| sequence < before)
-    })
-}
-
 /// Length and sequence number of the record at a place, if there is one and it ends before `end`.
 fn head<S: NorFlash>(storage: &mut S, at: u32, end: u32) -> Option<(u16, u32)> {
-    if at + padded::<S>(HEAD_LEN) > end {
+    if at + record_len::<S>(0) > end {
         return None;
     }
-    let (mut bytes, mut count) = ([ERASED; HEAD_LEN], 0);
-    read(storage, at, HEAD_LEN, |byte| {
-        if let Some(place) = bytes.get_mut(count) {
+    let mut bytes = [ERASED; HEAD_LEN];
+    read(storage, at, HEAD_LEN, |offset, byte| {
+        if let Some(place) = bytes.get_mut(offset) {
             *place = byte;
         }
-        count += 1;
     });
     let [a, b, c, d, e, f, ..] = bytes;
     let (len, sequence) = (u16::from_le_bytes([a, b]), u32::from_le_bytes([c, d, e, f]));
-    let fits = at + padded::<S>(HEAD_LEN + usize::from(len) + CRC_LEN) <= end;
+    let fits = at + record_len::<S>(len) <= end;
     (bytes == head_bytes(len, sequence) && fits).then_some((len, sequence))
 }
 
-/// So many bytes, up to what can be written at once.
-fn padded<S: NorFlash>(len: usize) -> u32 {
-    len.next_multiple_of(S::WRITE_SIZE.max(S::READ_SIZE)) as u32
+/// Bytes that can be read and written at once.
+const fn unit<S: NorFlash>() -> usize {
+    if S::WRITE_SIZE > S::READ_SIZE { S::WRITE_SIZE } else { S::READ_SIZE }
 }
 
-/// Reads bytes in order; whether they could be read.
-fn read<S: NorFlash>(storage: &mut S, at: u32, len: usize, mut take: impl FnMut(u8)) -> bool {
+/// Bytes of a record with so many bytes of values, with what fills it up to what can be written at
+/// once.
+const fn record_len<S: NorFlash>(len: u16) -> u32 {
+    (HEAD_LEN + len as usize + CRC_LEN).next_multiple_of(unit::<S>()) as u32
+}
+
+/// Reads bytes in order, each with its offset; whether they could be read.
+fn read<S: NorFlash>(
+    storage: &mut S,
+    at: u32,
+    len: usize,
+    mut take: impl FnMut(usize, u8),
+) -> bool {
     let mut piece = [0; PIECE];
     let mut done = 0;
     while done < len {
         let count = (len - done).min(PIECE);
-        let Some(part) = piece.get_mut(..padded::<S>(count) as usize) else { return false };
+        let Some(part) = piece.get_mut(..count.next_multiple_of(unit::<S>())) else { return false };
         if storage.read(at + done as u32, part).is_err() {
             return false;
         }
-        part.iter().take(count).for_each(|&byte| take(byte));
+        (done..done + count).zip(part).for_each(|(offset, byte)| take(offset, *byte));
         done += count;
     }
     true
@@ -395,23 +391,21 @@ fn read<S: NorFlash>(storage: &mut S, at: u32, len: usize, mut take: impl FnMut(
 
 fn is_erased<S: NorFlash>(storage: &mut S, at: u32, len: u32) -> bool {
     let mut is_erased = true;
-    read(storage, at, len as usize, |byte| is_erased &= byte == ERASED) && is_erased
+    read(storage, at, len as usize, |_, byte| is_erased &= byte == ERASED) && is_erased
 }
 
 /// Reads the values of a record to a place of data memory.
-fn read_values<S: ReadNorFlash + NorFlash>(
+fn read_values<S: NorFlash>(
     storage: &mut S,
     record: u32,
     place: u16,
     len: u16,
     memory: &mut Memory,
 ) {
-    let mut offset = 0;
-    read(storage, record, HEAD_LEN + usize::from(len), |byte| {
-        if offset >= HEAD_LEN {
-            memory.set_byte(place + (offset - HEAD_LEN) as u16, byte);
+    read(storage, record, HEAD_LEN + usize::from(len), |offset, byte| {
+        if let Some(value) = offset.checked_sub(HEAD_LEN) {
+            memory.set_byte(place + value as u16, byte);
         }
-        offset += 1;
     });
 }
 

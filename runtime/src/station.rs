@@ -37,7 +37,7 @@ impl<B: Board> Station for Controller<B> {
     }
 
     fn free_stack(&self) -> u16 {
-        self.free_stack
+        self.board.free_stack()
     }
 
     fn product(&self) -> &'static str {

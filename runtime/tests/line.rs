@@ -3,9 +3,7 @@
 
 mod desk;
 
-use awl_asm::assemble::assemble;
-use awl_asm::source::Source;
-use desk::Desk;
+use desk::{Desk, with, word};
 use plc_isa::Parity;
 use plc_link::crc16;
 use plc_vm::Mode;
@@ -20,19 +18,8 @@ fn frame(unit: u8, request: &[u8]) -> Vec<u8> {
     frame
 }
 
-fn with(text: &str) -> Box<Controller<Desk>> {
-    let assembly = assemble(&Source::new("p.awl", text).unwrap(), Vec::new());
-    assert!(assembly.image.is_some(), "{:?}", assembly.diagnostics);
-    let mut plc = Box::new(Controller::new(Desk::new(assembly.image)));
-    plc.power_up();
-    plc
-}
-
 fn scans(plc: &mut Controller<Desk>, count: u32) {
-    for _ in 0..count {
-        plc.board().now_us = plc.board().now_us.wrapping_add(1000);
-        plc.scan();
-    }
+    desk::scans(plc, count, 1);
 }
 
 /// What comes back, without unit and checksum; empty: nothing.
@@ -75,13 +62,9 @@ fn commands_are_carried_out_after_their_answers() {
     assert_eq!(plc.board().outputs, Some(1));
     assert_eq!(ask(&mut plc, &[66, 0, 0, 0]), [66, 0, 0, 0]);
     assert_eq!((plc.plc().mode(), plc.board().outputs), (Mode::Stop, None));
-    let word = |plc: &Controller<Desk>| {
-        let plan = plc.plc().program().unwrap().plan();
-        plc.memory().word(plan.byte_address(plc_isa::Area::V, 0).unwrap())
-    };
-    let before = word(&plc);
+    let before = word(&plc, 0);
     assert_eq!(ask(&mut plc, &[66, 3, 0, 3]), [66, 3, 0, 3]);
-    assert_eq!((word(&plc) - before, plc.plc().mode()), (3, Mode::Stop), "three single scans");
+    assert_eq!((word(&plc, 0) - before, plc.plc().mode()), (3, Mode::Stop), "three single scans");
     plc.board().wire.takes = 4;
     plc.board().wire.incoming.extend(frame(1, &[66, 1, 0, 0]));
     scans(&mut plc, 10);

@@ -3,9 +3,7 @@
 
 mod desk;
 
-use awl_asm::assemble::assemble;
-use awl_asm::source::Source;
-use desk::{Desk, Flash, SECTORS};
+use desk::{Desk, Flash, SECTORS, image, on, scans, word};
 use fastrand::Rng;
 use plc_isa::Area;
 use plc_vm::Mode;
@@ -22,11 +20,6 @@ const OTHER: &str = "//# retain VB0-VB9\nLD SM0.2\n= M0.0\nLD SM0.0\nINCW VW0\n"
 /// Longer than between two records of any length.
 const INTERVAL_US: u32 = 800_000_000;
 
-fn image(text: &str) -> Vec<u8> {
-    let assembly = assemble(&Source::new("p.awl", text).unwrap(), Vec::new());
-    assembly.image.unwrap_or_else(|| panic!("{:?}", assembly.diagnostics))
-}
-
 struct Plc(Box<Controller<Desk>>);
 
 impl Plc {
@@ -34,15 +27,12 @@ impl Plc {
     fn on(text: &str, flash: Flash) -> Plc {
         let mut desk = Desk::new(Some(image(text)));
         desk.flash = flash;
-        let mut plc = Plc(Box::new(Controller::new(desk)));
-        plc.0.power_up();
-        plc
+        Plc(on(desk))
     }
 
     fn scan(&mut self, input: bool) {
         self.0.board().levels = input.into();
-        self.0.board().now_us = self.0.board().now_us.wrapping_add(1000);
-        self.0.scan();
+        scans(&mut self.0, 1, 1);
     }
 
     /// So many scans without a change: what has to be saved is.
@@ -55,9 +45,7 @@ impl Plc {
     }
 
     fn words_at(&self, places: &[u16]) -> Vec<u16> {
-        let plan = self.0.plc().program().unwrap().plan();
-        let word = |at: &u16| self.0.memory().word(plan.byte_address(Area::V, *at).unwrap());
-        places.iter().map(word).collect()
+        places.iter().map(|byte| word(&self.0, *byte)).collect()
     }
 
     fn words(&self) -> Vec<u16> {
@@ -118,8 +106,7 @@ fn in_stop_a_change_is_saved_at_once() {
     plc.scan(true);
     plc.rest(20);
     plc.0.board().levels = 3;
-    plc.0.board().now_us += 1000;
-    plc.0.scan();
+    scans(&mut plc.0, 1, 1);
     assert_eq!(plc.0.plc().mode(), Mode::Stop);
     plc.rest(20);
     let mut again = Plc::on(&text, plc.off());
@@ -134,9 +121,8 @@ fn in_stop_what_could_not_be_saved_is_tried_again() {
     plc.scan(true);
     plc.rest(20);
     plc.0.board().levels = 3;
-    plc.0.board().now_us += 1000;
     plc.0.board().flash.power = 5;
-    plc.0.scan();
+    scans(&mut plc.0, 1, 1);
     assert_eq!(plc.0.plc().mode(), Mode::Stop);
     plc.rest(20);
     plc.0.board().flash.power = usize::MAX;

@@ -3,32 +3,14 @@
 
 mod desk;
 
-use awl_asm::assemble::assemble;
-use awl_asm::source::Source;
-use desk::Desk;
+use desk::{Desk, image, on, with, word};
 use plc_isa::CRC_LEN;
 use plc_link::{Command, Station};
 use plc_vm::{Fault, Mode};
 use runtime::Controller;
 
-fn image(text: &str) -> Vec<u8> {
-    let assembly = assemble(&Source::new("p.awl", text).unwrap(), Vec::new());
-    assembly.image.unwrap_or_else(|| panic!("{:?}", assembly.diagnostics))
-}
-
-fn on(desk: Desk) -> Box<Controller<Desk>> {
-    let mut plc = Box::new(Controller::new(desk));
-    plc.power_up();
-    plc
-}
-
-fn with(text: &str) -> Box<Controller<Desk>> {
-    on(Desk::new(Some(image(text))))
-}
-
 fn scan(plc: &mut Controller<Desk>, ms: u32) {
-    plc.board().now_us = plc.board().now_us.wrapping_add(ms * 1000);
-    plc.scan();
+    desk::scans(plc, 1, ms);
 }
 
 #[test]
@@ -67,20 +49,16 @@ fn pins_are_levels_and_programs_see_values() {
 #[test]
 fn analog_inputs_are_smoothed() {
     let mut plc = with("//# filter 4\nLD SM0.0\nMOVW Ain0, VW0\n");
-    let value = |plc: &Controller<Desk>| {
-        let plan = plc.plc().program().unwrap().plan();
-        plc.memory().word(plan.byte_address(plc_isa::Area::V, 0).unwrap())
-    };
     plc.board().readings[0] = u16::MAX;
     let mut values = Vec::new();
     for _ in 0..4 {
         scan(&mut plc, 1);
-        values.push(value(&plc));
+        values.push(word(&plc, 0));
     }
     assert_eq!(values, [256, 448, 591, 699]);
     // Not converted again within a millisecond.
     scan(&mut plc, 0);
-    assert_eq!(value(&plc), 699);
+    assert_eq!(word(&plc, 0), 699);
 }
 
 #[test]

@@ -38,8 +38,7 @@ struct Pair {
 
 impl Pair {
     fn new(image: &[u8]) -> Pair {
-        let mut board = Box::new(Controller::new(Desk::new(Some(image.to_vec()))));
-        board.power_up();
+        let board = desk::on(Desk::new(Some(image.to_vec())));
         let plan = board.plc().program().map(Program::plan);
         let retaining = plan.filter(|plan| plan.header.retained > 0);
         let compared_end = retaining.map_or(u16::MAX, |plan| plan.end());

@@ -3,14 +3,14 @@
 /// The CRC-16 of Modbus over these bytes, which a frame has the low byte first; over a whole frame
 /// it is 0.
 pub fn crc16(bytes: &[u8]) -> u16 {
-    bytes.iter().fold(0xFFFF, |crc, &byte| {
-        (0..8).fold(
-            crc ^ u16::from(byte),
-            |crc, _| {
-                if crc & 1 != 0 { crc >> 1 ^ 0xA001 } else { crc >> 1 }
-            },
-        )
-    })
+    let mut crc = 0xFFFF;
+    for &byte in bytes {
+        crc ^= u16::from(byte);
+        for _ in 0..8 {
+            crc = if crc & 1 != 0 { crc >> 1 ^ 0xA001 } else { crc >> 1 };
+        }
+    }
+    crc
 }
 
 #[cfg(test)]

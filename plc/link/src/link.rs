@@ -96,6 +96,18 @@ impl Link {
         self.room
     }
 
+    /// Puts a request into the frame, as much of it as there is room for.
+    pub fn put(&self, memory: &mut Memory, request: &[u8]) {
+        for (address, &byte) in (self.frame..).zip(request).take(self.room.into()) {
+            memory.set_byte(address, byte);
+        }
+    }
+
+    /// The answer of so many bytes in the frame.
+    pub fn answer(&self, memory: &Memory, len: u16) -> impl Iterator<Item = u8> {
+        (self.frame..self.frame + len).map(|address| memory.byte(address))
+    }
+
     /// Forgets the request that is being worked on: nobody waits for its answer any more.
     pub fn forget(&mut self) {
         self.phase = Phase::New;

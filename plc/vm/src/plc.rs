@@ -1,8 +1,8 @@
 //! The controller: mode, scan, faults. Reads inputs from the caller, leaves outputs for the caller.
 
 use plc_isa::{
-    ANALOG_INPUTS, AnalogInput, DATA_START, I_START, INITIAL_HEAD_LEN, ImageError, Program,
-    ProgramMemory, Q_START, TimerResolution, verify_into,
+    ANALOG_INPUTS, AnalogInput, DATA_START, I_START, INITIAL_HEAD_LEN, ImageError, LineSettings,
+    Program, ProgramMemory, Q_START, TimerResolution, verify_into,
 };
 
 use crate::clock::Clock;
@@ -11,7 +11,7 @@ use crate::events::{EventSystem, Events};
 use crate::fault::Fault;
 use crate::interpreter::{Exit, Interpreter};
 use crate::memory::Memory;
-use crate::modules::is_freeport;
+use crate::modules::freeport;
 use crate::scan::Scan;
 use crate::special;
 use crate::timer::{self, AtScanStart};
@@ -152,9 +152,9 @@ impl<P: ProgramMemory> Plc<P> {
         self.events.hardware.pulses.duty(output).filter(|_| self.mode == Mode::Run)
     }
 
-    /// Whether the line is the program's: freeport mode, in RUN.
-    pub fn has_line(&self, memory: &Memory) -> bool {
-        self.mode == Mode::Run && is_freeport(memory)
+    /// How characters are sent on the line while it is the program's: freeport mode, in RUN.
+    pub fn freeport(&self, memory: &Memory) -> Option<LineSettings> {
+        freeport::line(memory).filter(|_| self.mode == Mode::Run)
     }
 
     /// A character comes in on the serial line, at this time in milliseconds, between two scans.

@@ -6,11 +6,13 @@ use std::collections::VecDeque;
 use std::convert::Infallible;
 use std::rc::Rc;
 
+use awl_asm::assemble::assemble;
+use awl_asm::source::Source;
 use embedded_storage::nor_flash::{
     ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash,
 };
-use plc_isa::{LineSettings, Profile};
-use runtime::{Board, Mark};
+use plc_isa::{Area, LineSettings, Profile};
+use runtime::{Board, Controller, Mark};
 
 pub const SECTORS: usize = 4;
 pub const SECTOR_LEN: usize = 512;
@@ -274,4 +276,36 @@ impl Board for Desk {
     fn mark(&mut self, mark: Mark) {
         self.marks.push(mark);
     }
+}
+
+/// The image of a program.
+pub fn image(text: &str) -> Vec<u8> {
+    let assembly = assemble(&Source::new("p.awl", text).unwrap(), Vec::new());
+    assembly.image.unwrap_or_else(|| panic!("{:?}", assembly.diagnostics))
+}
+
+/// Power comes to a board.
+pub fn on(desk: Desk) -> Box<Controller<Desk>> {
+    let mut plc = Box::new(Controller::new(desk));
+    plc.power_up();
+    plc
+}
+
+/// Power comes to a board with a program.
+pub fn with(text: &str) -> Box<Controller<Desk>> {
+    on(Desk::new(Some(image(text))))
+}
+
+/// Scans, each so many milliseconds after the one before.
+pub fn scans(plc: &mut Controller<Desk>, count: u32, ms: u32) {
+    for _ in 0..count {
+        plc.board().now_us = plc.board().now_us.wrapping_add(ms * 1000);
+        plc.scan();
+    }
+}
+
+/// The word at a byte of V.
+pub fn word(plc: &Controller<Desk>, byte: u16) -> u16 {
+    let plan = plc.plc().program().unwrap().plan();
+    plc.memory().word(plan.byte_address(Area::V, byte).unwrap())
 }

@@ -136,17 +136,11 @@ impl Machine {
 
     /// The answer to a request, and how many scans it took.
     pub fn ask_for_scans(&mut self, request: &[u8]) -> (Vec<u8>, usize) {
-        let frame = self.link.frame();
-        for (address, &byte) in (frame..).zip(request) {
-            self.memory.set_byte(address, byte);
-        }
+        self.link.put(&mut self.memory, request);
         for scans in 0..200 {
             let len = answer(self, request.len() as u16);
             if len != 0 {
-                return (
-                    (frame..frame + len).map(|address| self.memory.byte(address)).collect(),
-                    scans,
-                );
+                return (self.link.answer(&self.memory, len).collect(), scans);
             }
             // A single scan that the rest of the answer waits for.
             let is_single = self.commands.pop_if(|one| *one == Command::Scans(1)).is_some();

@@ -4,7 +4,7 @@
 //! What is sent leaves by [`Environment::transmit`](crate::Environment::transmit); what comes in is
 //! told from outside, character by character. A break on the line is no condition here.
 
-use plc_isa::{Area, Bit, Plan, ProgramMemory, SM_START};
+use plc_isa::{Area, Bit, LineSettings, Parity, Plan, ProgramMemory, SM_START};
 
 use super::high_speed::special;
 use crate::memory::Memory;
@@ -233,17 +233,34 @@ pub(crate) fn receive_max<P: ProgramMemory>(plan: &Plan<P>, memory: &Memory) -> 
     special(COUNT_MAX, plan, memory)
 }
 
+/// Bits of a second.
+fn rate(settings: u8) -> u32 {
+    RATES.get(usize::from(settings >> 2 & 0b111)).copied().unwrap_or(9_600)
+}
+
+/// How characters are sent in freeport mode, if the program has chosen it. They have 8 bits,
+/// whatever bit 5 of the settings says.
+pub(crate) fn line(memory: &Memory) -> Option<LineSettings> {
+    let settings = memory.byte(SETTINGS);
+    let is_rate = |&of_line: &u32| of_line == rate(settings);
+    let parity = match settings >> 6 {
+        1 => Parity::Even,
+        3 => Parity::Odd,
+        _ => Parity::None,
+    };
+    let rate = LineSettings::RATES.iter().position(is_rate).unwrap_or(0) as u8;
+    is_freeport(memory).then_some(LineSettings { rate, parity })
+}
+
 /// How long so many characters take.
 fn milliseconds(count: u8, memory: &Memory) -> u32 {
     let settings = memory.byte(SETTINGS);
-    let rate = RATES.get(usize::from(settings >> 2 & 0b111)).copied().unwrap_or(9_600);
     // Start and stop bit, 8 or 7 bits, perhaps parity.
     let bits = 10 - u32::from(settings >> 5 & 1) + u32::from(settings >> 6 & 1);
-    (u32::from(count) * bits * 1000).div_ceil(rate)
+    (u32::from(count) * bits * 1000).div_ceil(rate(settings))
 }
 
-/// Whether the program has chosen freeport mode.
-pub(crate) fn is_freeport(memory: &Memory) -> bool {
+fn is_freeport(memory: &Memory) -> bool {
     memory.byte(SETTINGS) & MODE_MASK == FREEPORT
 }
 
@@ -254,5 +271,27 @@ fn special_word<P: ProgramMemory>(byte: u16, plan: &Plan<P>, memory: &Memory) ->
 fn set_special<P: ProgramMemory>(byte: u16, value: u8, plan: &Plan<P>, memory: &mut Memory) {
     if let Some(address) = plan.byte_address(Area::Sm, byte) {
         memory.set_byte(address, value);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_of_the_manual() {
+        for (settings, baud, parity) in [
+            (0b0000_1001, 9_600, Parity::None),
+            (0b0100_0001, 38_400, Parity::Even),
+            (0b1101_1001, 115_200, Parity::Odd),
+            (0b1000_0101, 19_200, Parity::None),
+        ] {
+            let mut memory = Memory::new();
+            memory.set_byte(SETTINGS, settings);
+            let LineSettings { rate, parity: found } = line(&memory).unwrap();
+            assert_eq!((LineSettings::RATES[usize::from(rate)], found), (baud, parity));
+            memory.set_byte(SETTINGS, settings & !MODE_MASK);
+            assert_eq!(line(&memory), None);
+        }
     }
 }

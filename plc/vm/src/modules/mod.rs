@@ -7,7 +7,7 @@ mod clock;
 mod compare;
 mod convert;
 pub(crate) mod execution;
-mod freeport;
+pub(crate) mod freeport;
 mod hardware;
 pub(crate) mod hardware_state;
 mod high_speed;
@@ -24,7 +24,6 @@ use plc_isa::{Bit, ENO, Flow, Group, Op, Operands, PowerFlow, ProgramMemory, SM_
 
 pub use clock::TimeOfDay;
 use execution::{Execution, Failure};
-pub(crate) use freeport::is_freeport;
 
 use crate::environment::Environment;
 use crate::interpreter::{Exit, Interpreter};

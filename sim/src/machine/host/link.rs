@@ -44,9 +44,7 @@ impl Host {
         if pdu.is_empty() || pdu.len() > usize::from(self.line.link.room()) {
             return false;
         }
-        for (address, &byte) in (self.line.link.frame()..).zip(pdu) {
-            self.memory.set_byte(address, byte);
-        }
+        self.line.link.put(&mut self.memory, pdu);
         self.line.request_len = pdu.len() as u16;
         true
     }
@@ -62,8 +60,7 @@ impl Host {
             // What the rest of the answer waits for does not wait for the answer.
             self.carry_out();
         }
-        let frame = self.line.link.frame();
-        (len > 0).then(|| (frame..frame + len).map(|address| self.memory.byte(address)).collect())
+        (len > 0).then(|| self.line.link.answer(&self.memory, len).collect())
     }
 
     /// Begins what was asked for, now that the answer has been sent.
