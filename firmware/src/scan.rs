@@ -347,9 +347,12 @@ impl Uno {
         self.tell_status();
     }
 
-    /// Forgets the fault that led to STOP.
+    /// Forgets the fault that led to STOP. One that puts the program in doubt is not forgotten before
+    /// that is checked again: RUN does it.
     pub(crate) fn clear_fault(&mut self) {
-        self.plc.clear_fault();
+        if self.plc.program().is_none() || !self.is_program_in_doubt() {
+            self.plc.clear_fault();
+        }
         self.tell_status();
     }
 

@@ -24,7 +24,7 @@ impl Analog {
     /// now on.
     pub fn start<B: Board>(&mut self, board: &mut B, filter: u8) {
         self.filter = filter;
-        for (channel, sum) in (0..B::PROFILE.analog_inputs).zip(&mut self.sums) {
+        for (channel, sum) in (0..B::PROFILE.analog_inputs()).zip(&mut self.sums) {
             *sum = u32::from(board.analog(channel)) << filter;
         }
     }
@@ -37,7 +37,7 @@ impl Analog {
 
     /// Converts all once more.
     pub fn sample<B: Board>(&mut self, board: &mut B) {
-        for (channel, sum) in (0..B::PROFILE.analog_inputs).zip(&mut self.sums) {
+        for (channel, sum) in (0..B::PROFILE.analog_inputs()).zip(&mut self.sums) {
             *sum = *sum - (*sum >> self.filter) + u32::from(board.analog(channel));
         }
     }

@@ -235,7 +235,7 @@ impl<B: Board> Controller<B> {
 
     #[inline(always)]
     fn read_inputs(&mut self) {
-        let pins = ((1_u16 << B::PROFILE.digital_inputs) - 1) as u8;
+        let pins = ((1_u16 << B::PROFILE.digital_inputs()) - 1) as u8;
         let levels = (self.board.inputs() ^ self.settings.invert_inputs) & pins;
         self.plc.see_inputs(&mut self.memory, levels);
         self.memory.set_byte(I_START, levels);
@@ -298,7 +298,7 @@ impl<B: Board> Controller<B> {
             return self.board.release_outputs();
         }
         let levels = self.plc.outputs(&self.memory, 0) ^ self.settings.invert_outputs;
-        for output in 0..B::PROFILE.digital_outputs {
+        for output in 0..B::PROFILE.digital_outputs() {
             self.board.modulate(output, self.plc.duty(output));
         }
         self.board.drive_outputs(levels);

@@ -13,8 +13,8 @@ use plc_vm::{Environment, Inputs, Memory, Plc};
 static SMALL: Profile = Profile {
     name: "small",
     title: "the small board",
-    digital_inputs: 4,
-    digital_outputs: 4,
+    input_pins: &["1", "2", "3", "4"],
+    output_pins: &["5", "6", "7", "8"],
     slot_len: 1000,
     ..UNO
 };

@@ -68,10 +68,11 @@ pub(crate) fn words(address: Address) -> String {
         Address::Accumulator(_) => "an accumulator of 32 bits".to_owned(),
         Address::HighSpeedCounter(_) => "a high-speed counter's current value".to_owned(),
         Address::Analog(AnalogInput::Scaled(channel)) => {
-            format!("an analog input, 0 to 32000, pin A{channel} of the Uno")
+            format!("an analog input, 0 to 32000{}", pin(UNO.analog_pins, channel))
         }
         Address::Analog(AnalogInput::Raw(channel)) => {
-            format!("an analog input as counts, 0 to 1023, pin A{channel} of the Uno")
+            let most = (1 << UNO.analog_bits) - 1;
+            format!("an analog input as counts, 0 to {most}{}", pin(UNO.analog_pins, channel))
         }
         Address::AnalogOutput(_) => "an analog output, which can only be written".to_owned(),
     }
@@ -79,18 +80,27 @@ pub(crate) fn words(address: Address) -> String {
 
 fn bit_words(area: Area, byte: u16, bit: u8) -> String {
     let what = format!("a bit of {}", area_words(area));
-    let point = |points: u8, first_pin: u8| match byte == 0 && bit < points {
-        true => format!("{what}, pin D{} of the Uno", first_pin + bit),
-        false => format!("{what}, without a pin on the Uno"),
+    let point = |pins: &[&str]| match byte {
+        0 => format!("{what}{}", pin(pins, bit)),
+        _ => format!("{what}{}", pin(&[], bit)),
     };
     match area {
-        Area::I => point(UNO.digital_inputs, 2),
-        Area::Q => point(UNO.digital_outputs, 8),
+        Area::I => point(UNO.input_pins),
+        Area::Q => point(UNO.output_pins),
         Area::Sm => {
             let known = BITS.iter().find(|row| (row.0, row.1) == (byte, bit));
             known.map_or(what, |(_, _, words)| (*words).to_owned())
         }
         _ => what,
+    }
+}
+
+/// Which pin of the Uno a point has, in words that follow others.
+fn pin(pins: &[&str], point: u8) -> String {
+    let title = UNO.title;
+    match pins.get(usize::from(point)) {
+        Some(pin) => format!(", pin {pin} of {title}"),
+        None => format!(", without a pin on {title}"),
     }
 }
 
@@ -124,10 +134,10 @@ fn area_words(area: Area) -> &'static str {
 /// The inputs and outputs of a board.
 pub(crate) fn points(board: &Profile) -> Vec<Address> {
     let bits = |area, count| (0..count).map(move |bit| Address::Bit { area, byte: 0, bit });
-    let analog = (0..board.analog_inputs)
+    let analog = (0..board.analog_inputs())
         .flat_map(|at| [AnalogInput::Scaled(at), AnalogInput::Raw(at)].map(Address::Analog));
-    bits(Area::I, board.digital_inputs)
-        .chain(bits(Area::Q, board.digital_outputs))
+    bits(Area::I, board.digital_inputs())
+        .chain(bits(Area::Q, board.digital_outputs()))
         .chain(analog)
         .collect()
 }

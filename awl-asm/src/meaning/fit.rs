@@ -221,8 +221,8 @@ impl Class {
     pub(crate) fn words(self, profile: &Profile) -> String {
         match self {
             Class::Bit => "a bit".into(),
-            Class::Input => format!("an input I0.0 to I0.{}", profile.digital_inputs - 1),
-            Class::Output => format!("an output Q0.0 to Q0.{}", profile.digital_outputs - 1),
+            Class::Input => format!("an input I0.0 to I0.{}", profile.digital_inputs() - 1),
+            Class::Output => format!("an output Q0.0 to Q0.{}", profile.digital_outputs() - 1),
             Class::Byte => "a byte".into(),
             Class::Word => "a word".into(),
             Class::Double => "a double word".into(),

@@ -26,16 +26,18 @@ pub struct Profile {
     pub slot_len: u16,
     /// Bytes of memory for retained values, of which two copies are kept.
     pub retention_len: u16,
-    /// Digital inputs with a pin: I0.0 and up, at most 8.
-    pub digital_inputs: u8,
-    /// Digital outputs with a pin: Q0.0 and up, at most 8.
-    pub digital_outputs: u8,
-    /// Analog inputs, at most [`ANALOG_INPUTS`](crate::ANALOG_INPUTS).
-    pub analog_inputs: u8,
+    /// The pins of the digital inputs, from I0.0 on, as they are called on the board; at most 8.
+    pub input_pins: &'static [&'static str],
+    /// The pins of the digital outputs, from Q0.0 on; at most 8.
+    pub output_pins: &'static [&'static str],
+    /// The pins of the analog inputs, at most [`ANALOG_INPUTS`](crate::ANALOG_INPUTS).
+    pub analog_pins: &'static [&'static str],
     /// Bits of a raw analog value.
     pub analog_bits: u8,
     /// Analog outputs, at most [`ANALOG_OUTPUTS`](crate::ANALOG_OUTPUTS).
     pub analog_outputs: u8,
+    /// Whether there are interrupt events, high-speed counters and pulse outputs.
+    pub has_events: bool,
     /// Whether the machine code of [modules](crate::MODULES) travels with the program. Others
     /// execute their instructions themselves.
     pub takes_modules: bool,
@@ -65,11 +67,12 @@ pub const UNO: Profile = Profile {
     slot_start: 0x6000,
     slot_len: 0x7E00 - 0x6000,
     retention_len: 992,
-    digital_inputs: 6,
-    digital_outputs: 6,
-    analog_inputs: 6,
+    input_pins: &["D2", "D3", "D4", "D5", "D6", "D7"],
+    output_pins: &["D8", "D9", "D10", "D11", "D12", "D13"],
+    analog_pins: &["A0", "A1", "A2", "A3", "A4", "A5"],
     analog_bits: 10,
     analog_outputs: 2,
+    has_events: true,
     takes_modules: true,
     native_interface: NATIVE_INTERFACE,
     avrdude_part: Some("m328p"),
@@ -92,6 +95,28 @@ pub const HOST: Profile = Profile {
     ..UNO
 };
 
+/// The Raspberry Pi Pico.
+pub const PICO: Profile = Profile {
+    name: "pico",
+    title: "the Pico",
+    number: 2,
+    is_wide: true,
+    data_end: DATA_END_MAX,
+    slot_start: 0,
+    slot_len: IMAGE_LEN_MAX,
+    // A copy is what a sector of its flash has room for.
+    retention_len: 8160,
+    input_pins: &["GP2", "GP3", "GP4", "GP5", "GP6", "GP7", "GP8", "GP9"],
+    output_pins: &["GP10", "GP11", "GP12", "GP13", "GP14", "GP15", "GP16", "GP17"],
+    analog_pins: &["GP26", "GP27", "GP28"],
+    analog_bits: 12,
+    analog_outputs: 2,
+    has_events: false,
+    takes_modules: false,
+    native_interface: 0,
+    avrdude_part: None,
+};
+
 /// The Uno: what is asked of a program before it names another board.
 impl Default for &'static Profile {
     fn default() -> Self {
@@ -101,7 +126,7 @@ impl Default for &'static Profile {
 
 impl Profile {
     /// All profiles.
-    pub const ALL: [&'static Profile; 2] = [&UNO, &HOST];
+    pub const ALL: [&'static Profile; 3] = [&UNO, &HOST, &PICO];
 
     /// The largest one that this build has memory for: a board's firmware that of its board.
     pub const LARGEST: Profile = if cfg!(target_arch = "avr") { UNO } else { HOST };
@@ -134,10 +159,25 @@ impl Profile {
     /// Points with a pin, of inputs or of outputs.
     pub const fn points(&self, area: Area) -> u8 {
         match area {
-            Area::I => self.digital_inputs,
-            Area::Q => self.digital_outputs,
+            Area::I => self.digital_inputs(),
+            Area::Q => self.digital_outputs(),
             _ => 0,
         }
+    }
+
+    /// Digital inputs with a pin: I0.0 and up.
+    pub const fn digital_inputs(&self) -> u8 {
+        self.input_pins.len() as u8
+    }
+
+    /// Digital outputs with a pin: Q0.0 and up.
+    pub const fn digital_outputs(&self) -> u8 {
+        self.output_pins.len() as u8
+    }
+
+    /// Analog inputs with a pin.
+    pub const fn analog_inputs(&self) -> u8 {
+        self.analog_pins.len() as u8
     }
 
     /// Labels that an image can have.
@@ -204,9 +244,9 @@ mod uno {
     /// Bytes in the Uno's program slot: the longest image.
     pub const SLOT_LEN: u16 = UNO.slot_len;
     /// Digital inputs with a pin on the Uno: I0.0-I0.5 at D2-D7.
-    pub const DIGITAL_INPUTS: u8 = UNO.digital_inputs;
+    pub const DIGITAL_INPUTS: u8 = UNO.digital_inputs();
     /// Digital outputs with a pin on the Uno: Q0.0-Q0.5 at D8-D13.
-    pub const DIGITAL_OUTPUTS: u8 = UNO.digital_outputs;
+    pub const DIGITAL_OUTPUTS: u8 = UNO.digital_outputs();
     /// Bytes of the Uno's EEPROM for retained values. The rest is reserved for settings of the
     /// board.
     pub const RETENTION_LEN: u16 = UNO.retention_len;
@@ -229,8 +269,8 @@ mod tests {
         for (index, profile) in Profile::ALL.into_iter().enumerate() {
             assert!(profile.number < 1 << (u8::BITS - VERSION_BITS), "{}", profile.name);
             assert!(profile.slot_len <= IMAGE_LEN_MAX && profile.data_end <= DATA_END_MAX);
-            assert!(profile.digital_inputs <= 8 && profile.digital_outputs <= 8);
-            assert!(u16::from(profile.analog_inputs) <= crate::ANALOG_INPUTS);
+            assert!(profile.input_pins.len() <= 8 && profile.output_pins.len() <= 8);
+            assert!(u16::from(profile.analog_inputs()) <= crate::ANALOG_INPUTS);
             assert!(profile.analog_outputs <= crate::ANALOG_OUTPUTS);
             assert_eq!(Profile::of_format(profile.format()), Some(profile));
             assert_eq!(Profile::named(profile.name), Some(profile));

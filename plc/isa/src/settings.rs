@@ -65,8 +65,8 @@ impl Settings {
 
     #[inline(always)]
     pub(crate) fn is_valid(&self, profile: &Profile) -> bool {
-        let inputs = ((1u16 << profile.digital_inputs) - 1) as u8;
-        let outputs = ((1u16 << profile.digital_outputs) - 1) as u8;
+        let inputs = ((1u16 << profile.digital_inputs()) - 1) as u8;
+        let outputs = ((1u16 << profile.digital_outputs()) - 1) as u8;
         (1..=Self::TIME_MAX_MS).contains(&self.watchdog_ms)
             && self.scan_ms <= Self::TIME_MAX_MS
             && self.filter <= Self::FILTER_MAX

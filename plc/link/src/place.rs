@@ -47,28 +47,57 @@ const _: () = assert!(
     page_start(T) == T_BITS_START && page_start(C) == C_BITS_START && page_start(L) == L_START
 );
 
-/// Where a value is: a data address and its size, in one word because many wait in the frame. Bits
-/// 0 to 11 are the address; bits 12 to 15 the size: 0 to 7 that bit of a byte, 8 a byte, 9 a word,
-/// 10 a double word.
+/// Where a value is: a data address and its size. Bits 0 to 11 are those of the address; bits 12 to
+/// 15 the size: 0 to 7 that bit of a byte, 8 a byte, 9 a word, 10 a double word; bits 16 and 17 are
+/// bits 12 and 13 of the address. Many wait in the frame: in [two bytes](place_len) where they can.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SizedAddress(pub u16);
+pub struct SizedAddress(pub u32);
+
+/// Bytes of a place in data memory that ends at this address. It lies there with its low byte
+/// first.
+pub(crate) const fn place_len(end: u16) -> u8 {
+    if end > 1 << ADDRESS_BITS { 3 } else { 2 }
+}
+
+/// Bits of an address in the lower word of a place.
+const ADDRESS_BITS: u32 = 12;
 
 impl SizedAddress {
     /// No place: a reference that names nothing.
     pub const NONE: SizedAddress = SizedAddress(0);
 
     fn new(address: u16, size: u8) -> SizedAddress {
-        SizedAddress(address | u16::from(size << 4) << 8)
+        let (upper, lower) = (address >> ADDRESS_BITS, address & ((1 << ADDRESS_BITS) - 1));
+        SizedAddress(u32::from(upper) << 16 | u32::from(lower | u16::from(size) << ADDRESS_BITS))
     }
 
     /// The data address.
     pub const fn address(self) -> u16 {
-        self.0 & 0x0FFF
+        self.upper() << ADDRESS_BITS | self.0 as u16 & ((1 << ADDRESS_BITS) - 1)
     }
 
     /// The size, as in a reference.
     pub const fn size(self) -> u8 {
-        (self.0 >> 8) as u8 >> 4
+        (self.0 as u16 >> ADDRESS_BITS) as u8
+    }
+
+    /// The bits of the address that have no room in the lower word.
+    pub(crate) const fn upper(self) -> u16 {
+        (self.0 >> 16) as u16
+    }
+
+    /// The place that lies at a data address in so many bytes.
+    pub(crate) fn read(memory: &Memory, at: u16, len: u8) -> SizedAddress {
+        let upper = if len > 2 { memory.byte(at + 2) } else { 0 };
+        SizedAddress(u32::from(upper) << 16 | u32::from(memory.word(at).swap_bytes()))
+    }
+
+    /// Lays it there.
+    pub(crate) fn write(self, memory: &mut Memory, at: u16, len: u8) {
+        memory.set_word(at, (self.0 as u16).swap_bytes());
+        if len > 2 {
+            memory.set_byte(at + 2, self.upper() as u8);
+        }
     }
 
     /// The value, of the four bytes that begin at its address.

@@ -6,7 +6,7 @@
 
 use plc_vm::Memory;
 
-use crate::place::{BYTE, SizedAddress};
+use crate::place::{BYTE, SizedAddress, place_len};
 use crate::protocol::{
     TRACE_CAPACITY, TRACE_DONE, TRACE_FILLING, TRACE_FIRST, TRACE_HEAD_LEN, TRACE_NEXT, TRACE_NONE,
     TRACE_SAMPLE_LEN, TRACE_SAMPLES, TRACE_SCAN, TRACE_TRIGGERED_AT, TRACE_VALUES, TRACE_WAITING,
@@ -24,8 +24,6 @@ pub(crate) const WAS_ACTIVE: u16 = 9;
 /// Scans until the next sample.
 pub(crate) const WAIT: u16 = 11;
 
-/// Bytes of a place.
-pub(crate) const PLACE_LEN: u16 = 2;
 pub(crate) const AT_ONCE: u8 = 0;
 pub(crate) const RISING: u8 = 1;
 pub(crate) const FALLING: u8 = 2;
@@ -77,8 +75,13 @@ impl Trace {
         memory.set_word(self.start + offset, value);
     }
 
+    /// Bytes of a place in its memory.
+    pub fn place_len(&self) -> u8 {
+        place_len(self.end)
+    }
+
     fn place_at(&self, memory: &Memory, offset: u16) -> SizedAddress {
-        SizedAddress(self.word(memory, offset).swap_bytes())
+        SizedAddress::read(memory, self.start + offset, self.place_len())
     }
 
     /// A scan has been executed.
@@ -125,7 +128,8 @@ impl Trace {
     fn take_sample(&self, memory: &mut Memory) {
         let mut to = self.word(memory, TRACE_NEXT);
         for index in 0..u16::from(self.byte(memory, TRACE_VALUES)) {
-            let place = self.place_at(memory, TRACE_HEAD_LEN + PLACE_LEN * index);
+            let offset = TRACE_HEAD_LEN + u16::from(self.place_len()) * index;
+            let place = self.place_at(memory, offset);
             if place.size() < BYTE {
                 let value = place.bytes_in(memory)[0];
                 memory.set_byte(to, value);

@@ -18,8 +18,6 @@ const CAPABILITIES: u8 = 0b111;
 
 /// Bytes of a reference.
 const REFERENCE_LEN: u8 = 3;
-/// Bytes of a [`SizedAddress`] that waits in the frame.
-const PLACE_LEN: u8 = 2;
 
 /// Functions from 65 on.
 pub(crate) fn answer<S: Station>(request: &mut Request<S>, function: u8) -> Answered {
@@ -115,11 +113,11 @@ impl<S: Station> Request<'_, S> {
         let count = self.byte(1);
         self.expect_count(count, WATCH_MAX)?;
         self.expect_len(2 + REFERENCE_LEN * count)?;
-        let mut left = self.begin(count);
+        let (mut left, place_len) = (self.begin(count), self.place_len());
         while left != 0 {
             left -= 1;
             let place = self.reference(2 + REFERENCE_LEN * left, ANYTHING)?;
-            self.set_low_first(self.room - PLACE_LEN * (count - left), place.0);
+            self.set_place(self.room - place_len * (count - left), place);
             self.station.link().left = left;
             if !self.station.has_time() {
                 return Ok(0);
@@ -132,11 +130,12 @@ impl<S: Station> Request<'_, S> {
 
     /// The values of the places at the end of the room.
     fn gather(&mut self, count: u8) -> Answered {
-        let mut from = self.room - PLACE_LEN * count;
+        let place_len = self.place_len();
+        let mut from = self.room - place_len * count;
         self.out = 3;
         for _ in 0..count {
             let place = self.place(from);
-            from += PLACE_LEN;
+            from += place_len;
             // Four bytes are written whatever the width.
             if self.out + 4 > from {
                 return Err(Exception::Value);
@@ -226,6 +225,8 @@ impl<S: Station> Request<'_, S> {
         if self.begin(count) == count {
             self.station.link().at = 2;
         }
+        // A place takes the last bytes of its reference.
+        let before = REFERENCE_LEN - self.place_len();
         loop {
             let (left, at) = (self.station.link().left, self.station.link().at);
             if left == 0 {
@@ -236,7 +237,7 @@ impl<S: Station> Request<'_, S> {
                 return Err(Exception::Value);
             }
             let place = self.reference(at, WRITABLE)?;
-            self.set_low_first(at + 1, place.0);
+            self.set_place(at + before, place);
             let next = at.saturating_add(REFERENCE_LEN + place.width());
             if next > self.len {
                 return Err(Exception::Value);
@@ -248,7 +249,7 @@ impl<S: Station> Request<'_, S> {
         }
         let mut at = 2;
         for _ in 0..count {
-            let place = self.place(at + 1);
+            let place = self.place(at + before);
             at += REFERENCE_LEN;
             self.set_value(place, at);
             at += place.width();
@@ -288,9 +289,21 @@ impl<S: Station> Request<'_, S> {
         if count == 0 || count > max { Err(Exception::Value) } else { Ok(()) }
     }
 
+    /// Bytes of a place that waits in the frame.
+    fn place_len(&mut self) -> u8 {
+        self.station.link().trace.place_len()
+    }
+
     /// The place that waits at an offset of the frame.
-    pub fn place(&mut self, at: u8) -> SizedAddress {
-        SizedAddress(self.word(at).swap_bytes())
+    fn place(&mut self, at: u8) -> SizedAddress {
+        let (len, at) = (self.place_len(), self.at(at));
+        SizedAddress::read(self.memory(), at, len)
+    }
+
+    /// Lets a place wait there.
+    pub fn set_place(&mut self, at: u8, place: SizedAddress) {
+        let (len, at) = (self.place_len(), self.at(at));
+        place.write(self.memory(), at, len);
     }
 
     pub fn set_low_first(&mut self, at: u8, word: u16) {

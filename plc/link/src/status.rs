@@ -7,8 +7,8 @@
 //! | byte | |
 //! |---|---|
 //! | 0-1 | offset of the instruction in the image, low byte first; ascending from entry to entry |
-//! | 2-3 | [`SizedAddress`] of the operand, low byte first; 0: none |
-//! | 4-5 | bit 15: executed; bits 8 to 0: S8 to S0 right after; high byte first; 0 before a scan |
+//! | 2-3 | the lower word of the operand's [`SizedAddress`], low byte first; 0: none |
+//! | 4-5 | high byte first: bits 10 and 9 its upper bits; from the scan on, bit 15: executed; bits 8 to 0: S8 to S0 right after |
 //! | 6-9 | the four bytes at the address of the place right after it, whatever its size |
 //!
 //! After the last entry is the offset 0xFFFF, which no instruction has.
@@ -31,6 +31,9 @@ const ANSWER_LEN: u8 = 6;
 
 /// The bit of an entry's stack that says so.
 const EXECUTED: u16 = 0x8000;
+/// Where the upper bits of the place are there.
+const UPPER_SHIFT: u32 = 9;
+const UPPER: u16 = 0b11 << UPPER_SHIFT;
 /// Stands after the last entry.
 const END: u16 = 0xFFFF;
 
@@ -39,11 +42,17 @@ const NO_OPERAND: u8 = 0xFF;
 
 /// The instruction of the entry at this data address has been executed and left this stack.
 pub fn note(memory: &mut Memory, entry: u16, stack: LogicStack) {
-    let place = SizedAddress(memory.word(entry + 2).swap_bytes());
-    memory.set_word(entry + 4, stack.bits() | EXECUTED);
+    let (lower, upper) = (memory.word(entry + 2).swap_bytes(), memory.word(entry + 4) & UPPER);
+    let place = place(lower, upper);
+    memory.set_word(entry + 4, stack.bits() | upper | EXECUTED);
     for offset in 0..4 {
         memory.set_byte(entry + 6 + offset, memory.byte(place.address() + offset));
     }
+}
+
+/// The place of an entry, of its words.
+fn place(lower: u16, stack: u16) -> SizedAddress {
+    SizedAddress(u32::from((stack & UPPER) >> UPPER_SHIFT) << 16 | u32::from(lower))
 }
 
 /// The instruction at an offset of the image has been executed and left this stack: looks for its
@@ -96,8 +105,9 @@ impl<S: Station> Request<'_, S> {
                 return Err(Exception::Value);
             }
             self.set_low_first(entry, offset);
-            self.set_low_first(entry + 2, place.0);
-            for at in [4, 6, 8] {
+            self.set_low_first(entry + 2, place.0 as u16);
+            self.set_word(entry + 4, place.upper() << UPPER_SHIFT);
+            for at in [6, 8] {
                 self.set_word(entry + at, 0);
             }
             self.station.link().left = left;
@@ -124,7 +134,8 @@ impl<S: Station> Request<'_, S> {
         let (count, scans) = (self.station.link().left, self.station.times().scans as u16);
         for index in 0..count {
             let entry = FIRST + ENTRY_LEN as u8 * index;
-            let (place, noted) = (self.place(entry + 2), self.word(entry + 4));
+            let (lower, stack) = (self.word(entry + 2).swap_bytes(), self.word(entry + 4));
+            let (place, noted) = (place(lower, stack), stack & !UPPER);
             let bytes = u32::from(self.word(entry + 6)) << 16 | u32::from(self.word(entry + 8));
             let value = if noted & EXECUTED == 0 || place == SizedAddress::NONE {
                 0

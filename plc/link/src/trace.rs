@@ -6,11 +6,9 @@ use crate::protocol::{
     TRACE_SAMPLE_LEN, TRACE_SAMPLES, TRACE_SCAN, TRACE_TRIGGERED_AT, TRACE_WAITING,
 };
 use crate::request::{Answered, Exception, Request};
-use crate::sampling::{AT_ONCE, OFF, PLACE_LEN, WAIT, WAS_ACTIVE};
+use crate::sampling::{AT_ONCE, OFF, WAIT, WAS_ACTIVE};
 use crate::station::Station;
 
-/// So much memory there must be.
-const LEAST_LEN: u16 = TRACE_HEAD_LEN + PLACE_LEN * TRACE_MAX as u16;
 /// Offsets in a request: of what is copied, and of the first reference.
 const ASKED: u8 = 2;
 const REFERENCES: u8 = 11;
@@ -48,12 +46,14 @@ impl<S: Station> Request<'_, S> {
             if trigger.size() >= BYTE {
                 return Err(Exception::Address);
             }
-            self.set_low_first(7, trigger.0);
+            self.set_place(7, trigger);
         }
         // What there was is over, even if this one is refused: its places go.
         self.station.link().trace.state = TRACE_NONE;
         let trace = self.station.link().trace.clone();
-        if trace.len() < LEAST_LEN {
+        let place_len = trace.place_len();
+        let places_at = |index: u8| TRACE_HEAD_LEN + u16::from(place_len) * u16::from(index);
+        if trace.len() < places_at(TRACE_MAX) {
             return Err(Exception::Busy);
         }
         // The places, from the last to the first.
@@ -65,13 +65,9 @@ impl<S: Station> Request<'_, S> {
             sample_len += place.width();
             let memory = self.memory();
             memory.set_byte(trace.start + TRACE_SAMPLE_LEN, sample_len);
-            trace.set_word(
-                memory,
-                TRACE_HEAD_LEN + PLACE_LEN * u16::from(index),
-                place.0.swap_bytes(),
-            );
+            place.write(memory, trace.start + places_at(index), place_len);
         }
-        let first = trace.start + TRACE_HEAD_LEN + PLACE_LEN * u16::from(count);
+        let first = trace.start + places_at(count);
         let capacity = (trace.end - first) / u16::from(sample_len);
         if before >= capacity {
             return Err(Exception::Busy);

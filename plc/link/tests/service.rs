@@ -10,6 +10,8 @@ use plc_link::Command;
 const BYTE: u8 = 8;
 const WORD: u8 = 9;
 const DOUBLE: u8 = 10;
+/// V memory as an area of a reference.
+const V: u8 = 8;
 
 fn reference(area: u8, size: u8, number: u16) -> [u8; 3] {
     let [high, low] = number.to_be_bytes();
@@ -336,4 +338,46 @@ fn blocks_of_the_slot_can_be_read_to_its_end() {
     let mut small = Machine::with_room(PROGRAM, 62);
     assert_eq!(small.ask(&[71, 0, 0, 0, 61]), [0xC7, 3]);
     assert_eq!(small.ask(&[71, 0, 0, 0, 60]).len(), 62);
+}
+
+/// Data memory that the Uno does not have: addresses of more than 12 bits.
+#[test]
+fn far_operands_are_reached() {
+    let program = "//# board host\n//# memory VB0-VB10239\nLD SM0.0\nMOVW VW10000, VW10100\n";
+    let mut machine = Machine::with_room(program, 252);
+    let (near, far) = (reference(V, WORD, 100), reference(V, WORD, 10_000));
+    let (copy, bit) = (reference(V, WORD, 10_100), reference(V, 3, 10_239));
+    assert!(v_address(&machine, 10_239) > 0x2000);
+    let set = [&[72, 3][..], &near, &[0x11, 0x22], &far, &[0x33, 0x44], &bit, &[1]].concat();
+    assert_eq!(machine.ask(&set), [72, 3]);
+    machine.scan();
+    let many = [[near, far, copy, bit].as_slice(), &[copy; 28]].concat();
+    let answer = machine.ask(&watch(&many));
+    assert_eq!(answer[3..10], [0x11, 0x22, 0x33, 0x44, 0x33, 0x44, 1]);
+    assert_eq!(answer[10..], [0x33, 0x44].repeat(28));
+    // Other bytes are as they were.
+    assert_eq!(machine.memory.word(v_address(&machine, 10_000 - 0x1000)), 0);
+
+    machine.ask(&force(1, far, 0x5566));
+    machine.scan();
+    assert_eq!(machine.ask(&watch(&[copy]))[3..], [0x55, 0x66]);
+    assert_eq!(machine.memory.word(v_address(&machine, 10_000)), 0x5566);
+
+    let at = machine.plc.program().unwrap().code_at();
+    let status = [&[69, 1][..], &at.to_be_bytes(), &far].concat();
+    let answer = machine.ask(&status);
+    assert_eq!((answer[3] >> 7, &answer[5..]), (1, &[0, 0, 0x55, 0x66][..]));
+
+    let trace = [&[70, 1, 0, 1, 0, 0, 1], &bit[..], &[2], &far[..], &copy[..]].concat();
+    machine.ask(&[&[72, 1][..], &bit, &[0]].concat());
+    assert_eq!(machine.ask(&trace), [70, 2]);
+    machine.scan();
+    assert_eq!(machine.ask(&[70, 0]), [70, 2]);
+    machine.ask(&[&[72, 1][..], &bit, &[1]].concat());
+    machine.scan();
+    assert_eq!(machine.ask(&[70, 0]), [70, 3]);
+    let head = machine.ask(&[71, 1, 0, 0, 25]);
+    let first = u16::from_be_bytes([head[2 + 21], head[2 + 22]]) - machine.link.frame() - 252;
+    let sample = machine.ask(&[&[71, 1][..], &first.to_be_bytes(), &[4]].concat());
+    assert_eq!(sample[2..], [0x55, 0x66, 0x55, 0x66]);
 }

@@ -172,7 +172,7 @@ impl Image {
 
 /// Like the Uno, with all points of a byte.
 pub static DESK: Profile =
-    Profile { title: "the desk", digital_inputs: 8, digital_outputs: 8, ..plc_isa::UNO };
+    Profile { title: "the desk", input_pins: &[""; 8], output_pins: &[""; 8], ..plc_isa::UNO };
 
 /// The board.
 #[derive(Debug, Clone)]

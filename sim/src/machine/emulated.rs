@@ -32,7 +32,7 @@ const DRIVEN: usize = 0x24;
 const ADMUX: usize = 0x7C;
 const TIMSK0: (u16, u8) = (0x6E, 1 << 1);
 /// Inputs I0.0 to I0.5 have a pin.
-const INPUT_PINS: u8 = (1 << UNO.digital_inputs) - 1;
+const INPUT_PINS: u8 = (1 << UNO.digital_inputs()) - 1;
 
 /// An emulated ATmega328P.
 pub trait Chip {

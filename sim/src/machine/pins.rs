@@ -4,7 +4,7 @@
 use plc_isa::{PULSES_MODULE, UNO, state_at};
 
 /// A bit for each output with a pin, Q0.0 in bit 0.
-pub const OUTPUT_PINS: u8 = (1 << UNO.digital_outputs) - 1;
+pub const OUTPUT_PINS: u8 = (1 << UNO.digital_outputs()) - 1;
 
 /// Timer 1: TIMSK1, TCCR1A, ICR1.
 const TIMER_1_INTERRUPTS: u16 = 0x6F;

@@ -111,8 +111,9 @@ impl Machine {
         machine.image = image(program);
         machine.plc.load(&mut machine.memory, machine.image.clone()).unwrap();
         machine.plc.run();
-        let end = machine.plc.program().unwrap().plan().end();
-        machine.link.place(end, room, end + room, DATA_END);
+        let plan = machine.plc.program().unwrap().plan();
+        let (end, data_end) = (plan.end(), plan.profile().data_end);
+        machine.link.place(end, room, end + room, data_end);
         machine.scan();
         machine
     }
