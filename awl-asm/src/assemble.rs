@@ -6,6 +6,7 @@ use plc_isa::{HOST, Profile, UNO};
 
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::image::encode::{Checked, Encoding, Line, encode};
+use crate::meaning::boards::lacking;
 use crate::meaning::check::{
     Control, Depths, Usage, control, counting, intervals, labels, local_reads, mixed_coils,
     no_result, overlap, permission, placement, presets, same_answer, sequence, stack, steps, usage,
@@ -21,6 +22,7 @@ use crate::meaning::units::Units;
 use crate::plan::demand::{Demand, demand};
 use crate::source::{At, Place, Source};
 use crate::text::ast::{DataLine, Program, Span, Statement, Symbol};
+use crate::text::boards::way;
 use crate::text::data_block::join;
 use crate::text::parser::{parse_for, parse_placed};
 use crate::text::tree;
@@ -70,8 +72,14 @@ impl Assembly {
         has_errors(&self.diagnostics)
     }
 
-    /// For those who need an image for the board: that the program is not for it is an error.
+    /// For those who need an image for the Uno: that the program is not for it is an error.
     pub fn require_board(&mut self) {
+        if let (Some(span), true) = (self.program.board_named, self.profile() != &UNO) {
+            let message =
+                format!("the program is for {}, not for {}", self.profile().title, UNO.title);
+            self.diagnostics.push(Diagnostic::new(Code::Setting, span, message));
+            self.image = None;
+        }
         if let Some(for_board) = self.for_board.take() {
             let (demand, Encoding { draft, lines, .. }) = *for_board;
             (self.image, self.draft, self.lines, self.demand) = (None, draft, lines, demand);
@@ -153,7 +161,34 @@ pub fn assemble_for(
 ) -> Assembly {
     let (program, mut diagnostics) = read(source, symbols, data, profile);
     mnemonic_set::check(&source.text, &program, &mut diagnostics);
-    let mut assembly = understood(program, source.stem(), diagnostics);
+    translated(source, understood(program, source.stem(), diagnostics))
+}
+
+/// The same with a board that is asked for beside the text, as if the text named it. That it names
+/// another one is an error there.
+pub fn assemble_with(
+    source: &Source,
+    symbols: Vec<Symbol>,
+    data: &[DataLine],
+    board: Option<&'static Profile>,
+) -> Assembly {
+    let Some(board) = board else { return assemble_with_data(source, symbols, data) };
+    let (mut program, mut diagnostics) = read(source, symbols, data, board);
+    mnemonic_set::check(&source.text, &program, &mut diagnostics);
+    match program.board_named {
+        Some(span) if program.profile != board => {
+            let (named, wanted) = (program.profile.title, board.title);
+            let message = format!("the program is for {named}, and is asked for {wanted}");
+            let help = "without this line it is for the board that is asked for";
+            diagnostics.push(Diagnostic::new(Code::Setting, span, message).help(help));
+        }
+        _ => program.board_named = program.board_named.or(Some(Span::default())),
+    }
+    translated(source, understood(program, source.stem(), diagnostics))
+}
+
+/// Messages show what is written in the mnemonics of the text.
+fn translated(source: &Source, mut assembly: Assembly) -> Assembly {
     german::translate(&source.text, &assembly.program, &mut assembly.diagnostics);
     german::translate(&source.text, &assembly.program, &mut assembly.misfit);
     assembly
@@ -222,13 +257,18 @@ fn understood(mut program: Program, name: &str, mut diagnostics: Vec<Diagnostic>
     let is_sound = !has_errors(&diagnostics);
     let mut built = meaning.build(name, program.profile, is_sound);
     let (mut misfit, mut board) = (Vec::new(), None);
-    if is_sound && !program.is_board_named && has_errors(&built.diagnostics) {
-        let for_board = std::mem::replace(&mut built, meaning.build(name, &HOST, true));
-        // What no machine has room for is an error in any case.
-        if !has_errors(&built.diagnostics) {
+    if is_sound && has_errors(&built.diagnostics) {
+        let has_way = add_way(meaning, name, &mut built.diagnostics);
+        let host = meaning.build(name, &HOST, true);
+        let is_bound = program.board_named.is_some();
+        if !is_bound && !has_errors(&host.diagnostics) {
+            let for_board = std::mem::replace(&mut built, host);
             misfit = for_board.diagnostics;
             board = Some(Box::new((for_board.demand, for_board.encoding)));
             built.diagnostics.extend(warning(program.profile, &misfit));
+        } else if !is_bound && !has_way {
+            // What no machine has room for.
+            built = host;
         }
     }
     let Built { demand, encoding, diagnostics: others } = built;
@@ -277,6 +317,7 @@ impl Meaning<'_> {
         let Meaning { program, code, units, control } = self;
         let mut diagnostics = Vec::new();
         labels(program, code, units, control, profile, &mut diagnostics);
+        lacking(program, code, profile, &mut diagnostics);
         let demand = demand(program, code, units, profile, &mut diagnostics);
         let encoding = if is_sound && !has_errors(&diagnostics) {
             let checked = Checked { program, code, units, control, demand: &demand };
@@ -286,6 +327,17 @@ impl Meaning<'_> {
         };
         Built { demand, encoding, diagnostics }
     }
+}
+
+/// Says at the first of the errors which other board would do. Returns whether there is one.
+fn add_way(meaning: Meaning<'_>, name: &str, errors: &mut [Diagnostic]) -> bool {
+    let does = |board| !has_errors(&meaning.build(name, board, true).diagnostics);
+    let way = way(meaning.program.profile, does);
+    let has_way = way.is_some();
+    if let Some(first) = errors.iter_mut().min_by_key(|error| error.span) {
+        first.help.extend(way);
+    }
+    has_way
 }
 
 /// A program without any instruction is most likely not the file that was meant.

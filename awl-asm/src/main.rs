@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use awl_asm::args::Arguments;
-use awl_asm::assemble::{Assembly, assemble_with_data};
+use awl_asm::assemble::{Assembly, assemble_with};
 use awl_asm::ast::{DataLine, Symbol};
 use awl_asm::cost::{Stated, cost_with};
 use awl_asm::data_block;
@@ -155,7 +155,7 @@ fn assemble_files(files: &[PathBuf], arguments: &Arguments) -> Result<bool> {
     let mut report = report_for(arguments);
     let symbols = load_symbols(&arguments.symbols, &mut report)?;
     let data = load_data(arguments.data.as_deref(), &symbols, &mut report)?;
-    let mut assembly = assemble_with_data(&source, symbols, &data);
+    let mut assembly = assemble_with(&source, symbols, &data, arguments.board);
     let is_hex = ending == Some("hex");
     if arguments.native || arguments.flash.is_some() || is_hex && !arguments.check {
         assembly.require_board();
@@ -277,7 +277,7 @@ fn format_file(path: &Path, arguments: &Arguments) -> Result<bool> {
 fn resolved_source(source: Source, arguments: &Arguments) -> Result<Option<(Source, String)>> {
     let mut report = report_for(arguments);
     let symbols = load_symbols(&arguments.symbols, &mut report)?;
-    let assembly = assemble_with_data(&source, symbols, &[]);
+    let assembly = assemble_with(&source, symbols, &[], arguments.board);
     report.show(&source, &assembly.diagnostics);
     report.finish(&source);
     if !report.is_good() {

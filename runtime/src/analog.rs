@@ -58,6 +58,23 @@ impl Analog {
 
 /// A reading in another scale, rounded.
 fn part(reading: u16, most: u16) -> u16 {
-    let full = u32::from(u16::MAX);
-    ((u32::from(reading) * u32::from(most) + full / 2) / full) as u16
+    // Divided by 65535 without a division, for which not every processor has an instruction.
+    let product = u32::from(reading) * u32::from(most) + 0x8000;
+    ((product + (product >> 16)) >> 16) as u16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{AnalogInput, part};
+
+    #[test]
+    fn every_reading_is_its_part_rounded() {
+        let full = u32::from(u16::MAX);
+        for most in [AnalogInput::RAW_MAX, AnalogInput::SCALED_MAX] {
+            for reading in 0..=u16::MAX {
+                let wanted = (u32::from(reading) * u32::from(most) + full / 2) / full;
+                assert_eq!(u32::from(part(reading, most)), wanted, "{reading} of {most}");
+            }
+        }
+    }
 }

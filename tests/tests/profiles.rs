@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use awl_asm::assemble::{Assembly, assemble, assemble_for};
+use awl_asm::assemble::{Assembly, assemble, assemble_for, assemble_with};
 use awl_asm::diagnostic::Code;
 use awl_asm::disassemble::disassemble;
 use awl_asm::source::Source;
-use plc_isa::{FORMAT_AT, HOST, ImageFault, Op, Profile, UNO, decode, verify};
+use plc_isa::{FORMAT_AT, HOST, ImageFault, Op, PICO, Profile, UNO, decode, verify};
 use plc_vm::{Environment, Inputs, Memory, Plc};
 
 /// An Uno with fewer pins.
@@ -165,4 +165,74 @@ fn another_board_is_another_value() {
     );
     let assembly = assemble_for(&source(&long), Vec::new(), &[], &SMALL);
     assert!(assembly.misfit[0].message.contains("the program slot has 1000"));
+}
+
+fn with_board(text: &str, board: &'static Profile) -> Assembly {
+    assemble_with(&source(text), Vec::new(), &[], Some(board))
+}
+
+/// The help of the first message, in one line.
+fn help(assembly: &Assembly) -> String {
+    assembly.diagnostics.first().map_or_else(String::new, |first| first.help.join("; "))
+}
+
+#[test]
+fn a_board_can_be_asked_for_beside_the_text() {
+    let text = "LD I0.7\n= Q0.7\n";
+    let asked = with_board(text, &PICO);
+    assert_eq!((errors(&asked), asked.profile()), (vec![], &PICO));
+    let named = assemble(&source(&format!("//# board pico\n{text}")), Vec::new());
+    assert_eq!(asked.image, named.image);
+    assert_eq!(asked.image.unwrap()[usize::from(FORMAT_AT)], 0x27);
+    // It binds as if the text named it.
+    assert_eq!(errors(&with_board(&large_program(), &UNO)), ["E0015"]);
+    assert_eq!(errors(&with_board(&large_program(), &PICO)), [""; 0]);
+    let other = with_board(&format!("//# board uno\n{text}"), &PICO);
+    assert!(errors(&other).contains(&"E0020"), "{:?}", errors(&other));
+    let message = &other.diagnostics.iter().find(|one| one.code.text() == "E0020").unwrap().message;
+    assert_eq!(message, "the program is for the Uno, and is asked for the Pico");
+}
+
+#[test]
+fn a_program_for_another_board_is_not_for_the_uno() {
+    let mut assembly = with_board("LD I0.0\n= Q0.0\n", &PICO);
+    assembly.require_board();
+    assert_eq!((assembly.image.is_none(), errors(&assembly)), (true, vec!["E0020"]));
+    let message = &assembly.diagnostics[0].message;
+    assert_eq!(message, "the program is for the Pico, not for the Uno");
+}
+
+#[test]
+fn what_a_board_lacks_is_said_with_the_board_that_would_do() {
+    let to_pico = "the Pico would do: `//# board pico`";
+    let to_uno = "the Uno would do: `//# board uno`";
+    let event = "LD SM0.1\nATCH Tick, 10\nINTERRUPT_BLOCK Tick:INT0\nLD I0.0\n= Q0.0\nEND_INTERRUPT_BLOCK\n";
+    for (text, board, code, way) in [
+        ("//# memory VB0-VB5000\nLD SM0.0\nINCB VB0\n", &UNO, "E0019", to_pico),
+        ("LDI I0.6\n= Q0.0\n", &UNO, "E0084", to_pico),
+        ("//# pullup I0.6\nLD I0.6\n= Q0.0\n", &UNO, "E0020", to_pico),
+        ("LD I0.6\n= Q0.0\n", &UNO, "W0005", to_pico),
+        (event, &PICO, "E0084", to_uno),
+        ("LD SM0.1\nPLS 1\n", &PICO, "E0084", to_uno),
+        ("LD SM0.1\nHDEF 0, 0\nHSC 0\n", &PICO, "E0084", to_uno),
+        ("LDD>= HC0, 5\n= Q0.0\n", &PICO, "E0084", to_uno),
+        // Neither has it.
+        ("LDI I1.0\n= Q0.0\n", &UNO, "E0084", ""),
+    ] {
+        let assembly = with_board(text, board);
+        assert_eq!(errors(&assembly).first(), Some(&code), "{text}: {:?}", assembly.diagnostics);
+        assert_eq!(help(&assembly).contains(way), true, "{text}: {}", help(&assembly));
+        assert_eq!(help(&assembly).contains("would do"), !way.is_empty(), "{text}");
+    }
+    // Where no board is named it is a warning, and says the same.
+    let large = assemble(&source("//# memory VB0-VB5000\nLD SM0.0\nINCB VB0\n"), Vec::new());
+    assert_eq!((errors(&large), help(&large).contains(to_pico)), (vec!["W0033"], true));
+}
+
+#[test]
+fn twenty_thousand_instructions_are_for_the_pico() {
+    let text = "LD I0.0\n= Q0.0\n".repeat(10_000);
+    assert!(help(&with_board(&text, &UNO)).contains("the Pico would do"));
+    let image = with_board(&text, &PICO).image.unwrap();
+    assert!(verify(image.as_slice()).is_ok() && image.len() > 40_000, "{}", image.len());
 }

@@ -9,7 +9,7 @@ use awl_sim::suite::Reports;
 use chart::set_reset::Target;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
-use plc_isa::LineSettings;
+use plc_isa::{LineSettings, Profile};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -233,6 +233,9 @@ pub struct Build {
     /// .awl for the text, .bin or .hex for the image; without it the text to standard output
     #[arg(short, long, value_name = "F.awl|F.bin|F.hex")]
     pub output: Option<PathBuf>,
+    /// The board that the program is for, as if its text named it (`//# board`)
+    #[arg(long, value_name = "NAME", value_parser = awl_asm::args::board())]
+    pub board: Option<&'static Profile>,
     /// As machine code
     #[arg(long)]
     pub native: bool,

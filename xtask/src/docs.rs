@@ -1,6 +1,6 @@
 //! Generated files: docs/instructions.md and the grammars for editors from the tables of the
-//! languages, the pages of the signal blocks, the words that the IDE's page colours, and the
-//! README's diagram from the demo.
+//! languages, the page of the boards from their profiles, the pages of the signal blocks, the words
+//! that the IDE's page colours, and the README's diagram from the demo.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -12,11 +12,12 @@ use awl_asm::refused::REFUSED;
 use plc_isa::{Group, INSTRUCTIONS, Instruction, PowerFlow};
 
 use crate::process::root;
-use crate::{block_pages, demo, grammar, structured_grammar};
+use crate::{block_pages, boards_page, demo, grammar, structured_grammar};
 
 /// Writes the generated files, or only compares them.
 pub fn run(check: bool) -> Result<()> {
     generated("docs/instructions.md", page().as_bytes(), check)?;
+    generated(boards_page::FILE, boards_page::text().as_bytes(), check)?;
     generated(block_pages::FILE, block_pages::text()?.as_bytes(), check)?;
     // An extension of VS Code has all of its files in its own folder.
     for file in ["editors/awl.tmLanguage.json", "editors/vscode/awl.tmLanguage.json"] {

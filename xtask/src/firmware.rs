@@ -1,4 +1,4 @@
-//! `cargo xtask firmware` and `vm-on-avr`: builds what runs on an AVR and puts it where tools and
+//! `cargo xtask firmware` and `vm-on-avr`: builds what runs on boards and puts it where tools and
 //! tests find it.
 
 use std::fs;
@@ -12,12 +12,18 @@ use crate::{avr, packages, same_names};
 
 /// The firmware that is part of the tools: who has no compiler for the board sets one up with it.
 pub const KEPT: &str = "awl-asm/firmware/uno200.hex";
+/// Where everything is built, and where the ELFs are.
+const TARGET: &str = "target/firmware";
+/// The firmware of the Raspberry Pi Pico, and what it is built for.
+const PICO: &str = "firmware-pico";
+const PICO_TARGET: &str = "thumbv6m-none-eabi";
 /// Which compilers built it, a line each: others make other code.
 const COMPILERS: &str = "awl-asm/firmware/compilers.txt";
 
 /// Builds the firmware and puts it where the tools take it from, if the compilers are those that
 /// are recorded there; others only with `keep`, and are recorded then.
 pub fn run(keep: bool) -> Result<()> {
+    println!("{}", build_pico()?.display());
     let elf = build()?;
     println!("{} and .hex", elf.display());
     let used = compilers()?;
@@ -87,27 +93,59 @@ pub fn build_vm() -> Result<PathBuf> {
 fn build_crate(source: &str, folder: &str, name: &str) -> Result<PathBuf> {
     // The linker and objcopy, whichever compiler there is.
     packages::ensure_installed(packages::AVR_LINKER)?;
-    let target = root().join("target/firmware");
     let mut build = avr::cargo()?;
-    same_names::apply(&mut build)?;
-    build.current_dir(root().join(source)).args(["build", "--release", "--locked"]);
     // Added to the flags in the crate's .cargo/config.toml.
     build.args(["--config", "target.avr-none.rustflags=[\"-Dwarnings\"]"]);
-    build.arg("--target-dir").arg(target.join(folder));
-    run_command(&mut build)?;
-    let (elf, built) = (target.join(name), target.join(folder).join("avr-none/release").join(name));
+    run_build(build, source, folder)?;
+    elf(&format!("{folder}/avr-none/release/{name}"), name)
+}
+
+/// Builds the firmware of the Raspberry Pi Pico: `target/firmware/pico.elf`.
+pub fn build_pico() -> Result<PathBuf> {
+    let mut build = avr::cargo()?;
+    build.args(["--config", &format!("target.{PICO_TARGET}.rustflags=[\"-Dwarnings\"]")]);
+    link_for_pico(&mut build)?;
+    run_build(build, PICO, "pico")?;
+    elf(&format!("pico/{PICO_TARGET}/release/pico"), "pico.elf")
+}
+
+/// Debian's compiler comes without a linker for the Pico.
+fn link_for_pico(cargo: &mut Command) -> Result<()> {
+    if !avr::packages().is_empty() {
+        packages::ensure_installed(packages::LLD)?;
+        cargo.args(["--config", &format!("target.{PICO_TARGET}.linker=\"ld.lld-19\"")]);
+    }
+    Ok(())
+}
+
+fn run_build(mut build: Command, source: &str, folder: &str) -> Result<()> {
+    same_names::apply(&mut build)?;
+    build.current_dir(root().join(source)).args(["build", "--release", "--locked"]);
+    build.arg("--target-dir").arg(root().join(TARGET).join(folder));
+    run_command(&mut build)
+}
+
+/// Puts what was built where tools and tests look for it.
+fn elf(built: &str, name: &str) -> Result<PathBuf> {
+    let target = root().join(TARGET);
+    let (built, elf) = (target.join(built), target.join(name));
     fs::copy(&built, &elf).with_context(|| format!("cannot copy {}", built.display()))?;
     Ok(elf)
 }
 
-/// Lints everything that is built for avr-none.
+/// Lints everything that is built for a board.
 pub fn lint() -> Result<()> {
-    for (source, folder) in [("firmware", "uno200"), ("tests/vm-on-avr", "vm-on-avr")] {
+    for (source, folder) in
+        [("firmware", "uno200"), ("tests/vm-on-avr", "vm-on-avr"), (PICO, "pico")]
+    {
         let mut clippy = avr::clippy()?;
+        if source == PICO {
+            link_for_pico(&mut clippy)?;
+        }
         clippy
             .current_dir(root().join(source))
             .args(["--release", "--locked", "--quiet", "--target-dir"])
-            .arg(root().join("target/firmware").join(folder))
+            .arg(root().join(TARGET).join(folder))
             .args(["--", "-D", "warnings"]);
         run_command(&mut clippy)?;
     }

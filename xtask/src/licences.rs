@@ -9,8 +9,13 @@ use serde_json::Value;
 use crate::process::{cargo, root};
 
 /// All manifests with a lock file.
-const MANIFESTS: &[&str] =
-    &["Cargo.toml", "firmware/Cargo.toml", "tests/vm-on-avr/Cargo.toml", "fuzz/Cargo.toml"];
+const MANIFESTS: &[&str] = &[
+    "Cargo.toml",
+    "firmware/Cargo.toml",
+    "firmware-pico/Cargo.toml",
+    "tests/vm-on-avr/Cargo.toml",
+    "fuzz/Cargo.toml",
+];
 
 /// The registry that dependencies may come from.
 const REGISTRY: &str = "registry+https://github.com/rust-lang/crates.io-index";

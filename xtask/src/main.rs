@@ -5,6 +5,7 @@ mod avr;
 mod bench;
 mod block_pages;
 mod board;
+mod boards_page;
 mod budgets;
 mod demo;
 mod dist;

@@ -12,8 +12,8 @@ use crate::process::{root, run};
 pub const AVR_COMPILER: &[&str] = &["rustc-web", "cargo-web", "rust-web-src", "rust-web-clippy"];
 /// What links the firmware and makes its hex file.
 pub const AVR_LINKER: &[&str] = &["gcc-avr", "avr-libc", "binutils-avr"];
-/// What links WebAssembly with Debian's compiler.
-pub const WASM_LINKER: &[&str] = &["lld-19"];
+/// What links for WebAssembly and for the Pico with Debian's compiler.
+pub const LLD: &[&str] = &["lld-19"];
 /// What runs WebAssembly.
 pub const NODE: &[&str] = &["nodejs"];
 /// What shows the page of the IDE in a test.

@@ -37,16 +37,20 @@ const HOST_ALONE: [Stage; 2] =
     [("lints", || lint(&[])), ("tests", || process::run(&mut tests(&[])))];
 
 /// Instead of these.
-const BOARD: [Stage; 12] = [
+const BOARD: [Stage; 13] = [
     ("libraries as WebAssembly", wasm::check),
     ("IDE in a browser", ide::check),
     ("modules", || modules::run(true)),
     ("format of the firmware", || {
-        process::run(cargo().args(["fmt", "--check", "--manifest-path", "firmware/Cargo.toml"]))
+        for manifest in ["firmware/Cargo.toml", "firmware-pico/Cargo.toml"] {
+            process::run(cargo().args(["fmt", "--check", "--manifest-path", manifest]))?;
+        }
+        Ok(())
     }),
     ("firmware", firmware::check),
+    ("firmware of the Pico", || firmware::build_pico().map(drop)),
     ("plc-vm on an AVR with room", || firmware::build_vm().map(drop)),
-    ("lints of what runs on an AVR", firmware::lint),
+    ("lints of what runs on boards", firmware::lint),
     ("lints with the virtual board", || lint(WITH_BOARD)),
     ("tests, on the virtual board too", || process::run(&mut tests(WITH_BOARD))),
     ("the IDE's core in tests, and as WebAssembly", ide::log),
@@ -70,7 +74,7 @@ pub fn run(host_only: bool) -> Result<()> {
             packages::OCTAVE,
             packages::NODE,
             packages::BROWSER,
-            packages::WASM_LINKER,
+            packages::LLD,
         ])?;
         stages.extend(BOARD);
     }

@@ -110,7 +110,7 @@ fn compiler() -> Result<(Command, &'static [&'static str])> {
         return Ok((cargo(), &[]));
     }
     packages::ensure_installed(packages::AVR_COMPILER)?;
-    packages::ensure_installed(packages::WASM_LINKER)?;
+    packages::ensure_installed(packages::LLD)?;
     let mut debian = avr::debian_cargo();
     debian
         .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", DEBIAN_LINKER)

@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Parser;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use plc_isa::Profile;
 
 use super::firmware;
 use super::report::Messages;
@@ -31,6 +33,10 @@ pub struct Arguments {
     /// Runs on the board only.
     #[arg(long)]
     pub native: bool,
+
+    /// The board that the program is for, as if its text named it (`//# board`).
+    #[arg(long, value_name = "NAME", value_parser = board())]
+    pub board: Option<&'static Profile>,
 
     /// Writes a listing: offset, bytes and stack depth beside each source line.
     #[arg(long, value_name = "FILE")]
@@ -100,4 +106,11 @@ pub struct Arguments {
     /// Explains an error or warning, such as E0012.
     #[arg(long, value_name = "CODE", conflicts_with_all = ["program", "flash"])]
     pub explain: Option<String>,
+}
+
+/// Takes the name of a board.
+pub fn board() -> impl TypedValueParser<Value = &'static Profile> {
+    let names = PossibleValuesParser::new(Profile::ALL.map(|profile| profile.name));
+    // No other names come out of it.
+    names.map(|name| Profile::named(&name).unwrap_or_default())
 }

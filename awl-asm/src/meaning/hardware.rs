@@ -1,10 +1,9 @@
 //! What an S7-200 has and an Uno has not: says so at assembly, with the reason and the nearest way
 //! that works.
 
-use plc_isa::{Area, Kind, Op};
+use plc_isa::{Area, Op};
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::meaning::quoted::told;
 use crate::meaning::selected::{Argument, Selected, span_of};
 use crate::text::address::Address;
 use crate::text::ast::{Instruction, Program, Span};
@@ -24,34 +23,8 @@ fn no_counter(number: u8, span: Span) -> Diagnostic {
     Diagnostic::new(Code::Hardware, span, message).help("use HSC0 or HSC3 and its special memory")
 }
 
-/// An immediate instruction with a point that has no pin.
-fn no_pin(program: &Program, source: &Instruction, selected: &Selected) -> Option<Diagnostic> {
-    let (area, way) = match selected.kinds.first()? {
-        Kind::InputPoint => (Area::I, "inputs"),
-        Kind::OutputPoint => (Area::Q, "outputs"),
-        _ => return None,
-    };
-    let operand = source.operands.first()?;
-    let Argument::Bit(address @ Address::Bit { byte, bit, .. }) = selected.arguments[0] else {
-        return None;
-    };
-    let profile = program.profile;
-    let (count, board, name) = (profile.points(area), profile.title, area.name());
-    (byte > 0 || bit >= count).then(|| {
-        let address = told(program, operand.span, address);
-        let message =
-            format!("{address} has no pin on {board}: an immediate instruction needs one");
-        let help = format!("{board}'s {way} are {name}0.0 to {name}0.{}", count - 1);
-        Diagnostic::new(Code::Hardware, operand.span, message).help(help)
-    })
-}
-
 /// What the board cannot do of an instruction whose operands are right by themselves.
-pub(crate) fn refusal(
-    program: &Program,
-    source: &Instruction,
-    selected: &Selected,
-) -> Option<Diagnostic> {
+pub(crate) fn refusal(source: &Instruction, selected: &Selected) -> Option<Diagnostic> {
     let span =
         |index: usize| source.operands.get(index).map(|operand| operand.span).unwrap_or_default();
     match (selected.op, selected.arguments) {
@@ -77,7 +50,7 @@ pub(crate) fn refusal(
             let message = format!("port {port}: the Uno has one serial line, port 0");
             Some(Diagnostic::new(Code::Hardware, span(1), message).suggest("0"))
         }
-        _ => no_pin(program, source, selected),
+        _ => None,
     }
 }
 
@@ -146,18 +119,22 @@ pub(crate) fn shared_pins(program: &Program, code: &[Selected]) -> Vec<Diagnosti
             |selected: &&Selected| selected.arguments().any(|written| written == (wanted, true));
         code.iter().find(writes)
     };
-    let shared = |(channel, pin): (u8, &str)| {
+    let profile = program.profile;
+    let shared = |channel: u8| {
         let (analog, bit) = (
             Address::AnalogOutput(channel),
             Address::Bit { area: Area::Q, byte: 0, bit: channel + 1 },
         );
         let (written, digital) = (writer(Argument::Memory(analog))?, writer(Argument::Bit(bit))?);
-        let message = format!("{bit} and {analog} are the same pin of the Uno, {pin}");
+        let pin = profile.output_pins.get(usize::from(channel) + 1)?;
+        let message = format!("{bit} and {analog} are the same pin of {}, {pin}", profile.title);
         let diagnostic = Diagnostic::new(Code::Hardware, span_of(program, digital), message);
         let diagnostic = diagnostic.related(span_of(program, written), format!("{analog} here"));
-        Some(diagnostic.help("the other digital outputs, Q0.0 and Q0.3 to Q0.5, share nothing"))
+        let last = profile.digital_outputs() - 1;
+        let help = format!("the other digital outputs, Q0.0 and Q0.3 to Q0.{last}, share nothing");
+        Some(diagnostic.help(help))
     };
-    [(0, "D9"), (1, "D10")].into_iter().filter_map(shared).collect()
+    (0..profile.analog_outputs).filter_map(shared).collect()
 }
 
 /// The events of an Uno.

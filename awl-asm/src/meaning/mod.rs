@@ -1,6 +1,7 @@
 //! What the instructions of a syntax tree are, and what is wrong with them. Nothing has a place in
 //! memory yet.
 
+pub(crate) mod boards;
 mod calls;
 pub mod check;
 mod example;

@@ -36,7 +36,7 @@ pub(crate) fn check(
             diagnostics.extend(hardware::counter(address, operand.span));
         }
     }
-    diagnostics.extend(hardware::refusal(program, source, selected));
+    diagnostics.extend(hardware::refusal(source, selected));
 }
 
 /// Special memory lies in two pieces on the board.

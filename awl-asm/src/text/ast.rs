@@ -37,8 +37,9 @@ pub struct Program {
     pub name: Option<String>,
     /// The board whose points the program can use.
     pub profile: &'static Profile,
-    /// Whether `//# board` names it: then the program must fit it.
-    pub is_board_named: bool,
+    /// Where `//# board` names it, at the beginning of the text where it is asked for beside it: then
+    /// the program must fit it.
+    pub board_named: Option<Span>,
     /// The warnings that `//# allow` wants to hear nothing of.
     pub allowed: Vec<Code>,
     /// What `//# bound` and `//# rate` say of a run.

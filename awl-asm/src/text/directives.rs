@@ -7,6 +7,7 @@ use diagnostics::origins::parse_place;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::text::address::{Address, AddressError};
 use crate::text::ast::{Promise, PromiseKind, RetainedRange, Span, Symbol, Value};
+use crate::text::boards::way;
 use crate::text::directive_table::WORDS;
 use crate::text::line_settings::modbus;
 use crate::text::misdeclared::{
@@ -71,7 +72,7 @@ impl Directives {
             () if is("board") => {
                 let profile = board(word, values, targets.suggester)?;
                 once(&mut self.board, line, word)?;
-                (program.profile, program.is_board_named) = (profile, true);
+                (program.profile, program.board_named) = (profile, Some(line));
             }
             () if is("pullup") => points(word, values, targets, pullup),
             () if is("invert") => points(word, values, targets, invert),
@@ -328,6 +329,8 @@ fn points(
             if u32::from(bits) >> pins != 0 {
                 let mut diagnostic = item.error(format!("{} has no pin for it", board.title));
                 diagnostic.help.push(format!("{name}0.0 to {name}0.{} have a pin", pins - 1));
+                let has_pins = |other: &Profile| u32::from(bits) >> other.points(area) == 0;
+                diagnostic.help.extend(way(board, has_pins));
                 return Err(diagnostic);
             }
             *field |= bits as u8;

@@ -4,6 +4,7 @@
 pub mod address;
 pub mod ast;
 mod blocks;
+pub(crate) mod boards;
 pub mod cursor;
 pub mod data_block;
 pub mod declared;

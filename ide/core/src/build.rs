@@ -107,7 +107,7 @@ fn longest_us(program: &Program) -> Option<f64> {
 /// What the program takes.
 pub fn summary(program: &Program) -> Summary {
     let assembly = &program.assembly;
-    let demand = &assembly.demand;
+    let (demand, board) = (&assembly.demand, assembly.program.profile);
     let mut operands: Vec<(String, String)> = assembly
         .program
         .symbols
@@ -129,11 +129,11 @@ pub fn summary(program: &Program) -> Summary {
         files,
         instructions: assembly.code.len() as u32,
         bytes: program.image.len() as u32,
-        bytes_max: u32::from(UNO.slot_len),
+        bytes_max: u32::from(board.slot_len),
         data: demand.arena_len() as u32,
-        data_max: u32::from(UNO.arena_len()),
+        data_max: u32::from(board.arena_len()),
         longest_us: longest_us(program),
-        fits_uno: assembly.misfit.is_empty(),
+        fits_uno: assembly.misfit.is_empty() && board == &UNO,
         operands,
     }
 }

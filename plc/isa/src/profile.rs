@@ -128,6 +128,9 @@ impl Profile {
     /// All profiles.
     pub const ALL: [&'static Profile; 3] = [&UNO, &HOST, &PICO];
 
+    /// Those that are boards, the smallest first.
+    pub const BOARDS: [&'static Profile; 2] = [&UNO, &PICO];
+
     /// The largest one that this build has memory for: a board's firmware that of its board.
     pub const LARGEST: Profile = if cfg!(target_arch = "avr") { UNO } else { HOST };
 

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use awl_asm::assemble::{Assembly, assemble};
+use awl_asm::assemble::{Assembly, assemble_with};
 use awl_asm::files::{ending, ensure_distinct, ensure_no_source, read_program_texts, write_whole};
 use awl_asm::for_tools::for_tools;
 use awl_asm::hex::intel_hex;
@@ -27,7 +27,7 @@ pub(super) fn build(arguments: &Build) -> Result<bool> {
         Ok(joined) => joined,
         Err(findings) => return Ok(told(&findings, arguments.messages)),
     };
-    let mut assembly = assemble(&joined.awl, Vec::new());
+    let mut assembly = assemble_with(&joined.awl, Vec::new(), &[], arguments.board);
     if arguments.native || kind == Kind::Hex {
         assembly.require_board();
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use plc_isa::{Area, Kind, Op, Role, TimerKind};
+use plc_isa::{Area, Kind, Op, Profile, Role, TimerKind};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::meaning::check::parting::may_part;
@@ -10,6 +10,7 @@ use crate::meaning::quoted::{short, told};
 use crate::meaning::selected::{Argument, Selected, operand_span, span_of};
 use crate::text::address::Address;
 use crate::text::ast::{Program, Span};
+use crate::text::boards::way;
 
 /// One use of an address by an instruction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -371,10 +372,11 @@ impl Check<'_> {
             let name = area.name();
             let address = self.told(first, address);
             let message = format!("{address} has no pin on {board}: {effect}");
-            diagnostics.push(
-                Diagnostic::new(Code::NoSuchPin, self.span(first), message)
-                    .help(format!("{board}'s {direction} are {name}0.0 to {name}0.{}", count - 1)),
-            );
+            let mut diagnostic = Diagnostic::new(Code::NoSuchPin, self.span(first), message)
+                .help(format!("{board}'s {direction} are {name}0.0 to {name}0.{}", count - 1));
+            let has_pin = |other: &Profile| byte == 0 && bit < other.points(area);
+            diagnostic.help.extend(way(self.program.profile, has_pin));
+            diagnostics.push(diagnostic);
         }
     }
 }
