@@ -50,7 +50,6 @@ const NO_READING = 0xff;
 const quiet = { debug() {}, info() {}, warn() {}, error() {} };
 
 let RP2040;
-let SimulationClock;
 
 /** What an ELF has to be in flash. */
 function segments(elf) {
@@ -101,7 +100,7 @@ class Board {
   constructor(firmware, image, dataLen) {
     this.firmware = firmware;
     this.dataLen = dataLen;
-    this.chip = new RP2040(new SimulationClock());
+    this.chip = new RP2040();
     this.chip.logger = quiet;
     firmware.load(this.chip.flash);
     this.chip.flash.set(image, PROGRAM);
@@ -376,7 +375,7 @@ function serve() {
 /** Whether the emulator is there. */
 async function load() {
   try {
-    ({ RP2040, SimulationClock } = await import("rp2040js"));
+    ({ RP2040 } = await import("rp2040js"));
     write(0, []);
     return true;
   } catch (error) {
