@@ -90,6 +90,22 @@ impl Pico {
         self.held_cycles_max = HELD_CYCLES_MAX;
     }
 
+    /// The digital inputs that have a pin and all analog inputs of the next scan, as logical
+    /// values.
+    pub fn set_inputs(&mut self, inputs: &Inputs) {
+        self.inputs = *inputs;
+    }
+
+    /// Writes a byte of data memory before the next scan.
+    pub fn set_byte(&mut self, address: u16, byte: u8) {
+        self.writes.push(Write { address, mask: 0xFF, value: byte });
+    }
+
+    /// The levels of the output pins; `None` where they are not driven.
+    pub fn outputs(&self) -> Option<u8> {
+        (self.state.driven != 0).then_some(self.state.levels & self.state.driven)
+    }
+
     /// How many cycles a scan may take before the held clock goes on, a millisecond with every look
     /// at it. At first more than any scan that ends: whoever knows that it will not chooses fewer.
     pub fn hold_clock_for(&mut self, cycles: u32) {
