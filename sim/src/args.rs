@@ -272,6 +272,8 @@ pub enum On {
     Uno,
     /// The firmware on a virtual Uno, with a translated program
     UnoNative,
+    /// The firmware on an emulated Raspberry Pi Pico
+    Pico,
 }
 
 impl From<On> for Target {
@@ -280,6 +282,7 @@ impl From<On> for Target {
             On::Host => Target::Host,
             On::Uno => Target::Uno,
             On::UnoNative => Target::UnoNative,
+            On::Pico => Target::Pico,
         }
     }
 }

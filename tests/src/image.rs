@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use awl_asm::assemble::assemble;
+use awl_asm::assemble::assemble_for;
 use awl_asm::render::human;
 use awl_asm::source::Source;
 use fastrand::Rng;
@@ -38,8 +38,16 @@ impl ProgramMemory for OnBoard<'_> {
 /// # Panics
 /// With what the assembler says, if it has errors.
 pub fn image(text: &str) -> Vec<u8> {
+    image_for(text, &UNO)
+}
+
+/// The same for a board.
+///
+/// # Panics
+/// As there.
+pub fn image_for(text: &str, board: &'static Profile) -> Vec<u8> {
     let source = Source::new("program", text).unwrap_or_else(|error| panic!("{error}"));
-    let assembly = assemble(&source, Vec::new());
+    let assembly = assemble_for(&source, Vec::new(), &[], board);
     assembly.image.unwrap_or_else(|| {
         let messages: Vec<_> =
             assembly.diagnostics.iter().map(|message| human(&source, message, false)).collect();

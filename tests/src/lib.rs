@@ -3,6 +3,7 @@
 
 #[cfg(feature = "uno")]
 pub mod bench_board;
+pub mod beside;
 pub mod case;
 pub mod commands;
 pub mod effort;
@@ -26,6 +27,7 @@ pub mod plugged;
 #[cfg(feature = "uno")]
 pub mod power;
 pub mod random;
+pub mod random_runs;
 pub mod retained;
 pub mod still_time;
 #[cfg(feature = "uno")]

@@ -20,10 +20,8 @@ use crate::bench_board::firmware;
 use crate::case::host;
 use crate::image::OnBoard;
 
-pub use runs::{
-    Programs, assert_cases_are_the_same, assert_random_programs_are_the_same, random_image,
-    random_scans,
-};
+pub use crate::random_runs::{Programs, random_image, random_scans};
+pub use runs::{assert_cases_are_the_same, assert_random_programs_are_the_same};
 
 /// Pins of the outputs.
 const OUTPUT_PINS: u8 = (1 << DIGITAL_OUTPUTS) - 1;

@@ -9,145 +9,75 @@ mod desk;
 
 use std::collections::VecDeque;
 
-use awl_sim::action::Action;
-use awl_sim::machine::host::Host;
-use awl_sim::machine::{Machine, MachineError, Mode};
-use awl_sim::operand::Operand;
-use awl_sim::plant::Outputs;
 use desk::Desk;
-use plc_isa::{DATA_START, Program};
 use plc_vm::{Fault, Inputs};
 use runtime::Controller;
-use tests::case::{Case, Prepared, host};
+use tests::beside::{Board, Pair};
+use tests::case::{Case, Prepared};
 use tests::effort::effort;
-use tests::lockstep::{Programs, random_image, random_scans};
+use tests::random_runs::{Programs, random_image, random_scans};
 
-/// Host and runtime with the same program. As a machine it is the host; the runtime must be the
-/// same.
-struct Pair {
-    host: Host,
+/// The runtime on the desk.
+struct OnDesk {
     board: Box<Controller<Desk>>,
-    /// One past the last data address that is compared: after its plan the board keeps a copy of
-    /// what is retained.
-    compared_end: u16,
     /// Characters on the line, and when they come in.
     incoming: VecDeque<(u64, u8)>,
-    scans: u64,
-    difference: Option<String>,
+    /// The levels of its outputs after the last scan, if they are driven.
+    outputs: Option<u8>,
 }
 
-impl Pair {
-    fn new(image: &[u8]) -> Pair {
-        let board = desk::on(Desk::new(Some(image.to_vec())));
-        let plan = board.plc().program().map(Program::plan);
-        let retaining = plan.filter(|plan| plan.header.retained > 0);
-        let compared_end = retaining.map_or(u16::MAX, |plan| plan.end());
-        let (host, incoming) = (host(image), VecDeque::new());
-        Pair { host, board, compared_end, incoming, scans: 0, difference: None }
-    }
-
-    fn must_be<T: PartialEq + std::fmt::Debug>(&mut self, what: &str, board: T, host: T) {
-        if board != host && self.difference.is_none() {
-            let scan = self.scans;
-            self.difference =
-                Some(format!("after scan {scan}: {what} is {board:?}, should be {host:?}"));
-        }
-    }
-
-    fn compare(&mut self) {
-        let runs = self.host.mode() == Mode::Run;
-        self.must_be("RUN", self.board.plc().mode() == plc_vm::Mode::Run, runs);
-        let is_watchdog = matches!(self.host.fault_kind(), Some(Fault::Watchdog { .. }));
-        if is_watchdog {
-            // How far an endless loop came is a matter of speed.
-            return;
-        }
-        self.must_be("the fault", self.board.plc().fault(), self.host.fault_kind());
-        let levels = self.host.pin_levels();
-        let outputs = self.board.board().outputs;
-        self.must_be("what the pins are driven to", outputs, runs.then_some(levels));
-        let host = self.host.memory().bytes().iter();
-        let bytes = (DATA_START..).zip(self.board.memory().bytes().iter().zip(host));
-        let different = bytes
-            .into_iter()
-            .find(|(address, (board, host))| board != host && *address < self.compared_end);
-        if let Some((address, (&board, &host))) = different {
-            self.must_be(&format!("the byte at {address:#06x}"), board, host);
-        }
-    }
+/// Host and runtime with the same program.
+fn pair(image: &[u8]) -> Pair<OnDesk> {
+    let board = desk::on(Desk::new(Some(image.to_vec())));
+    Pair::new(OnDesk { board, incoming: VecDeque::new(), outputs: None }, image)
 }
 
-impl Machine for Pair {
-    fn write(&mut self, operand: Operand, value: i32) -> Result<(), MachineError> {
-        let before = self.host.memory().clone();
-        self.host.write(operand, value)?;
-        let changes = (DATA_START..).zip(before.bytes().iter().zip(self.host.memory().bytes()));
-        for (address, (_, &byte)) in changes.filter(|(_, (before, after))| before != after) {
-            self.board.memory_mut().set_byte(address, byte);
-        }
-        Ok(())
+impl Board for OnDesk {
+    fn set_byte(&mut self, address: u16, byte: u8) {
+        self.board.memory_mut().set_byte(address, byte);
     }
 
-    fn read(&mut self, operand: Operand) -> Result<i32, MachineError> {
-        self.host.read(operand)
+    fn receive(&mut self, at_ms: u64, characters: &[u8]) {
+        self.incoming.extend((at_ms..).zip(characters.iter().copied()));
     }
 
-    fn act(&mut self, action: &Action) -> Result<(), MachineError> {
-        if let Action::Receive { at_ms, bytes } = action {
-            self.incoming.extend((*at_ms..).zip(bytes.iter().copied()));
-        }
-        self.host.act(action)
-    }
-
-    fn take_sent(&mut self) -> Result<Vec<u8>, MachineError> {
-        let sent = std::mem::take(&mut self.board.board().wire.outgoing);
-        let host = self.host.take_sent()?;
-        self.must_be("what was sent", sent, host.clone());
-        Ok(host)
-    }
-
-    fn scan(&mut self, now_ms: u64) {
-        self.host.scan(now_ms);
-        let inputs = *self.host.inputs();
+    fn scan(&mut self, now_ms: u64, inputs: &Inputs, is_endless: bool) {
         let inverted = self.board.plc().program();
         let inverted = inverted.map_or(0, |one| one.plan().header.settings.invert_inputs);
         let desk = self.board.board();
         desk.now_us = (now_ms as u32).wrapping_mul(1000);
         desk.levels = inputs.digital[0] ^ inverted;
-        desk.readings = readings(&inputs);
+        desk.readings = readings(inputs);
         while let Some(&(_, character)) = self.incoming.front().filter(|(at, _)| *at <= now_ms) {
             self.incoming.pop_front();
             desk.wire.incoming.push_back(character);
         }
-        // An endless loop is one for a clock that goes on.
-        let is_endless = matches!(self.host.fault_kind(), Some(Fault::Watchdog { .. }));
         desk.look_us = if is_endless { 1000 } else { 0 };
         desk.marks.clear();
         self.board.scan();
         let marks = [runtime::Mark::ScanStart, runtime::Mark::ScanEnd];
         assert_eq!(self.board.board().marks, marks, "a scan is a scan");
-        self.scans += 1;
-        self.compare();
+        self.outputs = self.board.board().outputs;
     }
 
-    fn mode(&self) -> Mode {
-        self.host.mode()
+    fn runs(&self) -> bool {
+        self.board.plc().mode() == plc_vm::Mode::Run
     }
 
-    fn fault(&self) -> Option<String> {
-        self.host.fault()
+    fn fault(&self) -> Option<Fault> {
+        self.board.plc().fault()
     }
 
-    fn pin_levels(&mut self) -> u8 {
-        self.host.pin_levels()
+    fn outputs(&self) -> Option<u8> {
+        self.outputs
     }
 
-    fn output_pins(&mut self) -> Outputs {
-        self.host.output_pins()
+    fn memory(&self) -> &[u8] {
+        self.board.memory().bytes()
     }
 
-    fn drive_pin(&mut self, input: u8, high: bool) {
-        self.host.drive_pin(input, high);
+    fn take_sent(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.board.board().wire.outgoing)
     }
 }
 
@@ -168,11 +98,7 @@ fn readings(inputs: &Inputs) -> [u16; 6] {
 }
 
 fn failures(case: &Prepared) -> Vec<String> {
-    let mut pair = Pair::new(&case.image);
-    let mut failures = case.failures(&mut pair);
-    let difference = pair.difference.take();
-    failures.extend(difference.map(|text| format!("{}: {text}", case.case.file)));
-    failures
+    pair(&case.image).failures(case)
 }
 
 #[test]
@@ -195,12 +121,7 @@ fn random_programs_are_the_same() {
     for seed in first..first + count {
         let (image, text, mut rng) = random_image(seed, Programs::Everything);
         let place = |scan| format!("seed {seed}, scan {scan}\n{text}");
-        scans += random_scans(
-            &mut Pair::new(&image),
-            &mut rng,
-            |pair| pair.difference.as_deref(),
-            place,
-        );
+        scans += random_scans(&mut pair(&image), &mut rng, Pair::difference, place);
     }
     println!("{count} programs, {scans} scans, all equal");
     assert!(scans >= 2 * count, "the programs hardly ran");

@@ -12,6 +12,8 @@ pub mod emulated;
 pub(crate) mod fake;
 mod fault;
 pub mod host;
+#[cfg(feature = "cli")]
+pub mod pico;
 pub mod pins;
 mod points;
 #[cfg(feature = "simavr")]

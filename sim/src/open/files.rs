@@ -1,13 +1,15 @@
-//! From a path to a machine, on the host or on a virtual Uno.
+//! From a path to a machine, on the host, a virtual Uno or an emulated Pico.
 
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use awl_asm::files::{ensure_program, read};
+use plc_isa::{PICO, Profile, UNO};
 
 use super::{File, Opened, Read, ensure_no_hex};
 use crate::machine::host::Host;
+use crate::machine::pico::{self, Pico};
 use crate::machine::{Machine, PlaceOf};
 
 /// What runs the program.
@@ -20,6 +22,19 @@ pub enum Target {
     Uno,
     /// The firmware on a virtual Uno, with a translated program.
     UnoNative,
+    /// The firmware on an emulated Raspberry Pi Pico.
+    Pico,
+}
+
+impl Target {
+    /// The board that the program must fit on.
+    fn board(self) -> Option<&'static Profile> {
+        match self {
+            Target::Host => None,
+            Target::Uno | Target::UnoNative => Some(&UNO),
+            Target::Pico => Some(&PICO),
+        }
+    }
 }
 
 /// The files of a program.
@@ -40,17 +55,17 @@ impl ProgramFiles<'_> {
     /// A bad image is none: it is opened, and the machine is in STOP with a fault, as a board would
     /// be.
     pub fn open(self, target: Target) -> Result<Opened> {
-        let Read { image, place_of, about } = self.read(target != Target::Host)?;
+        let Read { image, place_of, about } = self.read(target.board())?;
         Ok(about.on(machine(image, place_of, target)?))
     }
 
     /// The same on the host, as a machine that can be more than run scan by scan.
     pub fn open_host(self) -> Result<Opened<Host>> {
-        let Read { image, place_of, about } = self.read(false)?;
+        let Read { image, place_of, about } = self.read(None)?;
         Ok(about.on(Box::new(Host::new(image, place_of))))
     }
 
-    fn read(self, needs_board: bool) -> Result<Read> {
+    fn read(self, board: Option<&'static Profile>) -> Result<Read> {
         for path in self.program {
             ensure_no_hex(&path.display().to_string())?;
         }
@@ -63,7 +78,7 @@ impl ProgramFiles<'_> {
         let tables = self.symbols.iter().map(|path| read_input(path));
         let tables: Vec<File> = tables.collect::<Result<_>>()?;
         let data = self.data.map(read_input).transpose()?;
-        Ok(Read::of(&program, &tables, data.as_ref(), needs_board)?)
+        Ok(Read::of(&program, &tables, data.as_ref(), board)?)
     }
 }
 
@@ -92,7 +107,22 @@ fn machine(image: Vec<u8>, place_of: PlaceOf, target: Target) -> Result<Box<dyn 
     match target {
         Target::Host => Ok(Box::new(Host::new(image, place_of))),
         Target::Uno | Target::UnoNative => uno(image, place_of, target),
+        Target::Pico => pico(image, place_of),
     }
+}
+
+/// The firmware refuses what is for another board, too; here it is said what to do.
+fn pico(image: Vec<u8>, place_of: PlaceOf) -> Result<Box<dyn Machine>> {
+    if let Some(other) = pico::profile(&image).filter(|board| *board != &PICO) {
+        bail!(
+            "the program is for {}, and the machine is the Pico: write `//# board {}` in its text",
+            other.title,
+            PICO.name
+        );
+    }
+    let mut pico = Pico::new(&pico::find_firmware()?, place_of)?;
+    pico.load(image);
+    Ok(Box::new(pico))
 }
 
 #[cfg(feature = "simavr")]
@@ -106,7 +136,7 @@ fn uno(image: Vec<u8>, place_of: PlaceOf, target: Target) -> Result<Box<dyn Mach
 
 #[cfg(not(feature = "simavr"))]
 fn uno(_image: Vec<u8>, _place_of: PlaceOf, _target: Target) -> Result<Box<dyn Machine>> {
-    anyhow::bail!(
+    bail!(
         "this awl-sim was built without the virtual Uno; on Debian:\n  \
          apt-get install libsimavr-dev libelf-dev\n  cargo install --path sim --features simavr"
     )

@@ -9,7 +9,7 @@ use std::fmt;
 use std::path::Path;
 
 use awl_asm::Address;
-use awl_asm::assemble::{Assembly, assemble, assemble_with_data};
+use awl_asm::assemble::{Assembly, assemble, assemble_for};
 use awl_asm::ast::{DataLine, Symbol};
 use awl_asm::data_block;
 use awl_asm::diagnostic::{Diagnostic, Severity};
@@ -17,7 +17,7 @@ use awl_asm::disassemble::{disassemble, instructions};
 use awl_asm::source::{Source, SourceError};
 use awl_asm::tools::{Tools, image_in};
 use diagnostics::binary::Binary;
-use plc_isa::{Area, ImageFault, MAGIC, verify};
+use plc_isa::{Area, ImageFault, MAGIC, Profile, UNO, verify};
 pub use project::Findings;
 use project::{Joined, from_awl, has_errors, join};
 
@@ -137,7 +137,7 @@ pub fn open_files(
     tables: &[File],
     data: Option<&File>,
 ) -> Result<Opened<Host>, OpenError> {
-    let Read { image, place_of, about } = Read::of(program, tables, data, false)?;
+    let Read { image, place_of, about } = Read::of(program, tables, data, None)?;
     Ok(about.on(Box::new(Host::new(image, place_of))))
 }
 
@@ -158,12 +158,13 @@ struct About {
 }
 
 impl Read {
-    /// `needs_board`: a program that is too large for the board has errors.
+    /// `board`: the one that texts are for, if they name no other; a program that is too large for
+    /// it has errors.
     fn of(
         program: &[File],
         tables: &[File],
         data: Option<&File>,
-        needs_board: bool,
+        board: Option<&'static Profile>,
     ) -> Result<Read, OpenError> {
         program.iter().try_for_each(|file| ensure_no_hex(&file.name))?;
         let mut findings = Vec::new();
@@ -177,7 +178,7 @@ impl Read {
             }
             _ => {
                 let data = load_data(data, &symbols, &mut findings)?;
-                open_text(sources(program)?, symbols, &data, needs_board, &mut findings)?
+                open_text(sources(program)?, symbols, &data, board, &mut findings)?
             }
         };
         let networks = networks(&assembly, &place_of);
@@ -256,12 +257,12 @@ fn open_text(
     sources: Vec<Source>,
     symbols: Vec<Symbol>,
     data: &[DataLine],
-    needs_board: bool,
+    board: Option<&'static Profile>,
     findings: &mut Vec<Findings>,
 ) -> Result<Parts, OpenError> {
     let joined = join(sources).map_err(OpenError::Errors)?;
-    let mut assembly = assemble_with_data(&joined.awl, symbols, data);
-    if needs_board {
+    let mut assembly = assemble_for(&joined.awl, symbols, data, board.unwrap_or(&UNO));
+    if board.is_some() {
         assembly.require_board();
     }
     let periods = joined.periods(assembly.image.as_deref().unwrap_or_default(), &assembly, false);

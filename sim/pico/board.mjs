@@ -1,0 +1,388 @@
+// A Raspberry Pi Pico for awl-sim: the PLC's firmware in the emulator rp2040js. What it is asked for
+// comes in frames on standard input, the answers go out on standard output; `frames.rs` in
+// sim/src/machine/pico is the other side. One process serves many boards, one after the other.
+// What programs, operands and scenarios are is not known here.
+
+import { readFileSync, readSync, statSync, writeSync } from "node:fs";
+import { romOf } from "./rom.mjs";
+
+const FLASH = 0x10000000;
+const SRAM = 0x20000000;
+const VECTORS = 0x100;
+const PROGRAM = 0x100000;
+const NANOS_OF_CYCLE = 8;
+
+// Registers of peripherals, as rp2040js asks for them.
+const WATCHDOG = 0x40058;
+const TIMER = 0x40054;
+const TIMERAWL = 0x28;
+const MARK = 0x14;
+const DATA_ADDRESS = 0x18;
+const SCAN_START = 1;
+const SCAN_END = 2;
+
+const FIRST_INPUT = 2;
+const FIRST_OUTPUT = 10;
+const POINTS = 8;
+const PWM = 4;
+const PWM_CC = 0x4005000c;
+const PWM_SLICE_LEN = 0x14;
+const NO_DUTY = 0xffff;
+
+// Cycles from power to the first scan, and from a scan to the next.
+const BOOT_MAX = 20_000_000;
+const PAUSE_MAX = 2_000_000;
+// From when on each look at the clock takes a millisecond, until the scan has ended.
+const LATE_MAX = 400_000_000;
+const LOOK_US = 1000;
+// Cycles until inputs have been read, and until the interrupt has taken what is in the FIFO.
+const INPUTS_MAX = 200_000;
+const CHARACTERS_MAX = 100_000;
+const FIFO_LEN = 32;
+
+// Where the analog inputs are in data memory, and their bytes.
+const ANALOG_AT = 0x100;
+const ANALOG_LEN = 24;
+// Of all analog bytes the firmware writes those of AIW10 last; no reading makes these of them.
+const LAST_ANALOG = [ANALOG_AT + 10, ANALOG_AT + 11];
+const NO_READING = 0xff;
+
+const quiet = { debug() {}, info() {}, warn() {}, error() {} };
+
+let RP2040;
+
+/** What an ELF has to be in flash. */
+function segments(elf) {
+  if (elf.length < 52 || elf.readUInt32BE(0) !== 0x7f454c46 || elf[4] !== 1) {
+    throw new Error("the firmware is no ELF of 32 bits");
+  }
+  const [start, len, count] = [elf.readUInt32LE(28), elf.readUInt16LE(42), elf.readUInt16LE(44)];
+  const headers = Array.from({ length: count }, (_, number) => start + number * len);
+  const isInFlash = ({ address, size }) =>
+    size > 0 && address >= FLASH && address + size <= FLASH + PROGRAM;
+  return headers
+    .filter((at) => elf.readUInt32LE(at) === 1)
+    .map((at) => ({
+      offset: elf.readUInt32LE(at + 4),
+      address: elf.readUInt32LE(at + 12),
+      size: elf.readUInt32LE(at + 16),
+    }))
+    .filter(isInFlash)
+    .map(({ offset, address, size }) => ({
+      at: address - FLASH,
+      bytes: elf.subarray(offset, offset + size),
+    }));
+}
+
+/** The firmware in a file; and, once it was there, what its start-up makes of memory. */
+class Firmware {
+  constructor(path) {
+    this.segments = segments(readFileSync(path));
+    this.start = null;
+  }
+
+  load(flash) {
+    for (const { at, bytes } of this.segments) flash.set(bytes, at);
+  }
+}
+
+const known = new Map();
+
+function firmwareAt(path) {
+  const { mtimeMs, size } = statSync(path);
+  const key = `${path} ${mtimeMs} ${size}`;
+  if (!known.has(key)) known.set(key, new Firmware(path));
+  return known.get(key);
+}
+
+/** A board. It stands still between calls. */
+class Board {
+  constructor(firmware, image, dataLen) {
+    this.firmware = firmware;
+    this.dataLen = dataLen;
+    this.chip = new RP2040();
+    this.chip.logger = quiet;
+    firmware.load(this.chip.flash);
+    this.chip.flash.set(image, PROGRAM);
+    romOf(this.chip);
+    [this.cycles, this.mark, this.dataAt] = [0, 0, 0];
+    [this.nowUs, this.lookUs] = [0, 0];
+    this.isHung = false;
+    this.sent = [];
+    this.atStart = false;
+    this.listen();
+  }
+
+  /** Has what the firmware does at some registers told, and holds its clock. */
+  listen() {
+    const watchdog = this.chip.peripherals[WATCHDOG];
+    const write = watchdog.writeUint32.bind(watchdog);
+    watchdog.writeUint32 = (offset, value) => {
+      if (offset === MARK) this.mark = value;
+      if (offset === DATA_ADDRESS) this.dataAt = value;
+      write(offset, value);
+    };
+    watchdog.onWatchdogTrigger = () => {
+      this.isHung = true;
+    };
+    this.scratch = watchdog.scratchData;
+    const timer = this.chip.peripherals[TIMER];
+    const read = timer.readUint32.bind(timer);
+    timer.readUint32 = (offset) => (offset === TIMERAWL ? this.look() : read(offset));
+    this.chip.uart[0].onByte = (character) => this.sent.push(character);
+  }
+
+  look() {
+    this.nowUs = (this.nowUs + this.lookUs) >>> 0;
+    return this.nowUs;
+  }
+
+  /** Executes until this is so, at most for so many cycles. Whether it came to be so. */
+  runUntil(isSo, cyclesMax) {
+    const { core, clock } = this.chip;
+    const end = this.cycles + cyclesMax;
+    while (!isSo()) {
+      if (this.cycles >= end) return false;
+      if (this.isHung) throw new Error("the firmware has not fed the hardware watchdog: it hangs");
+      if (core.waiting) clock.tick(clock.nanosToNextAlarm);
+      const cycles = core.executeInstruction();
+      this.cycles += cycles;
+      // As `clock.tick` does it, but for the call where there is nothing to do.
+      clock.nanosCounter += cycles * NANOS_OF_CYCLE;
+      if (clock.nextAlarm !== null && clock.nextAlarm.nanos <= clock.nanosCounter) clock.tick(0);
+    }
+    return true;
+  }
+
+  /** Executes to the next mark. Whether it came; it must be this one. */
+  runTo(mark, cyclesMax) {
+    this.mark = 0;
+    if (!this.runUntil(() => this.mark !== 0, cyclesMax)) return false;
+    if (this.mark !== mark) throw new Error("the board was reset in the middle of a scan");
+    return true;
+  }
+
+  /** Power, until the first scan starts. */
+  powerUp(nowUs) {
+    this.nowUs = nowUs;
+    this.startUp();
+    if (!this.runTo(SCAN_START, BOOT_MAX)) throw new Error("the firmware does not start");
+    if (this.dataAt < SRAM) throw new Error("the firmware does not tell where its memory is");
+    this.atStart = true;
+  }
+
+  /** To where the firmware's code begins to run in RAM: always the same, so it is done once. */
+  startUp() {
+    const { core, flashView, sram } = this.chip;
+    core.VTOR = FLASH + VECTORS;
+    core.SP = flashView.getUint32(VECTORS, true);
+    core.PC = flashView.getUint32(VECTORS + 4, true) & ~1;
+    const { firmware } = this;
+    if (firmware.start === null) {
+      // With the old layout it runs in flash, and comes to a mark.
+      this.runUntil(() => core.PC >= SRAM || this.mark !== 0, BOOT_MAX);
+      if (core.PC < SRAM) throw new Error("the firmware does not run in RAM");
+      const { N, C, Z, V } = core;
+      firmware.start = { sram: sram.slice(), registers: core.registers.slice(), flags: { N, C, Z, V } };
+    } else {
+      sram.set(firmware.start.sram);
+      core.registers.set(firmware.start.registers);
+      Object.assign(core, firmware.start.flags);
+    }
+  }
+
+  setInputs(levels, counts) {
+    for (let input = 0; input < POINTS; input++) {
+      this.chip.gpio[FIRST_INPUT + input].setInputValue(((levels >> input) & 1) !== 0);
+    }
+    counts.forEach((count, channel) => {
+      this.chip.adc.channelValues[channel] = count;
+    });
+  }
+
+  data() {
+    const at = this.dataAt - SRAM;
+    return this.chip.sram.subarray(at, at + this.dataLen);
+  }
+
+  /** A scan. What is in `wanted` is done when it has started and has not read its inputs. */
+  scan(wanted) {
+    [this.nowUs, this.lookUs] = [wanted.nowUs, 0];
+    if (!this.atStart && !this.runTo(SCAN_START, PAUSE_MAX)) {
+      throw new Error("the next scan is not due yet: the program sets a longer period (//# scan)");
+    }
+    this.atStart = false;
+    const start = this.cycles;
+    this.setInputs(wanted.levels, wanted.counts);
+    for (const { at, mask, value } of wanted.writes) {
+      this.data()[at] = (this.data()[at] & ~mask) | (value & mask);
+    }
+    this.receive(wanted.characters);
+    if (wanted.analog !== null) this.replaceAnalog(wanted.analog);
+    if (!this.runTo(SCAN_END, wanted.cyclesMax)) {
+      this.lookUs = LOOK_US;
+      if (!this.runTo(SCAN_END, LATE_MAX)) throw new Error("the scan does not end, however late it is");
+    }
+    return this.cycles - start;
+  }
+
+  /** Characters come in on the serial line, as many as there are: none is late. */
+  receive(characters) {
+    const uart = this.chip.uart[0];
+    for (let at = 0; at < characters.length; at += FIFO_LEN) {
+      for (const character of characters.subarray(at, at + FIFO_LEN)) uart.feedByte(character);
+      if (uart.interruptMask === 0) return;
+      this.runUntil(() => uart.rxFIFO.empty, CHARACTERS_MAX);
+    }
+  }
+
+  /** Lets the firmware convert and write its analog inputs, and makes them these. */
+  replaceAnalog(bytes) {
+    const data = this.data();
+    for (const at of LAST_ANALOG) data[at] = NO_READING;
+    this.mark = 0;
+    const isWritten = () => this.mark !== 0 || LAST_ANALOG.every((at) => data[at] !== NO_READING);
+    if (!this.runUntil(isWritten, INPUTS_MAX) || this.mark !== 0) {
+      throw new Error("the firmware does not read its analog inputs");
+    }
+    data.set(bytes, ANALOG_AT);
+  }
+
+  /** The part of the time in thousandths that an output is high, where that is modulated. */
+  duty(output) {
+    const pin = FIRST_OUTPUT + output;
+    if (this.chip.gpio[pin].functionSelect !== PWM) return NO_DUTY;
+    const both = this.chip.readUint32(PWM_CC + ((pin >> 1) & 7) * PWM_SLICE_LEN);
+    return pin & 1 ? both >>> 16 : both & 0xffff;
+  }
+
+  takeSent() {
+    return Buffer.from(this.sent.splice(0));
+  }
+}
+
+/** What there is to tell after a scan. */
+function told(board, cycles) {
+  const { sio } = board.chip;
+  const sent = board.takeSent();
+  const head = Buffer.alloc(34 + sent.length);
+  head[0] = (sio.gpioValue >> FIRST_OUTPUT) & 0xff;
+  head[1] = (sio.gpioOutputEnable >> FIRST_OUTPUT) & 0xff;
+  head.writeUInt32LE(board.scratch[0], 2);
+  head.writeUInt32LE(board.scratch[1], 6);
+  head.writeUInt32LE(Math.min(cycles, 0xffffffff), 10);
+  for (let output = 0; output < POINTS; output++) head.writeUInt16LE(board.duty(output), 14 + 2 * output);
+  head.writeUInt32LE(sent.length, 30);
+  head.set(sent, 34);
+  return [head, board.data()];
+}
+
+/** Reads the parts of a request one after the other. */
+class Parts {
+  constructor(bytes) {
+    [this.bytes, this.at] = [bytes, 0];
+  }
+
+  take(len) {
+    this.at += len;
+    if (this.at > this.bytes.length) throw new Error("a request is too short");
+    return this.bytes.subarray(this.at - len, this.at);
+  }
+
+  byte() {
+    return this.take(1)[0];
+  }
+
+  short() {
+    return this.take(2).readUInt16LE();
+  }
+
+  long() {
+    return this.take(4).readUInt32LE();
+  }
+
+  rest() {
+    return this.take(this.bytes.length - this.at);
+  }
+
+  list(one) {
+    return Array.from({ length: this.short() }, one);
+  }
+}
+
+let board = null;
+
+const requests = {
+  // Power comes to a new board.
+  1(parts) {
+    board = null;
+    const firmware = firmwareAt(parts.take(parts.short()).toString());
+    const [dataLen, nowUs, levels] = [parts.short(), parts.long(), parts.byte()];
+    const counts = parts.list(() => parts.short());
+    board = new Board(firmware, parts.rest(), dataLen);
+    board.setInputs(levels, counts);
+    board.powerUp(nowUs);
+    return told(board, 0);
+  },
+  // A scan.
+  2(parts) {
+    if (board === null) throw new Error("there is no board yet");
+    const [nowUs, cyclesMax, levels] = [parts.long(), parts.long(), parts.byte()];
+    const counts = parts.list(() => parts.short());
+    const writes = parts.list(() => ({ at: parts.short(), mask: parts.byte(), value: parts.byte() }));
+    const analog = parts.byte() === 0 ? null : parts.take(ANALOG_LEN);
+    const characters = parts.rest();
+    return told(board, board.scan({ nowUs, cyclesMax, levels, counts, writes, analog, characters }));
+  },
+};
+
+/** So many bytes of standard input; `null` at its end. */
+function read(len) {
+  const bytes = Buffer.alloc(len);
+  for (let at = 0; at < len; ) {
+    const count = readSync(0, bytes, at, len - at, null);
+    if (count === 0) return null;
+    at += count;
+  }
+  return bytes;
+}
+
+/** An answer: whether it is one, and its bytes. */
+function write(kind, parts) {
+  const head = Buffer.alloc(5);
+  head.writeUInt32LE(1 + parts.reduce((sum, part) => sum + part.length, 0));
+  head[4] = kind;
+  const bytes = Buffer.concat([head, ...parts]);
+  for (let at = 0; at < bytes.length; ) at += writeSync(1, bytes, at);
+}
+
+function answer(make) {
+  try {
+    write(0, make());
+  } catch (error) {
+    write(1, [Buffer.from(error.message)]);
+  }
+}
+
+function serve() {
+  for (let head = read(4); head !== null; head = read(4)) {
+    const request = read(head.readUInt32LE());
+    if (request === null) return;
+    answer(() => requests[request[0]](new Parts(request.subarray(1))));
+  }
+}
+
+/** Whether the emulator is there. */
+async function load() {
+  try {
+    ({ RP2040 } = await import("rp2040js"));
+    write(0, []);
+    return true;
+  } catch (error) {
+    const isMissing = error.code === "ERR_MODULE_NOT_FOUND";
+    write(1, [Buffer.from(isMissing ? "rp2040js is not installed" : error.message)]);
+    return false;
+  }
+}
+
+if (await load()) serve();

@@ -1,0 +1,141 @@
+//! The firmware of the Pico, in an emulator, and the host side by side: every case, and random
+//! programs, equal after every scan.
+//!
+//! By default so many scans of a case and so many random programs are compared that it takes a few
+//! minutes. `CASE_SCANS=100000 RANDOM_PROGRAMS=5000 cargo test --package tests --features pico
+//! --test pico` runs longer.
+#![cfg(feature = "pico")]
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
+
+use awl_sim::action::Action;
+use awl_sim::machine::pico::{Pico, find_firmware};
+use awl_sim::machine::{Machine, Mode};
+use plc_isa::PICO;
+use plc_vm::{Fault, Inputs};
+use tests::beside::{Board, Pair};
+use tests::case::{Case, Prepared};
+use tests::effort::effort;
+use tests::random_runs::{Programs, random_image_for, random_scans};
+
+/// Cycles of a scan that the host has already seen to be endless.
+const ENDLESS_CYCLES: u32 = 200_000;
+
+/// An emulated board with a program.
+struct OnPico<'a>(&'a mut Pico);
+
+impl<'a> OnPico<'a> {
+    fn with(pico: &'a mut Pico, image: &[u8]) -> OnPico<'a> {
+        pico.load(image.to_vec());
+        OnPico(pico)
+    }
+}
+
+impl Board for OnPico<'_> {
+    fn set_byte(&mut self, address: u16, byte: u8) {
+        self.0.set_byte(address, byte);
+    }
+
+    fn receive(&mut self, at_ms: u64, characters: &[u8]) {
+        let received = self.0.act(&Action::Receive { at_ms, bytes: characters.to_vec() });
+        assert_eq!(received, Ok(()));
+    }
+
+    fn scan(&mut self, now_ms: u64, inputs: &Inputs, is_endless: bool) {
+        if is_endless {
+            self.0.hold_clock_for(ENDLESS_CYCLES);
+        }
+        self.0.set_inputs(inputs);
+        self.0.scan(now_ms);
+    }
+
+    fn runs(&self) -> bool {
+        self.0.mode() == Mode::Run
+    }
+
+    fn fault(&self) -> Option<Fault> {
+        self.0.fault_kind()
+    }
+
+    fn outputs(&self) -> Option<u8> {
+        self.0.outputs()
+    }
+
+    fn memory(&self) -> &[u8] {
+        self.0.memory()
+    }
+
+    fn take_sent(&mut self) -> Vec<u8> {
+        self.0.take_sent().unwrap_or_default()
+    }
+
+    fn broken(&self) -> Option<String> {
+        self.0.broken().map(str::to_owned)
+    }
+}
+
+/// One emulator for all tests: each of them takes a processor.
+fn pico() -> MutexGuard<'static, Option<Pico>> {
+    static PICO: Mutex<Option<Pico>> = Mutex::new(None);
+    let mut place = PICO.lock().unwrap_or_else(PoisonError::into_inner);
+    place.get_or_insert_with(|| {
+        let made = find_firmware().and_then(|elf| Pico::new(&elf, Box::new(|_| String::new())));
+        made.unwrap_or_else(|error| panic!("{error:#}"))
+    });
+    place
+}
+
+/// The cases that this board has everything for, and the names of the others with what they need.
+fn comparable() -> (Vec<Prepared>, Vec<String>) {
+    let cases = [Case::all(), Case::examples(), Case::structured()].concat();
+    let (mut comparable, mut left_out) = (Vec::new(), Vec::new());
+    for case in cases {
+        let file = case.file.clone();
+        match case.prepare_for(&PICO) {
+            Ok(case) if case.has_actions() => left_out.push(format!("{file}: pulses or a clock")),
+            Ok(case) => comparable.push(case),
+            Err(errors) => left_out.push(format!("{file}: {}", errors.lines().next().unwrap_or(""))),
+        }
+    }
+    (comparable, left_out)
+}
+
+#[test]
+fn cases_are_the_same() {
+    let scans_max = effort("CASE_SCANS", 100);
+    let (cases, left_out) = comparable();
+    assert!(cases.len() > 4 * left_out.len(), "{} left out", left_out.join("\n"));
+    let mut place = pico();
+    let Some(pico) = place.as_mut() else { return };
+    let (start, mut scans, mut found) = (Instant::now(), 0, Vec::new());
+    for case in &cases {
+        let mut pair = Pair::new(OnPico::with(pico, &case.image), &case.image).at_most(scans_max);
+        found.extend(pair.failures(case));
+        scans += pair.scans();
+    }
+    println!("left out:\n{}", left_out.join("\n"));
+    println!(
+        "{} cases compared for up to {scans_max} scans, {} left out, {scans} scans, {} s",
+        cases.len(),
+        left_out.len(),
+        start.elapsed().as_secs()
+    );
+    assert!(found.is_empty(), "{} failures\n{}", found.len(), found.join("\n"));
+}
+
+#[test]
+fn random_programs_are_the_same() {
+    let (first, count) = (effort("RANDOM_SEED", 1), effort("RANDOM_PROGRAMS", 200));
+    let mut place = pico();
+    let Some(pico) = place.as_mut() else { return };
+    let (start, mut scans) = (Instant::now(), 0);
+    for seed in first..first + count {
+        let (image, text, mut rng) = random_image_for(seed, Programs::Everything, &PICO);
+        let place = |scan| format!("seed {seed}, scan {scan}\n{text}");
+        let mut pair = Pair::new(OnPico::with(pico, &image), &image);
+        scans += random_scans(&mut pair, &mut rng, Pair::difference, place);
+    }
+    println!("{count} programs, {scans} scans, all equal, {} s", start.elapsed().as_secs());
+    assert!(scans >= 2 * count, "the programs hardly ran");
+}
