@@ -8,6 +8,7 @@ use crate::suite::Reports;
 use crate::time::parse_time;
 use awl_asm::report::Messages;
 use clap::{Command, CommandFactory, Parser, ValueEnum};
+use plc_isa::Profile;
 
 /// Most scans in a run: the longest time at 1 ms. Even with the longest scans no time overflows.
 const SCANS_MAX: u64 = 86_400_000_000;
@@ -70,6 +71,10 @@ pub struct Args {
     #[arg(short, long, value_name = "F")]
     pub output: Option<PathBuf>,
 
+    /// The board that the program is for, as if its text named it (`//# board`)
+    #[arg(long, value_name = "NAME", value_parser = awl_asm::args::board())]
+    pub board: Option<&'static Profile>,
+
     /// A file with symbols of the program; can be given several times
     #[arg(long, value_name = "F")]
     pub symbols: Vec<PathBuf>,
@@ -128,6 +133,10 @@ pub struct TestArgs {
     /// What runs the programs
     #[arg(long, value_name = "MACHINE", value_enum, default_value_t = On::Host)]
     pub on: On,
+
+    /// The board that the programs are for, as if their texts named it (`//# board`)
+    #[arg(long, value_name = "NAME", value_parser = awl_asm::args::board())]
+    pub board: Option<&'static Profile>,
 
     /// A file with symbols of the programs; can be given several times
     #[arg(long, value_name = "F")]
@@ -222,6 +231,10 @@ pub struct SweepArgs {
     /// Time from scan to scan, 1ms to 60s; overrides the program's period [default: 1ms]
     #[arg(long, value_name = "TIME", value_parser = parse_scan_time)]
     pub scan_time: Option<u64>,
+
+    /// The board that the program is for, as if its text named it (`//# board`)
+    #[arg(long, value_name = "NAME", value_parser = awl_asm::args::board())]
+    pub board: Option<&'static Profile>,
 
     /// A file with symbols of the program; can be given several times
     #[arg(long, value_name = "F")]

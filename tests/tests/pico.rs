@@ -95,7 +95,9 @@ fn comparable() -> (Vec<Prepared>, Vec<String>) {
         match case.prepare_for(&PICO) {
             Ok(case) if case.has_actions() => left_out.push(format!("{file}: pulses or a clock")),
             Ok(case) => comparable.push(case),
-            Err(errors) => left_out.push(format!("{file}: {}", errors.lines().next().unwrap_or(""))),
+            Err(errors) => {
+                left_out.push(format!("{file}: {}", errors.lines().next().unwrap_or("")))
+            }
         }
     }
     (comparable, left_out)

@@ -109,6 +109,14 @@ pub fn build_pico() -> Result<PathBuf> {
     elf(&format!("pico/{PICO_TARGET}/release/pico"), "pico.elf")
 }
 
+/// Installs the emulator that runs it.
+pub fn install_pico_emulator() -> Result<()> {
+    packages::ensure_npm()?;
+    let mut npm = Command::new("npm");
+    npm.args(["ci", "--silent", "--no-audit", "--no-fund"]).current_dir(root().join("sim/pico"));
+    run_command(&mut npm)
+}
+
 /// Debian's compiler comes without a linker for the Pico.
 fn link_for_pico(cargo: &mut Command) -> Result<()> {
     if !avr::packages().is_empty() {

@@ -48,7 +48,10 @@ const BOARD: [Stage; 13] = [
         Ok(())
     }),
     ("firmware", firmware::check),
-    ("firmware of the Pico", || firmware::build_pico().map(drop)),
+    ("firmware of the Pico, and its emulator", || {
+        firmware::build_pico()?;
+        firmware::install_pico_emulator()
+    }),
     ("plc-vm on an AVR with room", || firmware::build_vm().map(drop)),
     ("lints of what runs on boards", firmware::lint),
     ("lints with the virtual board", || lint(WITH_BOARD)),

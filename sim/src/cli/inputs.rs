@@ -18,8 +18,8 @@ use awl_sim::suite::{is_program, plant_for, read_text};
 use awl_sim::args::Args;
 
 pub fn program_files(args: &Args) -> ProgramFiles<'_> {
-    let Args { program, symbols, data, .. } = args;
-    ProgramFiles { program, symbols, data: data.as_deref() }
+    let Args { program, symbols, data, board, .. } = args;
+    ProgramFiles { program, symbols, data: data.as_deref(), board: *board }
 }
 
 pub fn parse_plant(text: &str) -> Result<PlantSpec> {

@@ -32,7 +32,7 @@ pub fn run(args: &SweepArgs) -> Result<()> {
     let formats =
         [("csv", SweepFormat::Csv), ("svg", SweepFormat::Svg), ("txt", SweepFormat::Table)];
     let format = output::format_of(args.output.as_deref(), args.format, &formats)?;
-    let files = ProgramFiles { program, symbols: tables, data: data.as_deref() };
+    let files = ProgramFiles { program, symbols: tables, data: data.as_deref(), board: args.board };
     let Opened { mut machine, symbols, scan_ms, warnings, image, .. } = files.open_host()?;
     let reals = reals::of(&image);
     errors::show(&warnings, args.messages);

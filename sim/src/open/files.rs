@@ -46,6 +46,8 @@ pub struct ProgramFiles<'a> {
     pub symbols: &'a [PathBuf],
     /// A data block that is a file of its own.
     pub data: Option<&'a Path>,
+    /// The board that its text is for, if it is asked for.
+    pub board: Option<&'static Profile>,
 }
 
 impl ProgramFiles<'_> {
@@ -55,13 +57,19 @@ impl ProgramFiles<'_> {
     /// A bad image is none: it is opened, and the machine is in STOP with a fault, as a board would
     /// be.
     pub fn open(self, target: Target) -> Result<Opened> {
-        let Read { image, place_of, about } = self.read(target.board())?;
+        let board = match (target.board(), self.board) {
+            (Some(machine), Some(board)) if machine != board => {
+                bail!("the program is asked for {}, and runs on {}", board.title, machine.title)
+            }
+            (machine, board) => machine.or(board),
+        };
+        let Read { image, place_of, about } = self.read(board)?;
         Ok(about.on(machine(image, place_of, target)?))
     }
 
     /// The same on the host, as a machine that can be more than run scan by scan.
     pub fn open_host(self) -> Result<Opened<Host>> {
-        let Read { image, place_of, about } = self.read(None)?;
+        let Read { image, place_of, about } = self.read(self.board)?;
         Ok(about.on(Box::new(Host::new(image, place_of))))
     }
 
@@ -85,12 +93,14 @@ impl ProgramFiles<'_> {
 /// [`ProgramFiles::open`] of a program without a data block of its own. `symbol_files`: further
 /// symbols.
 pub fn open_machine(program: &Path, symbol_files: &[PathBuf], target: Target) -> Result<Opened> {
-    ProgramFiles { program: &[program.into()], symbols: symbol_files, data: None }.open(target)
+    ProgramFiles { program: &[program.into()], symbols: symbol_files, data: None, board: None }
+        .open(target)
 }
 
 /// [`ProgramFiles::open_host`] of such a program.
 pub fn open_host(program: &Path, symbol_files: &[PathBuf]) -> Result<Opened<Host>> {
-    ProgramFiles { program: &[program.into()], symbols: symbol_files, data: None }.open_host()
+    ProgramFiles { program: &[program.into()], symbols: symbol_files, data: None, board: None }
+        .open_host()
 }
 
 /// Reads a file, or standard input where its name is `-`.

@@ -9,7 +9,7 @@ use std::fmt;
 use std::path::Path;
 
 use awl_asm::Address;
-use awl_asm::assemble::{Assembly, assemble, assemble_for};
+use awl_asm::assemble::{Assembly, assemble, assemble_with};
 use awl_asm::ast::{DataLine, Symbol};
 use awl_asm::data_block;
 use awl_asm::diagnostic::{Diagnostic, Severity};
@@ -17,7 +17,7 @@ use awl_asm::disassemble::{disassemble, instructions};
 use awl_asm::source::{Source, SourceError};
 use awl_asm::tools::{Tools, image_in};
 use diagnostics::binary::Binary;
-use plc_isa::{Area, ImageFault, MAGIC, Profile, UNO, verify};
+use plc_isa::{Area, ImageFault, MAGIC, Profile, verify};
 pub use project::Findings;
 use project::{Joined, from_awl, has_errors, join};
 
@@ -158,8 +158,8 @@ struct About {
 }
 
 impl Read {
-    /// `board`: the one that texts are for, if they name no other; a program that is too large for
-    /// it has errors.
+    /// `board`: the one that texts are for; a program that names another one, or is too large for
+    /// it, has errors.
     fn of(
         program: &[File],
         tables: &[File],
@@ -261,10 +261,7 @@ fn open_text(
     findings: &mut Vec<Findings>,
 ) -> Result<Parts, OpenError> {
     let joined = join(sources).map_err(OpenError::Errors)?;
-    let mut assembly = assemble_for(&joined.awl, symbols, data, board.unwrap_or(&UNO));
-    if board.is_some() {
-        assembly.require_board();
-    }
+    let mut assembly = assemble_with(&joined.awl, symbols, data, board);
     let periods = joined.periods(assembly.image.as_deref().unwrap_or_default(), &assembly, false);
     let Joined { awl: source, is_generated, findings: warnings, .. } = joined;
     findings.extend(warnings.into_iter().chain(periods));

@@ -75,8 +75,12 @@ fn simulate(
     let program = suite::program_for(path, &text)?;
     let names: Vec<String> = program.iter().map(|path| path.display().to_string()).collect();
     result.program = names.join(", ");
-    let files =
-        ProgramFiles { program: &program, symbols: &args.symbols, data: args.data.as_deref() };
+    let files = ProgramFiles {
+        program: &program,
+        symbols: &args.symbols,
+        data: args.data.as_deref(),
+        board: args.board,
+    };
     let job = |scan_ms, signals| Case { path, text: &text, scan_ms, signals };
     if args.on != On::Host {
         let Opened { mut machine, symbols, scan_ms, warnings, overwritten, .. } =
