@@ -55,7 +55,13 @@ pub(super) struct State {
 }
 
 /// Asks for a new board with a program; power comes.
-pub(super) fn power_up(elf: &str, now_us: u32, levels: u8, counts: &[u16], image: &[u8]) -> Vec<u8> {
+pub(super) fn power_up(
+    elf: &str,
+    now_us: u32,
+    levels: u8,
+    counts: &[u16],
+    image: &[u8],
+) -> Vec<u8> {
     let mut bytes = vec![POWER_UP];
     put_short(&mut bytes, elf.len());
     bytes.extend_from_slice(elf.as_bytes());
