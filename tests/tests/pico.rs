@@ -15,12 +15,14 @@ use awl_sim::machine::{Machine, Mode};
 use plc_isa::PICO;
 use plc_vm::{Fault, Inputs};
 use tests::beside::{Board, Pair};
-use tests::case::{Case, Prepared};
+use tests::case::{Case, Prepared, host};
 use tests::effort::effort;
 use tests::random_runs::{Programs, random_image_for, random_scans};
 
-/// Cycles of a scan that the host has already seen to be endless.
+/// Cycles of a scan that the host has already seen to be endless, and of any other: less than the
+/// second after which the hardware watchdog, which nobody feeds while the clock is held, resets.
 const ENDLESS_CYCLES: u32 = 200_000;
+const LONG_CYCLES: u32 = 120_000_000;
 
 /// An emulated board with a program.
 struct OnPico<'a>(&'a mut Pico);
@@ -43,9 +45,7 @@ impl Board for OnPico<'_> {
     }
 
     fn scan(&mut self, now_ms: u64, inputs: &Inputs, is_endless: bool) {
-        if is_endless {
-            self.0.hold_clock_for(ENDLESS_CYCLES);
-        }
+        self.0.hold_clock_for(if is_endless { ENDLESS_CYCLES } else { LONG_CYCLES });
         self.0.set_inputs(inputs);
         self.0.scan(now_ms);
     }
@@ -94,6 +94,10 @@ fn comparable() -> (Vec<Prepared>, Vec<String>) {
         let file = case.file.clone();
         match case.prepare_for(&PICO) {
             Ok(case) if case.has_actions() => left_out.push(format!("{file}: pulses or a clock")),
+            // Such as one about the end of the Uno's memory.
+            Ok(case) if !case.failures(&mut host(&case.image)).is_empty() => {
+                left_out.push(format!("{file}: it is about another board"));
+            }
             Ok(case) => comparable.push(case),
             Err(errors) => {
                 left_out.push(format!("{file}: {}", errors.lines().next().unwrap_or("")))

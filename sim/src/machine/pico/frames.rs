@@ -32,7 +32,7 @@ pub(super) struct Scan<'a> {
     pub levels: u8,
     pub counts: Counts,
     pub writes: &'a [Write],
-    /// What the analog inputs are in data memory, where the converter cannot give it.
+    /// What the analog inputs are to be in data memory, whatever the converter gives.
     pub analog: Option<Vec<u8>>,
     pub characters: &'a [u8],
 }

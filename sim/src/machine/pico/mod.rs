@@ -47,6 +47,8 @@ pub struct Pico {
     broken: Option<String>,
     state: State,
     inputs: Inputs,
+    /// An analog input was not 0 once.
+    has_analog: bool,
     writes: Vec<Write>,
     /// Characters that will come in, and when.
     incoming: VecDeque<(u64, u8)>,
@@ -69,6 +71,7 @@ impl Pico {
             broken: None,
             state: State::default(),
             inputs: Inputs::default(),
+            has_analog: false,
             writes: Vec::new(),
             incoming: VecDeque::new(),
             sent: Vec::new(),
@@ -82,7 +85,7 @@ impl Pico {
         self.program = verify(image.clone()).ok().filter(|_| profile(&image) == Some(&PICO));
         image.truncate(usize::from(PICO.slot_len));
         self.image = image;
-        (self.is_on, self.broken) = (false, None);
+        (self.is_on, self.broken, self.has_analog) = (false, None, false);
         (self.state, self.inputs) = (State::default(), Inputs::default());
         self.writes.clear();
         self.incoming.clear();
@@ -148,7 +151,8 @@ impl Pico {
             self.is_on = true;
         }
         let (writes, characters) = (std::mem::take(&mut self.writes), self.due(now_ms));
-        let analog = analog::correction(&self.inputs, &counts, settings.filter);
+        self.has_analog |= analog::is_any(&self.inputs);
+        let analog = self.has_analog.then(|| analog::image(&self.inputs));
         let scan = Scan {
             now_us,
             cycles_max: self.held_cycles_max,
