@@ -107,7 +107,7 @@ class Board {
     romOf(this.chip);
     [this.cycles, this.mark, this.dataAt] = [0, 0, 0];
     [this.nowUs, this.lookUs] = [0, 0];
-    this.isHung = false;
+    [this.isHung, this.isHeld] = [false, false];
     this.sent = [];
     this.atStart = false;
     this.listen();
@@ -123,7 +123,8 @@ class Board {
       write(offset, value);
     };
     watchdog.onWatchdogTrigger = () => {
-      this.isHung = true;
+      // While the clock stands still nobody feeds it.
+      this.isHung = !this.isHeld;
     };
     this.scratch = watchdog.scratchData;
     const timer = this.chip.peripherals[TIMER];
@@ -219,7 +220,10 @@ class Board {
     }
     this.receive(wanted.characters);
     if (wanted.analog !== null) this.replaceAnalog(wanted.analog);
-    if (!this.runTo(SCAN_END, wanted.cyclesMax)) {
+    this.isHeld = true;
+    const hasEnded = this.runTo(SCAN_END, wanted.cyclesMax);
+    this.isHeld = false;
+    if (!hasEnded) {
       this.lookUs = LOOK_US;
       if (!this.runTo(SCAN_END, LATE_MAX)) throw new Error("the scan does not end, however late it is");
     }

@@ -29,8 +29,10 @@ pub use firmware::{VARIABLE, find as find_firmware};
 use frames::{Scan, State, Write};
 use process::Process;
 
-/// How many cycles a scan may take before the held clock goes on: more than any that ends.
-const HELD_CYCLES_MAX: u32 = 20_000_000;
+/// How many cycles a scan may take before the held clock goes on: as many as the PLC's watchdog waits
+/// on a real board, and so many at least.
+const HELD_CYCLES_MIN: u32 = 120_000_000;
+const CYCLES_PER_MS: u32 = 125_000;
 const US_PER_MS: u32 = 1000;
 
 /// A PLC on an emulated Pico.
@@ -53,7 +55,7 @@ pub struct Pico {
     /// Characters that will come in, and when.
     incoming: VecDeque<(u64, u8)>,
     sent: Vec<u8>,
-    held_cycles_max: u32,
+    held_cycles_max: Option<u32>,
 }
 
 impl Pico {
@@ -75,7 +77,7 @@ impl Pico {
             writes: Vec::new(),
             incoming: VecDeque::new(),
             sent: Vec::new(),
-            held_cycles_max: HELD_CYCLES_MAX,
+            held_cycles_max: None,
         })
     }
 
@@ -90,7 +92,7 @@ impl Pico {
         self.writes.clear();
         self.incoming.clear();
         self.sent.clear();
-        self.held_cycles_max = HELD_CYCLES_MAX;
+        self.held_cycles_max = None;
     }
 
     /// The digital inputs that have a pin and all analog inputs of the next scan, as logical
@@ -112,7 +114,7 @@ impl Pico {
     /// How many cycles a scan may take before the held clock goes on, a millisecond with every look
     /// at it. At first more than any scan that ends: whoever knows that it will not chooses fewer.
     pub fn hold_clock_for(&mut self, cycles: u32) {
-        self.held_cycles_max = cycles;
+        self.held_cycles_max = Some(cycles);
     }
 
     /// The data memory of the PLC, for comparisons with other machines.
@@ -143,6 +145,7 @@ impl Pico {
         // The board's clock has 32 bits and wraps.
         let now_us = (now_ms as u32).wrapping_mul(US_PER_MS);
         let settings = self.settings();
+        let watchdog_cycles = u32::from(settings.watchdog_ms).saturating_mul(CYCLES_PER_MS);
         let levels = self.inputs.digital[0] ^ settings.invert_inputs;
         let counts = analog::counts(&self.inputs);
         if !self.is_on {
@@ -155,7 +158,7 @@ impl Pico {
         let analog = self.has_analog.then(|| analog::image(&self.inputs));
         let scan = Scan {
             now_us,
-            cycles_max: self.held_cycles_max,
+            cycles_max: self.held_cycles_max.unwrap_or(watchdog_cycles.max(HELD_CYCLES_MIN)),
             levels,
             counts,
             writes: &writes,
