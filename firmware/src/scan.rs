@@ -347,8 +347,8 @@ impl Uno {
         self.tell_status();
     }
 
-    /// Forgets the fault that led to STOP. One that puts the program in doubt is not forgotten before
-    /// that is checked again: RUN does it.
+    /// Forgets the fault that led to STOP. One that puts the program in doubt is not forgotten
+    /// before that is checked again: RUN does it.
     pub(crate) fn clear_fault(&mut self) {
         if self.plc.program().is_none() || !self.is_program_in_doubt() {
             self.plc.clear_fault();

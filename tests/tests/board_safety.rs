@@ -381,6 +381,9 @@ fn a_program_that_changes_in_flash_is_seen_in_time() {
         }
         longest = longest.max(board.avr.cycles() - start);
         assert_eq!((board.fault(), board.is_released()), (Some(Fault::ProgramChanged), true));
+        // Nobody has checked it again, so the fault stays.
+        assert_eq!(link::command(&mut board, Command::ClearFault), Ok(()));
+        assert_eq!(board.fault(), Some(Fault::ProgramChanged));
         link::run(&mut board);
         assert!(!link::identify(&mut board).runs() && board.is_released(), "byte {at}");
         assert_refused(&mut board, 100, "RUN with the changed program");

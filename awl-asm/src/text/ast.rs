@@ -37,8 +37,8 @@ pub struct Program {
     pub name: Option<String>,
     /// The board whose points the program can use.
     pub profile: &'static Profile,
-    /// Where `//# board` names it, at the beginning of the text where it is asked for beside it: then
-    /// the program must fit it.
+    /// Where `//# board` names it; where it is asked for beside the text, its beginning. Then the
+    /// program must fit it.
     pub board_named: Option<Span>,
     /// The warnings that `//# allow` wants to hear nothing of.
     pub allowed: Vec<Code>,

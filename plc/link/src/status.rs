@@ -8,7 +8,7 @@
 //! |---|---|
 //! | 0-1 | offset of the instruction in the image, low byte first; ascending from entry to entry |
 //! | 2-3 | the lower word of the operand's [`SizedAddress`], low byte first; 0: none |
-//! | 4-5 | high byte first: bits 10 and 9 its upper bits; from the scan on, bit 15: executed; bits 8 to 0: S8 to S0 right after |
+//! | 4-5 | bits 10, 9: its upper bits; 15: executed; 8-0: S8 to S0 right after; high byte first |
 //! | 6-9 | the four bytes at the address of the place right after it, whatever its size |
 //!
 //! After the last entry is the offset 0xFFFF, which no instruction has.

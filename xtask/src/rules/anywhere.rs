@@ -30,6 +30,7 @@ const FOR_A_COMPUTER: &[&str] = &[
     "awl-asm/src/main.rs",
     "sim/src/cli/",
     "sim/src/main.rs",
+    "sim/src/machine/pico/",
     "sim/src/machine/uno/",
     "sim/src/open/files.rs",
     "sim/src/serve/network.rs",

@@ -1,5 +1,4 @@
-//! Analog inputs: what the converter is to count, and what the
-//! harness writes to memory.
+//! Analog inputs: what the converter is to count, and what the harness writes to memory.
 
 use plc_isa::{AnalogInput, PICO};
 use plc_vm::Inputs;
@@ -17,9 +16,9 @@ pub(super) fn counts(inputs: &Inputs) -> Counts {
     inputs.scaled.iter().take(channels).map(|scaled| count(scaled) as u16).collect()
 }
 
-/// All analog inputs as they are in data memory, scaled before raw. The converter alone does not give
-/// them in time: the firmware takes values that are up to half a millisecond old, smooths them where
-/// the program asks for it, and has no count for most of them.
+/// All analog inputs as they are in data memory, scaled before raw. The converter alone does not
+/// give them in time: the firmware takes values that are up to half a millisecond old, smooths them
+/// where the program asks for it, and has no count for most of them.
 pub(super) fn image(inputs: &Inputs) -> Vec<u8> {
     let words = inputs.scaled.iter().chain(&inputs.raw);
     words.flat_map(|word| word.to_be_bytes()).collect()

@@ -1,5 +1,5 @@
-//! The Raspberry Pi Pico: the firmware as it is shipped, in the emulator rp2040js, with a program in
-//! its slot, in lock-step.
+//! The Raspberry Pi Pico: the firmware as it is shipped, in the emulator rp2040js, with a program
+//! in its slot, in lock-step.
 //!
 //! The emulator runs in a process of Node.js, see `sim/pico/board.mjs`. The harness holds the
 //! board's clock and gives it the time of each scan: a call of [`Machine::scan`] is one scan of the
@@ -29,8 +29,8 @@ pub use firmware::{VARIABLE, find as find_firmware};
 use frames::{Scan, State, Write};
 use process::Process;
 
-/// How many cycles a scan may take before the held clock goes on: as many as the PLC's watchdog waits
-/// on a real board, and so many at least.
+/// How many cycles a scan may take before the held clock goes on: as many as the PLC's watchdog
+/// waits on a real board, and so many at least.
 const HELD_CYCLES_MIN: u32 = 120_000_000;
 const CYCLES_PER_MS: u32 = 125_000;
 const US_PER_MS: u32 = 1000;
