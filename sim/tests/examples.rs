@@ -23,7 +23,7 @@ fn scenario_of(stem: &str) -> PathBuf {
 fn open(stem: &str) -> Opened {
     let path = scenario_of(stem);
     let program = program_for(&path, &fs::read_to_string(&path).unwrap()).unwrap();
-    let files = ProgramFiles { program: &program, symbols: &[], data: None };
+    let files = ProgramFiles { program: &program, symbols: &[], data: None, board: None };
     let opened = files.open(Target::Host).unwrap_or_else(|error| panic!("{stem}:\n{error}"));
     assert!(opened.warnings.is_empty(), "{stem}: {:?}", opened.warnings);
     opened

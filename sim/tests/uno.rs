@@ -363,7 +363,7 @@ fn assert_example_does_what_it_shall(path: &Path, target: Target) {
     let origin = path.display().to_string();
     let text = fs::read_to_string(path).unwrap();
     let program = program_for(path, &text).unwrap();
-    let files = ProgramFiles { program: &program, symbols: &[], data: None };
+    let files = ProgramFiles { program: &program, symbols: &[], data: None, board: None };
     let opened = files.open(target).unwrap_or_else(|error| panic!("{origin}: {error}"));
     // Of the tank, which runs for ten minutes, only the beginning.
     let length =
