@@ -7,7 +7,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use awl_asm::assemble::{Assembly, assemble_for};
+use awl_asm::assemble::{Assembly, assemble_with};
 use awl_asm::diagnostic::Severity;
 use awl_asm::render::human;
 use awl_asm::source::Source;
@@ -16,7 +16,7 @@ use awl_sim::machine::host::Host;
 use awl_sim::plant::PlantSpec;
 use awl_sim::run::{Job, Length, Outcome, run};
 use awl_sim::scenario::{Context, Scenario, plant_of};
-use plc_isa::{Profile, UNO};
+use plc_isa::Profile;
 
 /// What a line of the scenario begins with.
 const MARK: &str = "//$ ";
@@ -97,15 +97,15 @@ impl Case {
 
     /// Assembles the case. Errors come as the assembler shows them; warnings are none of ours.
     pub fn prepare(self) -> Result<Prepared, String> {
-        self.prepare_for(&UNO)
+        self.prepare_for(None)
     }
 
-    /// The same for a board, if the case names no other.
-    pub fn prepare_for(self, board: &'static Profile) -> Result<Prepared, String> {
+    /// The same for a board that is asked for, which binds.
+    pub fn prepare_for(self, board: Option<&'static Profile>) -> Result<Prepared, String> {
         let source = Source::new(&*self.file, &*self.awl).map_err(|e| e.to_string())?;
         let joined = project::join(vec![source]);
         let source = joined.map_err(|findings| format!("{}: {findings:?}", self.file))?.awl;
-        let assembly = assemble_for(&source, Vec::new(), &[], board);
+        let assembly = assemble_with(&source, Vec::new(), &[], board);
         let errors = assembly
             .diagnostics
             .iter()
