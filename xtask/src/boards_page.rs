@@ -33,7 +33,7 @@ const ROWS: [Row; 12] = [
     ("machine code (`--native`)", |board| yes(board.native_interface != 0).to_owned()),
     ("written by", |board| match board.avrdude_part {
         Some(_) => "`awl-asm --flash`, `uno200 flash`, the page".to_owned(),
-        None => "not yet".to_owned(),
+        None => "tools of its maker".to_owned(),
     }),
 ];
 
@@ -78,7 +78,13 @@ pub fn text() -> String {
         text,
         "\nThe host has the memory of the largest S7-200 ({} bytes of data, {} of program) and the \
          points of {}.\n\
-         [adr/0043-runtime.md](adr/0043-runtime.md) says how another board becomes one.\n",
+         [adr/0043-runtime.md](adr/0043-runtime.md) says how another board becomes one.\n\n\
+         Points of the Uno are of 5 V, those of the Pico of 3.3 V: 24 V need a divider or an \
+         optocoupler before inputs, and a\n\
+         driver after outputs. [firmware-pico/README.md](../firmware-pico/README.md) says how \
+         firmware and program come onto a\n\
+         Pico, and what was tried. `awl-sim --on pico` runs both in an emulator\n\
+         ([simulator.md](simulator.md#on-an-emulated-pico)).\n",
         HOST.arena_len(),
         HOST.slot_len,
         UNO.title,
