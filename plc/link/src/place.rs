@@ -49,7 +49,7 @@ const _: () = assert!(
 
 /// Where a value is: a data address and its size. Bits 0 to 11 are those of the address; bits 12 to
 /// 15 the size: 0 to 7 that bit of a byte, 8 a byte, 9 a word, 10 a double word; bits 16 and 17 are
-/// bits 12 and 13 of the address. Many wait in the frame: in [two bytes](place_len) where they can.
+/// bits 12 and 13 of the address. Many wait in the frame: in two bytes where they can.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SizedAddress(pub u32);
 
