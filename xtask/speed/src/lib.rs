@@ -199,8 +199,8 @@ fn program_text(lines: usize) -> (String, usize) {
 const SYMBOLS: &str = "//# symbol \"Stop 0\" I0.0\n//# symbol \"Stop 1\" I0.1\n\
     //# symbol \"Stop 2\" I0.2\n//# symbol \"Stop 3\" I0.3\n";
 
-/// Best time for a text of so many lines for the Pico, and what was assembled. Only these errors are
-/// expected.
+/// Best time for a text of so many lines for the Pico, and what was assembled. These errors are
+/// expected, and no others.
 fn assembling_time(lines: usize, expected: &[Code]) -> Result<(Measured, usize)> {
     let (text, instructions) = program_text(lines);
     let text = format!("//# board pico\n{SYMBOLS}{text}");
