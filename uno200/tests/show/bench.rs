@@ -134,6 +134,7 @@ impl Bench {
                 Observer { now_ms: self.now_ms, entries, looped: 0, observed: &mut self.observed };
             self.plc.scan(&mut self.memory, &inputs, &mut observer);
             self.link.forces.apply(&mut self.memory);
+            self.times.count();
             self.times.enter(1600 + 7 * (self.times.scans % 13));
             self.scans += 1;
             if self.scans_left == 1 {
