@@ -259,16 +259,17 @@ fn understood(mut program: Program, name: &str, mut diagnostics: Vec<Diagnostic>
     let (mut misfit, mut board) = (Vec::new(), None);
     if is_sound && has_errors(&built.diagnostics) {
         let has_way = add_way(meaning, name, &mut built.diagnostics);
-        let host = meaning.build(name, &HOST, true);
-        let is_bound = program.board_named.is_some();
-        if !is_bound && !has_errors(&host.diagnostics) {
-            let for_board = std::mem::replace(&mut built, host);
-            misfit = for_board.diagnostics;
-            board = Some(Box::new((for_board.demand, for_board.encoding)));
-            built.diagnostics.extend(warning(program.profile, &misfit));
-        } else if !is_bound && !has_way {
-            // What no machine has room for.
-            built = host;
+        if program.board_named.is_none() {
+            let host = meaning.build(name, &HOST, true);
+            if !has_errors(&host.diagnostics) {
+                let for_board = std::mem::replace(&mut built, host);
+                misfit = for_board.diagnostics;
+                board = Some(Box::new((for_board.demand, for_board.encoding)));
+                built.diagnostics.extend(warning(program.profile, &misfit));
+            } else if !has_way {
+                // What no machine has room for.
+                built = host;
+            }
         }
     }
     let Built { demand, encoding, diagnostics: others } = built;
