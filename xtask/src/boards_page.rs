@@ -79,9 +79,9 @@ pub fn text() -> String {
         "\nThe host has the memory of the largest S7-200 ({} bytes of data, {} of program) and the \
          points of {}.\n\
          [adr/0043-runtime.md](adr/0043-runtime.md) says how another board becomes one.\n\n\
-         Points of the Uno are of 5 V, those of the Pico of 3.3 V: 24 V need a divider or an \
-         optocoupler before inputs, and a\n\
-         driver after outputs. [firmware-pico/README.md](../firmware-pico/README.md) says how \
+         Points of the Uno are of 5 V, those of the Pico of 3.3 V: [wiring.md](wiring.md) says how \
+         24 V, relays and analog\n\
+         signals come to them. [firmware-pico/README.md](../firmware-pico/README.md) says how \
          firmware and program come onto a\n\
          Pico, and what was tried. `awl-sim --on pico` runs both in an emulator\n\
          ([simulator.md](simulator.md#on-an-emulated-pico)).\n",
