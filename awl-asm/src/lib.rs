@@ -17,8 +17,8 @@ mod text;
 
 pub use diagnostics::{render, source};
 #[cfg(feature = "cli")]
-pub use host::{args, files, firmware, flash, report};
-pub use image::{encode, hex, tools};
+pub use host::{args, drive, files, firmware, flash, report};
+pub use image::{encode, hex, tools, uf2};
 pub use meaning::{check, select, selected, units};
 pub use output::{cost, disassemble, for_tools, listing, longest_scan, manual, map, native, reals};
 pub use plan::{demand, modules};

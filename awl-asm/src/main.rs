@@ -13,6 +13,7 @@ use awl_asm::cost::{Stated, cost_with};
 use awl_asm::data_block;
 use awl_asm::diagnostic::Code;
 use awl_asm::disassemble::disassemble;
+use awl_asm::drive;
 use awl_asm::files::{
     ending, ensure_distinct, ensure_no_source, ensure_program, is_same_file, read, read_program,
     read_source, write_whole,
@@ -141,7 +142,7 @@ fn assemble_files(files: &[PathBuf], arguments: &Arguments) -> Result<bool> {
             &outputs.into_iter().flatten().collect::<Vec<_>>(),
         )?;
     }
-    let ending = output.as_deref().map(|path| ending(path, &["bin", "hex"])).transpose()?;
+    let ending = output.as_deref().map(|path| ending(path, &["bin", "hex", "uf2"])).transpose()?;
     for output in [&arguments.listing, &arguments.map].into_iter().flatten() {
         ensure_no_source(output, arguments.overwrite)?;
     }
@@ -157,7 +158,8 @@ fn assemble_files(files: &[PathBuf], arguments: &Arguments) -> Result<bool> {
     let data = load_data(arguments.data.as_deref(), &symbols, &mut report)?;
     let mut assembly = assemble_with(&source, symbols, &data, arguments.board);
     let is_hex = ending == Some("hex");
-    if arguments.native || arguments.flash.is_some() || is_hex && !arguments.check {
+    let by_avrdude = arguments.flash.is_some() && assembly.profile().drive.is_none();
+    if arguments.native || by_avrdude || is_hex && !arguments.check {
         assembly.require_board();
     }
     let native = if arguments.native { translated(&mut assembly)? } else { None };
@@ -175,16 +177,21 @@ fn assemble_files(files: &[PathBuf], arguments: &Arguments) -> Result<bool> {
     }
     // The image last: when it is there, everything is.
     if let Some(output) = &output {
-        let tools = for_tools(&source, &assembly).filter(|_| !arguments.native && !is_hex);
-        let tools = tools.map_or_else(Vec::new, |tools| tools.to_bytes());
-        if is_hex {
-            write_whole(output, intel_hex(image)?.as_bytes())?;
-        } else {
-            write_whole(output, &[image, &tools].concat())?;
-        }
+        let contents = match ending {
+            Some("hex") => intel_hex(image)?.into_bytes(),
+            Some("uf2") => drive::uf2_file(assembly.profile(), image)?,
+            _ => {
+                let tools = for_tools(&source, &assembly).filter(|_| !arguments.native);
+                [image, &tools.map_or_else(Vec::new, |tools| tools.to_bytes())].concat()
+            }
+        };
+        write_whole(output, &contents)?;
     }
-    if let (Some(port), Some(firmware)) = (&arguments.flash, &firmware) {
-        flash(port, firmware, image, source.stem(), std::io::stderr().is_terminal())?;
+    if let (Some(place), Some(firmware)) = (&arguments.flash, &firmware) {
+        match &assembly.profile().drive {
+            Some(_) => drive::write(place.as_ref(), assembly.profile(), source.stem(), image)?,
+            None => flash(place, firmware, image, source.stem(), std::io::stderr().is_terminal())?,
+        }
     }
     if report.has_summary() {
         let written =

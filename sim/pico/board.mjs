@@ -11,6 +11,8 @@ const SRAM = 0x20000000;
 const VECTORS = 0x100;
 const PROGRAM = 0x100000;
 const NANOS_OF_CYCLE = 8;
+// Of a UF2 file.
+const BLOCK = 512;
 
 // Registers of peripherals, as rp2040js asks for them.
 const WATCHDOG = 0x40058;
@@ -49,29 +51,46 @@ const NO_READING = 0xff;
 
 const quiet = { debug() {}, info() {}, warn() {}, error() {} };
 
-let RP2040;
+// Of the packages.
+let RP2040, decodeBlock, isUF2Block;
 
-/** What an ELF has to be in flash. */
-function segments(elf) {
+/** What a firmware, as ELF or as UF2, has to be in flash before the program. */
+function segments(file) {
+  const parts = file.length > 0 && file.length % BLOCK === 0 && isUF2Block(block(file, 0))
+    ? ofUf2(file)
+    : ofElf(file);
+  const isInFlash = ({ address, bytes }) =>
+    bytes.length > 0 && address >= FLASH && address + bytes.length <= FLASH + PROGRAM;
+  return parts
+    .filter(isInFlash)
+    .map(({ address, bytes }) => ({ at: address - FLASH, bytes }));
+}
+
+/** A block of a UF2 file, in a buffer of its own. */
+function block(file, at) {
+  return new Uint8Array(file.subarray(at, at + BLOCK));
+}
+
+function ofUf2(file) {
+  const starts = Array.from({ length: file.length / BLOCK }, (_, number) => number * BLOCK);
+  return starts.map((at) => {
+    const { flashAddress, payload } = decodeBlock(block(file, at));
+    return { address: flashAddress, bytes: payload };
+  });
+}
+
+function ofElf(elf) {
   if (elf.length < 52 || elf.readUInt32BE(0) !== 0x7f454c46 || elf[4] !== 1) {
-    throw new Error("the firmware is no ELF of 32 bits");
+    throw new Error("the firmware is neither an ELF of 32 bits nor UF2");
   }
   const [start, len, count] = [elf.readUInt32LE(28), elf.readUInt16LE(42), elf.readUInt16LE(44)];
   const headers = Array.from({ length: count }, (_, number) => start + number * len);
-  const isInFlash = ({ address, size }) =>
-    size > 0 && address >= FLASH && address + size <= FLASH + PROGRAM;
   return headers
     .filter((at) => elf.readUInt32LE(at) === 1)
-    .map((at) => ({
-      offset: elf.readUInt32LE(at + 4),
-      address: elf.readUInt32LE(at + 12),
-      size: elf.readUInt32LE(at + 16),
-    }))
-    .filter(isInFlash)
-    .map(({ offset, address, size }) => ({
-      at: address - FLASH,
-      bytes: elf.subarray(offset, offset + size),
-    }));
+    .map((at) => {
+      const [offset, size] = [elf.readUInt32LE(at + 4), elf.readUInt32LE(at + 16)];
+      return { address: elf.readUInt32LE(at + 12), bytes: elf.subarray(offset, offset + size) };
+    });
 }
 
 /** The firmware in a file; and, once it was there, what its start-up makes of memory. */
@@ -380,11 +399,12 @@ function serve() {
 async function load() {
   try {
     ({ RP2040 } = await import("rp2040js"));
+    ({ decodeBlock, isUF2Block } = await import("uf2"));
     write(0, []);
     return true;
   } catch (error) {
     const isMissing = error.code === "ERR_MODULE_NOT_FOUND";
-    write(1, [Buffer.from(isMissing ? "rp2040js is not installed" : error.message)]);
+    write(1, [Buffer.from(isMissing ? "a package is not installed" : error.message)]);
     return false;
   }
 }

@@ -6,13 +6,17 @@
 //! --test pico` runs longer.
 #![cfg(feature = "pico")]
 
+use std::io::Write;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
+use awl_asm::assemble::assemble_with;
+use awl_asm::drive::uf2_file;
+use awl_asm::source::Source;
 use awl_sim::action::Action;
 use awl_sim::machine::pico::{Pico, find_firmware};
 use awl_sim::machine::{Machine, Mode};
-use plc_isa::{PICO, verify};
+use plc_isa::{PICO, PICO_DRIVE, verify};
 use plc_vm::{Fault, Inputs};
 use tests::beside::{Board, Pair};
 use tests::case::{Case, Prepared, host};
@@ -153,4 +157,43 @@ fn random_programs_are_the_same() {
     }
     println!("{count} programs, {scans} scans, all equal, {} s", start.elapsed().as_secs());
     assert!(scans >= 2 * count, "the programs hardly ran");
+}
+
+/// What the blocks of a UF2 file bring to an address, up to where they have nothing more.
+fn brought_to(file: &[u8], start: u32) -> Vec<u8> {
+    let word = |block: &[u8], at: usize| {
+        block[at..].first_chunk().copied().map(u32::from_le_bytes).unwrap_or_default()
+    };
+    let mut bytes = Vec::new();
+    for block in file.chunks(512).filter(|block| word(block, 12) >= start) {
+        assert_eq!((word(block, 12) - start) as usize, bytes.len(), "there is a gap");
+        bytes.extend_from_slice(&block[32..32 + word(block, 16) as usize]);
+    }
+    bytes
+}
+
+/// Neither firmware nor program comes from anywhere else than the file that a user drags onto the
+/// drive. Blocks of firmware are read by the emulator's side, with a library of its own.
+#[test]
+fn a_uf2_file_brings_firmware_and_program() {
+    let source = Source::new("p.awl", "LD I0.0\nAN I0.7\n= Q0.3\n").unwrap();
+    let image = assemble_with(&source, Vec::new(), &[], Some(&PICO)).image.unwrap();
+    let uf2 = uf2_file(&PICO, &image).unwrap();
+    let mut file = tempfile::NamedTempFile::new().unwrap();
+    file.write_all(&uf2).unwrap();
+
+    let slot = brought_to(&uf2, PICO_DRIVE.slot_start);
+    assert_eq!(slot[..image.len()], image);
+    assert!(slot[image.len()..].iter().all(|&byte| byte == 0xFF));
+    let mut pico = Pico::new(file.path(), Box::new(|_| String::new())).unwrap();
+    pico.load(slot);
+    for (scan, (levels, output)) in
+        [(0x01, 0x08), (0x81, 0), (0, 0), (1, 8)].into_iter().enumerate()
+    {
+        let mut inputs = Inputs::default();
+        inputs.digital[0] = levels;
+        pico.set_inputs(&inputs);
+        pico.scan(scan as u64);
+        assert_eq!((pico.outputs(), pico.broken()), (Some(output), None), "scan {scan}");
+    }
 }

@@ -230,8 +230,9 @@ pub struct Build {
     /// AWL (.awl), Structured Text (.st), a block of IEC 61499 (.fbt)
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// .awl for the text, .bin or .hex for the image; without it the text to standard output
-    #[arg(short, long, value_name = "F.awl|F.bin|F.hex")]
+    /// .awl for the text, .bin or .hex for the image, .uf2 for image and firmware of the Pico;
+    /// without it the text to standard output
+    #[arg(short, long, value_name = "F.awl|F.bin|F.hex|F.uf2")]
     pub output: Option<PathBuf>,
     /// The board that the program is for, as if its text named it (`//# board`)
     #[arg(long, value_name = "NAME", value_parser = awl_asm::args::board())]

@@ -31,9 +31,9 @@ const ROWS: [Row; 12] = [
         yes(board.has_events).to_owned()
     }),
     ("machine code (`--native`)", |board| yes(board.native_interface != 0).to_owned()),
-    ("written by", |board| match board.avrdude_part {
-        Some(_) => "`awl-asm --flash`, `uno200 flash`, the page".to_owned(),
-        None => "tools of its maker".to_owned(),
+    ("written by", |board| match board.drive {
+        None => "`awl-asm --flash PORT`, `uno200 flash`, the page".to_owned(),
+        Some(_) => "a .uf2 file on its drive: `-o F.uf2`, `awl-asm --flash DRIVE`".to_owned(),
     }),
 ];
 
@@ -81,10 +81,15 @@ pub fn text() -> String {
          [adr/0043-runtime.md](adr/0043-runtime.md) says how another board becomes one.\n\n\
          Points of the Uno are of 5 V, those of the Pico of 3.3 V: [wiring.md](wiring.md) says how \
          24 V, relays and analog\n\
-         signals come to them. [firmware-pico/README.md](../firmware-pico/README.md) says how \
-         firmware and program come onto a\n\
-         Pico, and what was tried. `awl-sim --on pico` runs both in an emulator\n\
-         ([simulator.md](simulator.md#on-an-emulated-pico)).\n",
+         signals come to them, [flashing.md](flashing.md) how a program comes onto either board, \
+         and\n\
+         [firmware-pico/README.md](../firmware-pico/README.md) what was tried on the Pico. \
+         `awl-sim --on pico` runs its\n\
+         firmware in an emulator ([simulator.md](simulator.md#on-an-emulated-pico)).\n\n\
+         The Uno is the board for lessons and small machines: 5 V, the IDE's way onto it, \
+         interrupts, counters and pulses. The\n\
+         Pico is for programs that outgrow it, and for pins of 3.3 V; it has none of these three \
+         yet.\n",
         HOST.arena_len(),
         HOST.slot_len,
         UNO.title,

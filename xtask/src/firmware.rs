@@ -2,66 +2,118 @@
 //! tests find it.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, bail, ensure};
+use plc_isa::PICO_DRIVE;
 
 use crate::process::{root, run as run_command};
-use crate::{avr, packages, same_names};
+use crate::{avr, elf, packages, same_names};
 
 /// The firmware that is part of the tools: who has no compiler for the board sets one up with it.
-pub const KEPT: &str = "awl-asm/firmware/uno200.hex";
+pub const KEPT: &str = UNO.file;
 /// Where everything is built, and where the ELFs are.
 const TARGET: &str = "target/firmware";
 /// The firmware of the Raspberry Pi Pico, and what it is built for.
 const PICO: &str = "firmware-pico";
 const PICO_TARGET: &str = "thumbv6m-none-eabi";
-/// Which compilers built it, a line each: others make other code.
-const COMPILERS: &str = "awl-asm/firmware/compilers.txt";
+
+/// A firmware that is part of the tools.
+struct Kept {
+    /// Where it is.
+    file: &'static str,
+    /// Which compilers built it, a line each: others make other code.
+    compilers: &'static str,
+    /// What it is built with, beside the compiler: assembler and linker.
+    programs: &'static [&'static str],
+}
+
+const UNO: Kept = Kept {
+    file: "awl-asm/firmware/uno200.hex",
+    compilers: "awl-asm/firmware/compilers.txt",
+    programs: &["avr-gcc", "avr-ld"],
+};
+
+const PICO_KEPT: Kept = Kept {
+    file: "awl-asm/firmware/pico.bin",
+    compilers: "awl-asm/firmware/pico-compilers.txt",
+    programs: &[LLD],
+};
+
+/// The linker for the Pico beside Debian's compiler.
+const LLD: &str = "ld.lld-19";
 
 /// Builds the firmware and puts it where the tools take it from, if the compilers are those that
 /// are recorded there; others only with `keep`, and are recorded then.
 pub fn run(keep: bool) -> Result<()> {
-    println!("{}", build_pico()?.display());
+    let elf = build_pico()?;
+    println!("{}", elf.display());
+    PICO_KEPT.replace(&pico_flash(&elf)?, keep)?;
     let elf = build()?;
     println!("{} and .hex", elf.display());
-    let used = compilers()?;
-    if !keep && recorded()? != used {
-        println!("{KEPT} stays as it is: other compilers built it (--keep replaces it)");
-        return Ok(());
-    }
-    fs::copy(elf.with_extension("hex"), root().join(KEPT))?;
-    fs::write(root().join(COMPILERS), used)?;
-    println!("{KEPT}");
-    Ok(())
+    UNO.replace(&fs::read(elf.with_extension("hex"))?, keep)
 }
 
-/// Builds the firmware and compares it with the one that is part of the tools. With other compilers
-/// than those that are recorded it cannot be the same; the tests run both then.
+/// Builds the Uno's firmware and compares it with the one that is part of the tools.
 pub fn check() -> Result<()> {
-    let built = fs::read(build()?.with_extension("hex"))?;
-    let kept = fs::read(root().join(KEPT)).with_context(|| format!("cannot read {KEPT}"))?;
-    if built == kept {
-        return Ok(());
+    UNO.check(&fs::read(build()?.with_extension("hex"))?)
+}
+
+/// The same for the Pico.
+pub fn check_pico() -> Result<()> {
+    PICO_KEPT.check(&pico_flash(&build_pico()?)?)
+}
+
+/// What the Pico's flash has from its beginning on.
+fn pico_flash(elf: &Path) -> Result<Vec<u8>> {
+    elf::flash(&fs::read(elf)?, PICO_DRIVE.flash_start)
+}
+
+impl Kept {
+    fn replace(&self, built: &[u8], keep: bool) -> Result<()> {
+        let (file, used) = (self.file, compilers(self.programs)?);
+        if !keep && self.recorded()? != used {
+            println!("{file} stays as it is: other compilers built it (--keep replaces it)");
+            return Ok(());
+        }
+        fs::write(root().join(file), built)?;
+        fs::write(root().join(self.compilers), used)?;
+        println!("{file}");
+        Ok(())
     }
-    let (recorded, used) = (recorded()?, compilers()?);
-    ensure!(recorded != used, "{KEPT} is not what the sources say: run `cargo xtask firmware`");
-    println!("{KEPT} is another one, built with\n{recorded}and not with\n{used}");
-    Ok(())
+
+    /// With other compilers than those that are recorded it cannot be the same; the tests run both
+    /// then.
+    fn check(&self, built: &[u8]) -> Result<()> {
+        let file = self.file;
+        let kept = fs::read(root().join(file)).with_context(|| format!("cannot read {file}"))?;
+        if built == kept {
+            return Ok(());
+        }
+        let (recorded, used) = (self.recorded()?, compilers(self.programs)?);
+        ensure!(recorded != used, "{file} is not what the sources say: run `cargo xtask firmware`");
+        println!("{file} is another one, built with\n{recorded}and not with\n{used}");
+        Ok(())
+    }
+
+    fn recorded(&self) -> Result<String> {
+        let file = self.compilers;
+        fs::read_to_string(root().join(file)).with_context(|| format!("cannot read {file}"))
+    }
 }
 
-fn recorded() -> Result<String> {
-    fs::read_to_string(root().join(COMPILERS)).with_context(|| format!("cannot read {COMPILERS}"))
-}
-
-/// Compiler, assembler and linker, a line each.
-fn compilers() -> Result<String> {
-    let programs = [avr::rustc(), Command::new("avr-gcc"), Command::new("avr-ld")];
+/// The compiler and these programs, a line each.
+fn compilers(programs: &[&str]) -> Result<String> {
+    let programs = programs.iter().map(Command::new);
     let mut lines = String::new();
-    for mut program in programs {
+    for mut program in std::iter::once(avr::rustc()).chain(programs) {
         let output = program.arg("--version").output();
-        let output = output.with_context(|| format!("cannot start {:?}", program.get_program()))?;
+        let Ok(output) = output else {
+            // The Pico's linker comes with rustup's compiler.
+            lines.push_str(&format!("no {}\n", program.get_program().display()));
+            continue;
+        };
         let text = String::from_utf8_lossy(&output.stdout);
         let Some(line) = text.lines().next() else {
             bail!("{:?} does not tell its version", program.get_program())
@@ -121,7 +173,7 @@ pub fn install_pico_emulator() -> Result<()> {
 fn link_for_pico(cargo: &mut Command) -> Result<()> {
     if !avr::packages().is_empty() {
         packages::ensure_installed(packages::LLD)?;
-        cargo.args(["--config", &format!("target.{PICO_TARGET}.linker=\"ld.lld-19\"")]);
+        cargo.args(["--config", &format!("target.{PICO_TARGET}.linker=\"{LLD}\"")]);
     }
     Ok(())
 }

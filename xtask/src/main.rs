@@ -10,6 +10,7 @@ mod budgets;
 mod demo;
 mod dist;
 mod docs;
+mod elf;
 mod firmware;
 mod grammar;
 mod ide;

@@ -49,7 +49,7 @@ const BOARD: [Stage; 13] = [
     }),
     ("firmware", firmware::check),
     ("firmware of the Pico, and its emulator", || {
-        firmware::build_pico()?;
+        firmware::check_pico()?;
         firmware::install_pico_emulator()
     }),
     ("plc-vm on an AVR with room", || firmware::build_vm().map(drop)),

@@ -20,8 +20,8 @@ pub struct Arguments {
     #[arg(required_unless_present_any = ["disassemble", "explain"])]
     pub program: Vec<PathBuf>,
 
-    /// The image: .bin, or .hex for Intel HEX at the program slot. Default: the program's name with
-    /// .bin. With --fmt and --disassemble the text.
+    /// The image: .bin; .hex for Intel HEX at the program slot; .uf2 with the firmware, for the
+    /// Pico's drive. Default: the program's name with .bin. With --fmt and --disassemble the text.
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
 
@@ -79,9 +79,9 @@ pub struct Arguments {
     #[arg(long)]
     pub check: bool,
 
-    /// Writes the program to the Uno at this serial port, such as /dev/ttyACM0 or COM3. Needs
-    /// avrdude. Without -o no file is written.
-    #[arg(long, value_name = "PORT", conflicts_with = "check")]
+    /// Writes the program to the Uno at this serial port, such as /dev/ttyACM0 or COM3, which needs
+    /// avrdude; or with the firmware onto this drive of a Pico. Without -o no file is written.
+    #[arg(long, value_name = "PORT|DRIVE", conflicts_with = "check")]
     pub flash: Option<String>,
 
     /// With --flash: writes the firmware first, as a new board needs it. Without a file the one

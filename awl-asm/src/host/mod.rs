@@ -2,6 +2,7 @@
 //! a board; and the arguments of `awl-asm`.
 
 pub mod args;
+pub mod drive;
 pub mod files;
 pub mod firmware;
 pub mod flash;

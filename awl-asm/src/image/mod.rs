@@ -5,3 +5,4 @@ mod eno;
 pub mod hex;
 mod too_large;
 pub mod tools;
+pub mod uf2;

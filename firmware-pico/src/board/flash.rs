@@ -5,10 +5,12 @@ use embedded_storage::nor_flash::{
     ErrorType, NorFlash, NorFlashErrorKind, ReadNorFlash, check_erase, check_read, check_write,
 };
 
+use plc_isa::PICO_DRIVE;
+
 use super::rom;
 
 /// Where the processor sees the flash.
-const FLASH: usize = 0x1000_0000;
+const FLASH: usize = PICO_DRIVE.flash_start as usize;
 /// Where this part begins in flash: after the firmware, before the program.
 const START: u32 = 0xF_0000;
 const SECTOR: usize = 4096;

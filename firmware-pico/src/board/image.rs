@@ -1,9 +1,9 @@
 //! The program, read where it is in flash.
 
-use plc_isa::{PICO, Profile, ProgramMemory};
+use plc_isa::{PICO, PICO_DRIVE, Profile, ProgramMemory};
 
 /// Where the processor sees it.
-const START: usize = 0x1010_0000;
+const START: usize = PICO_DRIVE.slot_start as usize;
 /// That many bytes are looked at for whether anything was ever written.
 const HEAD_LEN: u16 = 4;
 

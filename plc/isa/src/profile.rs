@@ -45,6 +45,21 @@ pub struct Profile {
     pub native_interface: u8,
     /// The chip as avrdude calls it, where that writes it.
     pub avrdude_part: Option<&'static str>,
+    /// The drive that the board shows for its flash to be written, where it does.
+    pub drive: Option<Drive>,
+}
+
+/// A drive that takes UF2 files.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Drive {
+    /// What the line `Board-ID` of the drive's file INFO_UF2.TXT says.
+    pub board_id: &'static str,
+    /// The chip as UF2 files name it.
+    pub family: u32,
+    /// Address of the first byte of flash, which is the firmware's.
+    pub flash_start: u32,
+    /// Address of the first byte of the program slot.
+    pub slot_start: u32,
 }
 
 /// No data memory ends after this: a reference is an address, or 0x8000 and an address.
@@ -76,6 +91,7 @@ pub const UNO: Profile = Profile {
     takes_modules: true,
     native_interface: NATIVE_INTERFACE,
     avrdude_part: Some("m328p"),
+    drive: None,
 };
 
 /// The host, for programs that name no board and that the Uno is too small for: all of the
@@ -115,6 +131,16 @@ pub const PICO: Profile = Profile {
     takes_modules: false,
     native_interface: 0,
     avrdude_part: None,
+    drive: Some(PICO_DRIVE),
+};
+
+/// The Pico's drive. The firmware has the first megabyte of its flash, with retained values at its
+/// end.
+pub const PICO_DRIVE: Drive = Drive {
+    board_id: "RPI-RP2",
+    family: 0xE48B_FF56,
+    flash_start: 0x1000_0000,
+    slot_start: 0x1010_0000,
 };
 
 /// The Uno: what is asked of a program before it names another board.

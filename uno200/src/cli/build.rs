@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use awl_asm::assemble::{Assembly, assemble_with};
+use awl_asm::drive::uf2_file;
 use awl_asm::files::{ending, ensure_distinct, ensure_no_source, read_program_texts, write_whole};
 use awl_asm::for_tools::for_tools;
 use awl_asm::hex::intel_hex;
@@ -54,17 +55,19 @@ enum Kind {
     Awl,
     Image,
     Hex,
+    Uf2,
 }
 
 /// By the ending of the output; AWL on standard output without one.
 fn output_kind(arguments: &Build) -> Result<Kind> {
     let Some(output) = &arguments.output else { return Ok(Kind::Awl) };
-    Ok(match ending(output, &["awl", "bin", "hex"])? {
+    Ok(match ending(output, &["awl", "bin", "hex", "uf2"])? {
         "awl" => {
             ensure_no_source(output, arguments.overwrite)?;
             Kind::Awl
         }
         "hex" => Kind::Hex,
+        "uf2" => Kind::Uf2,
         _ => Kind::Image,
     })
 }
@@ -98,6 +101,7 @@ fn write(
     match kind {
         Kind::Awl => write_whole(output, awl.text.as_bytes()),
         Kind::Hex => write_whole(output, intel_hex(image)?.as_bytes()),
+        Kind::Uf2 => write_whole(output, &uf2_file(assembly.profile(), image)?),
         Kind::Image => {
             let tools = for_tools(awl, assembly).filter(|_| !arguments.native);
             let tools = tools.map_or_else(Vec::new, |tools| tools.to_bytes());
