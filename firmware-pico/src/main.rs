@@ -1,9 +1,10 @@
 //! The Raspberry Pi Pico as a PLC. Start-up only; the scan is in `runtime`, the hardware in
-//! `board`.
+//! `board`, how programs are executed in `engine`.
 #![no_std]
 #![no_main]
 
 mod board;
+mod engine;
 
 use board::Pico;
 use rp2040_hal::entry;

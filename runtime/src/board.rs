@@ -4,6 +4,8 @@ use embedded_io::{Read, ReadReady, Write, WriteReady};
 use embedded_storage::nor_flash::NorFlash;
 use plc_isa::{LineSettings, Profile, ProgramMemory};
 
+use crate::engine::Engine;
+
 /// A board. Points are given and taken as levels of their pins; what a program inverts, the runtime
 /// inverts.
 pub trait Board {
@@ -14,12 +16,18 @@ pub trait Board {
 
     /// Where the program is read. It takes images of the board's profile alone.
     type Image: ProgramMemory + Clone;
+    /// What executes programs: [`Interpreted`](crate::Interpreted), if the board has nothing
+    /// faster.
+    type Engine: Engine<Self::Image>;
     /// Where requests come in and answers go out. Characters that come between two looks wait, at
     /// least as many as come in the longest scan.
     type Line: Read + ReadReady + Write + WriteReady;
     /// Where retained values are kept: all of it, from its first byte on, at least
     /// [`SECTORS_MIN`](crate::SECTORS_MIN) sectors.
     type Storage: NorFlash;
+
+    /// What executes programs. Once, before all else.
+    fn engine(&mut self) -> Self::Engine;
 
     /// A clock of microseconds that wraps. Only differences are used; two looks at it are never as
     /// far apart as it wraps.

@@ -8,6 +8,7 @@ use plc_vm::{Fault, Memory, Mode, Plc};
 use crate::analog::Analog;
 use crate::board::{Board, Mark};
 use crate::clock::Clock;
+use crate::engine::Engine;
 use crate::environment::{OUTGOING, ScanTime};
 use crate::line::Line;
 use crate::retention::{self, Retention};
@@ -35,6 +36,7 @@ pub struct Controller<B: Board> {
     /// Bytes of the request that is being answered; 0: none.
     pub(crate) request_len: u16,
     pub(crate) outgoing: Deque<u8, OUTGOING>,
+    engine: B::Engine,
     analog: Analog,
     retention: Retention,
     self_test: SelfTest,
@@ -49,6 +51,7 @@ impl<B: Board> Controller<B> {
     /// The PLC in STOP, without a program.
     pub fn new(mut board: B) -> Controller<B> {
         const { assert!(retention::fits::<B::Storage>(B::PROFILE), "a sector holds all values") };
+        let engine = board.engine();
         let clock = Clock::starting(board.now_us());
         Controller {
             board,
@@ -66,6 +69,7 @@ impl<B: Board> Controller<B> {
             line_settings: None,
             request_len: 0,
             outgoing: Deque::new(),
+            engine,
             analog: Analog::NEW,
             retention: Retention::NONE,
             self_test: SelfTest::STARTING,
@@ -116,6 +120,7 @@ impl<B: Board> Controller<B> {
         }
         (self.self_test, self.is_in_doubt) = (SelfTest::STARTING, false);
         let Some(program) = self.plc.program() else { return };
+        self.engine.prepare(program);
         let plan = program.plan();
         self.settings = plan.header.settings;
         self.board.set_pullups(self.settings.pullup);
@@ -266,7 +271,8 @@ impl<B: Board> Controller<B> {
             noted: self.link.status_entries(),
         };
         let runs = self.plc.mode() == Mode::Run;
-        self.plc.execute(&mut self.memory, &mut time);
+        let (engine, is_watched) = (&mut self.engine, time.noted.1 > 0);
+        self.plc.execute_by(&mut self.memory, &mut time, |scan| engine.run(scan, is_watched));
         let is_over = runs && time.is_over();
         if self.plc.mode() == Mode::Stop {
             if runs {

@@ -10,6 +10,7 @@ mod analog;
 mod board;
 mod clock;
 mod controller;
+mod engine;
 mod environment;
 mod freeport;
 mod line;
@@ -20,5 +21,6 @@ mod station;
 
 pub use board::{Board, Mark};
 pub use controller::Controller;
+pub use engine::{Engine, Interpreted};
 pub use pins::Pins;
 pub use retention::SECTORS_MIN;

@@ -27,6 +27,7 @@ use plc_isa::{LineSettings, PICO, Profile};
 use plc_vm::Fault;
 use runtime::{Board, Controller, Mark};
 
+use crate::engine::Thumb;
 use adc::Adc;
 use flash::Flash;
 use image::Image;
@@ -72,8 +73,13 @@ impl Board for Pico {
     const PRODUCT: &'static str = "Raspberry Pi Pico";
 
     type Image = Image;
+    type Engine = Thumb;
     type Line = Serial;
     type Storage = Flash;
+
+    fn engine(&mut self) -> Thumb {
+        Thumb::new()
+    }
 
     #[inline(always)]
     fn now_us(&mut self) -> u32 {

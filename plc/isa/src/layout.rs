@@ -56,6 +56,8 @@ pub const ANALOG_OUTPUTS: u8 = 2;
 /// ENO of the last box, as far as the program asks for it there: a byte, 0 or 1. Boxes of modules
 /// leave it, those of the core with [`Op::NoteEno`](crate::Op::NoteEno).
 pub const ENO: u16 = 0x0234;
+/// In the operand of AENO: looks at the ENO that was left, not at SMB1 alone.
+pub const LEFT_ENO: u8 = 0x80;
 /// On the board: what the last look for interrupt events saw; after it what waits. No instruction
 /// names these bytes.
 pub const EVENTS_SEEN: u16 = 0x0235;

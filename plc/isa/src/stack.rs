@@ -61,4 +61,9 @@ impl LogicStack {
     pub const fn bits(self) -> u16 {
         self.0
     }
+
+    /// The same the other way round; bits of levels that do not exist are lost.
+    pub const fn of_bits(bits: u16) -> LogicStack {
+        LogicStack(bits & MASK)
+    }
 }

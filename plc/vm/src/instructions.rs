@@ -2,8 +2,8 @@
 //! `modules`.
 
 use plc_isa::{
-    Bit, ByteSource, ENO, Execute, Flow, Op, OperandKind, OperandReader, Operands, ProgramMemory,
-    Relation, SM_START, WordSource, kinds,
+    Bit, ByteSource, ENO, Execute, Flow, LEFT_ENO, Op, OperandKind, OperandReader, Operands,
+    ProgramMemory, Relation, SM_START, WordSource, kinds,
 };
 
 use crate::calls::Frame;
@@ -22,8 +22,6 @@ const INTERRUPT_LEN: u16 = 75;
 const CALL_LEN: u16 = 2;
 /// Where SMB1 is, the status of results.
 const STATUS: u16 = SM_START + 1;
-/// In the operand of AENO: looks at the ENO that was left, not at SMB1 alone.
-const LEFT_ENO: u8 = 0x80;
 
 impl<P: ProgramMemory, E: Environment> Execute for Interpreter<'_, P, E> {
     #[inline]

@@ -76,22 +76,43 @@ impl<P: ProgramMemory, E: Environment> Interpreter<'_, P, E> {
     fn run_code<C: ProgramMemory>(mut self, code: &C) -> (Exit, u16) {
         let mut pc = self.program.code_at();
         loop {
-            match execute(&mut self, code, pc) {
-                Flow::Jump(next) => {
-                    self.environment.executed(pc, self.stack, self.memory);
-                    pc = next;
-                }
-                Flow::Leave | Flow::Next => {
-                    self.environment.executed(pc, self.stack, self.memory);
-                    return (self.exit, pc);
-                }
+            let flow = execute(&mut self, code, pc);
+            self.tell_executed(pc);
+            match flow {
+                Flow::Jump(next) => pc = next,
+                Flow::Leave | Flow::Next => return (self.exit, pc),
             }
         }
+    }
+
+    /// Executes the instruction at this offset. Where the program goes on, or that it is left, for
+    /// the reason that [`exit`](Self::exit) says. For an engine that executes others itself.
+    #[inline(always)]
+    pub fn step(&mut self, pc: u16) -> Flow {
+        let program = self.program;
+        execute(self, program.memory(), pc)
+    }
+
+    /// Tells the environment that the instruction at this offset was executed, for an engine that
+    /// is watched.
+    #[inline(always)]
+    pub fn tell_executed(&mut self, at: u16) {
+        self.environment.executed(at, self.stack, self.memory);
+    }
+
+    /// Why the program was left.
+    pub fn exit(&self) -> Exit {
+        self.exit
     }
 
     /// Data memory between two instructions, for a caller who executes them one by one.
     pub fn memory(&mut self) -> &mut Memory {
         self.memory
+    }
+
+    /// The logic stack between two instructions, for the same.
+    pub fn stack(&mut self) -> &mut LogicStack {
+        &mut self.stack
     }
 
     pub(crate) fn plan(&self) -> &Plan<P> {

@@ -67,6 +67,12 @@ impl Memory {
         }
     }
 
+    /// Bytes from an address on; none where not all of them are memory.
+    pub(crate) fn part(&self, address: u16, len: u16) -> &[u8] {
+        let start = index(address);
+        self.bytes.get(start..start + usize::from(len)).unwrap_or(&[])
+    }
+
     /// Copies bytes to another place, from the first to the last.
     #[cfg_attr(target_arch = "avr", inline(never))]
     pub fn copy(&mut self, from: u16, to: u16, len: u16) {

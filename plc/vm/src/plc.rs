@@ -126,12 +126,24 @@ impl<P: ProgramMemory> Plc<P> {
     /// The same for a caller that has written the inputs into the process image itself, because it
     /// has only few.
     pub fn execute<E: Environment>(&mut self, memory: &mut Memory, environment: &mut E) {
+        self.execute_by(memory, environment, |scan| Interpreter::new(scan).run());
+    }
+
+    /// The same with another engine in the interpreter's place: it executes the program of the
+    /// scan once, and says why it was left and at which offset.
+    #[inline(always)]
+    pub fn execute_by<E: Environment>(
+        &mut self,
+        memory: &mut Memory,
+        environment: &mut E,
+        run: impl FnOnce(Scan<'_, P, E, Events>) -> (Exit, u16),
+    ) {
         let now_ms = environment.now_ms();
         if now_ms != self.time() {
             self.set_time(now_ms);
         }
         let Some(scan) = self.begin(memory, environment) else { return };
-        let (exit, at) = Interpreter::new(scan).run();
+        let (exit, at) = run(scan);
         self.finish(exit, at);
     }
 

@@ -78,6 +78,15 @@ impl Text {
         self.len += 1;
         Ok(())
     }
+
+    /// Appends characters; more than a string can have are illegal.
+    pub fn append(&mut self, characters: &[u8]) -> Result<(), Failure> {
+        let end = self.len + characters.len();
+        let place = self.bytes.get_mut(self.len..end).ok_or(Failure::Operand)?;
+        place.copy_from_slice(characters);
+        self.len = end;
+        Ok(())
+    }
 }
 
 impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
@@ -109,7 +118,7 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
             let address = self.source(index, Width::Byte, 1)?;
             let len = u16::from(self.interpreter.memory.byte(address));
             self.source(index, Width::Byte, 1 + len)?;
-            (1..=len).try_for_each(|at| text.push(self.interpreter.memory.byte(address + at)))?;
+            text.append(self.interpreter.memory.part(address + 1, len))?;
         }
         Ok(text)
     }

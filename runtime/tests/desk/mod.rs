@@ -12,7 +12,7 @@ use embedded_storage::nor_flash::{
     ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash,
 };
 use plc_isa::{Area, LineSettings, Profile};
-use runtime::{Board, Controller, Mark};
+use runtime::{Board, Controller, Interpreted, Mark};
 
 pub const SECTORS: usize = 4;
 pub const SECTOR_LEN: usize = 512;
@@ -222,9 +222,13 @@ impl Board for Desk {
     const PRODUCT: &'static str = "desk";
 
     type Image = Image;
+    type Engine = Interpreted;
     type Line = Wire;
     type Storage = Flash;
 
+    fn engine(&mut self) -> Interpreted {
+        Interpreted
+    }
     fn now_us(&mut self) -> u32 {
         self.now_us = self.now_us.wrapping_add(self.look_us);
         self.now_us

@@ -1,5 +1,6 @@
 //! Measures everything that `cargo xtask bench` reports about the board, and prints it line by
-//! line; with `table`, the table of awl-asm/src/output/cost/interpreter.rs. It judges nothing.
+//! line; with `table`, the table of awl-asm/src/output/cost/interpreter.rs; with `pico`, what is
+//! measured on the Pico alone. It judges nothing.
 
 use std::io::{self, Write};
 
@@ -16,6 +17,10 @@ fn main() -> io::Result<()> {
         return out.write_all(table::table().as_bytes());
     }
     writeln!(out, "{}", record::HEAD)?;
+    #[cfg(feature = "pico")]
+    if std::env::args().nth(1).as_deref() == Some("pico") {
+        return pico_records().iter().try_for_each(|record| writeln!(out, "{record}"));
+    }
     if let Some(word) = std::env::args().nth(1) {
         return chapter_alone(&mut out, &word);
     }
@@ -25,6 +30,10 @@ fn main() -> io::Result<()> {
         }
     }
     for record in firmware_records() {
+        writeln!(out, "{record}")?;
+    }
+    #[cfg(feature = "pico")]
+    for record in pico_records() {
         writeln!(out, "{record}")?;
     }
     for chapter in &CHAPTERS {
@@ -78,13 +87,47 @@ fn firmware_records() -> Vec<Record> {
 
 /// The generated programs.
 fn program_records(tier: Tier) -> Vec<Record> {
-    let all = [
+    generated().into_iter().flat_map(|(name, text)| one_program(tier, name, &text)).collect()
+}
+
+fn generated() -> [(&'static str, String); 4] {
+    [
         ("1024-step 80/20", programs::eighty_twenty()),
         ("1024-step 80/20, power flow at all boxes", programs::eighty_twenty_all_boxes()),
         ("1K Boolean", programs::boolean()),
         ("mix", programs::mix()),
-    ];
-    all.into_iter().flat_map(|(name, text)| one_program(tier, name, &text)).collect()
+    ]
+}
+
+/// The generated programs on the Pico, and every instruction that is quoted.
+#[cfg(feature = "pico")]
+fn pico_records() -> Vec<Record> {
+    const TIER: &str = "Pico";
+    let mut meter = measure::pico::PicoMeter::new();
+    let of = |section, what: &str, (min, max): (f64, f64), quoted_us, name: &str| Record {
+        section,
+        tier: TIER.to_string(),
+        what: what.to_string(),
+        min,
+        max,
+        quoted_us,
+        name: name.to_string(),
+    };
+    let whole =
+        |what, value: u32, name: &str| of("pico", what, (value.into(), value.into()), None, name);
+    let mut records = vec![whole("overhead", meter.overhead(), "a scan")];
+    for (name, text) in generated() {
+        records.push(whole("cycles", meter.program(&text), name));
+    }
+    let rows = CHAPTERS.iter().map(|chapter| chapter.rows);
+    for row in rows.chain(MODULE_CHAPTERS.iter().map(|chapter| chapter.rows)).flatten() {
+        let Some(quoted) = row.quoted_us() else { continue };
+        if let Some((least, most)) = meter.row(row) {
+            let range = (least.round(), most.round());
+            records.push(of("pico instructions", "cycles", range, Some(quoted), &row.name()));
+        }
+    }
+    records
 }
 
 /// Cycles of the shortest and of the longest scan over all inputs, and cycles an instruction by

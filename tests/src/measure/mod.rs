@@ -8,6 +8,8 @@ mod executable;
 pub mod forms;
 mod meter;
 pub mod module_rows;
+#[cfg(feature = "pico")]
+pub mod pico;
 pub mod programs;
 pub mod record;
 pub mod rows;

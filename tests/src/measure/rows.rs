@@ -94,6 +94,13 @@ impl Row {
         self.program_with(self.count.map_or(0, |count| count.usual))
     }
 
+    /// The program without this row's instructions, whether it is one or not.
+    pub fn rest(&self) -> String {
+        let lines = self.frame.lines().filter(|line| *line != "{}").collect::<Vec<_>>().join("\n");
+        let forms = self.instructions(0).len();
+        format!("{}{}", self.settings, format!("{lines}\n").repeat(forms))
+    }
+
     /// The same with this count.
     pub fn program_with(&self, count: u8) -> (String, Vec<usize>) {
         let (mut text, mut numbers) = (self.settings.to_string(), Vec::new());

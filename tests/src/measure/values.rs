@@ -82,10 +82,13 @@ fn finite(rng: &mut Rng) -> u32 {
 /// If the program has not these bytes.
 pub fn write(meter: &mut Meter, items: &[Item], count: u8, rng: &mut Rng) {
     let plan = meter.executable.plan();
-    for &(first, content) in items {
-        for (number, byte) in (first..).zip(content.bytes(count, rng)) {
-            let address = plan.v_address(number).unwrap_or_else(|| panic!("no VB{number}"));
-            meter.board.write(address, &[byte]);
-        }
+    for (number, byte) in bytes(items, count, rng) {
+        let address = plan.v_address(number).unwrap_or_else(|| panic!("no VB{number}"));
+        meter.board.write(address, &[byte]);
     }
+}
+
+/// The values as bytes of V memory, with their numbers.
+pub fn bytes(items: &[Item], count: u8, rng: &mut Rng) -> Vec<(u16, u8)> {
+    items.iter().flat_map(|&(first, content)| (first..).zip(content.bytes(count, rng))).collect()
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::record::{INTERPRETER, NATIVE, NATIVE_IN_SRAM, Record, find};
+use super::record::{INTERPRETER, NATIVE, NATIVE_IN_SRAM, PICO, Record, find};
 use crate::budgets;
 
 /// A budget with what was measured.
@@ -43,7 +43,7 @@ const BIT: &str = "cycles a bit instruction";
 const WORD: &str = "cycles a word instruction";
 
 /// All budgets of the board, with their figures.
-const BUDGETS: [(About, f64, &str); 15] = [
+const BUDGETS: [(About, f64, &str); 18] = [
     ((INTERPRETER, BIT, "mix"), budgets::INTERPRETER_BIT_CYCLES_MAX, "cycles"),
     ((INTERPRETER, WORD, "mix"), budgets::INTERPRETER_WORD_CYCLES_MAX, "cycles"),
     ((INTERPRETER, "cycles", "1024-step 80/20"), budgets::INTERPRETER_STEPS_CYCLES_MAX, "cycles"),
@@ -79,6 +79,9 @@ const BUDGETS: [(About, f64, &str); 15] = [
     ((NATIVE, "cycles", "1024-step 80/20"), budgets::NATIVE_STEPS_CYCLES_MAX, "cycles"),
     ((NATIVE, "program max", "station1"), budgets::NATIVE_STATION_CYCLES_MAX, "cycles"),
     ((NATIVE, "overhead", "station1"), budgets::SCAN_OVERHEAD_CYCLES_MAX, "cycles"),
+    ((PICO, "cycles", "1K Boolean"), budgets::PICO_BITS_CYCLES_MAX, "cycles"),
+    ((PICO, "cycles", "1024-step 80/20"), budgets::PICO_STEPS_CYCLES_MAX, "cycles"),
+    ((PICO, "overhead", "a scan"), budgets::PICO_OVERHEAD_CYCLES_MAX, "cycles"),
 ];
 
 /// Holds the figures against the budgets.

@@ -2,7 +2,7 @@
 //! board is. It measures nothing.
 
 use super::exceptions::CYCLES_A_US;
-use super::record::{INTERPRETER, NATIVE, Record, TYPICAL, find};
+use super::record::{INTERPRETER, NATIVE, PICO, Record, TYPICAL, find};
 
 /// A group, and what the names of its rows begin with.
 type Group = (&'static str, &'static [&'static str]);
@@ -105,6 +105,23 @@ pub struct Line {
 pub fn lines(records: &[Record]) -> Vec<Line> {
     let titles = GROUPS.iter().map(|(title, _)| *title).chain([OTHERS]);
     titles.filter_map(|title| line(records, title)).collect()
+}
+
+/// The same of the Pico, whose rows are one tier: group, its times and those of the S7-200 in us,
+/// and how many times as fast it is.
+pub fn lines_of_pico(records: &[Record]) -> Vec<(&'static str, [f64; 2], [f64; 2], f64)> {
+    let titles = GROUPS.iter().map(|(title, _)| *title).chain([OTHERS]);
+    let line = |title| {
+        let rows: Vec<(f64, f64)> = records
+            .iter()
+            .filter(|record| record.tier == PICO && group_of(&record.name) == title)
+            .filter_map(|record| Some((record.max / record.cycles_a_us(), record.quoted_us?)))
+            .collect();
+        let (ours, theirs): (Vec<f64>, Vec<f64>) = rows.into_iter().unzip();
+        let times = theirs.iter().sum::<f64>() / ours.iter().sum::<f64>();
+        Some((title, spread(ours.into_iter())?, spread(theirs.into_iter())?, times))
+    };
+    titles.filter_map(line).collect()
 }
 
 /// A verified time: row, what it is there, ours in us and theirs.

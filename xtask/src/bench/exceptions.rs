@@ -1,9 +1,9 @@
 //! No instruction is slower than what is quoted for the S7-200, except those that are listed here
 //! with their reason.
 
-use super::record::{INTERPRETER, NATIVE, NATIVE_IN_SRAM, Record, TIERS, TYPICAL};
+use super::record::{INTERPRETER, NATIVE, NATIVE_IN_SRAM, PICO, Record, TIERS, TYPICAL};
 
-/// Cycles in a microsecond.
+/// Cycles in a microsecond of the Uno.
 pub const CYCLES_A_US: f64 = 16.0;
 
 /// Instructions that may be slower.
@@ -124,11 +124,35 @@ pub static EXCEPTIONS: &[Exception] = &[
         names: &["INCB", "DECB", "S V100", "R V100", "HDEF"],
         reason: "the way to the module, and to read its operands, is most of the time",
     },
+    Exception {
+        tiers: &[PICO],
+        what: WITH,
+        names: &["LD T32"],
+        reason: "the bit of a 1 ms timer: all of them are brought up to date before it is read",
+    },
+    Exception {
+        tiers: &[PICO],
+        what: WITH,
+        names: &["JMP", "LBL", "END", "SCRE"],
+        reason: "the interpreter executes them, also for what is measured beside them",
+    },
+    Exception {
+        tiers: &[PICO],
+        what: WITH,
+        names: &["SLEN", "SCAT"],
+        reason: "strings are copied as a whole before anything is done with them",
+    },
+    Exception {
+        tiers: &[PICO],
+        what: WITH,
+        names: &["LPS", "LDS 1"],
+        reason: "with the instructions beside it that are no program without it",
+    },
 ];
 
 /// Whether a figure is of an instruction and above what is quoted.
 pub fn is_slower(record: &Record) -> bool {
-    record.quoted_us.is_some_and(|us| record.max > us * CYCLES_A_US)
+    record.quoted_us.is_some_and(|us| record.max > us * record.cycles_a_us())
 }
 
 /// The exception for a figure, and the name in it.
@@ -160,7 +184,7 @@ pub fn breaches(records: &[Record]) -> Vec<String> {
 }
 
 fn breach(record: &Record) -> String {
-    let limit = record.quoted_us.unwrap_or_default() * CYCLES_A_US;
+    let limit = record.quoted_us.unwrap_or_default() * record.cycles_a_us();
     format!("{}: {} cycles, the S7-200 takes {limit:.1}", record.title(), record.max)
 }
 

@@ -9,7 +9,7 @@ use super::record::{INTERPRETER, Record, TIERS, TYPICAL, find};
 use super::text;
 
 /// Sections that are no chapters of instructions.
-const OTHER_SECTIONS: [&str; 3] = ["program", "scan", "firmware"];
+const OTHER_SECTIONS: [&str; 5] = ["program", "scan", "firmware", "pico", "pico instructions"];
 
 /// The page.
 pub fn page(records: &[Record]) -> String {
@@ -18,6 +18,7 @@ pub fn page(records: &[Record]) -> String {
     programs_table(&mut page, records);
     scans_table(&mut page, records);
     comparison_tables(&mut page, records);
+    pico_tables(&mut page, records);
     others_table(&mut page);
     host_table(&mut page);
     instruction_tables(&mut page, records);
@@ -131,10 +132,7 @@ fn comparison_tables(page: &mut String, records: &[Record]) {
     let columns =
         ["instructions", "interpreter", "native", "S7-200", "interpreter is", "native is"];
     section(page, "Against the S7-200", text::COMPARISON, &columns);
-    let us = |[least, most]: [f64; 2]| {
-        let [least, most] = [least, most].map(short);
-        if least == most { least } else { format!("{least} to {most}") }
-    };
+    let us = least_and_most;
     for Line { title, interpreter, native, quoted, speed } in comparison::lines(records) {
         let speed = speed.map(|speed| speed.map_or(String::new(), how_fast));
         let native = native.map_or(String::new(), us);
@@ -159,6 +157,35 @@ fn comparison_tables(page: &mut String, records: &[Record]) {
             ],
         );
     }
+}
+
+/// Programs and groups of instructions on the Pico.
+fn pico_tables(page: &mut String, records: &[Record]) {
+    let columns = ["program", "cycles", "ms", "the Uno's interpreter is"];
+    section(page, "The Raspberry Pi Pico", text::PICO, &columns);
+    for record in records.iter().filter(|record| record.section == "pico") {
+        let ms = |record: &Record| record.max / record.cycles_a_us() / 1000.0;
+        let uno = find(records, INTERPRETER, &record.what, &record.name);
+        let slower = uno.map(|uno| format!("{} times slower", short(ms(uno) / ms(record))));
+        let name =
+            if record.what == "overhead" { "a scan without a program" } else { &record.name };
+        let cells = [name, &number(record.max), &format!("{:.3}", ms(record))];
+        line(page, &[&cells[..], &[&slower.unwrap_or_default()]].concat());
+    }
+    page.push('\n');
+    line(page, &["instructions", "the Pico, us", "S7-200, us", "the Pico is"]);
+    let _ = writeln!(page, "|---|---|---|---|");
+    for (title, ours, theirs, times) in comparison::lines_of_pico(records) {
+        line(
+            page,
+            &[title.to_string(), least_and_most(ours), least_and_most(theirs), how_fast(times)],
+        );
+    }
+}
+
+fn least_and_most(range: [f64; 2]) -> String {
+    let [least, most] = range.map(short);
+    if least == most { least } else { format!("{least} to {most}") }
 }
 
 /// In words; the slower is marked.

@@ -14,7 +14,9 @@ pub const INTERPRETER: &str = "interpreter";
 pub const NATIVE: &str = "native";
 /// Translated, with the process image in SRAM.
 pub const NATIVE_IN_SRAM: &str = "native in SRAM";
-/// All of them.
+/// On the emulated Pico.
+pub const PICO: &str = "Pico";
+/// All of the Uno's.
 pub const TIERS: [&str; 3] = [INTERPRETER, NATIVE, NATIVE_IN_SRAM];
 
 /// A figure.
@@ -62,6 +64,11 @@ impl Record {
         self.section == "scan"
             && !self.what.starts_with("program")
             && ["max", "p99", "mean"].iter().any(|word| self.what.ends_with(word))
+    }
+
+    /// Cycles in a microsecond on its board.
+    pub fn cycles_a_us(&self) -> f64 {
+        if self.tier == PICO { 125.0 } else { 16.0 }
     }
 
     /// What each of something takes, of what, and how many there are in the row: of `each word of

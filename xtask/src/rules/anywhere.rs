@@ -6,6 +6,7 @@ const LIBRARIES: &[&str] = &[
     "plc/isa/src/",
     "plc/vm/src/",
     "plc/link/src/",
+    "plc/thumb/src/",
     "runtime/src/",
     "diagnostics/src/",
     "awl-asm/src/",

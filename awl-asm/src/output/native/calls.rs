@@ -1,7 +1,7 @@
 //! Subroutines, sequence control, events and AENO: what works with a unit's own bits and stack, or
 //! leaves the unit.
 
-use plc_isa::{Bit, CLOCK, ENO, EVENTS_SEEN, Encoded, Op, T_BITS_START, UNO};
+use plc_isa::{Bit, CLOCK, ENO, EVENTS_SEEN, Encoded, LEFT_ENO, Op, T_BITS_START, UNO};
 
 use super::avr::{Avr, Condition, Constant, OfBit, Two};
 use super::bits::Combine;
@@ -11,9 +11,6 @@ use super::emitter::{Emitter, SCRATCH, TEMP, TEMP2};
 use super::translate::{STACK, Translator};
 use super::vectors::{Vector, piece};
 use crate::output::cycles::Cycles;
-
-/// In the operand of AENO: it looks at the ENO that was left, too.
-const LEFT_ENO: u8 = 0x80;
 
 /// I/O address of the levels of D0 to D7, and those of I0.0 to I0.3, whose edges are events.
 const LEVELS: u8 = 0x09;

@@ -21,7 +21,7 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
             }
             Op::Scat => {
                 let (appended, mut text) = (self.read_text(0)?, self.read_text(1)?);
-                appended.characters().iter().try_for_each(|&character| text.push(character))?;
+                text.append(appended.characters())?;
                 self.write_text(1, text.characters())
             }
             Op::Sscpy => {
