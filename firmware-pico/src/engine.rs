@@ -62,8 +62,8 @@ const THUMB: u32 = 1;
 
 /// The address of the code for the instruction at this offset, as BX takes it.
 fn address(code: &Code, offset: u16) -> Option<u32> {
-    let halfword = code.code().get(code.entry(offset)?)?;
-    Some(core::ptr::from_ref(halfword).expose_provenance() as u32 | THUMB)
+    let halfword = code.code().as_ptr().wrapping_add(code.entry(offset)?);
+    Some(halfword.expose_provenance() as u32 | THUMB)
 }
 
 /// Answers of [`step`] that are no address: the code goes on, or is left.

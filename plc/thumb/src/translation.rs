@@ -15,7 +15,8 @@ const STEP_LEN: usize = 5;
 /// for.
 const WINDOW_LEN: u16 = 32;
 
-/// Where in the code an instruction of the program begins.
+/// Where in the code an instruction of the program begins. With offset 0, where the header is, there
+/// is none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Entry {
     /// Its offset in the image.
@@ -24,20 +25,30 @@ struct Entry {
     at: u16,
 }
 
-/// Code for a program, in room for `CODE` halfwords with `ENTRIES` entries. What there is no room
-/// for the interpreter executes.
-#[derive(Debug, Default)]
+impl Entry {
+    const NONE: Entry = Entry { offset: 0, at: 0 };
+}
+
+/// Code for a program, in room for `CODE` halfwords, with entries in a table of `ENTRIES` places, a
+/// power of two. What there is no room for the interpreter executes.
+#[derive(Debug)]
 pub struct Translation<const CODE: usize, const ENTRIES: usize> {
     code: Vec<u16, CODE>,
-    /// By ascending offset.
-    entries: Vec<Entry, ENTRIES>,
+    /// An entry is at the place that the lowest bits of its offset say, or the next one that was
+    /// free: jumps in a loop look for theirs in every pass.
+    entries: [Entry; ENTRIES],
+    entries_len: usize,
     /// The index in data memory that the window begins at, where that is known.
     window: Option<u16>,
 }
 
 impl<const CODE: usize, const ENTRIES: usize> Translation<CODE, ENTRIES> {
     /// Of no program.
-    pub const NONE: Self = Translation { code: Vec::new(), entries: Vec::new(), window: None };
+    pub const NONE: Self = {
+        assert!(ENTRIES.is_power_of_two(), "places are found by the lowest bits");
+        let entries = [Entry::NONE; ENTRIES];
+        Translation { code: Vec::new(), entries, entries_len: 0, window: None }
+    };
 
     /// The halfwords.
     pub fn code(&self) -> &[u16] {
@@ -47,14 +58,25 @@ impl<const CODE: usize, const ENTRIES: usize> Translation<CODE, ENTRIES> {
     /// The index of the halfword where the instruction at this offset of the image begins, if
     /// code can be entered there.
     pub fn entry(&self, offset: u16) -> Option<usize> {
-        let index = self.entries.binary_search_by_key(&offset, |entry| entry.offset).ok()?;
-        self.entries.get(index).map(|entry| usize::from(entry.at))
+        let entry = self.entries.get(self.place(offset))?;
+        (entry.offset == offset).then_some(usize::from(entry.at))
+    }
+
+    /// The place of the entry for this offset, or the free one where it would be.
+    fn place(&self, offset: u16) -> usize {
+        let mut place = usize::from(offset) & (ENTRIES - 1);
+        while self.entries.get(place).is_some_and(|entry| ![0, offset].contains(&entry.offset)) {
+            place = (place + 1) & (ENTRIES - 1);
+        }
+        place
     }
 
     /// Forgets the translation of before and translates a program, as much as there is room for.
     pub fn translate<P: ProgramMemory>(&mut self, program: &Program<P>) {
         self.code.clear();
-        self.entries.clear();
+        // In its place: the stack has no room for a second one.
+        self.entries.fill(Entry::NONE);
+        self.entries_len = 0;
         let mut is_led_to = true;
         for (offset, decoded) in program.all_instructions() {
             if self.code.len() + INSTRUCTION_MAX + STEP_LEN > CODE {
@@ -73,9 +95,16 @@ impl<const CODE: usize, const ENTRIES: usize> Translation<CODE, ENTRIES> {
 
     /// The next instruction can be reached from elsewhere.
     fn enter_here(&mut self, offset: u16) {
-        // Where there is no room the interpreter goes on, up to the next entry.
-        let _ = self.entries.push(Entry { offset, at: self.code.len() as u16 });
         self.window = None;
+        // Without room the interpreter goes on, up to the next entry.
+        let (place, at) = (self.place(offset), self.code.len() as u16);
+        // With some places free the search for one ends soon.
+        if self.entries_len < ENTRIES / 4 * 3
+            && let Some(entry) = self.entries.get_mut(place)
+        {
+            *entry = Entry { offset, at };
+            self.entries_len += 1;
+        }
     }
 
     /// A call of the interpreter; with length 0 the last.

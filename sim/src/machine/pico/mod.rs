@@ -31,7 +31,7 @@ use process::Process;
 
 /// How many cycles a scan may take before the held clock goes on: as many as the PLC's watchdog
 /// waits on a real board, and so many at least.
-const HELD_CYCLES_MIN: u32 = 200_000_000;
+const HELD_CYCLES_MIN: u32 = 300_000_000;
 const CYCLES_PER_MS: u32 = 125_000;
 const US_PER_MS: u32 = 1000;
 
