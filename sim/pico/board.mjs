@@ -16,6 +16,8 @@ const BLOCK = 512;
 
 // Registers of peripherals, as rp2040js asks for them.
 const WATCHDOG = 0x40058;
+const WATCHDOG_LOAD = 0x04;
+const WATCHDOG_LOAD_MAX = 0xffffff;
 const TIMER = 0x40054;
 const TIMERAWL = 0x28;
 const MARK = 0x14;
@@ -142,7 +144,8 @@ class Board {
       write(offset, value);
     };
     watchdog.onWatchdogTrigger = () => {
-      // While the clock stands still nobody feeds it.
+      // While the clock stands still nobody feeds it, and its alarm comes again and again.
+      if (this.isHeld) write(WATCHDOG_LOAD, WATCHDOG_LOAD_MAX);
       this.isHung = !this.isHeld;
     };
     this.scratch = watchdog.scratchData;
