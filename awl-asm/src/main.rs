@@ -32,6 +32,7 @@ use awl_asm::symbols;
 use awl_asm::tools::image_in;
 use clap::Parser;
 use diagnostics::unknown_code;
+use plc_isa::Profile;
 
 /// Errors in the program: reported already.
 const PROGRAM_ERRORS: u8 = 1;
@@ -146,12 +147,7 @@ fn assemble_files(files: &[PathBuf], arguments: &Arguments) -> Result<bool> {
     for output in [&arguments.listing, &arguments.map].into_iter().flatten() {
         ensure_no_source(output, arguments.overwrite)?;
     }
-    if let Some((file, language)) = files.iter().find_map(other_language) {
-        let file = file.display();
-        bail!(
-            "{file} is {language}, not AWL: `uno200 build {file} -o F.awl` makes AWL of it, F.bin an image"
-        );
-    }
+    ensure_awl(files)?;
     let source = read_program(files)?;
     let mut report = report_for(arguments);
     let symbols = load_symbols(&arguments.symbols, &mut report)?;
@@ -188,10 +184,7 @@ fn assemble_files(files: &[PathBuf], arguments: &Arguments) -> Result<bool> {
         write_whole(output, &contents)?;
     }
     if let (Some(place), Some(firmware)) = (&arguments.flash, &firmware) {
-        match &assembly.profile().drive {
-            Some(_) => drive::write(place.as_ref(), assembly.profile(), source.stem(), image)?,
-            None => flash(place, firmware, image, source.stem(), std::io::stderr().is_terminal())?,
-        }
+        write_board(place, firmware, assembly.profile(), source.stem(), image)?;
     }
     if report.has_summary() {
         let written =
@@ -201,6 +194,31 @@ fn assemble_files(files: &[PathBuf], arguments: &Arguments) -> Result<bool> {
         eprintln!("{sizes}{}", scan(&source, &assembly, arguments.native));
     }
     Ok(true)
+}
+
+/// Writes a board through its bootloader, or onto its drive.
+fn write_board(
+    place: &str,
+    firmware: &Firmware,
+    profile: &Profile,
+    name: &str,
+    image: &[u8],
+) -> Result<()> {
+    match profile.drive {
+        Some(_) => drive::write(place.as_ref(), profile, name, image),
+        None => flash(place, firmware, image, name, std::io::stderr().is_terminal()),
+    }
+}
+
+/// Files whose programs are of no other language: those are named with the way to AWL.
+fn ensure_awl(files: &[PathBuf]) -> Result<()> {
+    if let Some((file, language)) = files.iter().find_map(other_language) {
+        let file = file.display();
+        bail!(
+            "{file} is {language}, not AWL: `uno200 build {file} -o F.awl` makes AWL of it, F.bin an image"
+        );
+    }
+    Ok(())
 }
 
 fn write_listings(arguments: &Arguments, source: &Source, assembly: &Assembly) -> Result<()> {

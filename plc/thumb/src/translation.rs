@@ -15,8 +15,8 @@ const STEP_LEN: usize = 5;
 /// for.
 const WINDOW_LEN: u16 = 32;
 
-/// Where in the code an instruction of the program begins. With offset 0, where the header is, there
-/// is none.
+/// Where in the code an instruction of the program begins. With offset 0, where the header is,
+/// there is none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Entry {
     /// Its offset in the image.
