@@ -149,7 +149,7 @@ fn what_is_no_firmware_never_touches_the_board() {
         (&["p.awl", "--flash", "/dev/port", "--with-firmware", "program.hex"][..], "program slot"),
         (&["p.awl", "--flash", "/dev/port", "--with-firmware", "none.hex"], "cannot read none.hex"),
         (&["--flash", "/dev/port", "--with-firmware", "p.awl"], "name the program before"),
-        (&["p.awl", "--with-firmware"], "--flash <PORT>"),
+        (&["p.awl", "--with-firmware"], "--flash <PORT|DRIVE>"),
         (&["p.awl", "--flash", "/dev/port", "--check"], "cannot be used with"),
     ] {
         let (code, errors) = bench.run(arguments);

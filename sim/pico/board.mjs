@@ -34,7 +34,7 @@ const PWM_SLICE_LEN = 0x14;
 const NO_DUTY = 0xffff;
 
 // Cycles from power to the first scan, and from a scan to the next.
-const BOOT_MAX = 20_000_000;
+const BOOT_MAX = 100_000_000;
 const PAUSE_MAX = 2_000_000;
 // From when on each look at the clock takes a millisecond, until the scan has ended.
 const LATE_MAX = 400_000_000;

@@ -21,6 +21,7 @@ use plc_vm::{Fault, Inputs};
 use tests::beside::{Board, Pair};
 use tests::case::{Case, Prepared, host};
 use tests::effort::effort;
+use tests::measure::programs;
 use tests::random_runs::{Programs, random_image_for, random_scans};
 
 /// A second of a Pico takes the emulator many.
@@ -157,6 +158,22 @@ fn random_programs_are_the_same() {
     }
     println!("{count} programs, {scans} scans, all equal, {} s", start.elapsed().as_secs());
     assert!(scans >= 2 * count, "the programs hardly ran");
+}
+
+/// As many instructions as the slot has room for: more than ten times what is translated, so that
+/// the interpreter goes on where the code ends.
+#[test]
+fn a_program_of_20_000_instructions_is_the_same() {
+    let text = programs::eighty_twenty().repeat(20_000_usize.div_ceil(programs::STEPS));
+    let source = Source::new("large.awl", &*text).unwrap();
+    let image = assemble_with(&source, Vec::new(), &[], Some(&PICO)).image.expect("it fits");
+    let mut place = pico();
+    let Some(pico) = place.as_mut() else { return };
+    let mut pair = Pair::new(OnPico::with(pico, &image), &image);
+    let mut rng = fastrand::Rng::with_seed(20_000);
+    let scans = random_scans(&mut pair, &mut rng, Pair::difference, |scan| format!("scan {scan}"));
+    println!("{} bytes, {scans} scans, all equal", image.len());
+    assert!(scans >= 3);
 }
 
 /// What the blocks of a UF2 file bring to an address, up to where they have nothing more.
