@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use awl_asm::assemble::assemble_for;
+use awl_asm::assemble::{Assembly, assemble_for};
 use awl_asm::render::human;
 use awl_asm::source::Source;
 use fastrand::Rng;
@@ -46,13 +46,26 @@ pub fn image(text: &str) -> Vec<u8> {
 /// # Panics
 /// As there.
 pub fn image_for(text: &str, board: &'static Profile) -> Vec<u8> {
-    let source = Source::new("program", text).unwrap_or_else(|error| panic!("{error}"));
-    let assembly = assemble_for(&source, Vec::new(), &[], board);
+    let (source, assembly) = assembly_for(text, board);
     assembly.image.unwrap_or_else(|| {
         let messages: Vec<_> =
             assembly.diagnostics.iter().map(|message| human(&source, message, false)).collect();
         panic!("{}\n{text}", messages.concat())
     })
+}
+
+/// The same, if the program has no errors on this board.
+///
+/// # Panics
+/// If it is no text.
+pub fn valid_image_for(text: &str, board: &'static Profile) -> Option<Vec<u8>> {
+    assembly_for(text, board).1.image
+}
+
+fn assembly_for(text: &str, board: &'static Profile) -> (Source, Assembly) {
+    let source = Source::new("program", text).unwrap_or_else(|error| panic!("{error}"));
+    let assembly = assemble_for(&source, Vec::new(), &[], board);
+    (source, assembly)
 }
 
 /// The text of an example.

@@ -22,10 +22,13 @@ pub mod mutate;
 pub mod naive;
 #[cfg(feature = "uno")]
 pub mod own_clock;
+#[cfg(feature = "pico")]
+pub mod pico;
 #[cfg(feature = "uno")]
 pub mod plugged;
 #[cfg(feature = "uno")]
 pub mod power;
+pub mod programs;
 pub mod random;
 pub mod random_runs;
 pub mod retained;

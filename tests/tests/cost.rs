@@ -22,7 +22,8 @@ use plc_isa::{Decoded, Kind, Op, verify};
 use tests::bench_board::BenchBoard;
 use tests::case::Case;
 use tests::effort::effort;
-use tests::measure::{Executable, Execution, Meter, Step, Tier, programs};
+use tests::measure::{Executable, Execution, Meter, Step, Tier};
+use tests::programs;
 use tests::random::random_program;
 
 /// Share by which a prediction may be too high.

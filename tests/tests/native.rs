@@ -21,8 +21,8 @@ use plc_vm::{Environment, Exit, Fault, Inputs, Interpreter, Memory, Mode, Plc};
 use simavr::{Avr, Elf, Reset, Stopped};
 use tests::effort::effort;
 use tests::image::OnBoard;
-use tests::measure::programs;
 use tests::naive;
+use tests::programs;
 use tests::random::{Offer, random_inputs, random_program, random_program_of, random_step_ms};
 
 /// Time stands still within a scan. A program that loops for longer than this has no end.

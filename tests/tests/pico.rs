@@ -10,18 +10,17 @@ use std::io::Write;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
-use awl_asm::assemble::assemble_with;
 use awl_asm::drive::uf2_file;
-use awl_asm::source::Source;
 use awl_sim::action::Action;
-use awl_sim::machine::pico::{Pico, find_firmware};
+use awl_sim::machine::pico::Pico;
 use awl_sim::machine::{Machine, Mode};
 use plc_isa::{PICO, PICO_DRIVE, verify};
 use plc_vm::{Fault, Inputs};
 use tests::beside::{Board, Pair};
 use tests::case::{Case, Prepared, host};
 use tests::effort::effort;
-use tests::measure::programs;
+use tests::image::image_for;
+use tests::programs;
 use tests::random_runs::{Programs, random_image_for, random_scans};
 
 /// A second of a Pico takes the emulator many.
@@ -86,10 +85,7 @@ impl Board for OnPico<'_> {
 fn pico() -> MutexGuard<'static, Option<Pico>> {
     static PICO: Mutex<Option<Pico>> = Mutex::new(None);
     let mut place = PICO.lock().unwrap_or_else(PoisonError::into_inner);
-    place.get_or_insert_with(|| {
-        let made = find_firmware().and_then(|elf| Pico::new(&elf, Box::new(|_| String::new())));
-        made.unwrap_or_else(|error| panic!("{error:#}"))
-    });
+    place.get_or_insert_with(tests::pico::pico);
     place
 }
 
@@ -165,8 +161,7 @@ fn random_programs_are_the_same() {
 #[test]
 fn a_program_of_20_000_instructions_is_the_same() {
     let text = programs::eighty_twenty().repeat(20_000_usize.div_ceil(programs::STEPS));
-    let source = Source::new("large.awl", &*text).unwrap();
-    let image = assemble_with(&source, Vec::new(), &[], Some(&PICO)).image.expect("it fits");
+    let image = image_for(&text, &PICO);
     let mut place = pico();
     let Some(pico) = place.as_mut() else { return };
     let mut pair = Pair::new(OnPico::with(pico, &image), &image);
@@ -193,8 +188,7 @@ fn brought_to(file: &[u8], start: u32) -> Vec<u8> {
 /// drive. Blocks of firmware are read by the emulator's side, with a library of its own.
 #[test]
 fn a_uf2_file_brings_firmware_and_program() {
-    let source = Source::new("p.awl", "LD I0.0\nAN I0.7\n= Q0.3\n").unwrap();
-    let image = assemble_with(&source, Vec::new(), &[], Some(&PICO)).image.unwrap();
+    let image = image_for("LD I0.0\nAN I0.7\n= Q0.3\n", &PICO);
     let uf2 = uf2_file(&PICO, &image).unwrap();
     let mut file = tempfile::NamedTempFile::new().unwrap();
     file.write_all(&uf2).unwrap();

@@ -26,23 +26,25 @@ struct Kept {
     /// Which compilers built it, a line each: others make other code.
     compilers: &'static str,
     /// What it is built with, beside the compiler: assembler and linker.
-    programs: &'static [&'static str],
+    programs: fn() -> &'static [&'static str],
 }
 
 const UNO: Kept = Kept {
     file: "awl-asm/firmware/uno200.hex",
     compilers: "awl-asm/firmware/compilers.txt",
-    programs: &["avr-gcc", "avr-ld"],
+    programs: || &["avr-gcc", "avr-ld"],
 };
 
 const PICO_KEPT: Kept = Kept {
     file: "awl-asm/firmware/pico.bin",
     compilers: "awl-asm/firmware/pico-compilers.txt",
-    programs: &[LLD],
+    programs: pico_linker,
 };
 
-/// The linker for the Pico beside Debian's compiler.
-const LLD: &str = "ld.lld-19";
+/// The linker for the Pico: beside Debian's compiler another package, else the compiler's own.
+fn pico_linker() -> &'static [&'static str] {
+    if avr::packages().is_empty() { &[] } else { &["ld.lld-19"] }
+}
 
 /// Builds the firmware and puts it where the tools take it from, if the compilers are those that
 /// are recorded there; others only with `keep`, and are recorded then.
@@ -72,7 +74,7 @@ fn pico_flash(elf: &Path) -> Result<Vec<u8>> {
 
 impl Kept {
     fn replace(&self, built: &[u8], keep: bool) -> Result<()> {
-        let (file, used) = (self.file, compilers(self.programs)?);
+        let (file, used) = (self.file, compilers((self.programs)())?);
         if !keep && self.recorded()? != used {
             println!("{file} stays as it is: other compilers built it (--keep replaces it)");
             return Ok(());
@@ -91,7 +93,7 @@ impl Kept {
         if built == kept {
             return Ok(());
         }
-        let (recorded, used) = (self.recorded()?, compilers(self.programs)?);
+        let (recorded, used) = (self.recorded()?, compilers((self.programs)())?);
         ensure!(recorded != used, "{file} is not what the sources say: run `cargo xtask firmware`");
         println!("{file} is another one, built with\n{recorded}and not with\n{used}");
         Ok(())
@@ -109,11 +111,7 @@ fn compilers(programs: &[&str]) -> Result<String> {
     let mut lines = String::new();
     for mut program in std::iter::once(avr::rustc()).chain(programs) {
         let output = program.arg("--version").output();
-        let Ok(output) = output else {
-            // The Pico's linker comes with rustup's compiler.
-            lines.push_str(&format!("no {}\n", program.get_program().display()));
-            continue;
-        };
+        let output = output.with_context(|| format!("cannot start {:?}", program.get_program()))?;
         let text = String::from_utf8_lossy(&output.stdout);
         let Some(line) = text.lines().next() else {
             bail!("{:?} does not tell its version", program.get_program())
@@ -169,11 +167,11 @@ pub fn install_pico_emulator() -> Result<()> {
     run_command(&mut npm)
 }
 
-/// Debian's compiler comes without a linker for the Pico.
+/// Tells cargo the linker where the compiler comes without one.
 fn link_for_pico(cargo: &mut Command) -> Result<()> {
-    if !avr::packages().is_empty() {
+    for linker in pico_linker() {
         packages::ensure_installed(packages::LLD)?;
-        cargo.args(["--config", &format!("target.{PICO_TARGET}.linker=\"{LLD}\"")]);
+        cargo.args(["--config", &format!("target.{PICO_TARGET}.linker=\"{linker}\"")]);
     }
     Ok(())
 }

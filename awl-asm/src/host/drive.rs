@@ -11,7 +11,7 @@ use crate::image::uf2::uf2;
 
 /// The Pico's firmware from the beginning of its flash on, built with the compilers that
 /// `awl-asm/firmware/pico-compilers.txt` names.
-pub const PICO_FIRMWARE: &[u8] = include_bytes!("../../firmware/pico.bin");
+const PICO_FIRMWARE: &[u8] = include_bytes!("../../firmware/pico.bin");
 
 /// The file of a drive that says which board it is.
 const INFO: &str = "INFO_UF2.TXT";
@@ -22,14 +22,21 @@ const BOARD_ID: &str = "Board-ID:";
 /// # Errors
 /// If the board of the program has no drive: which one has.
 pub fn uf2_file(profile: &Profile, image: &[u8]) -> Result<Vec<u8>> {
-    let Some(drive) = &profile.drive else {
+    Ok(uf2(drive_of(profile)?, PICO_FIRMWARE, image))
+}
+
+fn drive_of(profile: &Profile) -> Result<&Drive> {
+    profile.drive.as_ref().with_context(|| {
         let others = Profile::BOARDS.iter().filter(|board| board.drive.is_some());
         let ways: Vec<String> = others
             .map(|board| format!("`--board {}` builds it for {}", board.name, board.title))
             .collect();
-        bail!("the program is for {}, which takes no UF2 file: {}", profile.title, ways.join(", "))
-    };
-    Ok(uf2(drive, PICO_FIRMWARE, image))
+        format!(
+            "the program is for {}, which takes no UF2 file: {}",
+            profile.title,
+            ways.join(", ")
+        )
+    })
 }
 
 /// Writes a UF2 file onto a board's drive. The board restarts when it has all of it.
@@ -38,9 +45,7 @@ pub fn uf2_file(profile: &Profile, image: &[u8]) -> Result<Vec<u8>> {
 /// If there is no such drive, it is another board's, or it cannot be written.
 pub fn write(folder: &Path, profile: &Profile, name: &str, image: &[u8]) -> Result<()> {
     let file = uf2_file(profile, image)?;
-    if let Some(drive) = &profile.drive {
-        ensure_drive(folder, profile, drive)?;
-    }
+    ensure_drive(folder, profile, drive_of(profile)?)?;
     let path = folder.join(name).with_extension("uf2");
     // Not by way of another file: the drive is no real one, and is gone with the last block.
     fs::write(&path, file).with_context(|| format!("cannot write {}", path.display()))?;

@@ -8,7 +8,7 @@ use crate::instructions::{R0, R1, add, add_constant, call, move_constant, shift_
 use crate::registers::{MEMORY, STEP, WINDOW};
 
 /// Halfwords that an instruction of the program becomes at most.
-pub(crate) const INSTRUCTION_MAX: usize = 20;
+const INSTRUCTION_MAX: usize = 20;
 /// Halfwords of a call of the interpreter.
 const STEP_LEN: usize = 5;
 /// Bytes that a load or store reaches from the window's first byte on: what their offset has room
@@ -87,7 +87,8 @@ impl<const CODE: usize, const ENTRIES: usize> Translation<CODE, ENTRIES> {
             }
             let is_logic = self.logic(&decoded);
             if !is_logic {
-                self.step(offset, decoded.len as u8);
+                // None is longer; with 0 the program would go on at the next entry.
+                self.step(offset, u8::try_from(decoded.len).unwrap_or(0));
             }
             is_led_to = !is_logic && may_lead_elsewhere(&decoded);
         }
@@ -124,7 +125,7 @@ impl<const CODE: usize, const ENTRIES: usize> Translation<CODE, ENTRIES> {
     }
 
     /// Brings the window to where it has a byte of data memory. Returns the byte's offset in it;
-    /// code of at most five halfwords.
+    /// code of at most four halfwords.
     pub(crate) fn reach(&mut self, address: u16) -> u8 {
         let index = address.wrapping_sub(DATA_START);
         let start = index - index % WINDOW_LEN;

@@ -67,10 +67,9 @@ impl Memory {
         }
     }
 
-    /// Bytes from an address on; none where not all of them are memory.
-    pub(crate) fn part(&self, address: u16, len: u16) -> &[u8] {
-        let start = index(address);
-        self.bytes.get(start..start + usize::from(len)).unwrap_or(&[])
+    /// Bytes from an address on, where all of them are memory.
+    pub(crate) fn part(&self, address: u16, len: u16) -> Option<&[u8]> {
+        self.bytes.get(index(address)..)?.get(..usize::from(len))
     }
 
     /// Copies bytes to another place, from the first to the last.

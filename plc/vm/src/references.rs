@@ -118,7 +118,8 @@ impl<P: ProgramMemory, E: Environment> Execution<'_, '_, P, E> {
             let address = self.source(index, Width::Byte, 1)?;
             let len = u16::from(self.interpreter.memory.byte(address));
             self.source(index, Width::Byte, 1 + len)?;
-            text.append(self.interpreter.memory.part(address + 1, len))?;
+            let characters = self.interpreter.memory.part(address + 1, len);
+            text.append(characters.ok_or(Failure::Operand)?)?;
         }
         Ok(text)
     }

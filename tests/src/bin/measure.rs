@@ -9,45 +9,45 @@ use tests::image::example_text;
 use tests::measure::module_rows::MODULE_CHAPTERS;
 use tests::measure::record::{self, Record};
 use tests::measure::rows::{CHAPTERS, Count, Row};
-use tests::measure::{self, Executable, Meter, Step, Tier, forms, programs, s7_200, scans, table};
+use tests::measure::{self, Executable, Meter, Step, Tier, forms, s7_200, scans, table};
+use tests::programs;
 
 fn main() -> io::Result<()> {
     let mut out = io::stdout().lock();
-    if std::env::args().nth(1).as_deref() == Some("table") {
+    let asked = std::env::args().nth(1);
+    if asked.as_deref() == Some("table") {
         return out.write_all(table::table().as_bytes());
     }
     writeln!(out, "{}", record::HEAD)?;
-    #[cfg(feature = "pico")]
-    if std::env::args().nth(1).as_deref() == Some("pico") {
-        return pico_records().iter().try_for_each(|record| writeln!(out, "{record}"));
+    match asked.as_deref() {
+        #[cfg(feature = "pico")]
+        Some("pico") => write_all(&mut out, &pico_records()),
+        Some(word) => chapter_alone(&mut out, word),
+        None => everything(&mut out),
     }
-    if let Some(word) = std::env::args().nth(1) {
-        return chapter_alone(&mut out, &word);
-    }
+}
+
+fn write_all(out: &mut impl Write, records: &[Record]) -> io::Result<()> {
+    records.iter().try_for_each(|record| writeln!(out, "{record}"))
+}
+
+fn everything(out: &mut impl Write) -> io::Result<()> {
     for tier in Tier::ALL {
-        for record in [program_records(tier), station_records(tier)].concat() {
-            writeln!(out, "{record}")?;
-        }
+        write_all(out, &[program_records(tier), station_records(tier)].concat())?;
     }
-    for record in firmware_records() {
-        writeln!(out, "{record}")?;
-    }
+    write_all(out, &firmware_records())?;
     #[cfg(feature = "pico")]
-    for record in pico_records() {
-        writeln!(out, "{record}")?;
-    }
+    write_all(out, &pico_records())?;
     for chapter in &CHAPTERS {
         for row in chapter.rows {
-            for record in
-                Tier::ALL.into_iter().flat_map(|tier| row_records(chapter.title, row, tier))
-            {
-                writeln!(out, "{record}")?;
+            for tier in Tier::ALL {
+                write_all(out, &row_records(chapter.title, row, tier))?;
             }
         }
     }
     for chapter in &MODULE_CHAPTERS {
-        for record in chapter.rows.iter().flat_map(|row| module_row_records(chapter.title, row)) {
-            writeln!(out, "{record}")?;
+        for row in chapter.rows {
+            write_all(out, &module_row_records(chapter.title, row))?;
         }
     }
     Ok(())
@@ -60,14 +60,20 @@ fn chapter_alone(out: &mut impl Write, word: &str) -> io::Result<()> {
             .rows
             .iter()
             .filter(|row| chapter.title.contains(word) || row.awl.contains(word));
-        for record in rows.flat_map(|row| module_row_records(chapter.title, row)) {
-            writeln!(out, "{record}")?;
+        for row in rows {
+            write_all(out, &module_row_records(chapter.title, row))?;
         }
     }
     Ok(())
 }
 
-fn single(section: &'static str, tier: Tier, what: &str, value: f64, name: &str) -> Record {
+fn single(
+    section: &'static str,
+    tier: impl ToString,
+    what: &str,
+    value: f64,
+    name: &str,
+) -> Record {
     let (what, name) = (what.to_string(), name.to_string());
     Record { section, tier: tier.to_string(), what, min: value, max: value, quoted_us: None, name }
 }
@@ -104,27 +110,16 @@ fn generated() -> [(&'static str, String); 4] {
 fn pico_records() -> Vec<Record> {
     const TIER: &str = "Pico";
     let mut meter = measure::pico::PicoMeter::new();
-    let of = |section, what: &str, (min, max): (f64, f64), quoted_us, name: &str| Record {
-        section,
-        tier: TIER.to_string(),
-        what: what.to_string(),
-        min,
-        max,
-        quoted_us,
-        name: name.to_string(),
-    };
-    let whole =
-        |what, value: u32, name: &str| of("pico", what, (value.into(), value.into()), None, name);
-    let mut records = vec![whole("overhead", meter.overhead(), "a scan")];
+    let mut records = vec![single("pico", TIER, "overhead", meter.overhead().into(), "a scan")];
     for (name, text) in generated() {
-        records.push(whole("cycles", meter.program(&text), name));
+        records.push(single("pico", TIER, "cycles", meter.program(&text).into(), name));
     }
     let rows = CHAPTERS.iter().map(|chapter| chapter.rows);
     for row in rows.chain(MODULE_CHAPTERS.iter().map(|chapter| chapter.rows)).flatten() {
         let Some(quoted) = row.quoted_us() else { continue };
         if let Some((least, most)) = meter.row(row) {
-            let range = (least.round(), most.round());
-            records.push(of("pico instructions", "cycles", range, Some(quoted), &row.name()));
+            let of = single("pico instructions", TIER, "cycles", most.round(), &row.name());
+            records.push(Record { min: least.round(), quoted_us: Some(quoted), ..of });
         }
     }
     records

@@ -10,7 +10,6 @@ mod meter;
 pub mod module_rows;
 #[cfg(feature = "pico")]
 pub mod pico;
-pub mod programs;
 pub mod record;
 pub mod rows;
 pub mod s7_200;

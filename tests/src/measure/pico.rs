@@ -4,9 +4,7 @@
 //!
 //! The emulator counts the cycles of the processor, and no waiting for flash.
 
-use awl_asm::assemble::assemble_with;
-use awl_asm::source::Source;
-use awl_sim::machine::pico::{Pico, find_firmware};
+use awl_sim::machine::pico::Pico;
 use awl_sim::machine::{Machine, Mode};
 use fastrand::Rng;
 use plc_isa::{Area, M_START, PICO, verify};
@@ -14,6 +12,8 @@ use plc_vm::Inputs;
 
 use super::rows::Row;
 use super::values;
+use crate::image::valid_image_for;
+use crate::pico::pico;
 
 /// Scans in which an instruction is measured.
 const SITUATIONS: usize = 16;
@@ -40,9 +40,7 @@ impl PicoMeter {
     /// # Panics
     /// If there is no firmware or emulator.
     pub fn new() -> PicoMeter {
-        let made = find_firmware().and_then(|elf| Pico::new(&elf, Box::new(|_| String::new())));
-        let pico = made.unwrap_or_else(|error| panic!("{error:#}"));
-        let mut meter = PicoMeter { pico, overhead: 0 };
+        let mut meter = PicoMeter { pico: pico(), overhead: 0 };
         meter.overhead = meter.program("NOP 0\n");
         meter
     }
@@ -88,7 +86,7 @@ impl PicoMeter {
     /// Cycles of scans of a program with values in V memory, with all power flow and without by
     /// turns: the same for each program of a row.
     fn situations(&mut self, row: &Row, text: &str) -> Option<Vec<u32>> {
-        let image = Self::image(text)?;
+        let image = valid_image_for(text, &PICO)?;
         let plan = *verify(&*image).ok()?.plan();
         if !self.starts_image(&image) {
             return None;
@@ -111,12 +109,7 @@ impl PicoMeter {
 
     /// Loads a program and executes the first scans. Whether it runs.
     fn starts(&mut self, text: &str) -> bool {
-        Self::image(text).is_some_and(|image| self.starts_image(&image))
-    }
-
-    fn image(text: &str) -> Option<Vec<u8>> {
-        let source = Source::new("measured.awl", text).ok()?;
-        assemble_with(&source, Vec::new(), &[], Some(&PICO)).image
+        valid_image_for(text, &PICO).is_some_and(|image| self.starts_image(&image))
     }
 
     fn starts_image(&mut self, image: &[u8]) -> bool {

@@ -1,7 +1,6 @@
 //! Groups of instructions against the S7-200, for docs/benchmarks.md: how much slower or faster the
 //! board is. It measures nothing.
 
-use super::exceptions::CYCLES_A_US;
 use super::record::{INTERPRETER, NATIVE, PICO, Record, TYPICAL, find};
 
 /// A group, and what the names of its rows begin with.
@@ -112,14 +111,10 @@ pub fn lines(records: &[Record]) -> Vec<Line> {
 pub fn lines_of_pico(records: &[Record]) -> Vec<(&'static str, [f64; 2], [f64; 2], f64)> {
     let titles = GROUPS.iter().map(|(title, _)| *title).chain([OTHERS]);
     let line = |title| {
-        let rows: Vec<(f64, f64)> = records
-            .iter()
-            .filter(|record| record.tier == PICO && group_of(&record.name) == title)
-            .filter_map(|record| Some((record.max / record.cycles_a_us(), record.quoted_us?)))
-            .collect();
-        let (ours, theirs): (Vec<f64>, Vec<f64>) = rows.into_iter().unzip();
-        let times = theirs.iter().sum::<f64>() / ours.iter().sum::<f64>();
-        Some((title, spread(ours.into_iter())?, spread(theirs.into_iter())?, times))
+        let rows = rows(records, PICO, title);
+        let taken = rows.iter().map(|row| row.us());
+        let times = speed(&rows, taken.clone().sum())?;
+        Some((title, spread(taken)?, spread(quoted(&rows))?, times))
     };
     titles.filter_map(line).collect()
 }
@@ -129,7 +124,7 @@ pub fn verified(records: &[Record]) -> Vec<(&'static str, &'static str, f64, f64
     let of = |&(name, what, us): &(&'static str, &'static str, f64)| {
         let ours = find(records, INTERPRETER, TYPICAL, name)
             .or_else(|| find(records, INTERPRETER, "cycles", name));
-        Some((name, what, ours?.max / CYCLES_A_US, us))
+        Some((name, what, ours?.us(), us))
     };
     VERIFIED.iter().filter_map(of).collect()
 }
@@ -140,34 +135,42 @@ fn group_of(name: &str) -> &'static str {
 }
 
 fn line(records: &[Record], title: &'static str) -> Option<Line> {
+    let rows = rows(records, INTERPRETER, title);
+    let taken = rows.iter().map(|row| row.us());
+    let native: Vec<f64> = rows
+        .iter()
+        .filter_map(|row| find(records, NATIVE, &row.what, &row.name).map(Record::us))
+        .collect();
+    let is_whole = native.len() == rows.len();
+    let by_native = is_whole.then(|| speed(&rows, native.iter().sum())).flatten();
+    Some(Line {
+        title,
+        interpreter: spread(taken.clone())?,
+        native: by_native.and_then(|_| spread(native.iter().copied())),
+        quoted: spread(quoted(&rows))?,
+        speed: [speed(&rows, taken.sum()), by_native],
+    })
+}
+
+/// The rows of a group that something is quoted for, as they are executed in this way.
+fn rows<'a>(records: &'a [Record], tier: &str, title: &str) -> Vec<&'a Record> {
     let is_row = |record: &&Record| {
         let is_time = record.what == TYPICAL || record.what == "cycles";
-        record.tier == INTERPRETER
+        record.tier == tier
             && is_time
             && record.quoted_us.is_some()
             && group_of(&record.name) == title
     };
-    let rows: Vec<&Record> = records.iter().filter(is_row).collect();
-    let ours = spread(rows.iter().map(|row| row.max / CYCLES_A_US))?;
-    let theirs = spread(rows.iter().filter_map(|row| row.quoted_us))?;
-    let native: Vec<f64> = rows
-        .iter()
-        .filter_map(|row| {
-            find(records, NATIVE, &row.what, &row.name).map(|record| record.max / CYCLES_A_US)
-        })
-        .collect();
-    let sum = |values: &mut dyn Iterator<Item = f64>| values.sum::<f64>();
-    let quoted = sum(&mut rows.iter().filter_map(|row| row.quoted_us));
-    let speed = |taken: f64| (taken > 0.0).then(|| quoted / taken);
-    let by_native = (native.len() == rows.len()).then(|| speed(native.iter().sum())).flatten();
-    let by_interpreter = speed(sum(&mut rows.iter().map(|row| row.max / CYCLES_A_US)));
-    Some(Line {
-        title,
-        interpreter: ours,
-        native: by_native.and_then(|_| spread(native.iter().copied())),
-        quoted: theirs,
-        speed: [by_interpreter, by_native],
-    })
+    records.iter().filter(is_row).collect()
+}
+
+fn quoted(rows: &[&Record]) -> impl Iterator<Item = f64> {
+    rows.iter().filter_map(|row| row.quoted_us)
+}
+
+/// How many times as fast rows are that take so many microseconds together.
+fn speed(rows: &[&Record], taken: f64) -> Option<f64> {
+    (taken > 0.0).then(|| quoted(rows).sum::<f64>() / taken)
 }
 
 /// The least and the most; `None` of nothing.

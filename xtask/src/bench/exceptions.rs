@@ -3,9 +3,6 @@
 
 use super::record::{INTERPRETER, NATIVE, NATIVE_IN_SRAM, PICO, Record, TIERS, TYPICAL};
 
-/// Cycles in a microsecond of the Uno.
-pub const CYCLES_A_US: f64 = 16.0;
-
 /// Instructions that may be slower.
 pub struct Exception {
     /// How they are executed.

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::budget;
 use super::comparison::{self, Line};
-use super::exceptions::{CYCLES_A_US, EXCEPTIONS, is_slower};
+use super::exceptions::{EXCEPTIONS, is_slower};
 use super::record::{INTERPRETER, Record, TIERS, TYPICAL, find};
 use super::text;
 
@@ -83,7 +83,7 @@ fn programs_table(page: &mut String, records: &[Record]) {
             }
         }
         let ms = |tier: &&str| match find(records, tier, "cycles", name) {
-            Some(record) => format!("{:.3}", record.max / CYCLES_A_US / 1000.0),
+            Some(record) => format!("{:.3}", record.us() / 1000.0),
             None => "-".to_string(),
         };
         line(
@@ -132,14 +132,21 @@ fn comparison_tables(page: &mut String, records: &[Record]) {
     let columns =
         ["instructions", "interpreter", "native", "S7-200", "interpreter is", "native is"];
     section(page, "Against the S7-200", text::COMPARISON, &columns);
-    let us = least_and_most;
     for Line { title, interpreter, native, quoted, speed } in comparison::lines(records) {
         let speed = speed.map(|speed| speed.map_or(String::new(), how_fast));
-        let native = native.map_or(String::new(), us);
+        let native = native.map_or(String::new(), least_and_most);
         line(
             page,
-            &[vec![title.to_string(), us(interpreter), native, us(quoted)], speed.to_vec()]
-                .concat(),
+            &[
+                vec![
+                    title.to_string(),
+                    least_and_most(interpreter),
+                    native,
+                    least_and_most(quoted),
+                ],
+                speed.to_vec(),
+            ]
+            .concat(),
         );
     }
     let _ = write!(page, "\n{}\n", text::VERIFIED);
@@ -164,7 +171,7 @@ fn pico_tables(page: &mut String, records: &[Record]) {
     let columns = ["program", "cycles", "ms", "the Uno's interpreter is"];
     section(page, "The Raspberry Pi Pico", text::PICO, &columns);
     for record in records.iter().filter(|record| record.section == "pico") {
-        let ms = |record: &Record| record.max / record.cycles_a_us() / 1000.0;
+        let ms = |record: &Record| record.us() / 1000.0;
         let uno = find(records, INTERPRETER, &record.what, &record.name);
         let slower = uno.map(|uno| format!("{} times slower", short(ms(uno) / ms(record))));
         let name =
@@ -308,7 +315,7 @@ fn module_tables(page: &mut String, records: &[Record]) {
             &[
                 format!("`{}`", record.name),
                 number(record.max),
-                format!("{:.1}{mark}", record.max / CYCLES_A_US),
+                format!("{:.1}{mark}", record.us()),
                 of("cycles").filter(|range| range.min < range.max).map_or(String::new(), span),
                 each.map_or(String::new(), |(cycles, unit, _)| {
                     format!("{} a {unit}", number(cycles))
@@ -323,9 +330,7 @@ fn module_tables(page: &mut String, records: &[Record]) {
 fn instruction_cells(records: &[Record], tier: &str, name: &str) -> [String; 3] {
     let cycles = find(records, tier, "cycles", name);
     let mark = |record: &Record| if is_slower(record) { " !" } else { "" };
-    let us = cycles.map_or("-".to_string(), |record| {
-        format!("{:.2}{}", record.max / CYCLES_A_US, mark(record))
-    });
+    let us = cycles.map_or("-".to_string(), |record| format!("{:.2}{}", record.us(), mark(record)));
     let off = find(records, tier, "without power flow", name);
     let off = off.map_or(String::new(), |record| format!("{}{}", span(record), mark(record)));
     [cycles.map_or("-".to_string(), span), us, off]

@@ -71,6 +71,11 @@ impl Record {
         if self.tier == PICO { 125.0 } else { 16.0 }
     }
 
+    /// The most of its cycles in microseconds.
+    pub fn us(&self) -> f64 {
+        self.max / self.cycles_a_us()
+    }
+
     /// What each of something takes, of what, and how many there are in the row: of `each word of
     /// 8`.
     pub fn each(&self) -> Option<(f64, &str, u32)> {

@@ -24,7 +24,7 @@ What is quoted of other systems is no measurement of ours; where it comes from i
 
 /// About the programs.
 pub const PROGRAMS: &str = "\
-The programs come from `tests/src/measure/programs.rs`: realistic rungs on bits of I, Q and M and \
+The programs come from `tests/src/programs.rs`: realistic rungs on bits of I, Q and M and \
 words of MW and VW,
 all of which are reached in every scan. Of the word boxes every second one has power flow, after \
 contacts that the
@@ -51,14 +51,16 @@ pub const PICO: &str = "\
 The firmware as it is shipped, in the emulator rp2040js, which counts the cycles of a Cortex-M0+ \
 and no waiting for flash;
 125 cycles are 1 us. Bits and the logic stack are translated to machine code on the board \
-([adr/0046-thumb.md](adr/0046-thumb.md)), everything else the interpreter executes. Cycles of \
-programs are those of the longest of 64
-scans, less a scan without a program, in which no millisecond passes and no input changes.
+([why](adr/0046-thumb.md)),
+everything else the interpreter executes. Cycles of programs are those of the longest of 64 \
+scans, less a scan without a
+program, in which no millisecond passes and no input changes.
 
 Instructions are measured in the small programs of the tables below, with power flow and without \
 and with other values in
 each of 16 scans; the most counts, without what is beside the instruction. Where that is no \
-program without it, such as at `LD`, all of it counts, so that these figures are too high.
+program without it, such as at
+`LD`, all of it counts, so that these figures are too high.
 ";
 
 /// About the tables of instructions.
