@@ -155,6 +155,7 @@ fn assemble_files(files: &[PathBuf], arguments: &Arguments) -> Result<bool> {
     let mut assembly = assemble_with(&source, symbols, &data, arguments.board);
     let is_hex = ending == Some("hex");
     let by_avrdude = arguments.flash.is_some() && assembly.profile().drive.is_none();
+    ensure_no_firmware_for_drive(arguments, assembly.profile())?;
     if arguments.native || by_avrdude || is_hex && !arguments.check {
         assembly.require_board();
     }
@@ -194,6 +195,14 @@ fn assemble_files(files: &[PathBuf], arguments: &Arguments) -> Result<bool> {
         eprintln!("{sizes}{}", scan(&source, &assembly, arguments.native));
     }
     Ok(true)
+}
+
+/// A file for a drive has firmware: that of the Uno's `--with-firmware` is not left out silently.
+fn ensure_no_firmware_for_drive(arguments: &Arguments, profile: &Profile) -> Result<()> {
+    if profile.drive.is_some() && arguments.with_firmware.is_some() {
+        bail!("{} gets its firmware with the program: leave out --with-firmware", profile.title)
+    }
+    Ok(())
 }
 
 /// Writes a board through its bootloader, or onto its drive.

@@ -150,6 +150,10 @@ fn what_is_no_firmware_never_touches_the_board() {
         (&["p.awl", "--flash", "/dev/port", "--with-firmware", "none.hex"], "cannot read none.hex"),
         (&["--flash", "/dev/port", "--with-firmware", "p.awl"], "name the program before"),
         (&["p.awl", "--with-firmware"], "--flash <PORT|DRIVE>"),
+        (
+            &["p.awl", "--board", "pico", "--flash", "/dev/drive", "--with-firmware"],
+            "the Pico gets its firmware with the program",
+        ),
         (&["p.awl", "--flash", "/dev/port", "--check"], "cannot be used with"),
     ] {
         let (code, errors) = bench.run(arguments);
