@@ -14,7 +14,8 @@ pub trait Board {
     /// How it calls itself on its line.
     const PRODUCT: &'static str;
 
-    /// Where the program is read. It takes images of the board's profile alone.
+    /// Where the program is read: a [`Slot`](crate::Slot), where the processor reads it like any
+    /// memory. It takes images of the board's profile alone.
     type Image: ProgramMemory + Clone;
     /// What executes programs: [`Interpreted`](crate::Interpreted), if the board has nothing
     /// faster.
@@ -49,12 +50,17 @@ pub trait Board {
     fn release_outputs(&mut self);
 
     /// The part of the time in thousandths that an output is high, in the place of its level;
-    /// `None` ends that.
-    fn modulate(&mut self, output: u8, duty: Option<u16>);
+    /// `None` ends that. Nothing on a board without analog outputs.
+    fn modulate(&mut self, output: u8, duty: Option<u16>) {
+        let _ = (output, duty);
+    }
 
     /// An analog input as a part of full scale, 0 to 65535, however many bits the converter has: of
-    /// 10 bits `bits << 6 | bits >> 4`.
-    fn analog(&mut self, channel: u8) -> u16;
+    /// 10 bits `bits << 6 | bits >> 4`. Nothing asks for it on a board without analog inputs.
+    fn analog(&mut self, channel: u8) -> u16 {
+        let _ = channel;
+        0
+    }
 
     /// The line.
     fn line(&mut self) -> &mut Self::Line;

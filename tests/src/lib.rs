@@ -18,6 +18,8 @@ pub mod link;
 pub mod lockstep;
 #[cfg(feature = "uno")]
 pub mod measure;
+#[cfg(feature = "microbit")]
+pub mod microbit;
 pub mod mutate;
 pub mod naive;
 #[cfg(feature = "uno")]

@@ -18,22 +18,25 @@ const ROWS: [Row; 12] = [
     ("labels", |board| board.labels_max().to_string()),
     ("digital inputs", |board| points("I0.", board.input_pins)),
     ("digital outputs", |board| points("Q0.", board.output_pins)),
-    ("analog inputs", |board| {
-        format!(
-            "{}: {}, {} bits",
-            board.analog_pins.len(),
-            range(board.analog_pins),
-            board.analog_bits
-        )
+    ("analog inputs", |board| match board.analog_pins {
+        [] => "none".to_owned(),
+        pins => format!("{}: {}, {} bits", pins.len(), range(pins), board.analog_bits),
     }),
-    ("analog outputs", |board| format!("{}, as PWM", board.analog_outputs)),
+    ("analog outputs", |board| match board.analog_outputs {
+        0 => "none".to_owned(),
+        outputs => format!("{outputs}, as PWM"),
+    }),
     ("interrupt events, high-speed counters, pulse outputs", |board| {
         yes(board.has_events).to_owned()
     }),
     ("machine code (`--native`)", |board| yes(board.native_interface != 0).to_owned()),
-    ("written by", |board| match board.drive {
-        None => "`awl-asm --flash PORT`, `uno200 flash`, the page".to_owned(),
-        Some(_) => "a .uf2 file on its drive: `-o F.uf2`, `awl-asm --flash DRIVE`".to_owned(),
+    ("written by", |board| {
+        let way = match (&board.drive, board.avrdude_part) {
+            (Some(_), _) => "a .uf2 file on its drive: `-o F.uf2`, `awl-asm --flash DRIVE`",
+            (None, Some(_)) => "`awl-asm --flash PORT`, `uno200 flash`, the page",
+            (None, None) => "tools of its maker; in QEMU by its command line",
+        };
+        way.to_owned()
     }),
 ];
 
@@ -78,10 +81,10 @@ pub fn text() -> String {
         text,
         "\nThe host has the memory of the largest S7-200 ({} bytes of data, {} of program) and the \
          points of {}.\n\
-         [adr/0043-runtime.md](adr/0043-runtime.md) says how another board becomes one.\n\n\
-         Points of the Uno are of 5 V, those of the Pico of 3.3 V: [wiring.md](wiring.md) says how \
+         [porting.md](porting.md) says how another board becomes one.\n\n\
+         Points of the Uno are of 5 V, those of the others of 3.3 V: [wiring.md](wiring.md) says how \
          24 V, relays and analog\n\
-         signals come to them, [flashing.md](flashing.md) how a program comes onto either board, \
+         signals come to them, [flashing.md](flashing.md) how a program comes onto Uno and Pico, \
          and\n\
          [firmware-pico/README.md](../firmware-pico/README.md) what was tried on the Pico. \
          `awl-sim --on pico` runs its\n\
@@ -89,7 +92,8 @@ pub fn text() -> String {
          The Uno is the board for lessons and small machines: 5 V, the IDE's way onto it, \
          interrupts, counters and pulses. The\n\
          Pico is for programs that outgrow it, and for pins of 3.3 V; it has none of these three \
-         yet.\n",
+         yet. The micro:bit, tried in QEMU alone, is the example of how a board is added\n\
+         ([firmware-microbit/README.md](../firmware-microbit/README.md)).\n",
         HOST.arena_len(),
         HOST.slot_len,
         UNO.title,

@@ -15,9 +15,13 @@ use crate::{avr, elf, packages, same_names};
 pub const KEPT: &str = UNO.file;
 /// Where everything is built, and where the ELFs are.
 const TARGET: &str = "target/firmware";
-/// The firmware of the Raspberry Pi Pico, and what it is built for.
+/// Those that have formatting and lints of their own.
+pub const MANIFESTS: [&str; 3] =
+    ["firmware/Cargo.toml", "firmware-pico/Cargo.toml", "firmware-microbit/Cargo.toml"];
+/// The firmwares of the Raspberry Pi Pico and the micro:bit, and what they are built for.
 const PICO: &str = "firmware-pico";
-const PICO_TARGET: &str = "thumbv6m-none-eabi";
+const MICROBIT: &str = "firmware-microbit";
+const ARM_TARGET: &str = "thumbv6m-none-eabi";
 
 /// A firmware that is part of the tools.
 struct Kept {
@@ -38,11 +42,11 @@ const UNO: Kept = Kept {
 const PICO_KEPT: Kept = Kept {
     file: "awl-asm/firmware/pico.bin",
     compilers: "awl-asm/firmware/pico-compilers.txt",
-    programs: pico_linker,
+    programs: arm_linker,
 };
 
-/// The linker for the Pico: beside Debian's compiler another package, else the compiler's own.
-fn pico_linker() -> &'static [&'static str] {
+/// The linker for ARM: beside Debian's compiler another package, else the compiler's own.
+fn arm_linker() -> &'static [&'static str] {
     if avr::packages().is_empty() { &[] } else { &["ld.lld-19"] }
 }
 
@@ -52,6 +56,7 @@ pub fn run(keep: bool) -> Result<()> {
     let elf = build_pico()?;
     println!("{}", elf.display());
     PICO_KEPT.replace(&pico_flash(&elf)?, keep)?;
+    println!("{}", build_microbit()?.display());
     let elf = build()?;
     println!("{} and .hex", elf.display());
     UNO.replace(&fs::read(elf.with_extension("hex"))?, keep)
@@ -152,11 +157,20 @@ fn build_crate(source: &str, folder: &str, name: &str) -> Result<PathBuf> {
 
 /// Builds the firmware of the Raspberry Pi Pico: `target/firmware/pico.elf`.
 pub fn build_pico() -> Result<PathBuf> {
+    build_for_arm(PICO, "pico")
+}
+
+/// Builds the firmware of the micro:bit: `target/firmware/microbit.elf`.
+pub fn build_microbit() -> Result<PathBuf> {
+    build_for_arm(MICROBIT, "microbit")
+}
+
+fn build_for_arm(source: &str, name: &str) -> Result<PathBuf> {
     let mut build = avr::cargo()?;
-    build.args(["--config", &format!("target.{PICO_TARGET}.rustflags=[\"-Dwarnings\"]")]);
-    link_for_pico(&mut build)?;
-    run_build(build, PICO, "pico")?;
-    elf(&format!("pico/{PICO_TARGET}/release/pico"), "pico.elf")
+    build.args(["--config", &format!("target.{ARM_TARGET}.rustflags=[\"-Dwarnings\"]")]);
+    link_for_arm(&mut build)?;
+    run_build(build, source, name)?;
+    elf(&format!("{name}/{ARM_TARGET}/release/{name}"), &format!("{name}.elf"))
 }
 
 /// Installs the emulator that runs it.
@@ -168,10 +182,10 @@ pub fn install_pico_emulator() -> Result<()> {
 }
 
 /// Tells cargo the linker where the compiler comes without one.
-fn link_for_pico(cargo: &mut Command) -> Result<()> {
-    for linker in pico_linker() {
+fn link_for_arm(cargo: &mut Command) -> Result<()> {
+    for linker in arm_linker() {
         packages::ensure_installed(packages::LLD)?;
-        cargo.args(["--config", &format!("target.{PICO_TARGET}.linker=\"{linker}\"")]);
+        cargo.args(["--config", &format!("target.{ARM_TARGET}.linker=\"{linker}\"")]);
     }
     Ok(())
 }
@@ -193,12 +207,15 @@ fn elf(built: &str, name: &str) -> Result<PathBuf> {
 
 /// Lints everything that is built for a board.
 pub fn lint() -> Result<()> {
-    for (source, folder) in
-        [("firmware", "uno200"), ("tests/vm-on-avr", "vm-on-avr"), (PICO, "pico")]
-    {
+    for (source, folder) in [
+        ("firmware", "uno200"),
+        ("tests/vm-on-avr", "vm-on-avr"),
+        (PICO, "pico"),
+        (MICROBIT, "microbit"),
+    ] {
         let mut clippy = avr::clippy()?;
-        if source == PICO {
-            link_for_pico(&mut clippy)?;
+        if [PICO, MICROBIT].contains(&source) {
+            link_for_arm(&mut clippy)?;
         }
         clippy
             .current_dir(root().join(source))

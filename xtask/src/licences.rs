@@ -13,6 +13,7 @@ const MANIFESTS: &[&str] = &[
     "Cargo.toml",
     "firmware/Cargo.toml",
     "firmware-pico/Cargo.toml",
+    "firmware-microbit/Cargo.toml",
     "tests/vm-on-avr/Cargo.toml",
     "fuzz/Cargo.toml",
 ];

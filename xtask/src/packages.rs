@@ -12,7 +12,7 @@ use crate::process::{root, run};
 pub const AVR_COMPILER: &[&str] = &["rustc-web", "cargo-web", "rust-web-src", "rust-web-clippy"];
 /// What links the firmware and makes its hex file.
 pub const AVR_LINKER: &[&str] = &["gcc-avr", "avr-libc", "binutils-avr"];
-/// What links for WebAssembly and for the Pico with Debian's compiler.
+/// What links for WebAssembly and for ARM with Debian's compiler.
 pub const LLD: &[&str] = &["lld-19"];
 /// What runs WebAssembly.
 pub const NODE: &[&str] = &["nodejs"];
@@ -21,6 +21,8 @@ pub const BROWSER: &[&str] = &["chromium"];
 /// The virtual board, the bootloader of the real one, and the program that flashes both.
 pub const VIRTUAL_BOARD: &[&str] =
     &["simavr", "libsimavr-dev", "libelf-dev", "arduino-core-avr", "avrdude"];
+/// What the micro:bit runs in.
+pub const QEMU: &[&str] = &["qemu-system-arm"];
 /// An editor that talks to the language server.
 pub const EDITOR: &[&str] = &["neovim"];
 /// What runs MATLAB text.

@@ -12,7 +12,7 @@ pub fn root() -> PathBuf {
 }
 
 /// Arguments of cargo that turn on what runs on the virtual board.
-pub const WITH_BOARD: &[&str] = &["--features", "tests/uno,tests/pico"];
+pub const WITH_BOARD: &[&str] = &["--features", "tests/uno,tests/pico,tests/microbit"];
 
 /// The cargo that runs this task.
 pub fn cargo() -> Command {

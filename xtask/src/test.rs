@@ -37,12 +37,12 @@ const HOST_ALONE: [Stage; 2] =
     [("lints", || lint(&[])), ("tests", || process::run(&mut tests(&[])))];
 
 /// Instead of these.
-const BOARD: [Stage; 13] = [
+const BOARD: [Stage; 14] = [
     ("libraries as WebAssembly", wasm::check),
     ("IDE in a browser", ide::check),
     ("modules", || modules::run(true)),
     ("format of the firmware", || {
-        for manifest in ["firmware/Cargo.toml", "firmware-pico/Cargo.toml"] {
+        for manifest in firmware::MANIFESTS {
             process::run(cargo().args(["fmt", "--check", "--manifest-path", manifest]))?;
         }
         Ok(())
@@ -52,6 +52,7 @@ const BOARD: [Stage; 13] = [
         firmware::check_pico()?;
         firmware::install_pico_emulator()
     }),
+    ("firmware of the micro:bit", || firmware::build_microbit().map(drop)),
     ("plc-vm on an AVR with room", || firmware::build_vm().map(drop)),
     ("lints of what runs on boards", firmware::lint),
     ("lints with the virtual board", || lint(WITH_BOARD)),
@@ -72,6 +73,7 @@ pub fn run(host_only: bool) -> Result<()> {
             avr::packages(),
             packages::AVR_LINKER,
             packages::VIRTUAL_BOARD,
+            packages::QEMU,
             packages::MODBUS_CLIENTS,
             packages::EDITOR,
             packages::OCTAVE,

@@ -1,10 +1,7 @@
 //! The last fault, in scratch registers of the watchdog, which a reset by it leaves alone.
 
 use rp2040_hal::pac;
-
-/// Beside a fault: that it is one and no accident of power-up, and that it holds the board in STOP.
-const IS_FAULT: u32 = 0x5A17_0000;
-const HOLDS: u32 = 1;
+use runtime::{fault_of_words, fault_words};
 
 fn registers() -> &'static pac::watchdog::RegisterBlock {
     // SAFETY: only this module uses scratch registers 0 and 1, and no other register.
@@ -14,21 +11,19 @@ fn registers() -> &'static pac::watchdog::RegisterBlock {
 /// Remembers a fault as [`Fault::to_word`](plc_vm::Fault::to_word). `holds`: the board must not go
 /// to RUN by itself after the reset that follows.
 pub fn remember(fault: u32, holds: bool) {
+    let [fault, kind] = fault_words(fault, holds);
     // SAFETY: registers without function.
     unsafe {
         registers().scratch0().write(|w| w.bits(fault));
-        registers().scratch1().write(|w| w.bits(IS_FAULT | u32::from(holds)));
+        registers().scratch1().write(|w| w.bits(kind));
     }
 }
 
 /// The last fault, 0 if there is none. Whether it holds the board in STOP comes with it; it does so
 /// only once.
 pub fn recall() -> (u32, bool) {
-    let fault = registers().scratch0().read().bits();
-    let kind = registers().scratch1().read().bits();
-    if kind & !HOLDS != IS_FAULT {
-        return (0, false);
-    }
-    remember(fault, false);
-    (fault, kind & HOLDS != 0)
+    let (fault, kind) = (registers().scratch0().read().bits(), registers().scratch1().read().bits());
+    let recalled = fault_of_words([fault, kind]);
+    remember(recalled.0, false);
+    recalled
 }

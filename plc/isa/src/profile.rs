@@ -134,6 +134,28 @@ pub const PICO: Profile = Profile {
     drive: Some(PICO_DRIVE),
 };
 
+/// The BBC micro:bit, the first of its versions.
+pub const MICROBIT: Profile = Profile {
+    name: "microbit",
+    title: "the micro:bit",
+    number: 3,
+    is_wide: true,
+    data_end: 0x2100,
+    slot_start: 0,
+    slot_len: IMAGE_LEN_MAX,
+    retention_len: 4096,
+    input_pins: &["A", "B", "P0", "P1", "P2"],
+    output_pins: &["LED1", "LED2", "LED3", "LED4", "LED5", "P8", "P12", "P16"],
+    analog_pins: &[],
+    analog_bits: 10,
+    analog_outputs: 0,
+    has_events: false,
+    takes_modules: false,
+    native_interface: 0,
+    avrdude_part: None,
+    drive: None,
+};
+
 /// The Pico's drive. The firmware has the first megabyte of its flash, with retained values at its
 /// end.
 pub const PICO_DRIVE: Drive = Drive {
@@ -152,13 +174,29 @@ impl Default for &'static Profile {
 
 impl Profile {
     /// All profiles.
-    pub const ALL: [&'static Profile; 3] = [&UNO, &HOST, &PICO];
+    pub const ALL: [&'static Profile; 4] = [&UNO, &HOST, &PICO, &MICROBIT];
 
-    /// Those that are boards, the smallest first.
-    pub const BOARDS: [&'static Profile; 2] = [&UNO, &PICO];
+    /// Those that are boards, in the order in which they are proposed.
+    pub const BOARDS: [&'static Profile; 3] = [&UNO, &PICO, &MICROBIT];
 
-    /// The largest one that this build has memory for: a board's firmware that of its board.
-    pub const LARGEST: Profile = if cfg!(target_arch = "avr") { UNO } else { HOST };
+    /// The largest one that this build has memory for: that of the board which the variable
+    /// `PLC_BOARD` names when a firmware is built, otherwise the host's.
+    pub const LARGEST: &'static Profile = match option_env!("PLC_BOARD") {
+        Some(name) => Self::of_build(name),
+        None if cfg!(target_arch = "avr") => &UNO,
+        None => &HOST,
+    };
+
+    const fn of_build(name: &str) -> &'static Profile {
+        let mut index = 0;
+        while index < Self::ALL.len() {
+            if is_same(Self::ALL[index].name, name) {
+                return Self::ALL[index];
+            }
+            index += 1;
+        }
+        panic!("PLC_BOARD names no board")
+    }
 
     /// Byte 4 of an image for this profile: version of the format and number.
     pub const fn format(&self) -> u8 {
@@ -239,6 +277,16 @@ impl Profile {
     const fn copy_len(&self, values_len: u16) -> u32 {
         values_len as u32 + RETENTION_OVERHEAD as u32
     }
+}
+
+/// Comparison of texts while the compiler runs.
+const fn is_same(a: &str, b: &str) -> bool {
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let mut index = 0;
+    while index < a.len() && index < b.len() && a[index] == b[index] {
+        index += 1;
+    }
+    index == a.len() && index == b.len()
 }
 
 /// Milliseconds between two writes of one copy of what is retained: ten years for each of the

@@ -47,7 +47,7 @@ impl Reference {
 
     /// What it names; `None` if it is no reference of any profile.
     pub const fn place(self) -> Option<Referent> {
-        self.place_in(&Profile::LARGEST)
+        self.place_in(Profile::LARGEST)
     }
 
     /// What it names in an image for this profile.
