@@ -1,27 +1,52 @@
 //! Characters that an interrupt takes from the line, until the scan looks for them.
 
-use core::cell::RefCell;
 use core::convert::Infallible;
+use core::sync::atomic::{AtomicU8, AtomicUsize, Ordering};
 
-use critical_section::Mutex;
 use embedded_io::{ErrorType, Read, ReadReady};
-use heapless::Deque;
 
-/// Up to so many characters, in a static of the board. What comes when there is no room is lost.
-pub struct Incoming<const LEN: usize>(Mutex<RefCell<Deque<u8, LEN>>>);
+/// A ring of one place more than it has room for, in a static of the board: one side fills it, an
+/// interrupt, and the other, the scan, reads it. What comes when there is no room is lost.
+pub struct Incoming<const LEN: usize> {
+    places: [AtomicU8; LEN],
+    /// Where the next one goes, and where the next one is read.
+    filled: AtomicUsize,
+    read: AtomicUsize,
+}
 
 impl<const LEN: usize> Incoming<LEN> {
     /// None yet.
     pub const fn new() -> Self {
-        Incoming(Mutex::new(RefCell::new(Deque::new())))
+        Incoming {
+            places: [const { AtomicU8::new(0) }; LEN],
+            filled: AtomicUsize::new(0),
+            read: AtomicUsize::new(0),
+        }
     }
 
-    /// One has come. For the interrupt.
+    /// One has come. For the interrupt alone.
     pub fn push(&self, character: u8) {
-        critical_section::with(|section| {
-            // Without room the newest is lost, not one of a frame that is complete.
-            let _ = self.0.borrow_ref_mut(section).push_back(character);
-        });
+        let place = self.filled.load(Ordering::Relaxed);
+        let next = (place + 1) % LEN;
+        // Without room the newest is lost, not one of a frame that is complete.
+        if next != self.read.load(Ordering::Acquire) {
+            self.places[place].store(character, Ordering::Relaxed);
+            self.filled.store(next, Ordering::Release);
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.read.load(Ordering::Relaxed) == self.filled.load(Ordering::Acquire)
+    }
+
+    fn pop(&self) -> Option<u8> {
+        if self.is_empty() {
+            return None;
+        }
+        let place = self.read.load(Ordering::Relaxed);
+        let character = self.places[place].load(Ordering::Relaxed);
+        self.read.store((place + 1) % LEN, Ordering::Release);
+        Some(character)
     }
 }
 
@@ -37,16 +62,15 @@ impl<const LEN: usize> ErrorType for &Incoming<LEN> {
 
 impl<const LEN: usize> ReadReady for &Incoming<LEN> {
     fn read_ready(&mut self) -> Result<bool, Infallible> {
-        Ok(critical_section::with(|section| !self.0.borrow_ref(section).is_empty()))
+        Ok(!self.is_empty())
     }
 }
 
 impl<const LEN: usize> Read for &Incoming<LEN> {
     /// Does not wait: none is 0.
     fn read(&mut self, bytes: &mut [u8]) -> Result<usize, Infallible> {
-        let next = || critical_section::with(|section| self.0.borrow_ref_mut(section).pop_front());
         let mut count = 0;
-        for (place, character) in bytes.iter_mut().zip(core::iter::from_fn(next)) {
+        for (place, character) in bytes.iter_mut().zip(core::iter::from_fn(|| self.pop())) {
             (*place, count) = (character, count + 1);
         }
         Ok(count)
@@ -59,7 +83,7 @@ mod tests {
 
     #[test]
     fn characters_come_in_order_and_the_newest_are_lost() {
-        static WAITING: Incoming<4> = Incoming::new();
+        static WAITING: Incoming<5> = Incoming::new();
         let mut reader = &WAITING;
         assert_eq!((reader.read_ready(), reader.read(&mut [0; 2])), (Ok(false), Ok(0)));
         (1..=6).for_each(|character| WAITING.push(character));
@@ -70,5 +94,6 @@ mod tests {
         WAITING.push(7);
         assert_eq!(reader.read(&mut bytes), Ok(2));
         assert_eq!(bytes, [4, 7, 3]);
+        assert_eq!(reader.read_ready(), Ok(false));
     }
 }

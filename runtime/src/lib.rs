@@ -2,8 +2,9 @@
 //! that any board can implement. What instructions mean is plc-vm's, what requests mean plc-link's;
 //! registers and interrupts are the board's.
 //!
-//! A board implements [`Board`], most of it by parts that drivers of embedded-hal have ([`Pins`]) or
-//! that many boards need ([`Slot`], [`Incoming`], [`fault_words`]), and calls [`Controller::power_up`], then [`Controller::scan`] for ever.
+//! A board implements [`Board`], most of it by parts that drivers of embedded-hal have ([`Pins`])
+//! or that many boards need ([`Slot`], [`Incoming`], [`fault_words`]), and calls
+//! [`Controller::power_up`], then [`Controller::scan`] for ever.
 #![no_std]
 
 mod analog;

@@ -18,9 +18,8 @@ use tests::microbit::Microbit;
 use uno200::Client;
 use uno200::transport::{SerialSettings, Target};
 
-/// Pins of the chip: the buttons, the first ring, the first LED of the line with its row, and P8.
+/// Pins of the chip: button A, the first ring, the first LED of the line with its row, and P8.
 const BUTTON_A: u8 = 17;
-const BUTTON_B: u8 = 26;
 const RING_P0: u8 = 3;
 const LED_1: u8 = 7;
 const ROW: u8 = 15;
@@ -86,8 +85,8 @@ fn a_lamp_blinks_a_button_switches_and_stop_switches_off() {
     board.wait_for(P8, Some(true));
 }
 
-/// Reals, strings, shifts and a subroutine: what the Uno needs modules for, and nothing of time. I0.2
-/// begins anew.
+/// Reals, strings, shifts and a subroutine: what the Uno needs modules for, and nothing of time.
+/// I0.2 begins anew.
 const CALCULATING: &str = "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\n\
     NETWORK 1\nLD I0.2\nMOVR 1.5, VD0\nSCPY \"micro\", VB100\nSCPY \"bit\", VB120\n\
     MOVW 0, VW20\nMOVW 0, MW2\n\

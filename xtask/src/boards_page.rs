@@ -82,8 +82,8 @@ pub fn text() -> String {
         "\nThe host has the memory of the largest S7-200 ({} bytes of data, {} of program) and the \
          points of {}.\n\
          [porting.md](porting.md) says how another board becomes one.\n\n\
-         Points of the Uno are of 5 V, those of the others of 3.3 V: [wiring.md](wiring.md) says how \
-         24 V, relays and analog\n\
+         Points of the Uno are of 5 V, those of the others of 3.3 V: \
+         [wiring.md](wiring.md) says how 24 V, relays and analog\n\
          signals come to them, [flashing.md](flashing.md) how a program comes onto Uno and Pico, \
          and\n\
          [firmware-pico/README.md](../firmware-pico/README.md) what was tried on the Pico. \

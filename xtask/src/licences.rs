@@ -24,6 +24,7 @@ const REGISTRY: &str = "registry+https://github.com/rust-lang/crates.io-index";
 /// Licences that ask for no more than a notice. MPL-2.0 asks for the source of the files under it
 /// alone, which are those of the registry.
 const ALLOWED: &[&str] = &[
+    "0BSD",
     "Apache-2.0",
     "Apache-2.0 WITH LLVM-exception",
     "BSD-2-Clause",

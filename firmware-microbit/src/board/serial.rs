@@ -16,7 +16,7 @@ const RATES: [Baudrate; 8] = [
     Baudrate::BAUD9600, Baudrate::BAUD4800, Baudrate::BAUD2400, Baudrate::BAUD1200,
 ];
 
-/// As many characters as a frame has can wait.
+/// As many characters as a frame has can wait: 255.
 static INCOMING: Incoming<256> = Incoming::new();
 
 fn registers() -> &'static pac::uart0::RegisterBlock {

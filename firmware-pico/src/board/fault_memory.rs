@@ -22,8 +22,8 @@ pub fn remember(fault: u32, holds: bool) {
 /// The last fault, 0 if there is none. Whether it holds the board in STOP comes with it; it does so
 /// only once.
 pub fn recall() -> (u32, bool) {
-    let (fault, kind) = (registers().scratch0().read().bits(), registers().scratch1().read().bits());
-    let recalled = fault_of_words([fault, kind]);
-    remember(recalled.0, false);
-    recalled
+    let words = [registers().scratch0().read().bits(), registers().scratch1().read().bits()];
+    let (fault, holds) = fault_of_words(words);
+    remember(fault, false);
+    (fault, holds)
 }
