@@ -21,7 +21,8 @@ pub trait Board {
     /// faster.
     type Engine: Engine<Self::Image>;
     /// Where requests come in and answers go out. Characters that come between two looks wait, at
-    /// least as many as come in the longest scan.
+    /// least as many as come in the longest scan. Reading and writing never wait: none is 0, and
+    /// an error is a wrong character, which spoils its frame.
     type Line: Read + ReadReady + Write + WriteReady;
     /// Where retained values are kept: all of it, from its first byte on, at least
     /// [`SECTORS_MIN`](crate::SECTORS_MIN) sectors.
@@ -40,7 +41,8 @@ pub trait Board {
     /// The levels of the inputs, a bit for each pin that the profile has.
     fn inputs(&mut self) -> u8;
 
-    /// Switches the pull-up resistors of inputs on, a bit each, and all others off.
+    /// Switches the pull-up resistors of inputs on, a bit each. The others have a pull-down, if the
+    /// board has any: what is not connected is 0.
     fn set_pullups(&mut self, inputs: u8);
 
     /// Drives the pins of the outputs to these levels.
@@ -65,7 +67,8 @@ pub trait Board {
     /// The line.
     fn line(&mut self) -> &mut Self::Line;
 
-    /// How characters are sent on the line from now on. A line that has no rate does nothing.
+    /// How characters are sent on the line from now on. A line that has no rate does nothing; one
+    /// that cannot do what is asked for is silent.
     fn set_line(&mut self, settings: LineSettings);
 
     /// The memory for retained values.
