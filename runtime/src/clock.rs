@@ -32,6 +32,13 @@ impl Clock {
         self.now_ms.wrapping_add(self.passed_ms(now_us))
     }
 
+    /// Microseconds until it is this millisecond, which is to come.
+    pub fn until(&self, then_ms: u32, now_us: u32) -> u32 {
+        let left_ms = then_ms.wrapping_sub(self.now_ms);
+        let left_us = left_ms.saturating_mul(1000);
+        left_us.saturating_sub(now_us.wrapping_sub(self.began_us))
+    }
+
     fn passed_ms(&self, now_us: u32) -> u32 {
         let passed_us = now_us.wrapping_sub(self.began_us);
         if passed_us < 1000 { 0 } else { passed_us / 1000 }
@@ -52,6 +59,8 @@ mod tests {
             changes += u32::from(clock.advance(now_us));
         }
         assert_eq!((clock.now_ms(), changes), (3330, 3330));
+        let left_us = clock.until(3332, now_us);
+        assert!(left_us > 1000 && left_us <= 2000, "{left_us}");
         assert!(clock.advance(now_us.wrapping_add(60_000_000)));
         assert_eq!(clock.now_ms(), 63_330);
     }

@@ -1,5 +1,7 @@
 //! The scan: inputs, program, communication, self-test, outputs; and the way between RUN and STOP.
 
+use core::mem;
+
 use heapless::Deque;
 use plc_isa::{CRC_LEN, I_START, LineSettings, Settings};
 use plc_link::{Command, Link, ScanTimes};
@@ -13,6 +15,10 @@ use crate::environment::{OUTGOING, ScanTime};
 use crate::line::Line;
 use crate::retention::{self, Retention};
 use crate::self_test::SelfTest;
+
+/// The longest that what is done between two scans takes at once, in microseconds: an
+/// answer, on the Pico.
+const BETWEEN_SCANS_US: u32 = 500;
 
 /// A PLC on a board. It is large: a board keeps it in a static.
 pub struct Controller<B: Board> {
@@ -40,6 +46,7 @@ pub struct Controller<B: Board> {
     analog: Analog,
     retention: Retention,
     self_test: SelfTest,
+    is_test_due: bool,
     /// What is in the board's memory may not be the program that was checked, which may still be in
     /// force: it is loaded again before it runs, whatever became of the fault.
     is_in_doubt: bool,
@@ -73,6 +80,7 @@ impl<B: Board> Controller<B> {
             analog: Analog::NEW,
             retention: Retention::NONE,
             self_test: SelfTest::STARTING,
+            is_test_due: false,
             is_in_doubt: false,
             due_ms: 0,
         }
@@ -166,8 +174,7 @@ impl<B: Board> Controller<B> {
             self.begin_command();
         }
         if self.settings.scan_ms != 0 && self.is_early() {
-            self.communicate();
-            return self.test();
+            return self.wait();
         }
         self.board.mark(Mark::ScanStart);
         self.look_at_clock();
@@ -213,11 +220,16 @@ impl<B: Board> Controller<B> {
             self.analog.sample(&mut self.board);
         }
         self.board.feed_watchdog();
-        if let Some(program) = self.plc.program()
-            && self.self_test.has_changed(program)
-            && !self.is_in_doubt
-        {
-            self.fail(Fault::ProgramChanged);
+        self.is_test_due = true;
+    }
+
+    /// What is done between two scans, unless the next one would have to wait for it: in the end
+    /// only the clock is looked at.
+    fn wait(&mut self) {
+        let due_ms = self.due_ms.wrapping_add(self.settings.scan_ms.into());
+        if self.clock.until(due_ms, self.board.now_us()) > BETWEEN_SCANS_US {
+            self.communicate();
+            self.test();
         }
     }
 
@@ -295,6 +307,20 @@ impl<B: Board> Controller<B> {
     fn test(&mut self) {
         if !self.board.is_stack_sound() && !self.is_in_doubt {
             self.fail(Fault::StackOverflow);
+        }
+        if mem::take(&mut self.is_test_due) {
+            self.test_program();
+        }
+    }
+
+    /// A part of the program, once in a millisecond; not at its beginning, which is when scans
+    /// begin.
+    fn test_program(&mut self) {
+        if let Some(program) = self.plc.program()
+            && self.self_test.has_changed(program)
+            && !self.is_in_doubt
+        {
+            self.fail(Fault::ProgramChanged);
         }
     }
 

@@ -158,6 +158,13 @@ fn fixed_periods_are_kept() {
         }
     }
     assert_eq!((starts, passes), (vec![1, 10, 20, 30, 40, 50, 60], 60));
+    // In the end of a period nothing is done that the next scan would have to wait for.
+    for (us, is_heard) in [(1000, true), (8400, true), (200, false), (390, false), (10, true)] {
+        plc.board().wire.incoming = [0].into();
+        plc.board().now_us += us;
+        plc.scan();
+        assert_eq!(plc.board().wire.incoming.is_empty(), is_heard, "{us}");
+    }
     // Too late, the period begins anew.
     scan(&mut plc, 25);
     for (ms, is_scan) in [(9, false), (1, true), (9, false), (1, true)] {

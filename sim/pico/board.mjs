@@ -1,9 +1,8 @@
-// A Raspberry Pi Pico for awl-sim: the PLC's firmware in the emulator rp2040js. What it is asked for
-// comes in frames on standard input, the answers go out on standard output; `frames.rs` in
-// sim/src/machine/pico is the other side. One process serves many boards, one after the other.
-// What programs, operands and scenarios are is not known here.
+// A Raspberry Pi Pico: the PLC's firmware in the emulator rp2040js, scan by scan with a clock that is
+// held, or free. What programs, operands and scenarios are is not known here, nor who asks.
 
-import { readFileSync, readSync, statSync, writeSync } from "node:fs";
+import { readFileSync, statSync } from "node:fs";
+import { executed } from "./cycles.mjs";
 import { romOf } from "./rom.mjs";
 
 const FLASH = 0x10000000;
@@ -11,6 +10,7 @@ const SRAM = 0x20000000;
 const VECTORS = 0x100;
 const PROGRAM = 0x100000;
 const NANOS_OF_CYCLE = 8;
+export const CYCLES_OF_US = 125;
 // Of a UF2 file.
 const BLOCK = 512;
 
@@ -22,12 +22,12 @@ const TIMER = 0x40054;
 const TIMERAWL = 0x28;
 const MARK = 0x14;
 const DATA_ADDRESS = 0x18;
-const SCAN_START = 1;
+export const SCAN_START = 1;
 const SCAN_END = 2;
 
 const FIRST_INPUT = 2;
-const FIRST_OUTPUT = 10;
-const POINTS = 8;
+export const FIRST_OUTPUT = 10;
+export const POINTS = 8;
 const PWM = 4;
 const PWM_CC = 0x4005000c;
 const PWM_SLICE_LEN = 0x14;
@@ -46,7 +46,7 @@ const FIFO_LEN = 32;
 
 // Where the analog inputs are in data memory, and their bytes.
 const ANALOG_AT = 0x100;
-const ANALOG_LEN = 24;
+export const ANALOG_LEN = 24;
 // Of all analog bytes the firmware writes those of AIW10 last; no reading makes these of them.
 const LAST_ANALOG = [ANALOG_AT + 10, ANALOG_AT + 11];
 const NO_READING = 0xff;
@@ -55,6 +55,12 @@ const quiet = { debug() {}, info() {}, warn() {}, error() {} };
 
 // Of the packages.
 let RP2040, decodeBlock, isUF2Block;
+
+/** Loads the emulator. Before all else. */
+export async function load() {
+  ({ RP2040 } = await import("rp2040js"));
+  ({ decodeBlock, isUF2Block } = await import("uf2"));
+}
 
 /** What a firmware, as ELF or as UF2, has to be in flash before the program. */
 function segments(file) {
@@ -109,7 +115,8 @@ class Firmware {
 
 const known = new Map();
 
-function firmwareAt(path) {
+/** The firmware in a file, which is read once. */
+export function firmwareAt(path) {
   const { mtimeMs, size } = statSync(path);
   const key = `${path} ${mtimeMs} ${size}`;
   if (!known.has(key)) known.set(key, new Firmware(path));
@@ -117,7 +124,7 @@ function firmwareAt(path) {
 }
 
 /** A board. It stands still between calls. */
-class Board {
+export class Board {
   constructor(firmware, image, dataLen) {
     this.firmware = firmware;
     this.dataLen = dataLen;
@@ -160,6 +167,12 @@ class Board {
     return this.nowUs;
   }
 
+  /** From now on the clock goes on with the cycles. */
+  freeClock() {
+    const begin = this.cycles - this.nowUs * CYCLES_OF_US;
+    this.look = () => Math.floor((this.cycles - begin) / CYCLES_OF_US) >>> 0;
+  }
+
   /** Executes until this is so, at most for so many cycles. Whether it came to be so. */
   runUntil(isSo, cyclesMax) {
     const { core, clock } = this.chip;
@@ -168,7 +181,7 @@ class Board {
       if (this.cycles >= end) return false;
       if (this.isHung) throw new Error("the firmware has not fed the hardware watchdog: it hangs");
       if (core.waiting) clock.tick(clock.nanosToNextAlarm);
-      const cycles = core.executeInstruction();
+      const cycles = executed(this.chip);
       this.cycles += cycles;
       // As `clock.tick` does it, but for the call where there is nothing to do.
       clock.nanosCounter += cycles * NANOS_OF_CYCLE;
@@ -286,130 +299,3 @@ class Board {
     return Buffer.from(this.sent.splice(0));
   }
 }
-
-/** What there is to tell after a scan. */
-function told(board, cycles) {
-  const { sio } = board.chip;
-  const sent = board.takeSent();
-  const head = Buffer.alloc(34 + sent.length);
-  head[0] = (sio.gpioValue >> FIRST_OUTPUT) & 0xff;
-  head[1] = (sio.gpioOutputEnable >> FIRST_OUTPUT) & 0xff;
-  head.writeUInt32LE(board.scratch[0], 2);
-  head.writeUInt32LE(board.scratch[1], 6);
-  head.writeUInt32LE(Math.min(cycles, 0xffffffff), 10);
-  for (let output = 0; output < POINTS; output++) head.writeUInt16LE(board.duty(output), 14 + 2 * output);
-  head.writeUInt32LE(sent.length, 30);
-  head.set(sent, 34);
-  return [head, board.data()];
-}
-
-/** Reads the parts of a request one after the other. */
-class Parts {
-  constructor(bytes) {
-    [this.bytes, this.at] = [bytes, 0];
-  }
-
-  take(len) {
-    this.at += len;
-    if (this.at > this.bytes.length) throw new Error("a request is too short");
-    return this.bytes.subarray(this.at - len, this.at);
-  }
-
-  byte() {
-    return this.take(1)[0];
-  }
-
-  short() {
-    return this.take(2).readUInt16LE();
-  }
-
-  long() {
-    return this.take(4).readUInt32LE();
-  }
-
-  rest() {
-    return this.take(this.bytes.length - this.at);
-  }
-
-  list(one) {
-    return Array.from({ length: this.short() }, one);
-  }
-}
-
-let board = null;
-
-const requests = {
-  // Power comes to a new board.
-  1(parts) {
-    board = null;
-    const firmware = firmwareAt(parts.take(parts.short()).toString());
-    const [dataLen, nowUs, levels] = [parts.short(), parts.long(), parts.byte()];
-    const counts = parts.list(() => parts.short());
-    board = new Board(firmware, parts.rest(), dataLen);
-    board.setInputs(levels, counts);
-    board.powerUp(nowUs);
-    return told(board, 0);
-  },
-  // A scan.
-  2(parts) {
-    if (board === null) throw new Error("there is no board yet");
-    const [nowUs, cyclesMax, levels] = [parts.long(), parts.long(), parts.byte()];
-    const counts = parts.list(() => parts.short());
-    const writes = parts.list(() => ({ at: parts.short(), mask: parts.byte(), value: parts.byte() }));
-    const analog = parts.byte() === 0 ? null : parts.take(ANALOG_LEN);
-    const characters = parts.rest();
-    return told(board, board.scan({ nowUs, cyclesMax, levels, counts, writes, analog, characters }));
-  },
-};
-
-/** So many bytes of standard input; `null` at its end. */
-function read(len) {
-  const bytes = Buffer.alloc(len);
-  for (let at = 0; at < len; ) {
-    const count = readSync(0, bytes, at, len - at, null);
-    if (count === 0) return null;
-    at += count;
-  }
-  return bytes;
-}
-
-/** An answer: whether it is one, and its bytes. */
-function write(kind, parts) {
-  const head = Buffer.alloc(5);
-  head.writeUInt32LE(1 + parts.reduce((sum, part) => sum + part.length, 0));
-  head[4] = kind;
-  const bytes = Buffer.concat([head, ...parts]);
-  for (let at = 0; at < bytes.length; ) at += writeSync(1, bytes, at);
-}
-
-function answer(make) {
-  try {
-    write(0, make());
-  } catch (error) {
-    write(1, [Buffer.from(error.message)]);
-  }
-}
-
-function serve() {
-  for (let head = read(4); head !== null; head = read(4)) {
-    const request = read(head.readUInt32LE());
-    if (request === null) return;
-    answer(() => requests[request[0]](new Parts(request.subarray(1))));
-  }
-}
-
-/** Whether the emulator is there. */
-async function load() {
-  try {
-    ({ RP2040 } = await import("rp2040js"));
-    ({ decodeBlock, isUF2Block } = await import("uf2"));
-    write(0, []);
-    return true;
-  } catch (error) {
-    const isMissing = error.code === "ERR_MODULE_NOT_FOUND";
-    write(1, [Buffer.from(isMissing ? "a package is not installed" : error.message)]);
-    return false;
-  }
-}
-
-if (await load()) serve();

@@ -7,17 +7,19 @@
 #![cfg(feature = "pico")]
 
 use std::io::Write;
+use std::path::Path;
+use std::process::Command;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 use awl_asm::drive::uf2_file;
 use awl_sim::action::Action;
-use awl_sim::machine::pico::Pico;
+use awl_sim::machine::pico::{Pico, find_firmware};
 use awl_sim::machine::{Machine, Mode};
 use plc_isa::{PICO, PICO_DRIVE, verify};
 use plc_vm::{Fault, Inputs};
 use tests::beside::{Board, Pair};
-use tests::case::{Case, Prepared, host};
+use tests::case::{Case, Prepared, folder, host};
 use tests::effort::effort;
 use tests::image::image_for;
 use tests::programs;
@@ -25,6 +27,8 @@ use tests::random_runs::{Programs, random_image_for, random_scans};
 
 /// A second of a Pico takes the emulator many.
 const WATCHDOG_MAX_MS: u16 = 5_000;
+/// By how much the starts of scans may differ from their period, in microseconds.
+const JITTER_MAX_US: f64 = 10.0;
 /// Cycles of a scan that the host has already seen to be endless.
 const ENDLESS_CYCLES: u32 = 200_000;
 
@@ -169,6 +173,72 @@ fn a_program_of_20_000_instructions_is_the_same() {
     let scans = random_scans(&mut pair, &mut rng, Pair::difference, |scan| format!("scan {scan}"));
     println!("{} bytes, {scans} scans, all equal", image.len());
     assert!(scans >= 3);
+}
+
+/// Reals, strings, double words, tables and PID: what needs modules on the Uno, where so much has
+/// no room. Each number has a place of its own in V memory, or shares it with another.
+fn everything(number: u16) -> String {
+    let v = 200 + number % 60 * 160;
+    let [a, b, c, d, e, f] = [v, v + 4, v + 8, v + 12, v + 16, v + 18];
+    let [word, part, len, first, found, table] = [v + 24, v + 32, v + 48, v + 52, v + 54, v + 60];
+    let (i, j, k) = (number % 8, (number + 3) % 8, (number + 5) % 8);
+    let pid = if number < 4 { format!("PID VB{}, {number}\n", 40 * number) } else { String::new() };
+    format!(
+        "LD SM0.1\nMOVW 5, VW{table}\n\
+         LD I0.{i}\nMOVR {number}.25, VD{a}\n\
+         LD SM0.0\n+R VD{a}, VD{b}\n*R 0.75, VD{b}\nSQRT VD{b}, VD{c}\nSIN VD{c}, VD{d}\n\
+         ROUND VD{b}, VD{e}\n*D 3, VD{e}\nSWAP VW{f}\n\
+         SCPY \"block\", VB{word}\nSSCPY VB{word}, 2, 3, VB{part}\nSCAT VB{part}, VB{word}\n\
+         SLEN VB{word}, VB{len}\n\
+         LD I0.{j}\nEU\nATT VW{e}, VW{table}\nLD I0.{k}\nEU\nFIFO VW{table}, VW{first}\n\
+         LD SM0.0\nFND> VW{table}, 7, VW{found}\n{pid}"
+    )
+}
+
+#[test]
+fn a_large_program_of_everything_is_the_same() {
+    let blocks: String = (0..100).map(everything).collect();
+    let text = blocks + &programs::eighty_twenty().repeat(18);
+    let image = image_for(&text, &PICO);
+    let instructions = verify(image.clone()).unwrap().instructions().count();
+    let mut place = pico();
+    let Some(pico) = place.as_mut() else { return };
+    let mut pair = Pair::new(OnPico::with(pico, &image), &image);
+    let mut rng = fastrand::Rng::with_seed(100);
+    let scans = random_scans(&mut pair, &mut rng, Pair::difference, |scan| format!("scan {scan}"));
+    println!("{instructions} instructions, {} bytes, {scans} scans, all equal", image.len());
+    assert!(scans >= 3 && instructions >= 20_000);
+}
+
+/// Where speed is counted: in cycles by the table of the Cortex-M0+.
+#[test]
+fn cycles_are_those_of_the_processor() {
+    let told = node("check-cycles.mjs", &[]);
+    assert!(told.ends_with(" compared, 0 different"), "{told}");
+}
+
+/// What a script beside the emulator prints.
+fn node(script: &str, arguments: &[&Path]) -> String {
+    let script = folder("../sim/pico").join(script);
+    let output = Command::new("node").arg(script).args(arguments).output().expect("node starts");
+    let told = String::from_utf8_lossy(&output.stdout).trim_end().to_owned();
+    assert!(output.status.success(), "{told}\n{}", String::from_utf8_lossy(&output.stderr));
+    println!("{told}");
+    told
+}
+
+/// By a clock that is not held, while a master asks for the longest answers that there are.
+#[test]
+fn scans_begin_on_time_whatever_is_asked() {
+    let image = image_for("//# scan 2ms\nLD SM0.5\n= Q0.0\n", &PICO);
+    let mut file = tempfile::NamedTempFile::new().unwrap();
+    file.write_all(&image).unwrap();
+    let (elf, period, scans) = (find_firmware().unwrap(), Path::new("2"), Path::new("400"));
+    let told = node("jitter.mjs", &[&elf, file.path(), period, scans]);
+    let words: Vec<&str> = told.split([' ', ',']).collect();
+    let [scans, .., answers, _, _, us, _, _] = words[..] else { panic!("{told}") };
+    let [scans, answers, us] = [scans, answers, us].map(|word| word.parse::<f64>().unwrap());
+    assert!(scans == 400.0 && answers > 50.0 && us <= JITTER_MAX_US, "{told}");
 }
 
 /// What the blocks of a UF2 file bring to an address, up to where they have nothing more.

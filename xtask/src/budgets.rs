@@ -51,8 +51,8 @@ pub const NATIVE_STATION_CYCLES_MAX: f64 = 450.0;
 /// Cycles of 1,024 bit instructions on the Pico: 8 each, 0.06 us. The S7-200 takes 0.22.
 pub const PICO_BITS_CYCLES_MAX: f64 = 8_192.0;
 
-/// Cycles of the program of 1,024 instructions on the Pico: 0.43 ms.
-pub const PICO_STEPS_CYCLES_MAX: f64 = 54_000.0;
+/// Cycles of the program of 1,024 instructions on the Pico: 0.44 ms.
+pub const PICO_STEPS_CYCLES_MAX: f64 = 55_000.0;
 
 /// Cycles of a scan on the Pico beside its program, unless a millisecond has passed or an input has
 /// changed: 20 us.

@@ -52,7 +52,11 @@ enum Task {
     /// of dependencies among them.
     Rules,
     /// Measures interpreter and assembler and compares them with their budgets.
-    Bench,
+    Bench {
+        /// Measure nothing: only write again what is made of docs/benchmarks.csv.
+        #[arg(long)]
+        pages: bool,
+    },
     /// Builds the firmware for the Uno, target/firmware/uno200.elf and uno200.hex, and replaces the
     /// one that is part of the tools, awl-asm/firmware/uno200.hex.
     Firmware {
@@ -117,7 +121,8 @@ fn main() -> ExitCode {
         Task::Demo => demo::run(),
         Task::Test { host_only } => test::run(host_only),
         Task::Rules => rules::check().and_then(|()| licences::check()),
-        Task::Bench => bench::run(),
+        Task::Bench { pages: false } => bench::run(),
+        Task::Bench { pages: true } => bench::write_pages(),
         Task::Firmware { keep } => firmware::run(keep),
         Task::VmOnAvr => firmware::build_vm().map(|elf| println!("{}", elf.display())),
         Task::Modules { check } => modules::run(check),

@@ -34,16 +34,29 @@ pub fn write() -> Result<()> {
         report("worse than in docs/benchmarks.csv (delete the file if it has to be so)", bad)?;
     }
     put(FIGURES, &text_of(&records))?;
-    put(PAGE, &page_of(&records)?)?;
-    put(COSTS, &costs::table(&records)?)?;
     println!("{} figures in {PAGE} and {FIGURES}, those of modules in {COSTS}", records.len());
+    write_pages()
+}
+
+/// Writes what is made of the figures, and prints what misses its budget. Measures nothing.
+pub fn write_pages() -> Result<()> {
+    let records = known()?;
+    for (file, text) in files_of(&records)? {
+        put(file, &text)?;
+    }
     judge(&records)
+}
+
+/// What is made of figures: files with their texts.
+fn files_of(records: &[Record]) -> Result<[(&'static str, String); 2]> {
+    // The page has what needs no board, too.
+    let page = page::page(records) + &pairs::tables()?;
+    Ok([(PAGE, page), (COSTS, costs::table(records)?)])
 }
 
 /// Fails where a file that is made of the figures says something else. Measures nothing.
 pub fn check_files() -> Result<()> {
-    let known = known()?;
-    for (file, text) in [(PAGE, page_of(&known)?), (COSTS, costs::table(&known)?)] {
+    for (file, text) in files_of(&known()?)? {
         let kept =
             fs::read_to_string(root().join(file)).with_context(|| format!("cannot read {file}"))?;
         ensure!(kept == text, "{file} is not what {FIGURES} says: run `cargo xtask bench`");
@@ -67,11 +80,6 @@ pub fn check() -> Result<()> {
         bad,
     )?;
     judge(&records)
-}
-
-/// The page, with what needs no board.
-fn page_of(records: &[Record]) -> Result<String> {
-    Ok(page::page(records) + &pairs::tables()?)
 }
 
 fn known() -> Result<Vec<Record>> {

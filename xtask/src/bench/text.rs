@@ -48,8 +48,10 @@ input and the self-test: p99, max and mean tell what that adds.
 
 /// About the Pico.
 pub const PICO: &str = "\
-The firmware as it is shipped, in the emulator rp2040js, which counts the cycles of a Cortex-M0+ \
-and no waiting for flash;
+The firmware as it is shipped, in the emulator rp2040js. Cycles are those of the table of the \
+Cortex-M0+ (ARM DDI 0484C,
+table 3-1), by which every instruction was checked (`sim/pico/check-cycles.mjs`); waiting for \
+flash is not counted;
 125 cycles are 1 us. Bits and the logic stack are translated to machine code on the board \
 ([why](adr/0046-thumb.md)),
 everything else the interpreter executes. Cycles of programs are those of the longest of 64 \

@@ -1,4 +1,4 @@
-//! What is asked of the emulator's process and what it answers, as bytes: `sim/pico/board.mjs` is
+//! What is asked of the emulator's process and what it answers, as bytes: `sim/pico/serve.mjs` is
 //! the other side. Numbers come with the low byte first, lists after their length in two bytes.
 
 use plc_isa::{DATA_START, PICO};

@@ -1,7 +1,7 @@
 //! The Raspberry Pi Pico: the firmware as it is shipped, in the emulator rp2040js, with a program
 //! in its slot, in lock-step.
 //!
-//! The emulator runs in a process of Node.js, see `sim/pico/board.mjs`. The harness holds the
+//! The emulator runs in a process of Node.js, see `sim/pico/serve.mjs`. The harness holds the
 //! board's clock and gives it the time of each scan: a call of [`Machine::scan`] is one scan of the
 //! firmware, which can be compared with any other machine byte by byte. Inputs are levels at pins
 //! and counts of the converter, outputs are read at the pins; everything else is read and written

@@ -9,7 +9,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use anyhow::{Context, Result, bail};
 
 /// Below the repository's root.
-const SCRIPT: &str = "sim/pico/board.mjs";
+const SCRIPT: &str = "sim/pico/serve.mjs";
 /// More than any answer has.
 const ANSWER_MAX: usize = 1 << 20;
 /// Before the bytes of an answer.
