@@ -92,7 +92,7 @@ fn faults_of_the_header() {
     assert_eq!(fault_with(4, &[5]), Some(ImageFault::Version), "without looks for status windows");
     assert_eq!(fault_with(4, &[6]), Some(ImageFault::Version), "without a profile");
     assert_eq!(fault_with(4, &[8]), Some(ImageFault::Version));
-    assert_eq!(fault_with(4, &[0x37]), Some(ImageFault::Version), "for another board");
+    assert_eq!(fault_with(4, &[0xF7]), Some(ImageFault::Version), "for a board that there is not");
     assert_eq!(fault_with(5, &[1]), Some(ImageFault::Interface), "machine code, on the host");
     assert_eq!(fault_with(29, &[7]), Some(ImageFault::Settings));
     assert_eq!(
