@@ -19,7 +19,7 @@ const SLOT: &str = "0x2C000";
 const OUT: u32 = 0x5000_0504;
 const DIRECTION: u32 = 0x5000_0514;
 /// A machine under load is slow.
-const PATIENCE: Duration = Duration::from_secs(60);
+pub const PATIENCE: Duration = Duration::from_secs(60);
 const BETWEEN_LOOKS: Duration = Duration::from_millis(10);
 
 /// The board.

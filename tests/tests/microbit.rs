@@ -14,7 +14,7 @@ use plc_isa::{MICROBIT, UNO};
 use plc_vm::Fault;
 use tests::case::{folder, host};
 use tests::image::image_for;
-use tests::microbit::Microbit;
+use tests::microbit::{Microbit, PATIENCE};
 use uno200::Client;
 use uno200::transport::{SerialSettings, Target};
 
@@ -38,9 +38,6 @@ fn client(board: &Microbit) -> Client {
     let port = Some(board.line().to_owned());
     Client::new(Target::Serial(SerialSettings { port, ..SerialSettings::default() }), |_| {})
 }
-
-/// A machine under load is slow.
-const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Waits until the board is as it should be.
 #[track_caller]
