@@ -27,6 +27,9 @@ pub trait Board {
     /// Where retained values are kept: all of it, from its first byte on, at least
     /// [`SECTORS_MIN`](crate::SECTORS_MIN) sectors.
     type Storage: NorFlash;
+    /// Where programs are that come over the line:
+    /// [`NeverWritten`](crate::NeverWritten) on boards that get theirs in other ways only.
+    type Programs: NorFlash;
 
     /// What executes programs. Once, before all else.
     fn engine(&mut self) -> Self::Engine;
@@ -35,8 +38,10 @@ pub trait Board {
     /// far apart as it wraps.
     fn now_us(&mut self) -> u32;
 
-    /// The program in the board's memory, valid or not; `None` where nothing was ever written.
-    fn image(&mut self) -> Option<Self::Image>;
+    /// The program in a slot, valid or not; `None` where nothing was ever written. Slot 0 is where
+    /// other ways than the line write it; slot 1, which is asked for only where there are
+    /// [`programs`](Self::programs), is in their second half.
+    fn image(&mut self, slot: u8) -> Option<Self::Image>;
 
     /// The levels of the inputs, a bit for each pin that the profile has.
     fn inputs(&mut self) -> u8;
@@ -73,6 +78,13 @@ pub trait Board {
 
     /// The memory for retained values.
     fn storage(&mut self) -> &mut Self::Storage;
+
+    /// The memory of both slots, if programs come over the line. Each has half of it: first the
+    /// longest program, then a sector, which a program that was written in another way leaves
+    /// erased in both of them.
+    fn programs(&mut self) -> Option<&mut Self::Programs> {
+        None
+    }
 
     /// The program is alive: the hardware watchdog, which resets the board otherwise, waits again.
     /// It waits at least half a second, and after that as long as the storage needs to erase a

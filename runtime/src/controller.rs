@@ -10,6 +10,7 @@ use plc_vm::{Fault, Memory, Mode, Plc};
 use crate::analog::Analog;
 use crate::board::{Board, Mark};
 use crate::clock::Clock;
+use crate::download::{Download, InForce};
 use crate::engine::Engine;
 use crate::environment::{OUTGOING, ScanTime};
 use crate::line::Line;
@@ -19,6 +20,15 @@ use crate::self_test::SelfTest;
 /// The longest that what is done between two scans takes at once, in microseconds: an
 /// answer, on the Pico.
 const BETWEEN_SCANS_US: u32 = 500;
+
+/// What is done when the answer has been sent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Due {
+    /// RUN or single scans.
+    Command(Command),
+    /// The program that has come is loaded.
+    Program,
+}
 
 /// A PLC on a board. It is large: a board keeps it in a static.
 pub struct Controller<B: Board> {
@@ -31,8 +41,9 @@ pub struct Controller<B: Board> {
     /// The board's image, valid or not.
     pub(crate) slot: Option<B::Image>,
     pub(crate) fault_before_reset: u32,
-    /// RUN or single scans, which begin when the answer has been sent.
-    pub(crate) command: Option<Command>,
+    /// What is done when the answer has been sent.
+    pub(crate) due: Option<Due>,
+    pub(crate) download: Download,
     /// Single scans to come, with the one that is under way; 0 without.
     pub(crate) scans_left: u16,
     pub(crate) settings: Settings,
@@ -69,7 +80,8 @@ impl<B: Board> Controller<B> {
             times: ScanTimes::NONE,
             slot: None,
             fault_before_reset: 0,
-            command: None,
+            due: None,
+            download: Download::NONE,
             scans_left: 0,
             settings: Settings::DEFAULT,
             line: Line::NEW,
@@ -109,7 +121,8 @@ impl<B: Board> Controller<B> {
     /// Loads the board's program, if there is one.
     fn load(&mut self) {
         self.board.feed_watchdog();
-        self.slot = self.board.image();
+        let slot = self.board.programs().map_or(0, |programs| InForce::of(programs).slot);
+        self.slot = self.board.image(slot);
         if let Some(image) = self.slot.clone() {
             self.load_program(image);
         }
@@ -170,8 +183,8 @@ impl<B: Board> Controller<B> {
     /// A scan; with a fixed period, while the next one is not due, what is done between scans.
     #[inline(always)]
     pub fn scan(&mut self) {
-        if self.command.is_some() && !self.line.is_sending() {
-            self.begin_command();
+        if self.due.is_some() && !self.line.is_sending() {
+            self.do_what_is_due();
         }
         if self.settings.scan_ms != 0 && self.is_early() {
             return self.wait();
@@ -198,12 +211,37 @@ impl<B: Board> Controller<B> {
         self.board.mark(Mark::ScanEnd);
     }
 
-    fn begin_command(&mut self) {
-        self.scans_left = match self.command.take() {
-            Some(Command::Scans(scans)) => scans,
-            _ => 0,
-        };
+    fn do_what_is_due(&mut self) {
+        self.scans_left = 0;
+        match self.due.take() {
+            Some(Due::Program) => return self.change_program(),
+            Some(Due::Command(Command::Scans(scans))) => self.scans_left = scans,
+            _ => {}
+        }
         self.run();
+    }
+
+    /// Another program is in force than the one that is loaded.
+    fn change_program(&mut self) {
+        let runs = self.plc.mode() == Mode::Run;
+        self.stop();
+        self.save();
+        self.times = ScanTimes::NONE;
+        self.load();
+        if runs {
+            self.run();
+        }
+    }
+
+    /// Saves what is retained before something else is loaded.
+    fn save(&mut self) {
+        if let Some(program) = self.plc.program()
+            && !self.is_in_doubt
+        {
+            self.board.feed_watchdog();
+            let (storage, now_ms) = (self.board.storage(), self.clock.now_ms());
+            self.retention.finish(program.plan(), &mut self.memory, storage, now_ms);
+        }
     }
 
     #[inline(always)]
@@ -425,7 +463,7 @@ impl<B: Board> Controller<B> {
     fn tell(&mut self) {
         if self.plc.mode() == Mode::Stop {
             self.board.release_outputs();
-            (self.scans_left, self.command) = (0, None);
+            (self.scans_left, self.due) = (0, None);
             self.link.forces.clear(&mut self.memory);
         }
         self.is_in_doubt |= self.has_doubtful_fault();

@@ -13,19 +13,18 @@ use plc_isa::{
 };
 use plc_vm::Memory;
 
+use crate::storage::{ERASED, PIECE, is_erased, read, unit};
+
 /// The least there must be: what is erased is never what was written last.
 pub const SECTORS_MIN: u32 = 2;
 
 /// Length, sequence number, checksum.
 const HEAD_LEN: usize = 6 + CRC_LEN;
 const CRC_LEN: usize = 4;
-/// Bytes that are read or written at once; what a board can write at once divides it.
-const PIECE: usize = 256;
 /// In STOP, from a failure of the memory to the next attempt.
 const RETRY_MS: u32 = 1000;
 /// Bytes compared in a scan.
 const COMPARED: u16 = 16;
-const ERASED: u8 = 0xFF;
 
 /// Whether all that a program of this profile can retain fits a sector, and pieces are as memory of
 /// this kind takes them.
@@ -184,6 +183,35 @@ impl Retention {
                     self.fail(S::ERASE_SIZE as u32, now_ms);
                 }
             }
+        }
+    }
+
+    /// Saves at once what has changed, before another program comes.
+    pub fn finish<P: ProgramMemory, S: NorFlash>(
+        &mut self,
+        plan: &Plan<P>,
+        memory: &mut Memory,
+        storage: &mut S,
+        now_ms: u32,
+    ) {
+        if self.len == 0 || self.is_first {
+            return;
+        }
+        // First a record that was begun, whose values are older.
+        for _ in 0..2 {
+            self.walk_again();
+            loop {
+                self.step(plan, memory, storage, true, now_ms);
+                if self.phase == Phase::Comparing(0) {
+                    break;
+                }
+            }
+        }
+    }
+
+    fn walk_again(&mut self) {
+        if matches!(self.phase, Phase::Comparing(_)) {
+            (self.phase, self.walk) = (Phase::Comparing(0), RetainedWalk::START);
         }
     }
 
@@ -357,41 +385,10 @@ fn head<S: NorFlash>(storage: &mut S, at: u32, end: u32) -> Option<(u16, u32)> {
     (bytes == head_bytes(len, sequence) && fits).then_some((len, sequence))
 }
 
-/// Bytes that can be read and written at once.
-const fn unit<S: NorFlash>() -> usize {
-    if S::WRITE_SIZE > S::READ_SIZE { S::WRITE_SIZE } else { S::READ_SIZE }
-}
-
 /// Bytes of a record with so many bytes of values, with what fills it up to what can be written at
 /// once.
 const fn record_len<S: NorFlash>(len: u16) -> u32 {
     (HEAD_LEN + len as usize + CRC_LEN).next_multiple_of(unit::<S>()) as u32
-}
-
-/// Reads bytes in order, each with its offset; whether they could be read.
-fn read<S: NorFlash>(
-    storage: &mut S,
-    at: u32,
-    len: usize,
-    mut take: impl FnMut(usize, u8),
-) -> bool {
-    let mut piece = [0; PIECE];
-    let mut done = 0;
-    while done < len {
-        let count = (len - done).min(PIECE);
-        let Some(part) = piece.get_mut(..count.next_multiple_of(unit::<S>())) else { return false };
-        if storage.read(at + done as u32, part).is_err() {
-            return false;
-        }
-        (done..done + count).zip(part).for_each(|(offset, byte)| take(offset, *byte));
-        done += count;
-    }
-    true
-}
-
-fn is_erased<S: NorFlash>(storage: &mut S, at: u32, len: u32) -> bool {
-    let mut is_erased = true;
-    read(storage, at, len as usize, |_, byte| is_erased &= byte == ERASED) && is_erased
 }
 
 /// Reads the values of a record to a place of data memory.

@@ -6,11 +6,10 @@ use core::marker::PhantomData;
 use plc_isa::{Profile, ProgramMemory};
 
 use crate::board::Board;
+use crate::storage::ERASED;
 
 /// That many bytes are looked at for whether anything was ever written.
 const HEAD_LEN: usize = 4;
-/// What erased flash reads as.
-const ERASED: u8 = 0xFF;
 
 /// The program slot of a board. Its bytes do not change while it is used.
 pub struct Slot<B> {

@@ -3,37 +3,15 @@
 
 mod desk;
 
-use desk::{Desk, with, word};
+use desk::{Desk, answer, ask, frame, with, word};
 use plc_isa::Parity;
-use plc_link::crc16;
 use plc_vm::Mode;
 use runtime::Controller;
 
 const PROGRAM: &str = "//# name lamp\nLD I0.0\n= Q0.0\n= M0.0\nLD SM0.0\nINCW VW0\n";
 
-fn frame(unit: u8, request: &[u8]) -> Vec<u8> {
-    let mut frame = vec![unit];
-    frame.extend_from_slice(request);
-    frame.extend_from_slice(&crc16(&frame).to_le_bytes());
-    frame
-}
-
 fn scans(plc: &mut Controller<Desk>, count: u32) {
     desk::scans(plc, count, 1);
-}
-
-/// What comes back, without unit and checksum; empty: nothing.
-fn ask(plc: &mut Controller<Desk>, request: &[u8]) -> Vec<u8> {
-    plc.board().wire.incoming.extend(frame(1, request));
-    scans(plc, 10);
-    answer(plc)
-}
-
-fn answer(plc: &mut Controller<Desk>) -> Vec<u8> {
-    let sent = std::mem::take(&mut plc.board().wire.outgoing);
-    let Some(inner) = sent.len().checked_sub(2) else { return sent };
-    assert_eq!((sent[0], crc16(&sent)), (1, 0));
-    sent[1..inner].to_vec()
 }
 
 #[test]

@@ -9,6 +9,7 @@ const FLASH = 0x10000000;
 const SRAM = 0x20000000;
 const VECTORS = 0x100;
 const PROGRAM = 0x100000;
+const FLASH_LEN = 0x200000;
 const NANOS_OF_CYCLE = 8;
 export const CYCLES_OF_US = 125;
 // Of a UF2 file.
@@ -132,7 +133,7 @@ export class Board {
     this.chip.logger = quiet;
     firmware.load(this.chip.flash);
     this.chip.flash.set(image, PROGRAM);
-    romOf(this.chip);
+    this.power = romOf(this.chip);
     [this.cycles, this.mark, this.dataAt] = [0, 0, 0];
     [this.nowUs, this.lookUs] = [0, 0];
     [this.isHung, this.isHeld] = [false, false];
@@ -160,6 +161,13 @@ export class Board {
     const read = timer.readUint32.bind(timer);
     timer.readUint32 = (offset) => (offset === TIMERAWL ? this.look() : read(offset));
     this.chip.uart[0].onByte = (character) => this.sent.push(character);
+  }
+
+  /** The board after a power cut, with what is in its flash then. It is off. */
+  again() {
+    const board = new Board(this.firmware, Buffer.alloc(0), this.dataLen);
+    board.chip.flash.set(this.chip.flash.subarray(0, FLASH_LEN));
+    return board;
   }
 
   look() {

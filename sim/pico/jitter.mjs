@@ -4,6 +4,7 @@
 
 import { readFileSync } from "node:fs";
 import { Board, CYCLES_OF_US, SCAN_START, firmwareAt, load } from "./board.mjs";
+import { frame } from "./frame.mjs";
 
 const DATA_LEN = 16128;
 // The first scans find the period.
@@ -26,16 +27,6 @@ const QUESTIONS = [
   [65],
   [68, 0, 0, 0, 0, 250],
 ];
-
-function frame(question) {
-  const bytes = [1, ...question];
-  let crc = 0xffff;
-  for (const byte of bytes) {
-    crc ^= byte;
-    for (let bit = 0; bit < 8; bit++) crc = crc & 1 ? (crc >> 1) ^ 0xa001 : crc >> 1;
-  }
-  return [...bytes, crc & 0xff, crc >> 8];
-}
 
 /** A master: it asks as soon as it has heard an answer. */
 class Master {

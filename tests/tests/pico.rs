@@ -6,6 +6,7 @@
 //! --test pico` runs longer.
 #![cfg(feature = "pico")]
 
+use std::fs;
 use std::io::Write;
 use std::path::Path;
 use std::process::Command;
@@ -20,8 +21,10 @@ use plc_isa::{PICO, PICO_DRIVE, verify};
 use plc_vm::{Fault, Inputs};
 use tests::beside::{Board, Pair};
 use tests::case::{Case, Prepared, folder, host};
+use tests::commands;
 use tests::effort::effort;
 use tests::image::image_for;
+use tests::pico::Plugged;
 use tests::programs;
 use tests::random_runs::{Programs, random_image_for, random_scans};
 
@@ -238,15 +241,84 @@ fn scans_begin_on_time_whatever_is_asked() {
     assert!(scans == 400.0 && answers > 50.0 && us <= JITTER_MAX_US, "{told}");
 }
 
+/// Power is cut while a program comes, at bytes of flash: the shipped firmware, with the flash of
+/// the emulator.
+#[test]
+fn the_old_program_or_the_new_one_runs_after_a_power_cut() {
+    let cuts = effort("DOWNLOAD_CUTS", 100).to_string();
+    let files = [1, 2].map(|number| {
+        let moves = "LD SM0.0\nMOVW 7, VW2\n".repeat(200);
+        let text = format!("LD SM0.0\nMOVW {number}, VW0\n{moves}");
+        let mut file = tempfile::NamedTempFile::new().unwrap();
+        file.write_all(&image_for(&text, &PICO)).unwrap();
+        file
+    });
+    let elf = find_firmware().unwrap();
+    let told = node("cuts.mjs", &[&elf, files[0].path(), files[1].path(), Path::new(&cuts)]);
+    let words: Vec<&str> = told.split(' ').collect();
+    let [all, _, old, _, new, _] = words[..] else { panic!("{told}") };
+    let [all, old, new] = [all, old, new].map(|word| word.parse::<u32>().unwrap());
+    assert!(old + new == all && old > all / 4 && new > all / 8, "{told}");
+}
+
+/// As somebody does it who has a Pico at a port.
+#[test]
+fn a_program_is_written_over_the_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).unwrap();
+        path
+    };
+    let first = file("first.bin", &image_for("//# name first\nLD SM0.0\n= Q0.0\n", &PICO));
+    let pico = Plugged::with(&first);
+    let uno200 = commands::built("uno200");
+    let run = |arguments: &[&str]| {
+        let output = Command::new(&uno200)
+            .current_dir(folder.path())
+            .args(arguments)
+            .args(["--port", pico.line()])
+            .output()
+            .unwrap();
+        let told = [output.stdout, output.stderr].concat();
+        (output.status.code(), String::from_utf8(told).unwrap())
+    };
+    file("second.awl", b"//# board pico\n//# name second\nLD SM0.0\n= Q0.1\n");
+    let (code, told) = run(&["flash", "second.awl"]);
+    assert_eq!(code, Some(0), "{told}");
+    assert!(told.ends_with("written and checked\nthe program runs\n"), "{told}");
+    let (code, told) = run(&["compare", "second.awl"]);
+    assert_eq!(code, Some(0), "{told}");
+    // Scenarios write their own program, and a Pico that is slower than a real one has time.
+    file("third.awl", b"//# board pico\n//# name third\nLDN I0.0\nA I0.7\n= Q0.7\n");
+    file(
+        "third.scn",
+        b"at 0ms I0.7 = 1\nat 3s expect Q0.7 = 1\nat 4s I0.0 = 1\nat 8s expect Q0.7 = 0\n",
+    );
+    let (code, told) = run(&["test", "third.scn", "--flash", "--tolerance", "2s"]);
+    assert_eq!(code, Some(0), "{told}");
+    let (code, told) = run(&["status"]);
+    assert!(code == Some(0) && told.contains("third"), "{told}");
+    // An image that is not whole is not sent at all.
+    let mut other = image_for("//# name other\nLD SM0.0\n= Q0.2\n", &PICO);
+    other[20] ^= 1;
+    file("other.bin", &other);
+    assert_eq!(run(&["flash", "other.bin"]).0, Some(2));
+    // A program that waits for its firmware is told the way.
+    let (code, told) = run(&["flash", "second.awl", "--with-firmware"]);
+    assert!(code == Some(2) && told.contains("BOOTSEL"), "{told}");
+}
+
 /// What the blocks of a UF2 file bring to an address, up to where they have nothing more.
 fn brought_to(file: &[u8], start: u32) -> Vec<u8> {
     let word = |block: &[u8], at: usize| {
         block[at..].first_chunk().copied().map(u32::from_le_bytes).unwrap_or_default()
     };
     let mut bytes = Vec::new();
-    for block in file.chunks(512).filter(|block| word(block, 12) >= start) {
-        assert_eq!((word(block, 12) - start) as usize, bytes.len(), "there is a gap");
-        bytes.extend_from_slice(&block[32..32 + word(block, 16) as usize]);
+    for block in file.chunks(512) {
+        if word(block, 12) == start + bytes.len() as u32 {
+            bytes.extend_from_slice(&block[32..32 + word(block, 16) as usize]);
+        }
     }
     bytes
 }
@@ -263,6 +335,10 @@ fn a_uf2_file_brings_firmware_and_program() {
     let slot = brought_to(&uf2, PICO_DRIVE.slot_start);
     assert_eq!(slot[..image.len()], image);
     assert!(slot[image.len()..].iter().all(|&byte| byte == 0xFF));
+    // It is in force whatever has come over the line.
+    for record in PICO_DRIVE.records {
+        assert_eq!(brought_to(&uf2, *record), [0xFF; 4096]);
+    }
     let mut pico = Pico::new(file.path(), Box::new(|_| String::new())).unwrap();
     pico.load(slot);
     for (scan, (levels, output)) in

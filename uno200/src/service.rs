@@ -1,8 +1,9 @@
 //! The questions of a client, asked over a connection that waits for the answers.
 
 use client::service::{
-    Command, Force, Forced, Identification, Identify, Identity, Object, Reading, Set, Space,
-    Status, StatusWindow, TracePhase, TraceState, Tracing, Trigger, Watch, Watched,
+    BeginDownload, Command, EndDownload, Force, Forced, Identification, Identify, Identity, Object,
+    Reading, Set, Space, Status, StatusWindow, TracePhase, TraceState, Tracing, Trigger, Watch,
+    Watched, blocks,
 };
 use client::{Error, Operand, Reference};
 use plc_isa::LINE_ROOM;
@@ -131,6 +132,20 @@ impl Client {
             reading.take(&self.ask(&block)?);
         }
         Ok(reading.bytes())
+    }
+
+    /// Writes an image over the line, in blocks that fit the PLC's room for requests, while the
+    /// program there goes on. Gives the fault that the PLC has with it, all zeros without one: then
+    /// it is in force, unless the last answer was lost, which [`identify`](Self::identify) shows.
+    pub fn download(&mut self, image: &[u8], room: u16) -> Result<[u8; 4], Error> {
+        self.ask(&BeginDownload(image.len() as u16))?;
+        for block in blocks(image, room) {
+            self.ask(&block)?;
+        }
+        match self.ask(&EndDownload) {
+            Err(error) if error.is_worth_repeating() => Ok([0; 4]),
+            other => other,
+        }
     }
 
     /// Reads the image out of the PLC; empty where there is none.

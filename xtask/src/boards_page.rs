@@ -32,7 +32,9 @@ const ROWS: [Row; 12] = [
     ("machine code (`--native`)", |board| yes(board.native_interface != 0).to_owned()),
     ("written by", |board| {
         let way = match (&board.drive, board.avrdude_part) {
-            (Some(_), _) => "a .uf2 file on its drive: `-o F.uf2`, `awl-asm --flash DRIVE`",
+            (Some(_), _) => {
+                "a .uf2 file on its drive: `-o F.uf2`, `awl-asm --flash DRIVE`; with the firmware on it, over its line: `uno200 flash`"
+            }
             (None, Some(_)) => "`awl-asm --flash PORT`, `uno200 flash`, the page",
             (None, None) => "tools of its maker; in QEMU by its command line",
         };

@@ -62,7 +62,8 @@ fn ensure_drive(folder: &Path, profile: &Profile, drive: &Drive) -> Result<()> {
         bail!(
             "{place} is not the drive of {title}: there is no {INFO}\n  \
              = help: hold its button BOOTSEL while you plug it in; then there is a drive {}\n  \
-             = help: or write a .uf2 with -o, and drag it there",
+             = help: or write a .uf2 with -o, and drag it there\n  \
+             = help: on a board that has the firmware, `uno200 flash` writes over its line",
             drive.board_id
         )
     };

@@ -19,11 +19,12 @@ const HAS_FAMILY: u32 = 0x2000;
 /// Bytes that a block has room for; those after a page count for nothing.
 const ROOM: usize = 476;
 
-/// The file that brings firmware and image onto a drive's board. What is elsewhere in its flash,
-/// such as retained values, stays.
+/// The file that brings firmware and image onto a drive's board, and into force whatever came over
+/// its line before. What is elsewhere in its flash, such as retained values, stays.
 pub fn uf2(drive: &Drive, firmware: &[u8], image: &[u8]) -> Vec<u8> {
-    let pages = [(drive.flash_start, firmware), (drive.slot_start, image)];
-    let pages = pages.map(|(start, bytes)| pages_of(start, bytes)).concat();
+    let parts = [(drive.flash_start, firmware), (drive.slot_start, image)];
+    let blank = drive.records.iter().map(|&start| (start, &[BLANK; SECTOR][..]));
+    let pages: Vec<_> = parts.into_iter().chain(blank).flat_map(pages_of).collect();
     let block = |(number, (address, page)): (usize, &(u32, [u8; PAGE]))| {
         let [number, count] = [number, pages.len()].map(|count| count as u32);
         let head = [HAS_FAMILY, *address, PAGE as u32, number, count, drive.family];
@@ -35,7 +36,7 @@ pub fn uf2(drive: &Drive, firmware: &[u8], image: &[u8]) -> Vec<u8> {
 }
 
 /// The pages of what begins at an address, to the end of its last sector, with their addresses.
-fn pages_of(start: u32, bytes: &[u8]) -> Vec<(u32, [u8; PAGE])> {
+fn pages_of((start, bytes): (u32, &[u8])) -> Vec<(u32, [u8; PAGE])> {
     let mut sectors = bytes.to_vec();
     sectors.resize(bytes.len().next_multiple_of(SECTOR), BLANK);
     let (pages, _) = sectors.as_chunks();
@@ -52,7 +53,7 @@ mod tests {
     fn whole_sectors_in_numbered_blocks() {
         let file = uf2(&PICO_DRIVE, &[1; SECTOR + 1], &[2; 3]);
         let (blocks, rest) = file.as_chunks::<512>();
-        assert!(rest.is_empty() && blocks.len() == 3 * SECTOR / PAGE);
+        assert!(rest.is_empty() && blocks.len() == 5 * SECTOR / PAGE);
         let word = |block: &[u8; 512], at: usize| {
             u32::from_le_bytes([block[at], block[at + 1], block[at + 2], block[at + 3]])
         };
@@ -71,12 +72,13 @@ mod tests {
                 PICO_DRIVE.flash_start + 256 * page as u32
             })
         );
-        assert_eq!(
-            addresses[32..],
-            std::array::from_fn::<u32, 16, _>(|page| { PICO_DRIVE.slot_start + 256 * page as u32 })
-        );
+        let [first, second] = PICO_DRIVE.records else { panic!("two records") };
+        for (index, start) in [PICO_DRIVE.slot_start, *first, *second].into_iter().enumerate() {
+            let expected: [u32; 16] = std::array::from_fn(|page| start + 256 * page as u32);
+            assert_eq!(addresses[32 + 16 * index..][..16], expected);
+        }
         assert_eq!(blocks[16][32..34], [1, BLANK]);
         assert_eq!(blocks[32][32..36], [2, 2, 2, BLANK]);
-        assert_eq!(blocks[47][32..288], [BLANK; 256]);
+        assert!(blocks[47..].iter().all(|block| block[32..288] == [BLANK; 256]));
     }
 }

@@ -2,6 +2,7 @@
 //! itself is used. Each question is a type that makes its request and understands its answer. How
 //! requests travel is known in [`line`](crate::line).
 
+mod download;
 mod fields;
 mod modbus;
 mod questions;
@@ -13,6 +14,7 @@ use plc_link::protocol;
 use crate::error::Error;
 use crate::reference::Reference;
 
+pub use download::{BeginDownload, DownloadBlock, EndDownload, blocks};
 pub use modbus::{Identification, Object, ReadBits, ReadWords, WriteBit, WriteWord};
 pub use questions::{Force, Identify, ScanStatus, Set, StatusWindow, Tracing, Watch};
 pub use reading::{ReadBlock, Reading, Space};
@@ -83,6 +85,8 @@ pub struct Identity {
     pub has_trace: bool,
     /// Whether it tells the status of instructions in a single scan.
     pub has_scan_status: bool,
+    /// Whether programs come over its line.
+    pub takes_downloads: bool,
     /// Whether the program runs.
     pub is_running: bool,
     /// Whether there is a valid program.

@@ -40,6 +40,7 @@ impl Question for Identify {
             has_status: capabilities & 1 != 0,
             has_trace: capabilities & 2 != 0,
             has_scan_status: capabilities & 4 != 0,
+            takes_downloads: capabilities & 8 != 0,
             is_running: state & 1 != 0,
             has_program: state & 2 != 0,
             is_forced: state & 4 != 0,

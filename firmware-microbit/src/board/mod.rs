@@ -17,7 +17,7 @@ use nrf51_hal::wdt::handles::Hdl0;
 use nrf51_hal::wdt::{Parts, Watchdog, WatchdogHandle, count};
 use plc_isa::{LineSettings, MICROBIT, Profile};
 use plc_vm::Fault;
-use runtime::{Board, Controller, Interpreted, Slot};
+use runtime::{Board, Controller, Interpreted, NeverWritten, Slot};
 
 use flash::Flash;
 use serial::Serial;
@@ -86,6 +86,7 @@ impl Board for Microbit {
     type Engine = Interpreted;
     type Line = Serial;
     type Storage = Flash;
+    type Programs = NeverWritten;
 
     fn engine(&mut self) -> Interpreted {
         Interpreted
@@ -95,7 +96,7 @@ impl Board for Microbit {
         self.timer.read()
     }
 
-    fn image(&mut self) -> Option<Slot<Microbit>> {
+    fn image(&mut self, _slot: u8) -> Option<Slot<Microbit>> {
         let start = ptr::with_exposed_provenance(SLOT);
         // SAFETY: flash, which nothing in this firmware writes here.
         Slot::of(unsafe { slice::from_raw_parts(start, MICROBIT.slot_len.into()) })

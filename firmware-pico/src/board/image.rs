@@ -1,27 +1,24 @@
 //! The program, read where it is in flash.
 
-use plc_isa::{PICO, PICO_DRIVE, Profile, ProgramMemory};
+use plc_isa::{PICO, Profile, ProgramMemory};
 
-/// Where the processor sees it.
-const START: usize = PICO_DRIVE.slot_start as usize;
+use super::flash::PROGRAMS;
+
 /// That many bytes are looked at for whether anything was ever written.
 const HEAD_LEN: u16 = 4;
+const ERASED: u8 = 0xFF;
 
-/// The program slot: where it is the compiler knows, so that reading a byte takes one instruction.
+/// A program slot.
 #[derive(Debug, Clone, Copy)]
-pub struct Image(());
-
-#[inline(always)]
-fn byte(offset: u16) -> u8 {
-    let place = core::ptr::with_exposed_provenance::<u8>(START + usize::from(offset));
-    // SAFETY: flash of 2 MB is there, and nothing in this firmware writes this part of it.
-    unsafe { place.read() }
+pub struct Image {
+    start: usize,
 }
 
 impl Image {
-    /// What is in flash, valid or not; `None` where nothing was ever written.
-    pub fn of_flash() -> Option<Image> {
-        (0..HEAD_LEN).any(|offset| byte(offset) != 0xFF).then_some(Image(()))
+    /// What is in slot 0 or 1, valid or not; `None` where nothing was ever written.
+    pub fn in_slot(slot: u8) -> Option<Image> {
+        let image = Image { start: PROGRAMS.address() + PROGRAMS.len() / 2 * usize::from(slot) };
+        (0..HEAD_LEN).any(|offset| image.byte(offset) != ERASED).then_some(image)
     }
 }
 
@@ -33,9 +30,11 @@ impl ProgramMemory for Image {
         PICO.slot_len
     }
 
-    // Past the slot there is flash too, where nothing was written.
+    // Past the slot there is flash too.
     #[inline(always)]
     fn byte(&self, offset: u16) -> u8 {
-        byte(offset)
+        let place = core::ptr::with_exposed_provenance::<u8>(self.start + usize::from(offset));
+        // SAFETY: flash of 2 MB is there, and a slot is not written while its program is used.
+        unsafe { place.read() }
     }
 }

@@ -29,7 +29,7 @@ use runtime::{Board, Controller, Mark};
 
 use crate::engine::Thumb;
 use adc::Adc;
-use flash::Flash;
+use flash::{Flash, PROGRAMS, RETAINED};
 use image::Image;
 pub use marks::tell_data;
 use pwm::Pwm;
@@ -39,7 +39,8 @@ use set_up::Found;
 /// The board.
 pub struct Pico {
     serial: Serial,
-    flash: Flash,
+    retained: Flash,
+    programs: Flash,
     adc: Adc,
     pwm: Pwm,
     /// The watchdog had run out before the reset, and nobody was told yet.
@@ -64,7 +65,8 @@ impl Pico {
     /// The board as a reset leaves it, set up. Once.
     pub fn of_reset() -> Pico {
         let Found { was_hung, adc, pwm } = set_up::set_up();
-        Pico { serial: Serial::new(), flash: Flash, adc, pwm, was_hung }
+        let (retained, programs) = (RETAINED, PROGRAMS);
+        Pico { serial: Serial::new(), retained, programs, adc, pwm, was_hung }
     }
 }
 
@@ -76,6 +78,7 @@ impl Board for Pico {
     type Engine = Thumb;
     type Line = Serial;
     type Storage = Flash;
+    type Programs = Flash;
 
     fn engine(&mut self) -> Thumb {
         Thumb::new()
@@ -86,8 +89,8 @@ impl Board for Pico {
         clock::now_us()
     }
 
-    fn image(&mut self) -> Option<Image> {
-        Image::of_flash()
+    fn image(&mut self, slot: u8) -> Option<Image> {
+        Image::in_slot(slot)
     }
 
     #[inline(always)]
@@ -130,7 +133,11 @@ impl Board for Pico {
     }
 
     fn storage(&mut self) -> &mut Flash {
-        &mut self.flash
+        &mut self.retained
+    }
+
+    fn programs(&mut self) -> Option<&mut Flash> {
+        Some(&mut self.programs)
     }
 
     #[inline(always)]

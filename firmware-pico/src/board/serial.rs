@@ -19,6 +19,10 @@ const UART: u8 = 2;
 const WAITING: usize = 16_384;
 /// Bits of a received character that say that it is wrong: framing, parity, break.
 const IS_WRONG: u16 = 0x0700;
+/// In the queue, as POSIX terminals mark it (PARMRK): this and 0 are a wrong character, this twice
+/// is a character that is this.
+const MARK: u8 = 0xFF;
+const WRONG: u8 = 0;
 /// Receive interrupt when the FIFO is half full, which leaves 1.4 ms to come.
 const HALF_FULL: u8 = 2;
 const EIGHT_BITS: u8 = 3;
@@ -30,8 +34,8 @@ struct OneSided<T>(UnsafeCell<T>);
 // once that is enabled.
 unsafe impl<T> Sync for OneSided<T> {}
 
-static QUEUE: OneSided<Queue<u16, WAITING>> = OneSided(UnsafeCell::new(Queue::new()));
-static INCOMING: OneSided<Option<Producer<'static, u16>>> = OneSided(UnsafeCell::new(None));
+static QUEUE: OneSided<Queue<u8, WAITING>> = OneSided(UnsafeCell::new(Queue::new()));
+static INCOMING: OneSided<Option<Producer<'static, u8>>> = OneSided(UnsafeCell::new(None));
 
 fn uart() -> &'static pac::uart0::RegisterBlock {
     // SAFETY: only this module uses it.
@@ -51,11 +55,39 @@ pub fn set_up(pac: &pac::Peripherals) {
     }
 }
 
-/// What has come first of what is in the FIFO: a character, with bits that say what is wrong with
-/// it.
-fn take() -> Option<u16> {
-    let is_empty = uart().uartfr().read().rxfe().bit_is_set();
-    (!is_empty).then(|| uart().uartdr().read().bits() as u16)
+/// What has come first of what is in the FIFO.
+fn take() -> Option<Result<u8, WrongCharacter>> {
+    if uart().uartfr().read().rxfe().bit_is_set() {
+        return None;
+    }
+    let character = uart().uartdr().read().bits() as u16;
+    Some(if character & IS_WRONG == 0 { Ok(character as u8) } else { Err(WrongCharacter) })
+}
+
+/// Puts a character into the queue. Where there is no room it is lost: nobody has looked for longer
+/// than a scan lasts.
+fn put(queue: &mut Producer<'static, u8>, character: Result<u8, WrongCharacter>) {
+    let second = match character {
+        Ok(MARK) => MARK,
+        Ok(byte) => {
+            let _ = queue.enqueue(byte);
+            return;
+        }
+        Err(WrongCharacter) => WRONG,
+    };
+    if queue.len() + 2 <= queue.capacity() {
+        let _ = queue.enqueue(MARK);
+        let _ = queue.enqueue(second);
+    }
+}
+
+/// Takes the first character out of the queue, while the interrupt does not come.
+fn get(queue: &mut Consumer<'static, u8>) -> Option<Result<u8, WrongCharacter>> {
+    let byte = queue.dequeue()?;
+    if byte == MARK && queue.dequeue() == Some(WRONG) {
+        return Some(Err(WrongCharacter));
+    }
+    Some(Ok(byte))
 }
 
 #[interrupt]
@@ -63,15 +95,13 @@ fn UART0_IRQ() {
     // SAFETY: only this interrupt uses it after the set-up.
     let Some(incoming) = (unsafe { &mut *INCOMING.0.get() }) else { return };
     while let Some(character) = take() {
-        // Where there is no room the newest is lost: nobody has looked for longer than a scan
-        // lasts.
-        let _ = incoming.enqueue(character);
+        put(incoming, character);
     }
 }
 
 /// The line.
 pub struct Serial {
-    waiting: Consumer<'static, u16>,
+    waiting: Consumer<'static, u8>,
     /// A wrong character is the next that is read.
     is_wrong_next: bool,
 }
@@ -117,9 +147,9 @@ impl Serial {
 
     /// The next character. What is still in the FIFO need not wait for the interrupt, which comes
     /// when it is half full or the line is quiet: at low rates frames would seem to end before.
-    fn next(&mut self) -> Option<u16> {
+    fn next(&mut self) -> Option<Result<u8, WrongCharacter>> {
         // Nothing overtakes: the interrupt does not come between.
-        cortex_m::interrupt::free(|_| self.waiting.dequeue().or_else(take))
+        cortex_m::interrupt::free(|_| get(&mut self.waiting).or_else(take))
     }
 }
 
@@ -141,9 +171,11 @@ impl embedded_io::Read for Serial {
         let mut count = 0;
         for place in bytes {
             if !self.is_wrong_next {
-                let Some(character) = self.next() else { break };
-                self.is_wrong_next = character & IS_WRONG != 0;
-                *place = character as u8;
+                match self.next() {
+                    Some(Ok(byte)) => *place = byte,
+                    Some(Err(WrongCharacter)) => self.is_wrong_next = true,
+                    None => break,
+                }
             }
             if self.is_wrong_next {
                 if count > 0 {

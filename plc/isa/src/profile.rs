@@ -43,6 +43,8 @@ pub struct Profile {
     pub takes_modules: bool,
     /// The firmware interface of machine code; 0: programs are not translated.
     pub native_interface: u8,
+    /// Whether programs come over the line, while another one is in force.
+    pub takes_downloads: bool,
     /// The chip as avrdude calls it, where that writes it.
     pub avrdude_part: Option<&'static str>,
     /// The drive that the board shows for its flash to be written, where it does.
@@ -60,6 +62,9 @@ pub struct Drive {
     pub flash_start: u32,
     /// Address of the first byte of the program slot.
     pub slot_start: u32,
+    /// Addresses of the sectors that say which program is in force, where programs come over the
+    /// line, too; while they are erased, the one in the slot is.
+    pub records: &'static [u32],
 }
 
 /// No data memory ends after this: a reference is an address, or 0x8000 and an address.
@@ -90,6 +95,7 @@ pub const UNO: Profile = Profile {
     has_events: true,
     takes_modules: true,
     native_interface: NATIVE_INTERFACE,
+    takes_downloads: false,
     avrdude_part: Some("m328p"),
     drive: None,
 };
@@ -130,6 +136,7 @@ pub const PICO: Profile = Profile {
     has_events: false,
     takes_modules: false,
     native_interface: 0,
+    takes_downloads: true,
     avrdude_part: None,
     drive: Some(PICO_DRIVE),
 };
@@ -152,6 +159,7 @@ pub const MICROBIT: Profile = Profile {
     has_events: false,
     takes_modules: false,
     native_interface: 0,
+    takes_downloads: false,
     avrdude_part: None,
     drive: None,
 };
@@ -163,6 +171,7 @@ pub const PICO_DRIVE: Drive = Drive {
     family: 0xE48B_FF56,
     flash_start: 0x1000_0000,
     slot_start: 0x1010_0000,
+    records: &[0x1011_0000, 0x1012_1000],
 };
 
 /// The Uno: what is asked of a program before it names another board.

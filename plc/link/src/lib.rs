@@ -17,6 +17,7 @@
 
 mod answer;
 mod crc16;
+mod download;
 mod forces;
 mod identity;
 mod link;
@@ -35,4 +36,5 @@ pub use crc16::crc16;
 pub use forces::Forces;
 pub use link::{Link, PDU_MAX};
 pub use place::SizedAddress;
+pub use request::Exception;
 pub use station::{Command, ScanTimes, Station, TEXTS};

@@ -25,6 +25,8 @@ pub const SET: u8 = 72;
 
 /// Service function: a single scan with the status of instructions in it.
 pub const SCAN_STATUS: u8 = 100;
+/// Service function: a program comes, while another one may run.
+pub const DOWNLOAD: u8 = 101;
 
 /// Most operands in one request to watch.
 pub const WATCH_MAX: u8 = 32;
@@ -39,8 +41,12 @@ pub const STATUS_SPAN: u16 = plc_isa::WINDOW_LEN;
 pub const TRACE_MAX: u8 = 8;
 /// Most operands forced at the same time.
 pub const FORCES_MAX: u8 = 16;
-/// Most bytes of a block.
+/// Most bytes of a block that is read.
 pub const BLOCK_MAX: u8 = 64;
+/// Most bytes of a block of a program that comes.
+pub const DOWNLOAD_MAX: u8 = 240;
+/// Bytes of a request before them.
+pub const DOWNLOAD_HEAD_LEN: u8 = 5;
 /// Bytes of a force in an answer: reference and value.
 pub const FORCE_LEN: u8 = 7;
 

@@ -7,7 +7,7 @@ use crate::station::Station;
 /// Why a request is refused: the exceptions of Modbus.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
-pub(crate) enum Exception {
+pub enum Exception {
     /// There is no such function.
     Function = 1,
     /// Something that is not there, or not for this.

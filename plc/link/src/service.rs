@@ -6,8 +6,8 @@ use plc_vm::{Fault, Mode};
 use crate::link::Phase;
 use crate::place::{ANYTHING, BYTE, FORCED, SizedAddress, WRITABLE, resolve};
 use crate::protocol::{
-    BLOCK_MAX, CONTROL, FORCE, FORCE_LEN, IDENTIFY, READ_BLOCK, SCAN_STATUS, SET, SET_MAX, STATUS,
-    TRACE, VERSION, WATCH, WATCH_MAX,
+    BLOCK_MAX, CONTROL, DOWNLOAD, FORCE, FORCE_LEN, IDENTIFY, READ_BLOCK, SCAN_STATUS, SET,
+    SET_MAX, STATUS, TRACE, VERSION, WATCH, WATCH_MAX,
 };
 use crate::request::{Answered, Exception, Request};
 use crate::station::{Command, Station};
@@ -15,6 +15,8 @@ use crate::station::{Command, Station};
 /// What there is: bit 0 status of instructions, bit 1 trace, bit 2 status in a single scan. A board
 /// may have less.
 const CAPABILITIES: u8 = 0b111;
+/// Programs come over the line.
+const TAKES_DOWNLOADS: u8 = 1 << 3;
 
 /// Bytes of a reference.
 const REFERENCE_LEN: u8 = 3;
@@ -31,6 +33,7 @@ pub(crate) fn answer<S: Station>(request: &mut Request<S>, function: u8) -> Answ
         TRACE => request.trace(),
         READ_BLOCK => request.read_block(),
         SET => request.set(),
+        DOWNLOAD => request.download(),
         _ => Err(Exception::Function),
     }
 }
@@ -51,7 +54,7 @@ impl<S: Station> Request<'_, S> {
         state |= u8::from(!self.station.link().forces.is_empty()) << 2
             | u8::from(self.station.has_scans_left()) << 4;
         self.put(VERSION);
-        self.put(CAPABILITIES);
+        self.put(CAPABILITIES | if S::TAKES_DOWNLOADS { TAKES_DOWNLOADS } else { 0 });
         self.put(state);
         self.put_bytes(fault);
         self.put_bytes(self.station.fault_before_reset());
@@ -76,7 +79,7 @@ impl<S: Station> Request<'_, S> {
         self.put_bytes(value.to_be_bytes());
     }
 
-    fn put_bytes(&mut self, bytes: [u8; 4]) {
+    pub fn put_bytes(&mut self, bytes: [u8; 4]) {
         for byte in bytes {
             self.put(byte);
         }

@@ -5,6 +5,7 @@ use plc_isa::{ProgramMemory, UNO};
 use plc_vm::{Memory, Plc};
 
 use crate::link::Link;
+use crate::request::Exception;
 
 /// Who answers: vendor, product code and revision. A simulator may call itself by another product.
 pub const TEXTS: [&str; 3] = ["uno200", "Arduino Uno", env!("CARGO_PKG_VERSION")];
@@ -64,6 +65,9 @@ pub trait Station {
     /// Counts of [`times`](Self::times) in a millisecond.
     const COUNTS_PER_MS: u16;
 
+    /// Whether programs come over the line.
+    const TAKES_DOWNLOADS: bool = false;
+
     /// The data memory, with the frame in it, and what the machine holds for the answers.
     fn parts(&mut self) -> (&mut Memory, &mut Link);
 
@@ -116,6 +120,37 @@ pub trait Station {
     /// them the client asks. Whoever goes from RUN to STOP, for whatever reason, calls
     /// [`Forces::clear`](crate::Forces::clear).
     fn control(&mut self, command: Command);
+
+    /// A program of so many bytes, at most those of the slot, comes. The one that is in force stays
+    /// so; of what has come before nothing is left.
+    ///
+    /// # Errors
+    /// [`Exception::Busy`] where it cannot be kept, in this as in what follows.
+    fn begin_download(&mut self, len: u16) -> Result<(), Exception> {
+        let _ = len;
+        Err(Exception::Function)
+    }
+
+    /// The next bytes of it, `len` of them from a data address on; or the last ones again, whose
+    /// answer was lost. Gives how many have come.
+    ///
+    /// # Errors
+    /// [`Exception::Address`] for bytes that are not the next.
+    fn take_block(&mut self, offset: u16, address: u16, len: u8) -> Result<u16, Exception> {
+        let _ = (offset, address, len);
+        Err(Exception::Function)
+    }
+
+    /// All of it has come. It is checked: gives the fault that loading it would have, as
+    /// [`plc_vm::Fault::to_bytes`] gives it, and all stays as it was; without a fault it is the
+    /// program of the next power-up, and in force when the answer has been sent, in RUN where the
+    /// other one was.
+    ///
+    /// # Errors
+    /// [`Exception::Value`] if it has not come.
+    fn end_download(&mut self) -> Result<[u8; 4], Exception> {
+        Err(Exception::Function)
+    }
 
     /// Asked between the parts of an answer that can be made in parts: whether there is time for
     /// another one in this scan. After `false` the machine comes back at the end of the next scan.

@@ -12,11 +12,14 @@ use embedded_storage::nor_flash::{
     ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash,
 };
 use plc_isa::{Area, LineSettings, Profile};
+use plc_link::crc16;
 use runtime::{Board, Controller, Interpreted, Mark};
 
 pub const SECTORS: usize = 4;
 pub const SECTOR_LEN: usize = 512;
 pub const WRITE_LEN: usize = 16;
+/// The bits of a byte that have their new value when the power is cut in the middle of it.
+const HALF: u8 = 0xA5;
 
 /// Flash whose power can be cut.
 #[derive(Debug, Clone)]
@@ -29,7 +32,24 @@ pub struct Flash {
 
 impl Flash {
     pub fn new() -> Flash {
-        Flash { bytes: vec![0xFF; SECTORS * SECTOR_LEN], power: usize::MAX, erased: Vec::new() }
+        Flash::of(SECTORS)
+    }
+
+    fn of(sectors: usize) -> Flash {
+        Flash { bytes: vec![0xFF; sectors * SECTOR_LEN], power: usize::MAX, erased: Vec::new() }
+    }
+
+    /// Two slots, the first with a program.
+    pub fn of_programs(image: &[u8]) -> Flash {
+        let slot_len = image.len().max(DESK.slot_len.into());
+        let mut flash = Flash::of(2 * (slot_len.div_ceil(SECTOR_LEN) + 1));
+        flash.bytes[..image.len()].copy_from_slice(image);
+        flash
+    }
+
+    /// The same after a power cut.
+    pub fn after_cut(&self) -> Flash {
+        Flash { bytes: self.bytes.clone(), power: usize::MAX, erased: Vec::new() }
     }
 
     /// Takes the power for a byte; whether there was any.
@@ -77,10 +97,12 @@ impl NorFlash for Flash {
         assert!(is_whole, "sectors are erased");
         self.erased.push(from / SECTOR_LEN as u32);
         for at in from..to {
-            if !self.spend() {
+            let is_on = self.spend();
+            let place = &mut self.bytes[at as usize];
+            *place |= if is_on { 0xFF } else { HALF };
+            if !is_on {
                 return Err(Cut);
             }
-            self.bytes[at as usize] = 0xFF;
         }
         Ok(())
     }
@@ -90,12 +112,13 @@ impl NorFlash for Flash {
             [offset as usize, bytes.len()].iter().all(|at| at.is_multiple_of(WRITE_LEN));
         assert!(is_aligned, "so much is written at once");
         for (at, byte) in (offset as usize..).zip(bytes) {
-            if !self.spend() {
-                return Err(Cut);
-            }
+            let is_on = self.spend();
             let place = self.bytes.get_mut(at).ok_or(Cut)?;
             assert_eq!(*place & byte, *byte, "flash is written where it is erased");
-            *place &= byte;
+            *place &= byte | if is_on { 0 } else { HALF };
+            if !is_on {
+                return Err(Cut);
+            }
         }
         Ok(())
     }
@@ -163,16 +186,14 @@ impl plc_isa::ProgramMemory for Image {
     }
 }
 
-impl Image {
-    /// A bit of it changes by itself.
-    pub fn spoil(&self, offset: usize) {
-        self.0.borrow_mut()[offset] ^= 1;
-    }
-}
-
 /// Like the Uno, with all points of a byte.
-pub static DESK: Profile =
-    Profile { title: "the desk", input_pins: &[""; 8], output_pins: &[""; 8], ..plc_isa::UNO };
+pub static DESK: Profile = Profile {
+    title: "the desk",
+    input_pins: &[""; 8],
+    output_pins: &[""; 8],
+    takes_downloads: true,
+    ..plc_isa::UNO
+};
 
 /// The board.
 #[derive(Debug, Clone)]
@@ -180,7 +201,9 @@ pub struct Desk {
     pub now_us: u32,
     /// So long a look at the clock takes.
     pub look_us: u32,
+    /// The program that is used.
     pub image: Option<Image>,
+    pub programs: Flash,
     pub levels: u8,
     /// Parts of full scale.
     pub readings: [u16; 6],
@@ -201,7 +224,8 @@ impl Desk {
         Desk {
             now_us: 0,
             look_us: 0,
-            image: image.map(|bytes| Image(Rc::new(RefCell::new(bytes)))),
+            image: None,
+            programs: Flash::of_programs(&image.unwrap_or_default()),
             levels: 0,
             readings: [0; 6],
             pullups: 0,
@@ -215,6 +239,12 @@ impl Desk {
             marks: Vec::new(),
         }
     }
+
+    /// A bit of the program in the first slot, which is used, changes by itself.
+    pub fn spoil(&mut self, offset: usize) {
+        self.programs.bytes[offset] ^= 1;
+        self.image.as_ref().unwrap().0.borrow_mut()[offset] ^= 1;
+    }
 }
 
 impl Board for Desk {
@@ -225,6 +255,7 @@ impl Board for Desk {
     type Engine = Interpreted;
     type Line = Wire;
     type Storage = Flash;
+    type Programs = Flash;
 
     fn engine(&mut self) -> Interpreted {
         Interpreted
@@ -233,7 +264,11 @@ impl Board for Desk {
         self.now_us = self.now_us.wrapping_add(self.look_us);
         self.now_us
     }
-    fn image(&mut self) -> Option<Image> {
+    fn image(&mut self, slot: u8) -> Option<Image> {
+        let half = self.programs.bytes.len() / 2;
+        let bytes = &self.programs.bytes[usize::from(slot) * half..][..half - SECTOR_LEN];
+        let is_written = bytes.iter().any(|byte| *byte != 0xFF);
+        self.image = is_written.then(|| Image(Rc::new(RefCell::new(bytes.to_vec()))));
         self.image.clone()
     }
     fn inputs(&mut self) -> u8 {
@@ -262,6 +297,9 @@ impl Board for Desk {
     }
     fn storage(&mut self) -> &mut Flash {
         &mut self.flash
+    }
+    fn programs(&mut self) -> Option<&mut Flash> {
+        Some(&mut self.programs)
     }
     fn feed_watchdog(&mut self) {
         self.fed += 1;
@@ -312,4 +350,27 @@ pub fn scans(plc: &mut Controller<Desk>, count: u32, ms: u32) {
 pub fn word(plc: &Controller<Desk>, byte: u16) -> u16 {
     let plan = plc.plc().program().unwrap().plan();
     plc.memory().word(plan.byte_address(Area::V, byte).unwrap())
+}
+
+/// A frame on the line.
+pub fn frame(unit: u8, request: &[u8]) -> Vec<u8> {
+    let mut frame = vec![unit];
+    frame.extend_from_slice(request);
+    frame.extend_from_slice(&crc16(&frame).to_le_bytes());
+    frame
+}
+
+/// What comes back, without unit and checksum; empty: nothing.
+pub fn ask(plc: &mut Controller<Desk>, request: &[u8]) -> Vec<u8> {
+    plc.board().wire.incoming.extend(frame(1, request));
+    scans(plc, 10, 1);
+    answer(plc)
+}
+
+/// What has come back.
+pub fn answer(plc: &mut Controller<Desk>) -> Vec<u8> {
+    let sent = std::mem::take(&mut plc.board().wire.outgoing);
+    let Some(inner) = sent.len().checked_sub(2) else { return sent };
+    assert_eq!((sent[0], crc16(&sent)), (1, 0));
+    sent[1..inner].to_vec()
 }

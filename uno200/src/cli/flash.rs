@@ -1,14 +1,15 @@
 //! `flash`: writes the program to the board, and asks the board then whether it is the one in
-//! force. avrdude writes; how it is called and what its failures mean is the assembler's part.
+//! force. Over the line where the board takes it so; otherwise avrdude writes, and how it is called
+//! and what its failures mean is the assembler's part.
 
 use std::io::IsTerminal;
 
-use anyhow::{Context as _, Error, Result, bail};
+use anyhow::{Context as _, Error, Result, bail, ensure};
 use awl_asm::flash::{Firmware, flash as write};
 use awl_asm::native::translate;
 use awl_asm::report::{MessageFormat, Messages, Report};
 use client::fault;
-use client::service::Identity;
+use client::service::{Command, Identity};
 use client::{Program, compare};
 use plc_isa::Op;
 use project::{Findings, join};
@@ -19,31 +20,80 @@ use uno200::transport::{Target, ports};
 use super::context::notice;
 use uno200::args::Flash;
 
+const NOT_ASKED: &str =
+    "not asked whether it runs: in freeport mode the program has the line for itself";
+
 /// Nothing is asked or written before the program is known to be good.
 pub(super) fn flash(target: Target, mut program: Program, arguments: &Flash) -> Result<bool> {
+    let image = image(&mut program, arguments.native)?;
+    tell_periods(&program, arguments.native);
+    if program.assembly.profile().takes_downloads {
+        return over_the_line(target, &program, &image, arguments);
+    }
     let Target::Serial(mut settings) = target else {
         bail!("a PLC on the network is not flashed: --port names the port of a board");
     };
-    let image = image(&mut program, arguments.native)?;
-    tell_periods(&program, arguments.native);
     let firmware = Firmware::asked_for(arguments.with_firmware.as_ref())?;
     let port = settings.port.take().map_or_else(ports::only_port, Ok)?;
     let echo = std::io::stderr().is_terminal();
     write(&port, &firmware, &image, program.source.stem(), echo)?;
     eprintln!("{port}: {} written and verified", compare::size(&image));
     if has_freeport(&program) {
-        eprintln!(
-            "not asked whether it runs: in freeport mode the program has the line for itself"
-        );
+        eprintln!("{NOT_ASKED}");
         return Ok(true);
     }
     settings.port = Some(port);
     is_in_force(Target::Serial(settings), &program, &image)
 }
 
+/// Writes it to a board that goes on with its old program meanwhile.
+fn over_the_line(
+    target: Target,
+    program: &Program,
+    image: &[u8],
+    arguments: &Flash,
+) -> Result<bool> {
+    let profile = program.assembly.profile();
+    let title = profile.title;
+    let by_drive = format!(
+        "hold its button BOOTSEL while you plug it in, and drag the file there that `uno200 build \
+         {} -o {}.uf2` makes: it has the firmware, too",
+        program.source.name,
+        program.source.stem()
+    );
+    ensure!(
+        arguments.with_firmware.is_none(),
+        "the firmware of {title} does not come over its line: {by_drive}"
+    );
+    let mut client = Client::new(target, notice);
+    let place = client.place();
+    let identity = client.identify().with_context(|| {
+        format!("no firmware of {title} answers at {place}; if there is none on it yet, {by_drive}")
+    })?;
+    ensure!(
+        identity.takes_downloads,
+        "what answers at {place} is not {title}: its programs do not come over the line"
+    );
+    let fault = client.download(image, identity.room).context("the board keeps its old program")?;
+    if let Some(fault) = fault::text(fault, Some(program)) {
+        bail!("the board keeps its old program: {fault}");
+    }
+    eprintln!("{place}: {} written and checked", compare::size(image));
+    if has_freeport(program) {
+        eprintln!("{NOT_ASKED}");
+        return Ok(true);
+    }
+    client.control(Command::Run)?;
+    let (text, is_good) = in_force(&client.identify()?, program, image);
+    notice(&text);
+    Ok(is_good)
+}
+
 /// The image that the board gets.
 fn image(program: &mut Program, is_native: bool) -> Result<Vec<u8>> {
-    program.require_board().map_err(shown)?;
+    if !program.assembly.profile().takes_downloads {
+        program.require_board().map_err(shown)?;
+    }
     if !is_native {
         return Ok(program.image.clone());
     }

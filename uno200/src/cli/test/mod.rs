@@ -30,11 +30,6 @@ const LOOK: Duration = Duration::from_millis(20);
 
 /// Runs all scenarios and gives the worst of their exit codes.
 pub(super) fn test(connection: &Connection, files: &Files, arguments: &Test) -> Result<u8> {
-    ensure!(
-        !arguments.flash || connection.tcp.is_none(),
-        "--flash: a PLC on the network is not flashed; its program is the one that it was \
-         started with"
-    );
     let scenarios = suite::scenarios(&arguments.paths)?;
     let inputs = scenarios.iter().chain(&files.symbols).chain(&files.data);
     arguments.reports.check(inputs.map(PathBuf::as_path))?;

@@ -13,7 +13,7 @@ use awl_sim::operand::Operand;
 use awl_sim::scenario::{Asked, Context, Scenario};
 use awl_sim::suite::{TestResult, program_for};
 use client::{Program, Reference};
-use plc_isa::{AnalogInput, Area, Op};
+use plc_isa::{AnalogInput, Area, Op, Profile};
 use uno200::program::{Files, shown};
 
 /// A scenario that can be run.
@@ -36,7 +36,10 @@ impl Prepared {
         let names: Vec<String> = own.iter().map(|path| path.display().to_string()).collect();
         result.program = names.join(", ");
         let mut program = files.open(&own)?;
-        program.require_board().map_err(shown)?;
+        // What is for no board in particular must fit the Uno.
+        if !Profile::BOARDS.contains(&program.assembly.profile()) {
+            program.require_board().map_err(shown)?;
+        }
         let warnings = program.assembly.diagnostics.iter();
         result.warnings =
             warnings.map(|found| human(&program.source, found, true) + "\n").collect();

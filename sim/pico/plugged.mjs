@@ -1,0 +1,41 @@
+// A Pico that is plugged in, with a clock that is free: `node plugged.mjs FIRMWARE [IMAGE]`. Its line is
+// standard input and output. It is some times slower than a real one.
+
+import { readFileSync } from "node:fs";
+import { Board, CYCLES_OF_US, firmwareAt, load } from "./board.mjs";
+
+const DATA_LEN = 16128;
+// A character of 10 bits at 115200 baud.
+const CHARACTER = 87 * CYCLES_OF_US;
+// So long it runs between two looks at standard input.
+const TURN = 250_000;
+
+const [elf, image] = process.argv.slice(2);
+await load();
+const bytes = image === undefined ? Buffer.alloc(0) : readFileSync(image);
+const board = new Board(firmwareAt(elf), bytes, DATA_LEN);
+board.powerUp(0);
+board.freeClock();
+
+const incoming = [];
+process.stdin.on("data", (characters) => incoming.push(...characters));
+process.stdin.on("end", () => process.exit());
+
+let due = 0;
+
+function turn() {
+  const end = board.cycles + TURN;
+  while (board.cycles < end) {
+    const isBusy = incoming.length > 0;
+    if (isBusy && board.cycles >= due) {
+      board.chip.uart[0].feedByte(incoming.shift());
+      due = board.cycles + CHARACTER;
+    }
+    board.runUntil(() => false, isBusy ? due - board.cycles : end - board.cycles);
+  }
+  const sent = board.takeSent();
+  if (sent.length > 0) process.stdout.write(sent);
+  setImmediate(turn);
+}
+
+turn();
