@@ -24,6 +24,9 @@ pub trait Board {
     /// least as many as come in the longest scan. Reading and writing never wait: none is 0, and
     /// an error is a wrong character, which spoils its frame.
     type Line: Read + ReadReady + Write + WriteReady;
+    /// Another line, for requests alone, in packets: USB. [`NoLine`](crate::NoLine) on boards that
+    /// have one line.
+    type SecondLine: Read + ReadReady + Write + WriteReady;
     /// Where retained values are kept: all of it, from its first byte on, at least
     /// [`SECTORS_MIN`](crate::SECTORS_MIN) sectors.
     type Storage: NorFlash;
@@ -71,6 +74,12 @@ pub trait Board {
 
     /// The line.
     fn line(&mut self) -> &mut Self::Line;
+
+    /// The second line, where there is one. It serves also while a program has the first one for
+    /// itself.
+    fn second_line(&mut self) -> Option<&mut Self::SecondLine> {
+        None
+    }
 
     /// How characters are sent on the line from now on. A line that has no rate does nothing; one
     /// that cannot do what is asked for is silent.

@@ -13,13 +13,20 @@ use crate::clock::Clock;
 use crate::download::{Download, InForce};
 use crate::engine::Engine;
 use crate::environment::{OUTGOING, ScanTime};
-use crate::line::Line;
+use crate::line::{Line, PACKETS_SILENCE_US, silence_us};
 use crate::retention::{self, Retention};
 use crate::self_test::SelfTest;
 
 /// The longest that what is done between two scans takes at once, in microseconds: an
 /// answer, on the Pico.
 const BETWEEN_SCANS_US: u32 = 500;
+
+/// One of the lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Port {
+    First,
+    Second,
+}
 
 /// What is done when the answer has been sent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,10 +55,13 @@ pub struct Controller<B: Board> {
     pub(crate) scans_left: u16,
     pub(crate) settings: Settings,
     pub(crate) line: Line,
+    second: Line,
     /// How characters are sent on it now.
     pub(crate) line_settings: Option<LineSettings>,
     /// Bytes of the request that is being answered; 0: none.
     pub(crate) request_len: u16,
+    /// Which line it came on.
+    pub(crate) asked_on: Port,
     pub(crate) outgoing: Deque<u8, OUTGOING>,
     engine: B::Engine,
     analog: Analog,
@@ -85,8 +95,10 @@ impl<B: Board> Controller<B> {
             scans_left: 0,
             settings: Settings::DEFAULT,
             line: Line::NEW,
+            second: Line::NEW,
             line_settings: None,
             request_len: 0,
+            asked_on: Port::First,
             outgoing: Deque::new(),
             engine,
             analog: Analog::NEW,
@@ -129,7 +141,8 @@ impl<B: Board> Controller<B> {
         self.link.place_after(self.plc.program(), B::PROFILE.data_end);
         let line = LineSettings::of_byte(self.settings.line);
         self.set_line(line);
-        self.line.place(self.settings.modbus_address, line);
+        self.line.place(self.settings.modbus_address, silence_us(line));
+        self.second.place(self.settings.modbus_address, PACKETS_SILENCE_US);
         self.request_len = 0;
         self.analog.start(&mut self.board, self.settings.filter);
     }
@@ -183,7 +196,7 @@ impl<B: Board> Controller<B> {
     /// A scan; with a fixed period, while the next one is not due, what is done between scans.
     #[inline(always)]
     pub fn scan(&mut self) {
-        if self.due.is_some() && !self.line.is_sending() {
+        if self.due.is_some() && !self.line.is_sending() && !self.second.is_sending() {
             self.do_what_is_due();
         }
         if self.settings.scan_ms != 0 && self.is_early() {
@@ -407,6 +420,7 @@ impl<B: Board> Controller<B> {
     #[inline(always)]
     fn communicate(&mut self) {
         let now_us = self.board.now_us();
+        self.communicate_second(now_us);
         if self.line.is_sending() {
             return self.line.send(self.board.line(), now_us);
         }
@@ -417,18 +431,34 @@ impl<B: Board> Controller<B> {
         self.set_line(LineSettings::of_byte(self.settings.line));
         self.outgoing.clear();
         if self.request_len == 0 && self.line.listen(self.board.line(), now_us) {
-            self.take_request();
+            self.take_request(Port::First);
         }
-        if self.request_len > 0 {
+        if self.request_len > 0 && self.asked_on == Port::First {
             self.answer(now_us);
         }
     }
 
-    /// Puts a request where answers are made.
-    fn take_request(&mut self) {
+    /// The same on the second line, which is never the program's.
+    #[inline(always)]
+    fn communicate_second(&mut self, now_us: u32) {
+        let Some(line) = self.board.second_line() else { return };
+        if self.second.is_sending() {
+            return self.second.send(line, now_us);
+        }
+        if self.request_len == 0 && self.second.listen(line, now_us) {
+            self.take_request(Port::Second);
+        }
+        if self.request_len > 0 && self.asked_on == Port::Second {
+            self.answer(now_us);
+        }
+    }
+
+    /// Puts a request where answers are made. One on the other line waits for the answer.
+    fn take_request(&mut self, port: Port) {
         self.link.forget();
-        let request = self.line.request();
-        self.request_len = request.len() as u16;
+        let line = if port == Port::First { &self.line } else { &self.second };
+        let request = line.request();
+        (self.request_len, self.asked_on) = (request.len() as u16, port);
         self.link.put(&mut self.memory, request);
     }
 
@@ -437,8 +467,14 @@ impl<B: Board> Controller<B> {
         let len = plc_link::answer(self, self.request_len);
         if len > 0 {
             self.request_len = 0;
-            self.line.answer(self.link.answer(&self.memory, len), now_us);
-            self.line.send(self.board.line(), now_us);
+            let answer = self.link.answer(&self.memory, len);
+            if self.asked_on == Port::First {
+                self.line.answer(answer, now_us);
+                self.line.send(self.board.line(), now_us);
+            } else if let Some(line) = self.board.second_line() {
+                self.second.answer(answer, now_us);
+                self.second.send(line, now_us);
+            }
         }
     }
 

@@ -4,7 +4,7 @@ use embedded_io::{Read, ReadReady, Write, WriteReady};
 use plc_isa::LineSettings;
 
 use crate::board::Board;
-use crate::controller::Controller;
+use crate::controller::{Controller, Port};
 
 /// Most characters that are taken in a scan.
 const CHARACTERS_MAX: usize = 256;
@@ -23,7 +23,9 @@ impl<B: Board> Controller<B> {
     /// What comes in is the program's.
     pub(crate) fn receive_characters(&mut self) {
         self.line.ignore();
-        self.request_len = 0;
+        if self.asked_on == Port::First {
+            self.request_len = 0;
+        }
         let now_ms = self.clock.now_ms();
         let mut characters = [0; 16];
         for _ in 0..CHARACTERS_MAX / characters.len() {

@@ -7,6 +7,7 @@
 //! [`Controller::power_up`], then [`Controller::scan`] for ever.
 #![no_std]
 
+mod absent;
 mod analog;
 mod board;
 mod clock;
@@ -18,7 +19,6 @@ mod fault_words;
 mod freeport;
 mod incoming;
 mod line;
-mod never_written;
 mod pins;
 mod retention;
 mod self_test;
@@ -26,12 +26,12 @@ mod slot;
 mod station;
 mod storage;
 
+pub use absent::{NeverWritten, NoLine};
 pub use board::{Board, Mark};
 pub use controller::Controller;
 pub use engine::{Engine, Interpreted};
 pub use fault_words::{fault_of_words, fault_words};
 pub use incoming::Incoming;
-pub use never_written::NeverWritten;
 pub use pins::Pins;
 pub use retention::SECTORS_MIN;
 pub use slot::Slot;

@@ -15,6 +15,9 @@ const EVERYBODY: u8 = 0;
 /// Silence that ends a frame: 3.5 characters of 11 bits, above 19200 baud 1.75 ms.
 const SILENCE_BITS: u32 = 39;
 const SILENCE_MIN_US: u32 = 1750;
+/// The same where characters come in packets, which a busy computer does not send one right after
+/// the other.
+pub const PACKETS_SILENCE_US: u32 = 4000;
 /// A line that takes nothing for so long has nobody at its other end.
 const PATIENCE_US: u32 = 1_000_000;
 /// Looks for characters in a scan: a line that always has some does not hold it up.
@@ -43,6 +46,12 @@ pub struct Line {
     unit: u8,
 }
 
+/// The silence that ends a frame on a line with these settings.
+pub fn silence_us(settings: LineSettings) -> u32 {
+    let baud = LineSettings::RATES.get(usize::from(settings.rate)).copied().unwrap_or(1200);
+    (SILENCE_BITS * 1_000_000 / baud).max(SILENCE_MIN_US)
+}
+
 impl Line {
     /// Listens as before a program says how.
     pub const NEW: Line = Line {
@@ -54,11 +63,9 @@ impl Line {
         unit: 1,
     };
 
-    /// Listens for this unit from now on, on a line with these settings.
-    pub fn place(&mut self, unit: u8, settings: LineSettings) {
-        let baud = LineSettings::RATES.get(usize::from(settings.rate)).copied().unwrap_or(1200);
-        self.silence_us = (SILENCE_BITS * 1_000_000 / baud).max(SILENCE_MIN_US);
-        self.unit = unit;
+    /// Listens for this unit from now on, on a line where so long a silence ends a frame.
+    pub fn place(&mut self, unit: u8, silence_us: u32) {
+        (self.unit, self.silence_us) = (unit, silence_us);
         self.ignore();
     }
 

@@ -3,7 +3,7 @@
 
 mod desk;
 
-use desk::{Desk, answer, ask, frame, with, word};
+use desk::{Desk, answer, ask, ask_second, frame, with, word};
 use plc_isa::Parity;
 use plc_vm::Mode;
 use runtime::Controller;
@@ -137,4 +137,43 @@ fn in_freeport_mode_the_line_is_the_programs() {
     plc.stop();
     assert_eq!(ask(&mut plc, &[1, 0, 0, 0, 1]), [1, 1, 0]);
     assert_eq!(plc.board().wire.settings.map(|settings| settings.rate), Some(0), "115200");
+}
+
+#[test]
+fn both_lines_are_answered_each_with_its_own() {
+    let mut plc = with(PROGRAM);
+    plc.board().levels = 1;
+    assert_eq!(ask_second(&mut plc, &[1, 0, 0, 0, 1]), [1, 1, 1]);
+    assert!(plc.board().wire.outgoing.is_empty());
+    // At the same time, and one of them in several scans.
+    let watch = [67, 2, 0x20, 0, 0, 0x89, 0, 0];
+    plc.board().wire.incoming.extend(frame(1, &watch));
+    assert_eq!(ask_second(&mut plc, &[5, 0x03, 0xE9, 0xFF, 0]), [5, 0x03, 0xE9, 0xFF, 0]);
+    let watched = answer(&mut plc);
+    assert_eq!((watched[0], watched.len()), (67, 6), "{watched:?}");
+    // A computer that takes nothing does not keep the other line from anything.
+    plc.board().second.takes = 0;
+    plc.board().second.incoming.extend(frame(1, &[65]));
+    scans(&mut plc, 10);
+    assert_eq!(ask(&mut plc, &[1, 0, 0, 0, 1]), [1, 1, 1]);
+    assert!(plc.board().second.outgoing.is_empty());
+}
+
+#[test]
+fn the_second_line_is_never_the_programs() {
+    let mut plc = with("//# name talks\nLD SM0.1\nMOVB 16#09, SMB30\n");
+    scans(&mut plc, 3);
+    assert!(ask(&mut plc, &[65]).is_empty(), "the first one is");
+    let identity = ask_second(&mut plc, &[65]);
+    assert_eq!(identity[3], 0b11, "{identity:?}");
+    // RUN begins when the answer has left, on whichever line.
+    assert_eq!(ask_second(&mut plc, &[66, 0, 0, 0]), [66, 0, 0, 0]);
+    assert_eq!(plc.plc().mode(), Mode::Stop);
+    plc.board().second.takes = 3;
+    plc.board().second.incoming.extend(frame(1, &[66, 1, 0, 0]));
+    scans(&mut plc, 10);
+    assert_eq!((plc.board().second.outgoing.len(), plc.plc().mode()), (3, Mode::Stop));
+    plc.board().second.takes = 100;
+    scans(&mut plc, 2);
+    assert_eq!(plc.plc().mode(), Mode::Run);
 }

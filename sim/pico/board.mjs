@@ -55,11 +55,11 @@ const NO_READING = 0xff;
 const quiet = { debug() {}, info() {}, warn() {}, error() {} };
 
 // Of the packages.
-let RP2040, decodeBlock, isUF2Block;
+let RP2040, USBCDC, decodeBlock, isUF2Block;
 
 /** Loads the emulator. Before all else. */
 export async function load() {
-  ({ RP2040 } = await import("rp2040js"));
+  ({ RP2040, USBCDC } = await import("rp2040js"));
   ({ decodeBlock, isUF2Block } = await import("uf2"));
 }
 
@@ -137,7 +137,8 @@ export class Board {
     [this.cycles, this.mark, this.dataAt] = [0, 0, 0];
     [this.nowUs, this.lookUs] = [0, 0];
     [this.isHung, this.isHeld] = [false, false];
-    this.sent = [];
+    [this.sent, this.sentByUsb, this.toSend] = [[], [], []];
+    [this.isOpen, this.place] = [false, null];
     this.atStart = false;
     this.listen();
   }
@@ -168,6 +169,30 @@ export class Board {
     const board = new Board(this.firmware, Buffer.alloc(0), this.dataLen);
     board.chip.flash.set(this.chip.flash.subarray(0, FLASH_LEN));
     return board;
+  }
+
+  /** Plugs a computer in, which opens the serial port; before power comes. */
+  plugIn() {
+    const usb = this.chip.usbCtrl;
+    const port = new USBCDC(usb);
+    port.onSerialData = (bytes) => this.sentByUsb.push(...bytes);
+    port.onDeviceConnected = () => {
+      this.isOpen = true;
+    };
+    // The package's own way forgets a place for a packet that there was before it knew the port.
+    usb.onEndpointRead = (endpoint, room) => {
+      if (endpoint !== 0) this.place = { endpoint, room };
+      this.sendByUsb([]);
+    };
+  }
+
+  /** Sends characters to the board by USB, a packet where there is a place for one. */
+  sendByUsb(characters) {
+    this.toSend.push(...characters);
+    if (!this.isOpen || this.place === null || this.toSend.length === 0) return;
+    const { endpoint, room } = this.place;
+    this.place = null;
+    this.chip.usbCtrl.endpointReadDone(endpoint, Uint8Array.from(this.toSend.splice(0, room)));
   }
 
   look() {

@@ -1,6 +1,6 @@
 // How even the starts of scans are that have a fixed period, while a master asks for as much as it
-// can: `node jitter.mjs FIRMWARE IMAGE PERIOD_MS SCANS`. The clock is free. Prints the number of
-// scans and answers, and how many microseconds the starts are apart from a period that is kept.
+// can: `node jitter.mjs uart|usb FIRMWARE IMAGE PERIOD_MS SCANS`. The clock is free. Prints the number
+// of scans and answers, and how many microseconds the starts are apart from a period that is kept.
 
 import { readFileSync } from "node:fs";
 import { Board, CYCLES_OF_US, SCAN_START, firmwareAt, load } from "./board.mjs";
@@ -28,6 +28,20 @@ const QUESTIONS = [
   [68, 0, 0, 0, 0, 250],
 ];
 
+const [line, elf, image, period, scans] = process.argv.slice(2);
+
+/** Whether something has come from the board. */
+function heard(board) {
+  const sent = line === "usb" ? board.sentByUsb.splice(0) : board.takeSent();
+  return sent.length > 0;
+}
+
+/** Sends what can be sent at once: a character, or packets. */
+function send(board, characters) {
+  if (line === "usb") board.sendByUsb(characters.splice(0));
+  else board.chip.uart[0].feedByte(characters.shift());
+}
+
 /** A master: it asks as soon as it has heard an answer. */
 class Master {
   constructor(board) {
@@ -37,9 +51,9 @@ class Master {
 
   step() {
     const { board } = this;
-    const hears = board.takeSent().length > 0;
+    const hears = heard(board);
     if (this.waiting.length > 0) {
-      board.chip.uart[0].feedByte(this.waiting.shift());
+      send(board, this.waiting);
       this.due = board.cycles + (this.waiting.length > 0 ? CHARACTER : SILENCE);
     } else if (hears) {
       this.isHearing = true;
@@ -54,9 +68,9 @@ class Master {
   }
 }
 
-const [elf, image, period, scans] = process.argv.slice(2);
 await load();
 const board = new Board(firmwareAt(elf), readFileSync(image), DATA_LEN);
+if (line === "usb") board.plugIn();
 board.powerUp(0);
 board.freeClock();
 const master = new Master(board);

@@ -7,6 +7,7 @@ pub mod beside;
 pub mod case;
 pub mod commands;
 pub mod effort;
+pub mod exchange;
 #[cfg(feature = "uno")]
 pub mod flash_responder;
 pub mod forms;

@@ -1,14 +1,9 @@
-//! The board's line seen from a master: frames of Modbus RTU and their answers. What requests mean
-//! is not known here.
+//! The Uno's line seen from a master. What requests mean is not known here.
 
-use awl_sim::machine::Machine;
-use awl_sim::machine::host::Host;
 use plc_vm::Fault;
 
 use crate::bench_board::{BenchBoard, MS};
-
-/// The unit that a board is without a setting.
-pub const UNIT: u8 = 1;
+pub use crate::exchange::{UNIT, checksum, exchange_on_host, frame};
 
 /// A master waits so long for the first byte of an answer.
 const PATIENCE: u64 = 1_000 * MS;
@@ -18,24 +13,6 @@ const PAUSE: u64 = 4 * MS;
 pub const CHARACTER: u64 = 11 * 8 * 17;
 /// So many bytes simavr has taken at most and not given to the board yet.
 const TAKEN_MAX: usize = 64;
-
-/// The checksum of Modbus RTU, CRC-16 with the reflected polynomial 8005. It is sent low byte
-/// first.
-pub fn checksum(bytes: &[u8]) -> u16 {
-    bytes.iter().fold(0xFFFF, |crc, &byte| {
-        (0..8).fold(
-            crc ^ u16::from(byte),
-            |crc, _| if crc & 1 != 0 { crc >> 1 ^ 0xA001 } else { crc >> 1 },
-        )
-    })
-}
-
-/// A request or answer in its frame.
-pub fn frame(unit: u8, pdu: &[u8]) -> Vec<u8> {
-    let mut frame = [&[unit], pdu].concat();
-    frame.extend(checksum(&frame).to_le_bytes());
-    frame
-}
 
 /// Cycles until the board has the last of so many bytes, when none of them waits outside simavr any
 /// more.
@@ -189,25 +166,4 @@ pub fn stop(board: &mut BenchBoard) {
 /// RUN, which a fault can end at once.
 pub fn run(board: &mut BenchBoard) {
     assert_eq!(command(board, Command::Run), Ok(()));
-}
-
-/// A whole exchange on the host: requests are answered after a scan, and a scan follows. `now_ms`:
-/// the time of the last one.
-pub fn exchange_on_host(host: &mut Host, now_ms: &mut u64, request: &[u8]) -> Option<Vec<u8>> {
-    let mut scan = |host: &mut Host| {
-        *now_ms += 1;
-        host.scan(*now_ms);
-    };
-    if !host.take_request(request) {
-        return Some(vec![request[0] | 0x80, 3]);
-    }
-    for _ in 0..4 {
-        if let Some(answer) = host.answer() {
-            host.carry_out();
-            scan(host);
-            return Some(answer);
-        }
-        scan(host);
-    }
-    None
 }

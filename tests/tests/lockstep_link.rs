@@ -10,43 +10,16 @@ use awl_asm::Address;
 use awl_sim::machine::Machine;
 use awl_sim::operand::Operand;
 use fastrand::Rng;
-use plc_isa::{AC_START, ARENA_START, Area, EVENTS_SEEN, I_START, S_START, SM_START};
+use plc_isa::Area;
 use tests::bench_board::BenchBoard;
 use tests::case::{folder, host, read};
 use tests::effort::effort;
+use tests::exchange::{comparable, memory};
 use tests::image::image;
 use tests::link::{self, UNIT};
 
 /// Longest request and answer on the line.
 const PDU_MAX: usize = 253;
-
-/// The answer, without what is another each time: numbers of scans, and special memory, whose
-/// clocks go on.
-fn comparable(request: &[u8], mut answer: Vec<u8>) -> Vec<u8> {
-    let sees_system_bits = match *request {
-        [1 | 2, high, low, ..] => (2000..2256).contains(&u16::from_be_bytes([high, low])),
-        [67, _, ref references @ ..] => {
-            references.chunks(3).any(|reference| reference[0] >> 4 == 3)
-        }
-        _ => false,
-    };
-    let is_watch = answer.first() == Some(&67);
-    let from = if is_watch { 1 } else { 2 };
-    let len = if sees_system_bits { answer.len() } else { 2 };
-    if is_watch || sees_system_bits {
-        answer.iter_mut().skip(from).take(len).for_each(|byte| *byte = 0);
-    }
-    answer
-}
-
-/// What a program and requests can change, without special memory.
-fn memory(byte: impl Fn(u16) -> u8, end: u16) -> Vec<u8> {
-    let places = (I_START..SM_START)
-        .chain(S_START..0x0200)
-        .chain(AC_START..EVENTS_SEEN - 1)
-        .chain(ARENA_START..end);
-    places.map(byte).collect()
-}
 
 #[test]
 fn random_requests_have_the_same_answers_on_host_and_board() {

@@ -14,17 +14,16 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 use awl_asm::drive::uf2_file;
-use awl_sim::action::Action;
 use awl_sim::machine::pico::{Pico, find_firmware};
-use awl_sim::machine::{Machine, Mode};
+use awl_sim::machine::Machine;
 use plc_isa::{PICO, PICO_DRIVE, verify};
-use plc_vm::{Fault, Inputs};
-use tests::beside::{Board, Pair};
+use plc_vm::Inputs;
+use tests::beside::Pair;
 use tests::case::{Case, Prepared, folder, host};
 use tests::commands;
 use tests::effort::effort;
 use tests::image::image_for;
-use tests::pico::Plugged;
+use tests::pico::{Line, OnPico, Plugged};
 use tests::programs;
 use tests::random_runs::{Programs, random_image_for, random_scans};
 
@@ -32,61 +31,6 @@ use tests::random_runs::{Programs, random_image_for, random_scans};
 const WATCHDOG_MAX_MS: u16 = 5_000;
 /// By how much the starts of scans may differ from their period, in microseconds.
 const JITTER_MAX_US: f64 = 10.0;
-/// Cycles of a scan that the host has already seen to be endless.
-const ENDLESS_CYCLES: u32 = 200_000;
-
-/// An emulated board with a program.
-struct OnPico<'a>(&'a mut Pico);
-
-impl<'a> OnPico<'a> {
-    fn with(pico: &'a mut Pico, image: &[u8]) -> OnPico<'a> {
-        pico.load(image.to_vec());
-        OnPico(pico)
-    }
-}
-
-impl Board for OnPico<'_> {
-    fn set_byte(&mut self, address: u16, byte: u8) {
-        self.0.set_byte(address, byte);
-    }
-
-    fn receive(&mut self, at_ms: u64, characters: &[u8]) {
-        let received = self.0.act(&Action::Receive { at_ms, bytes: characters.to_vec() });
-        assert_eq!(received, Ok(()));
-    }
-
-    fn scan(&mut self, now_ms: u64, inputs: &Inputs, is_endless: bool) {
-        if is_endless {
-            self.0.hold_clock_for(ENDLESS_CYCLES);
-        }
-        self.0.set_inputs(inputs);
-        self.0.scan(now_ms);
-    }
-
-    fn runs(&self) -> bool {
-        self.0.mode() == Mode::Run
-    }
-
-    fn fault(&self) -> Option<Fault> {
-        self.0.fault_kind()
-    }
-
-    fn outputs(&self) -> Option<u8> {
-        self.0.outputs()
-    }
-
-    fn memory(&self) -> &[u8] {
-        self.0.memory()
-    }
-
-    fn take_sent(&mut self) -> Vec<u8> {
-        self.0.take_sent().unwrap_or_default()
-    }
-
-    fn broken(&self) -> Option<String> {
-        self.0.broken().map(str::to_owned)
-    }
-}
 
 /// One emulator for all tests: each of them takes a processor.
 fn pico() -> MutexGuard<'static, Option<Pico>> {
@@ -234,11 +178,13 @@ fn scans_begin_on_time_whatever_is_asked() {
     let mut file = tempfile::NamedTempFile::new().unwrap();
     file.write_all(&image).unwrap();
     let (elf, period, scans) = (find_firmware().unwrap(), Path::new("2"), Path::new("400"));
-    let told = node("jitter.mjs", &[&elf, file.path(), period, scans]);
-    let words: Vec<&str> = told.split([' ', ',']).collect();
-    let [scans, .., answers, _, _, us, _, _] = words[..] else { panic!("{told}") };
-    let [scans, answers, us] = [scans, answers, us].map(|word| word.parse::<f64>().unwrap());
-    assert!(scans == 400.0 && answers > 50.0 && us <= JITTER_MAX_US, "{told}");
+    for line in ["uart", "usb"] {
+        let told = node("jitter.mjs", &[Path::new(line), &elf, file.path(), period, scans]);
+        let words: Vec<&str> = told.split([' ', ',']).collect();
+        let [scans, .., answers, _, _, us, _, _] = words[..] else { panic!("{told}") };
+        let [scans, answers, us] = [scans, answers, us].map(|word| word.parse::<f64>().unwrap());
+        assert!(scans == 400.0 && answers > 50.0 && us <= JITTER_MAX_US, "{line}: {told}");
+    }
 }
 
 /// Power is cut while a program comes, at bytes of flash: the shipped firmware, with the flash of
@@ -261,9 +207,19 @@ fn the_old_program_or_the_new_one_runs_after_a_power_cut() {
     assert!(old + new == all && old > all / 4 && new > all / 8, "{told}");
 }
 
-/// As somebody does it who has a Pico at a port.
+/// As somebody does it who has a Pico at a serial adapter.
 #[test]
 fn a_program_is_written_over_the_line() {
+    write_programs_by(Line::Uart);
+}
+
+/// As somebody does it who has a Pico and a cable.
+#[test]
+fn a_program_is_written_by_usb() {
+    write_programs_by(Line::Usb);
+}
+
+fn write_programs_by(line: Line) {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str, bytes: &[u8]| {
         let path = folder.path().join(name);
@@ -271,7 +227,7 @@ fn a_program_is_written_over_the_line() {
         path
     };
     let first = file("first.bin", &image_for("//# name first\nLD SM0.0\n= Q0.0\n", &PICO));
-    let pico = Plugged::with(&first);
+    let pico = Plugged::by(line, &first);
     let uno200 = commands::built("uno200");
     let run = |arguments: &[&str]| {
         let output = Command::new(&uno200)

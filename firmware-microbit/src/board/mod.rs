@@ -17,7 +17,7 @@ use nrf51_hal::wdt::handles::Hdl0;
 use nrf51_hal::wdt::{Parts, Watchdog, WatchdogHandle, count};
 use plc_isa::{LineSettings, MICROBIT, Profile};
 use plc_vm::Fault;
-use runtime::{Board, Controller, Interpreted, NeverWritten, Slot};
+use runtime::{Board, Controller, Interpreted, NeverWritten, NoLine, Slot};
 
 use flash::Flash;
 use serial::Serial;
@@ -85,6 +85,7 @@ impl Board for Microbit {
     type Image = Slot<Microbit>;
     type Engine = Interpreted;
     type Line = Serial;
+    type SecondLine = NoLine;
     type Storage = Flash;
     type Programs = NeverWritten;
 

@@ -17,6 +17,7 @@ mod serial;
 mod set_up;
 mod stack;
 mod start;
+mod usb;
 mod vectors;
 mod watchdog;
 
@@ -35,10 +36,12 @@ pub use marks::tell_data;
 use pwm::Pwm;
 use serial::Serial;
 use set_up::Found;
+use usb::Usb;
 
 /// The board.
 pub struct Pico {
     serial: Serial,
+    usb: Usb,
     retained: Flash,
     programs: Flash,
     adc: Adc,
@@ -64,9 +67,9 @@ pub fn place(make: impl FnOnce() -> Controller<Pico>) -> &'static mut Controller
 impl Pico {
     /// The board as a reset leaves it, set up. Once.
     pub fn of_reset() -> Pico {
-        let Found { was_hung, adc, pwm } = set_up::set_up();
+        let Found { was_hung, adc, pwm, usb } = set_up::set_up();
         let (retained, programs) = (RETAINED, PROGRAMS);
-        Pico { serial: Serial::new(), retained, programs, adc, pwm, was_hung }
+        Pico { serial: Serial::new(), usb, retained, programs, adc, pwm, was_hung }
     }
 }
 
@@ -77,6 +80,7 @@ impl Board for Pico {
     type Image = Image;
     type Engine = Thumb;
     type Line = Serial;
+    type SecondLine = Usb;
     type Storage = Flash;
     type Programs = Flash;
 
@@ -126,6 +130,11 @@ impl Board for Pico {
     #[inline(always)]
     fn line(&mut self) -> &mut Serial {
         &mut self.serial
+    }
+
+    #[inline(always)]
+    fn second_line(&mut self) -> Option<&mut Usb> {
+        Some(&mut self.usb)
     }
 
     fn set_line(&mut self, settings: LineSettings) {

@@ -1,10 +1,11 @@
 //! Sets the hardware up after a reset.
 
-use rp2040_hal::clocks::init_clocks_and_plls;
+use rp2040_hal::clocks::{UsbClock, init_clocks_and_plls};
 use rp2040_hal::{Watchdog, pac};
 
 use super::adc::Adc;
 use super::pwm::Pwm;
+use super::usb::Usb;
 use super::{adc, clock, points, pwm, serial, vectors, watchdog};
 
 /// The crystal of the Pico.
@@ -16,25 +17,28 @@ pub struct Found {
     pub was_hung: bool,
     pub adc: Adc,
     pub pwm: Pwm,
+    pub usb: Usb,
 }
 
+#[inline(never)]
+#[unsafe(link_section = ".set_up")]
 pub fn set_up() -> Found {
     let was_hung = watchdog::stop();
     vectors::set_up();
     // SAFETY: once, before anything else uses the peripherals.
     let pac = unsafe { pac::Peripherals::steal() };
     points::set_up(&pac);
-    start_clocks();
+    let usb_clock = start_clocks();
     clock::set_up(&pac);
     let adc = adc::set_up(&pac);
     let pwm = pwm::set_up(&pac);
     serial::set_up(&pac);
     watchdog::start();
-    Found { was_hung, adc, pwm }
+    Found { was_hung, adc, pwm, usb: Usb::new(usb_clock) }
 }
 
-/// 125 MHz from the crystal, 48 MHz for the converter, and the tick of microseconds.
-fn start_clocks() {
+/// 125 MHz from the crystal, 48 MHz for converter and USB, and the tick of microseconds.
+fn start_clocks() -> UsbClock {
     // SAFETY: as above.
     let mut pac = unsafe { pac::Peripherals::steal() };
     let clocks = init_clocks_and_plls(
@@ -47,7 +51,6 @@ fn start_clocks() {
         &mut Watchdog::new(pac.WATCHDOG),
     );
     // Without clocks there is nothing that could go on: another attempt.
-    if clocks.is_err() {
-        watchdog::reset();
-    }
+    let Ok(clocks) = clocks else { watchdog::reset() };
+    clocks.usb_clock
 }

@@ -212,6 +212,7 @@ pub struct Desk {
     pub outputs: Option<u8>,
     pub duties: [Option<u16>; 8],
     pub wire: Wire,
+    pub second: Wire,
     pub flash: Flash,
     pub fed: u32,
     pub fault: (u32, bool),
@@ -232,6 +233,7 @@ impl Desk {
             outputs: Some(0xFF),
             duties: [None; 8],
             wire: Wire { takes: usize::MAX, ..Wire::default() },
+            second: Wire { takes: usize::MAX, ..Wire::default() },
             flash: Flash::new(),
             fed: 0,
             fault: (0, false),
@@ -254,6 +256,7 @@ impl Board for Desk {
     type Image = Image;
     type Engine = Interpreted;
     type Line = Wire;
+    type SecondLine = Wire;
     type Storage = Flash;
     type Programs = Flash;
 
@@ -291,6 +294,9 @@ impl Board for Desk {
     }
     fn line(&mut self) -> &mut Wire {
         &mut self.wire
+    }
+    fn second_line(&mut self) -> Option<&mut Wire> {
+        Some(&mut self.second)
     }
     fn set_line(&mut self, settings: LineSettings) {
         self.wire.settings = Some(settings);
@@ -367,9 +373,19 @@ pub fn ask(plc: &mut Controller<Desk>, request: &[u8]) -> Vec<u8> {
     answer(plc)
 }
 
+/// The same on the second line.
+pub fn ask_second(plc: &mut Controller<Desk>, request: &[u8]) -> Vec<u8> {
+    plc.board().second.incoming.extend(frame(1, request));
+    scans(plc, 10, 1);
+    unframed(std::mem::take(&mut plc.board().second.outgoing))
+}
+
 /// What has come back.
 pub fn answer(plc: &mut Controller<Desk>) -> Vec<u8> {
-    let sent = std::mem::take(&mut plc.board().wire.outgoing);
+    unframed(std::mem::take(&mut plc.board().wire.outgoing))
+}
+
+fn unframed(sent: Vec<u8>) -> Vec<u8> {
     let Some(inner) = sent.len().checked_sub(2) else { return sent };
     assert_eq!((sent[0], crc16(&sent)), (1, 0));
     sent[1..inner].to_vec()

@@ -79,11 +79,14 @@ fn over_the_line(
         bail!("the board keeps its old program: {fault}");
     }
     eprintln!("{place}: {} written and checked", compare::size(image));
+    // In RUN the new one has begun already.
+    if !identity.is_running {
+        client.control(Command::Run)?;
+    }
     if has_freeport(program) {
         eprintln!("{NOT_ASKED}");
         return Ok(true);
     }
-    client.control(Command::Run)?;
     let (text, is_good) = in_force(&client.identify()?, program, image);
     notice(&text);
     Ok(is_good)
