@@ -28,15 +28,6 @@ pub(crate) enum Port {
     Second,
 }
 
-/// What is done when the answer has been sent.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Due {
-    /// RUN or single scans.
-    Command(Command),
-    /// The program that has come is loaded.
-    Program,
-}
-
 /// A PLC on a board. It is large: a board keeps it in a static.
 pub struct Controller<B: Board> {
     pub(crate) board: B,
@@ -48,9 +39,11 @@ pub struct Controller<B: Board> {
     /// The board's image, valid or not.
     pub(crate) slot: Option<B::Image>,
     pub(crate) fault_before_reset: u32,
-    /// What is done when the answer has been sent.
-    pub(crate) due: Option<Due>,
+    /// RUN or single scans, which begin when the answer has been sent.
+    pub(crate) command: Option<Command>,
     pub(crate) download: Download,
+    /// A program has come that is in force and not loaded; it is when the answer has been sent.
+    pub(crate) has_new_program: bool,
     /// Single scans to come, with the one that is under way; 0 without.
     pub(crate) scans_left: u16,
     pub(crate) settings: Settings,
@@ -90,8 +83,9 @@ impl<B: Board> Controller<B> {
             times: ScanTimes::NONE,
             slot: None,
             fault_before_reset: 0,
-            due: None,
+            command: None,
             download: Download::NONE,
+            has_new_program: false,
             scans_left: 0,
             settings: Settings::DEFAULT,
             line: Line::NEW,
@@ -196,8 +190,9 @@ impl<B: Board> Controller<B> {
     /// A scan; with a fixed period, while the next one is not due, what is done between scans.
     #[inline(always)]
     pub fn scan(&mut self) {
-        if self.due.is_some() && !self.line.is_sending() && !self.second.is_sending() {
-            self.do_what_is_due();
+        let is_asked = self.command.is_some() || self.has_new_program;
+        if is_asked && !self.line.is_sending() && !self.second.is_sending() {
+            self.do_as_asked();
         }
         if self.settings.scan_ms != 0 && self.is_early() {
             return self.wait();
@@ -224,13 +219,16 @@ impl<B: Board> Controller<B> {
         self.board.mark(Mark::ScanEnd);
     }
 
-    fn do_what_is_due(&mut self) {
-        self.scans_left = 0;
-        match self.due.take() {
-            Some(Due::Program) => return self.change_program(),
-            Some(Due::Command(Command::Scans(scans))) => self.scans_left = scans,
-            _ => {}
+    fn do_as_asked(&mut self) {
+        let command = self.command.take();
+        if mem::take(&mut self.has_new_program) {
+            self.change_program();
         }
+        self.scans_left = match command {
+            Some(Command::Scans(scans)) => scans,
+            Some(_) => 0,
+            None => return,
+        };
         self.run();
     }
 
@@ -499,7 +497,7 @@ impl<B: Board> Controller<B> {
     fn tell(&mut self) {
         if self.plc.mode() == Mode::Stop {
             self.board.release_outputs();
-            (self.scans_left, self.due) = (0, None);
+            (self.scans_left, self.command) = (0, None);
             self.link.forces.clear(&mut self.memory);
         }
         self.is_in_doubt |= self.has_doubtful_fault();

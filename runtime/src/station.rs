@@ -5,7 +5,7 @@ use plc_link::{Command, Exception, Link, ScanTimes, Station};
 use plc_vm::{Fault, Memory, Mode, Plc};
 
 use crate::board::Board;
-use crate::controller::{Controller, Due};
+use crate::controller::Controller;
 use crate::download::{Failed, bring_into_force};
 
 impl<B: Board> Station for Controller<B> {
@@ -57,7 +57,7 @@ impl<B: Board> Station for Controller<B> {
             // In RUN there is nothing to begin.
             Command::Run if self.plc.mode() == Mode::Run => self.scans_left = 0,
             // They begin when the answer has been sent.
-            Command::Run | Command::Scans(_) => self.due = Some(Due::Command(command)),
+            Command::Run | Command::Scans(_) => self.command = Some(command),
         }
     }
 
@@ -96,7 +96,7 @@ impl<B: Board> Station for Controller<B> {
         }
         let programs = self.board.programs().ok_or(Exception::Function)?;
         bring_into_force(programs)?;
-        self.due = Some(Due::Program);
+        self.has_new_program = true;
         Ok(Fault::NONE)
     }
 }

@@ -3,7 +3,7 @@
 
 mod desk;
 
-use desk::{Desk, Flash, WRITE_LEN, ask, image, on, scans, word};
+use desk::{Desk, Flash, WRITE_LEN, ask, ask_second, image, on, scans, word};
 use fastrand::Rng;
 use plc_isa::ImageFault;
 use plc_vm::Mode;
@@ -57,7 +57,15 @@ fn download(plc: &mut Controller<Desk>, image: &[u8]) -> Vec<u8> {
 }
 
 fn name(plc: &mut Controller<Desk>) -> String {
-    match &ask(plc, &[43, 14, 4, 6])[..] {
+    name_in(&ask(plc, &[43, 14, 4, 6]))
+}
+
+fn name_by_second(plc: &mut Controller<Desk>) -> String {
+    name_in(&ask_second(plc, &[43, 14, 4, 6]))
+}
+
+fn name_in(answer: &[u8]) -> String {
+    match answer {
         [0xAB, _] => String::new(),
         answer => String::from_utf8(answer[9..].to_vec()).unwrap(),
     }
@@ -116,6 +124,25 @@ fn in_stop_it_is_loaded_and_does_not_run() {
     assert_eq!(ask(&mut plc, &[68, 1, 0x10, 0, 0, 0, 0, 0, 1])[1], 1);
     assert_eq!(download(&mut plc, &image(INVERT)), GOOD);
     assert_eq!((behaviour(&mut plc), ask(&mut plc, &[68, 0])), ([Some(1), Some(0)], vec![68, 0]));
+}
+
+/// The computer at one line is slow to take the last answer, and the one at the other commands.
+#[test]
+fn whatever_the_other_line_asks_the_new_program_is_loaded() {
+    for (command, mode) in [(0, Mode::Stop), (1, Mode::Run)] {
+        let mut plc = desk::with(FOLLOW);
+        let new = image(INVERT);
+        begin(&mut plc, new.len());
+        send(&mut plc, 0, &new);
+        plc.board().wire.takes = 2;
+        plc.board().wire.incoming.extend(desk::frame(1, &[101, 3]));
+        scans(&mut plc, 10, 1);
+        assert_eq!(plc.board().wire.outgoing.len(), 2, "the answer is on its way");
+        assert_eq!(ask_second(&mut plc, &[66, command, 0, 0]), [66, command, 0, 0]);
+        plc.board().wire.takes = usize::MAX;
+        scans(&mut plc, 3, 1);
+        assert_eq!((&*name_by_second(&mut plc), plc.plc().mode()), ("invert", mode));
+    }
 }
 
 #[test]

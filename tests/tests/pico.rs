@@ -14,8 +14,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 use awl_asm::drive::uf2_file;
-use awl_sim::machine::pico::{Pico, find_firmware};
 use awl_sim::machine::Machine;
+use awl_sim::machine::pico::{Pico, find_firmware};
 use plc_isa::{PICO, PICO_DRIVE, verify};
 use plc_vm::Inputs;
 use tests::beside::Pair;

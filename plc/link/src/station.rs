@@ -147,7 +147,7 @@ pub trait Station {
     /// other one was.
     ///
     /// # Errors
-    /// [`Exception::Value`] if it has not come.
+    /// [`Exception::Busy`] if it has not come, or cannot be brought into force.
     fn end_download(&mut self) -> Result<[u8; 4], Exception> {
         Err(Exception::Function)
     }
