@@ -34,6 +34,13 @@ pub(super) fn test(connection: &Connection, files: &Files, arguments: &Test) -> 
     let inputs = scenarios.iter().chain(&files.symbols).chain(&files.data);
     arguments.reports.check(inputs.map(PathBuf::as_path))?;
     let prepared: Vec<_> = scenarios.iter().map(|path| prepare(path, files)).collect();
+    let by_line = |prepared: &Prepared| prepared.program.assembly.profile().takes_downloads;
+    let mut programs = prepared.iter().filter_map(|(_, prepared)| prepared.as_ref().ok());
+    ensure!(
+        !arguments.flash || connection.tcp.is_none() || programs.all(by_line),
+        "--flash: a PLC on the network is not flashed; its program is the one that it was \
+         started with"
+    );
     let last = prepared.iter().rposition(|(_, prepared)| prepared.is_ok());
     let mut telling = arguments.reports.begin("uno200");
     for (number, (mut result, prepared)) in prepared.into_iter().enumerate() {
